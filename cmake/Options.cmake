@@ -1,0 +1,53 @@
+# Compiler flags as two interface targets: pl_options (what the code means) and pl_warnings (what is complained about).
+
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG -g0")
+
+find_program(PL_CCACHE ccache)
+mark_as_advanced(PL_CCACHE)
+if(PL_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${PL_CCACHE}")
+endif()
+
+add_library(pl_options INTERFACE)
+target_compile_features(pl_options INTERFACE cxx_std_20)
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+target_include_directories(pl_options INTERFACE "${PROJECT_SOURCE_DIR}")
+
+# Same source, same bits: no fused multiply-add unless it is written, and never value-changing optimization, also
+# when CXXFLAGS asks for it. errno and trap flags are never read, and giving them up lets loops vectorize; it
+# changes no value. No -march=native: hot loops are cloned per instruction set inside the back end.
+target_compile_options(pl_options INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:-fno-fast-math;-ffp-contract=off;-fno-math-errno;-fno-trapping-math>)
+
+if(PL_SANITIZE)
+    if(PL_SANITIZE MATCHES "thread" AND NOT PL_SANITIZE STREQUAL "thread")
+        message(FATAL_ERROR "PL_SANITIZE=${PL_SANITIZE}: thread cannot be combined with others")
+    endif()
+    set(pl_sanitize_flags -fsanitize=${PL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    if(PL_SANITIZE MATCHES "undefined")
+        list(APPEND pl_sanitize_flags -fsanitize=float-cast-overflow)
+    endif()
+    target_compile_options(pl_options INTERFACE ${pl_sanitize_flags})
+    target_link_options(pl_options INTERFACE ${pl_sanitize_flags})
+    # Function clones are chosen before the sanitizer's run-time library is up, so they are left out.
+    target_compile_definitions(pl_options INTERFACE PL_NO_CLONES _GLIBCXX_ASSERTIONS)
+    if(PL_SANITIZE STREQUAL "thread")
+        # The OpenMP run-time library is not instrumented: code that uses it swaps in std::thread.
+        target_compile_definitions(pl_options INTERFACE PL_TSAN)
+    endif()
+endif()
+
+add_library(pl_warnings INTERFACE)
+target_compile_options(pl_warnings INTERFACE
+    $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion>
+    $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${PL_WERROR}>>:-Werror>)
+
+# pl_add_library(NAME): a static library of this project; sources follow by target_sources(). The folder's own
+# CMakeLists.txt is listed as its first file, so that a library of headers only is one as well.
+function(pl_add_library name)
+    add_library(${name} STATIC CMakeLists.txt)
+    set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
+    target_link_libraries(${name} PUBLIC pl_options PRIVATE pl_warnings)
+endfunction()

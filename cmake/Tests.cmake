@@ -1,0 +1,70 @@
+# How tests are declared. Tier "push" is everything that is not tagged; [merge] and [nightly] (or [.merge] and
+# [.nightly]) run only in those tiers, which ctest knows as labels. [.] alone: only by hand.
+include(Catch)
+
+# pl_add_test(NAME SOURCES a.cpp... [LIBS target...] [LABELS label...] [PROCESSORS n])
+# One Catch2 program build/<preset>/tests/NAME; its cases become tests called "NAME: case".
+# PROCESSORS: how many cores a case keeps busy (default 1).
+function(pl_add_test name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "PROCESSORS" "SOURCES;LIBS;LABELS")
+    pl_check_arguments(pl_add_test "${name}" "${arg_SOURCES}" "${arg_UNPARSED_ARGUMENTS}")
+    if(NOT arg_PROCESSORS)
+        set(arg_PROCESSORS 1)
+    endif()
+    add_executable(${name} ${arg_SOURCES})
+    target_link_libraries(${name} PRIVATE ${arg_LIBS} pl_options pl_warnings dep::catch2)
+    target_compile_definitions(${name} PRIVATE PL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
+
+    pl_discover(${name} push "~[merge]~[nightly]~[.]" 300)
+    pl_has_tag(in_merge merge ${arg_SOURCES})
+    if(in_merge)
+        pl_discover(${name} merge "[merge]~[nightly]" 1800)
+    endif()
+    pl_has_tag(in_nightly nightly ${arg_SOURCES})
+    if(in_nightly)
+        pl_discover(${name} nightly "[nightly]" 7200)
+    endif()
+endfunction()
+
+# pl_add_bench(NAME SOURCES a.cpp... [LIBS target...]): a program build/<preset>/bench/NAME, never run as a test.
+function(pl_add_bench name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
+    pl_check_arguments(pl_add_bench "${name}" "${arg_SOURCES}" "${arg_UNPARSED_ARGUMENTS}")
+    add_executable(${name} ${arg_SOURCES})
+    target_link_libraries(${name} PRIVATE ${arg_LIBS} pl_options pl_warnings)
+    target_compile_definitions(${name} PRIVATE PL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bench")
+endfunction()
+
+function(pl_check_arguments function name sources unparsed)
+    if(NOT sources OR unparsed)
+        message(FATAL_ERROR "${function}(${name}): SOURCES are needed, and not understood is: '${unparsed}'")
+    endif()
+endfunction()
+
+# Uses LABELS and PROCESSORS of the calling pl_add_test.
+function(pl_discover name tier spec timeout)
+    set(labels ${tier} ${arg_LABELS})
+    # A list inside a list: the semicolon must survive two expansions of catch_discover_tests.
+    list(JOIN labels "\\;" labels)
+    catch_discover_tests(${name}
+        TEST_SPEC "${spec}"
+        TEST_PREFIX "${name}: "
+        TEST_LIST "${name}_${tier}_TESTS"
+        PROPERTIES LABELS "${labels}" TIMEOUT ${timeout} PROCESSORS ${arg_PROCESSORS})
+endfunction()
+
+# Catch2 2 warns when asked for the tests of a tier that has none, so the sources are searched for the tag first.
+function(pl_has_tag result tag)
+    set(found OFF)
+    foreach(source IN LISTS ARGN)
+        file(REAL_PATH "${source}" path BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}")
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${path}")
+        file(STRINGS "${path}" lines REGEX "\\[\\.?${tag}\\]")
+        if(lines)
+            set(found ON)
+        endif()
+    endforeach()
+    set(${result} ${found} PARENT_SCOPE)
+endfunction()
