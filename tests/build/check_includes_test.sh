@@ -1,0 +1,75 @@
+#!/usr/bin/env bash
+# check_includes_test.sh CHECKER: seeds one breach at a time into a small tree, and demands that each is found.
+set -u
+checker=$1
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+failures=0
+
+fail() {
+    printf 'FAILED: %s\n' "$*"
+    failures=$((failures + 1))
+}
+
+put() {
+    mkdir -p "$tree/$(dirname "$1")"
+    printf '%b' "$2" >"$tree/$1"
+}
+
+# The tree that keeps every rule.
+reset() {
+    rm -rf "${tree:?}"/*
+    put core/kernel/base/math.h '#pragma once\n#include <cmath>\n#include <glm/glm.hpp>\nvoid f() = delete;  // new\n'
+    put core/kernel/film/film.h '#pragma once\n#include "core/kernel/base/math.h"\ndouble sum;\n'
+    put core/base/error.h '#pragma once\n#include <string>\n'
+    put core/scene/description.h '#pragma once\n#include "core/base/error.h"\n'
+    put core/fields/place.h '#pragma once\n#include "core/scene/description.h"\n'
+    put core/session/backend.h '#pragma once\n#include "core/kernel/film/film.h"\n'
+    put core/session/session.h '#pragma once\n#include "core/session/backend.h"\n'
+    put core/io/load.cpp '#include <tiny_obj_loader.h>\n\n#include "core/scene/description.h"\n'
+    put cpu/backend.cpp '#include <embree3/rtcore.h>\n#include <omp.h>\n\n#include "core/session/backend.h"\n'
+    put ui/window.cpp '#include <SDL.h>\n#include <imgui.h>\n\n#include "core/session/session.h"\n'
+    put ui/window.h '#pragma once\n'
+    put app/main.cpp '#include "cpu/backend.h"\n#include "ui/window.h"\n#include <CLI/CLI.hpp>\n'
+    put cpu/backend.h '#pragma once\n'
+}
+
+# expect_breach FILE CONTENT MESSAGE_PART
+expect_breach() {
+    reset
+    put "$1" "$2"
+    local output
+    if output=$(bash "$checker" "$tree"); then
+        fail "not found in $1: $2"
+    elif [[ $output != *"$3"* || $output != *"1 breaches"* ]]; then
+        fail "$1: $2: expected one breach with '$3', got: $output"
+    fi
+}
+
+reset
+bash "$checker" "$tree" || fail "the tree without a breach was refused"
+
+once='#pragma once\n'
+expect_breach core/kernel/base/a.h "$once#include <vector>\n" 'may not include <vector>'
+expect_breach core/kernel/base/a.h "$once#include \"core/base/error.h\"\n" 'core/kernel may not include'
+expect_breach core/kernel/base/a.h "${once}inline void f() { throw 1; }\n" 'a.h:2:'
+expect_breach core/kernel/base/a.h "${once}struct A { virtual void f(); };\n" 'virtual'
+expect_breach core/kernel/base/a.h "${once}inline int* f() { return new int; }\n" 'new int'
+expect_breach core/kernel/base/a.h "${once}inline void f(int* p) { delete p; }\n" 'delete p'
+expect_breach core/kernel/base/a.h "${once}inline double f() { return 1; }\n" 'double'
+expect_breach core/base/a.cpp '#include "core/scene/description.h"\n' 'core/base may not include'
+expect_breach core/scene/a.cpp '#include "core/fields/place.h"\n' 'core/scene may not include'
+expect_breach core/session/a.cpp '#  include "core/io/load.cpp"\n' 'core/session may not include'
+expect_breach core/session/a.cpp '#include "cpu/backend.h"\n' 'core/session may not include'
+expect_breach cpu/a.cpp '#include "core/session/session.h"\n' 'cpu may not include'
+expect_breach ui/a.cpp '#include "cpu/backend.h"\n' 'ui may not include'
+expect_breach ui/a.cpp '#include "app/main.cpp"\n' 'ui may not include'
+expect_breach core/io/a.cpp '#include "core/session/session.h"\n' 'core/io may not include'
+expect_breach app/a.cpp '#include <SDL.h>\n' '<SDL.h> belongs in ui'
+expect_breach core/scene/a.cpp '#include <tiny_obj_loader.h>\n' 'belongs in core/io'
+expect_breach core/scene/a.cpp '#include <embree4/rtcore.h>\n' 'belongs in cpu'
+expect_breach app/a.cpp '#include "cpu/absent.h"\n' 'not a path from the root'
+expect_breach ui/a.h '#include <string>\n' 'no #pragma once'
+expect_breach core/other/a.h "$once" 'no rule'
+
+((failures == 0))
