@@ -14,7 +14,7 @@ breach() {
 # folder: what it may include with quotes. The longest matching folder rules; a name ending in .h is one file.
 arrows='
 core/kernel:  core/kernel
-core/base:    core/base
+core/base:    core/base core/kernel/base
 core/scene:   core/scene core/base core/kernel
 core/fields:  core/fields core/scene core/base core/kernel
 core/session: core/session core/scene core/fields core/base core/kernel
