@@ -1,0 +1,23 @@
+// HostArray: what Storage<Array> templates are instantiated with on the host. Device back ends bring their own.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/kernel/base/span.h"
+
+namespace pl {
+
+template <class T>
+using HostArray = std::vector<T>;
+
+template <class T>
+Span<const T> view_of(const HostArray<T>& array) {
+    return {array.data(), static_cast<std::uint32_t>(array.size())};
+}
+template <class T>
+Span<T> view_of(HostArray<T>& array) {
+    return {array.data(), static_cast<std::uint32_t>(array.size())};
+}
+
+}  // namespace pl

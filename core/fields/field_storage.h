@@ -1,0 +1,92 @@
+// Owners of the learned field's arrays, written once for host and device. Placement (shared by all methods) and
+// tables (one set per learning method) are separate, because they live and die separately.
+#pragma once
+
+#include "core/base/host_array.h"
+#include "core/kernel/fields/field_view.h"
+#include "core/kernel/fields/publication.h"
+
+namespace pl {
+
+/// What decides the size and meaning of a field's tables.
+struct FieldShape {
+    DirectionCells cells;
+    float radiance_unit = 1.0f;
+    LearningRate rate = LearningRate::Forgetful;
+    float uniform_floor = 0.05f;
+};
+
+/// Where the volumes are, and the tree that finds them.
+template <template <class> class Array>
+struct VolumeStorage {
+    Array<SurfacePoint> sites;  ///< [volume]
+    Array<Vec3f> normals;       ///< [volume]
+    Array<KdNode> kd_nodes;     ///< tree order, see KdTreeView
+};
+
+/// What one method learned. Layouts as in FieldView and FieldPublicationView.
+template <template <class> class Array>
+struct TableStorage {
+    Array<float> radiance;
+    Array<std::uint32_t> visits;
+    Array<std::int64_t> pending_sum;
+    Array<std::uint32_t> pending_count;
+    Array<float> row_cdf;
+    Array<float> column_cdf;
+    Array<float> mean_radiance;
+};
+
+using HostVolumes = VolumeStorage<HostArray>;
+using HostTables = TableStorage<HostArray>;
+
+template <template <class> class From, template <class> class To, class Fn>
+void zip(const VolumeStorage<From>& from, VolumeStorage<To>& to, Fn&& fn) {
+    fn(from.sites, to.sites);
+    fn(from.normals, to.normals);
+    fn(from.kd_nodes, to.kd_nodes);
+}
+
+template <template <class> class From, template <class> class To, class Fn>
+void zip(const TableStorage<From>& from, TableStorage<To>& to, Fn&& fn) {
+    fn(from.radiance, to.radiance);
+    fn(from.visits, to.visits);
+    fn(from.pending_sum, to.pending_sum);
+    fn(from.pending_count, to.pending_count);
+    fn(from.row_cdf, to.row_cdf);
+    fn(from.column_cdf, to.column_cdf);
+    fn(from.mean_radiance, to.mean_radiance);
+}
+
+/// What kernels read and record into during a pass.
+template <template <class> class Array>
+FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes, TableStorage<Array>& tables) {
+    const TableStorage<Array>& frozen = tables;
+    return {.cells = shape.cells,
+            .tree = {.nodes = view_of(volumes.kd_nodes)},
+            .normals = view_of(volumes.normals),
+            .sites = view_of(volumes.sites),
+            .row_cdf = view_of(frozen.row_cdf),
+            .column_cdf = view_of(frozen.column_cdf),
+            .mean_radiance = view_of(frozen.mean_radiance),
+            .pending_sum = view_of(tables.pending_sum),
+            .pending_count = view_of(tables.pending_count),
+            .radiance_unit = shape.radiance_unit};
+}
+
+/// What publication writes between passes.
+template <template <class> class Array>
+FieldPublicationView publication_view(const FieldShape& shape, TableStorage<Array>& tables) {
+    return {.cells = shape.cells,
+            .radiance_unit = shape.radiance_unit,
+            .rate = shape.rate,
+            .uniform_floor = shape.uniform_floor,
+            .radiance = view_of(tables.radiance),
+            .visits = view_of(tables.visits),
+            .pending_sum = view_of(tables.pending_sum),
+            .pending_count = view_of(tables.pending_count),
+            .row_cdf = view_of(tables.row_cdf),
+            .column_cdf = view_of(tables.column_cdf),
+            .mean_radiance = view_of(tables.mean_radiance)};
+}
+
+}  // namespace pl

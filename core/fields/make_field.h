@@ -1,0 +1,48 @@
+// Sizing and placing the radiance volumes, and their empty tables.
+#pragma once
+
+#include <cstddef>
+
+#include "core/fields/field_storage.h"
+#include "core/scene/scene_storage.h"
+
+namespace pl {
+
+struct FieldSettings {
+    int volumes = 0;                       ///< 0: as many as the budget holds, at most kDefaultVolumes
+    double budget_megabytes = 16.0;        ///< of 10^6 bytes, all tables of one method
+    int bins = 256;                        ///< directions per volume, a square number from 4 to 1024
+    LearningRate rate = LearningRate::Forgetful;
+    float uniform_floor = 0.05f;
+    int precompute_samples = 16;           ///< paths per cell and volume, a square number
+
+    friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
+};
+
+/// More volumes learn slower from the same paths; about a thousand fit the second-level cache.
+inline constexpr int kDefaultVolumes = 1000;
+
+/// Bytes that one volume takes in placement, tree and tables.
+std::size_t bytes_per_volume(int bins);
+
+/// Number of volumes that the settings ask for (before surfaces too small for their share get one of their own).
+int volume_count(const FieldSettings& settings);
+
+/// Shape of the tables; the radiance unit is the smallest power of two not below the brightest emission.
+FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings);
+
+/// Places volumes on reflecting surfaces by systematic sampling of cumulative area with a Hammersley set, at least
+/// one per connected coplanar surface, on every side of a surface that light can reach. Deterministic in the scene
+/// and the settings.
+HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings);
+
+/// Balanced tree over the sites, in the layout of KdTreeView. Sites with positions that are not finite are left out.
+std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites);
+
+/// Tables of volumes that have learned nothing: uniform.
+HostTables make_tables(const FieldShape& shape, std::size_t volumes);
+
+/// Bytes of placement and tables.
+std::size_t field_bytes(const HostVolumes& volumes, const HostTables& tables);
+
+}  // namespace pl

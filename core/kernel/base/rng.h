@@ -1,0 +1,65 @@
+// Counter-based random numbers: no state to carry, any sample can be replayed alone.
+// Philox4x32-10 [Salmon et al. 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", section 3.3].
+#pragma once
+
+#include <cstdint>
+
+#include "core/kernel/base/math.h"
+
+namespace pl {
+
+/// Who draws. Every effect has its own purpose, so switching one never shifts the numbers of another.
+enum class Purpose : std::uint32_t {
+    Pixel = 0,       ///< position inside the pixel
+    Scatter = 1,     ///< choice of strategy, direction (2), roulette
+    CellJitter = 2,  ///< position inside a direction cell
+    Light = 3,       ///< which light, and where on it
+    Probe = 4,       ///< first direction of a precomputation path
+    Placement = 5,   ///< where volumes are placed
+};
+
+/// Which family of paths draws: pictures and precomputation never share a number.
+enum class Stream : std::uint32_t { Picture = 0, Precompute = 1, Placement = 2 };
+
+struct Philox {
+    std::uint32_t v[4];
+};
+
+/// One Philox4x32-10 block: a keyed bijection of 128-bit counters.
+PL_HD inline Philox philox4x32(Philox counter, std::uint32_t key0, std::uint32_t key1) {
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t product0 = std::uint64_t{0xD2511F53u} * counter.v[0];
+        const std::uint64_t product1 = std::uint64_t{0xCD9E8D57u} * counter.v[2];
+        counter = {{static_cast<std::uint32_t>(product1 >> 32) ^ counter.v[1] ^ key0,
+                    static_cast<std::uint32_t>(product1),
+                    static_cast<std::uint32_t>(product0 >> 32) ^ counter.v[3] ^ key1,
+                    static_cast<std::uint32_t>(product0)}};
+        key0 += 0x9E3779B9u;
+        key1 += 0xBB67AE85u;
+    }
+    return counter;
+}
+
+/// Uniform in [0, 1): the top 24 bits, so that 1.0 can never appear.
+PL_HD inline float to_unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+
+/// Random numbers of one path: a pure function of (seed, stream, pixel, sample, vertex, purpose).
+struct Rng {
+    std::uint64_t seed = 0;
+    Stream stream = Stream::Picture;
+    std::uint32_t pixel = 0;   ///< or the probe's index
+    std::uint32_t sample = 0;
+
+    /// Four independent uniforms in [0, 1)^4 for this vertex and purpose.
+    PL_HD Vec4f draw(std::uint32_t vertex, Purpose purpose) const {
+        PL_ASSERT(vertex < (1u << 24));
+        const Philox counter{{pixel, sample, vertex | (static_cast<std::uint32_t>(purpose) << 24),
+                              static_cast<std::uint32_t>(stream)}};
+        const Philox block =
+            philox4x32(counter, static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
+        return {to_unit_float(block.v[0]), to_unit_float(block.v[1]), to_unit_float(block.v[2]),
+                to_unit_float(block.v[3])};
+    }
+};
+
+}  // namespace pl

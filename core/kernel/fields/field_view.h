@@ -1,0 +1,67 @@
+// The learned field as the kernels see it: volumes, their sampling tables (frozen during a pass) and the sums in
+// which a pass collects what it saw. core/fields owns the memory.
+#pragma once
+
+#include "core/kernel/base/atomics.h"
+#include "core/kernel/base/frame.h"
+#include "core/kernel/fields/direction_cells.h"
+#include "core/kernel/fields/volume_lookup.h"
+#include "core/kernel/scene/surface_point.h"
+
+namespace pl {
+
+/// Learned radiance is clamped at this multiple of the field's radiance unit before it is summed. Pictures are not.
+inline constexpr float kMaxRecordedUnits = 65536.0f;
+
+/// Steps per radiance unit of the fixed-point sums: 2^-24 resolves what a float can, 2^63 holds 2^23 records of the
+/// largest value in one pass and cell.
+inline constexpr float kStepsPerUnit = 16777216.0f;
+
+struct FieldView {
+    DirectionCells cells;
+    KdTreeView tree;
+    Span<const Vec3f> normals;       ///< [volume], unit: the hemisphere that the cells divide
+    Span<const SurfacePoint> sites;  ///< [volume], where it stands
+
+    /// Sampling tables: inclusive cumulative probabilities, each ending in exactly 1.
+    Span<const float> row_cdf;     ///< [volume][row]
+    Span<const float> column_cdf;  ///< [volume][row][column], within the row
+    /// Cosine-weighted mean of the learned incident radiance (luminance): irradiance / pi. [volume]
+    Span<const float> mean_radiance;
+
+    /// What the running pass adds. [volume][cell]
+    Span<std::int64_t> pending_sum;
+    Span<std::uint32_t> pending_count;
+
+    /// Radiance of one fixed-point unit: a power of two not below the brightest emission.
+    float radiance_unit = 1.0f;
+
+    PL_HD std::int32_t volume_count() const { return static_cast<std::int32_t>(normals.count); }
+
+    PL_HD std::uint32_t cell_index(std::int32_t volume, int cell) const {
+        return static_cast<std::uint32_t>(volume) * static_cast<std::uint32_t>(cells.count()) +
+               static_cast<std::uint32_t>(cell);
+    }
+    PL_HD Frame frame(std::int32_t volume) const { return make_frame(normals[static_cast<std::uint32_t>(volume)]); }
+};
+
+/// Fixed-point steps of one recorded radiance; NaN and negative values record nothing.
+PL_HD inline std::int64_t to_fixed_point(float radiance, float radiance_unit) {
+    const float units = radiance / radiance_unit;
+    if (!(units > 0.0f)) return 0;
+    return static_cast<std::int64_t>(min_of(units, kMaxRecordedUnits) * kStepsPerUnit);
+}
+
+/// Mean radiance of `count` records.
+PL_HD inline float from_fixed_point(std::int64_t sum, std::uint32_t count, float radiance_unit) {
+    return (static_cast<float>(sum) / kStepsPerUnit) / static_cast<float>(count) * radiance_unit;
+}
+
+/// Adds one observation of the radiance that arrives at a volume through a cell. Any thread, any order.
+PL_HD inline void record(const FieldView& field, std::int32_t volume, int cell, float radiance) {
+    const std::uint32_t index = field.cell_index(volume, cell);
+    atomic_add(field.pending_sum[index], to_fixed_point(radiance, field.radiance_unit));
+    atomic_add(field.pending_count[index], 1u);
+}
+
+}  // namespace pl

@@ -1,0 +1,139 @@
+// Between passes: what the pass recorded becomes the table of the next one. One volume at a time, each independent
+// of the others, plain arithmetic in a fixed order: the same bits on every back end.
+#pragma once
+
+#include "core/kernel/fields/field_view.h"
+
+namespace pl {
+
+/// How fast old targets are forgotten. With N records in a cell and m new ones the old mean keeps the share
+/// (N/(N+m))^p. p = 1 is the learning rate 1/(1+visits) of Dahm and Keller 2017; a larger p forgets the early
+/// targets, which came from tables that knew little, and still averages the noise of the later ones.
+enum class LearningRate : std::uint32_t {
+    SampleMean = 1,  ///< 1/(1+visits)
+    Forgetful = 4,   ///< p = 4
+};
+
+/// Everything publication writes, one row per volume.
+struct FieldPublicationView {
+    DirectionCells cells;
+    float radiance_unit = 1.0f;
+    LearningRate rate = LearningRate::Forgetful;
+    float uniform_floor = 0.05f;  ///< share of the table that is uniform, so that no cell is ever impossible
+
+    Span<float> radiance;              ///< learned incident radiance Q. [volume][cell]
+    Span<std::uint32_t> visits;        ///< records so far. [volume][cell]
+    Span<std::int64_t> pending_sum;    ///< emptied. [volume][cell]
+    Span<std::uint32_t> pending_count; ///< emptied. [volume][cell]
+    Span<float> row_cdf;               ///< [volume][row]
+    Span<float> column_cdf;            ///< [volume][row][column]
+    Span<float> mean_radiance;         ///< [volume]
+};
+
+/// Share of the old mean that survives `fresh` new records.
+PL_HD inline float surviving_share(std::uint32_t visits, std::uint32_t fresh, LearningRate rate) {
+    const float base = static_cast<float>(visits) / (static_cast<float>(visits) + static_cast<float>(fresh));
+    const float squared = base * base;
+    return rate == LearningRate::SampleMean ? base : squared * squared;
+}
+
+/// Moves the learned radiance of one cell towards the mean of its new records and empties the sums.
+PL_HD inline void absorb_records(const FieldPublicationView& field, std::uint32_t cell) {
+    const std::uint32_t fresh = field.pending_count[cell];
+    if (fresh == 0) return;
+    const float mean = from_fixed_point(field.pending_sum[cell], fresh, field.radiance_unit);
+    const float step = 1.0f - surviving_share(field.visits[cell], fresh, field.rate);
+    field.radiance[cell] += step * (mean - field.radiance[cell]);
+    const std::uint32_t room = 0xffffffffu - field.visits[cell];
+    field.visits[cell] += min_of(fresh, room);
+    field.pending_sum[cell] = 0;
+    field.pending_count[cell] = 0;
+}
+
+/// Radiance that a cell is sampled by: with few visits it leans on the visit-weighted mean of its 3 x 3 neighbours,
+/// and that mean on the volume's. Never fed back into what is learned, so it can cost noise but not bias.
+PL_HD inline float smoothed_radiance(const FieldPublicationView& field, std::uint32_t first, int column, int row,
+                                     float volume_mean) {
+    constexpr float kPriorVisits = 2.0f;
+    const int side = field.cells.side;
+    float sum = kPriorVisits * volume_mean;
+    float weight = kPriorVisits;
+    for (int y = max_of(row - 1, 0); y <= min_of(row + 1, side - 1); ++y)
+        for (int x = max_of(column - 1, 0); x <= min_of(column + 1, side - 1); ++x) {
+            const std::uint32_t cell = first + static_cast<std::uint32_t>(y * side + x);
+            const float visits = min_of(static_cast<float>(field.visits[cell]), 1.0e6f);
+            sum += visits * field.radiance[cell];
+            weight += visits;
+        }
+    const std::uint32_t own = first + static_cast<std::uint32_t>(row * side + column);
+    const float visits = min_of(static_cast<float>(field.visits[own]), 1.0e6f);
+    return (visits * field.radiance[own] + kPriorVisits * (sum / weight)) / (visits + kPriorVisits);
+}
+
+/// Mean of the learned radiance over the cells; those never visited count as the mean of the others.
+PL_HD inline float mean_of_visited(const FieldPublicationView& field, std::uint32_t first) {
+    float sum = 0.0f;
+    std::uint32_t visited = 0;
+    for (int k = 0; k < field.cells.count(); ++k) {
+        const std::uint32_t cell = first + static_cast<std::uint32_t>(k);
+        if (field.visits[cell] == 0) continue;
+        sum += field.radiance[cell];
+        ++visited;
+    }
+    return visited > 0 ? sum / static_cast<float>(visited) : 0.0f;
+}
+
+/// Turns weights into inclusive cumulative probabilities ending in exactly 1. A total that is not positive and
+/// finite gives the uniform distribution. Returns the total of the weights.
+PL_HD inline float accumulate_cdf(float* weights, int count) {
+    float total = 0.0f;
+    for (int i = 0; i < count; ++i) {
+        total += weights[i];
+        weights[i] = total;
+    }
+    const bool usable = total > 0.0f && total < kInfinity;
+    for (int i = 0; i < count; ++i)
+        weights[i] = usable ? weights[i] / total : static_cast<float>(i + 1) / static_cast<float>(count);
+    weights[count - 1] = 1.0f;
+    return usable ? total : 0.0f;
+}
+
+/// Rebuilds the sampling table of one volume from what it learned.
+PL_HD inline void build_table(const FieldPublicationView& field, std::uint32_t volume, float volume_mean) {
+    const int side = field.cells.side;
+    const auto cells = static_cast<std::uint32_t>(field.cells.count());
+    const std::uint32_t first = volume * cells;
+    float* columns = field.column_cdf.data + first;
+    float* rows = field.row_cdf.data + volume * static_cast<std::uint32_t>(side);
+
+    float total = 0.0f;
+    for (int row = 0; row < side; ++row)
+        for (int column = 0; column < side; ++column) {
+            const float weight = smoothed_radiance(field, first, column, row, volume_mean);
+            columns[row * side + column] = weight;
+            total += weight;
+        }
+    const bool known = total > 0.0f && total < kInfinity;
+    const float uniform = 1.0f / static_cast<float>(cells);
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            float& weight = columns[row * side + column];
+            const float learned = known ? weight / total : uniform;
+            weight = (1.0f - field.uniform_floor) * learned + field.uniform_floor * uniform;
+        }
+        rows[row] = accumulate_cdf(columns + row * side, side);
+    }
+    accumulate_cdf(rows, side);
+}
+
+/// Publishes one volume: absorbs the pass's records and rebuilds everything derived from the learned radiance.
+PL_HD inline void publish_volume(const FieldPublicationView& field, std::uint32_t volume) {
+    const auto cells = static_cast<std::uint32_t>(field.cells.count());
+    const std::uint32_t first = volume * cells;
+    for (std::uint32_t k = 0; k < cells; ++k) absorb_records(field, first + k);
+    const float mean = mean_of_visited(field, first);
+    field.mean_radiance[volume] = mean;
+    build_table(field, volume, mean);
+}
+
+}  // namespace pl

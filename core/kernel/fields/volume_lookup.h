@@ -1,0 +1,125 @@
+// Which radiance volume serves a surface point: the nearest whose normal agrees; ties go to the lowest number.
+// Both searches give the same answer for every input, which tests prove.
+#pragma once
+
+#include <cstdint>
+
+#include "core/kernel/base/span.h"
+#include "core/kernel/base/math.h"
+
+namespace pl {
+
+inline constexpr std::int32_t kNoVolume = -1;
+
+/// Cosine of the largest angle between the normals of a surface point and of the volume that serves it.
+inline constexpr float kMinNormalCosine = 0.8f;
+
+/// A volume as the search tree stores it; `axis` splits the node's range of the array.
+struct KdNode {
+    Vec3f position;
+    std::uint32_t volume;
+    Vec3f normal;
+    std::uint32_t axis;
+};
+static_assert(sizeof(KdNode) == 32);
+
+/// Balanced tree without pointers: the root of the range [low, high) is the entry in its middle, entries before it
+/// are not larger along its axis, entries behind it not smaller.
+struct KdTreeView {
+    Span<const KdNode> nodes;
+};
+
+/// Ranges halve at every step, so 32 entries serve any 32-bit count.
+inline constexpr int kMaxKdDepth = 32;
+
+PL_HD inline float squared_distance(Vec3f a, Vec3f b) {
+    const Vec3f d = a - b;
+    return d.x * d.x + d.y * d.y + d.z * d.z;
+}
+
+PL_HD inline bool normals_agree(Vec3f a, Vec3f b) { return glm::dot(a, b) > kMinNormalCosine; }
+
+/// Result of a nearest search.
+struct Nearest {
+    std::int32_t volume = kNoVolume;
+    float distance2 = kInfinity;
+
+    PL_HD void consider(const KdNode& node, Vec3f position, Vec3f normal) {
+        const float d2 = squared_distance(position, node.position);
+        const auto candidate = static_cast<std::int32_t>(node.volume);
+        if ((d2 < distance2 || (d2 == distance2 && candidate < volume)) && normals_agree(normal, node.normal)) {
+            distance2 = d2;
+            volume = candidate;
+        }
+    }
+    PL_HD float limit() const { return distance2; }
+};
+
+/// The `Count` nearest volumes, nearest first; for smooth interpolation in previews.
+template <int Count>
+struct NearestSeveral {
+    std::int32_t volume[Count];
+    float distance2[Count];
+    int found = 0;
+
+    PL_HD void consider(const KdNode& node, Vec3f position, Vec3f normal) {
+        const float d2 = squared_distance(position, node.position);
+        if ((found == Count && !(d2 < distance2[Count - 1])) || !normals_agree(normal, node.normal)) return;
+        int slot = found < Count ? found++ : Count - 1;
+        for (; slot > 0 && d2 < distance2[slot - 1]; --slot) {
+            volume[slot] = volume[slot - 1];
+            distance2[slot] = distance2[slot - 1];
+        }
+        volume[slot] = static_cast<std::int32_t>(node.volume);
+        distance2[slot] = d2;
+    }
+    PL_HD float limit() const { return found == Count ? distance2[Count - 1] : kInfinity; }
+};
+
+/// Offers to `result` every volume that may belong to it. Subtrees are skipped only if they lie strictly beyond
+/// the limit, so that ties are seen: the plane distance never exceeds the computed distance of a point behind it,
+/// because subtraction, multiplication and addition of non-negative numbers round monotonically.
+template <class Result>
+PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f normal, Result& result) {
+    struct Range {
+        std::uint32_t low, high;
+        float plane_distance2;
+    };
+    Range stack[kMaxKdDepth];
+    int depth = 0;
+    Range range{0, tree.nodes.count, 0.0f};
+    while (true) {
+        if (range.low < range.high && !(range.plane_distance2 > result.limit())) {
+            const std::uint32_t middle = range.low + (range.high - range.low) / 2;
+            const KdNode& node = tree.nodes[middle];
+            result.consider(node, position, normal);
+            const int axis = static_cast<int>(node.axis);
+            const float delta = position[axis] - node.position[axis];
+            const Range below{range.low, middle, delta * delta};
+            const Range above{middle + 1, range.high, delta * delta};
+            PL_ASSERT(depth < kMaxKdDepth);
+            stack[depth++] = delta < 0.0f ? above : below;
+            range = delta < 0.0f ? below : above;
+            range.plane_distance2 = 0.0f;
+            continue;
+        }
+        if (depth == 0) return;
+        range = stack[--depth];
+    }
+}
+
+/// The volume that serves a surface point, or kNoVolume.
+PL_HD inline std::int32_t find_volume(const KdTreeView& tree, Vec3f position, Vec3f normal) {
+    Nearest nearest;
+    search_kd_tree(tree, position, normal, nearest);
+    return nearest.volume;
+}
+
+/// Same answer by looking at every volume; the reference of the tests.
+PL_HD inline std::int32_t find_volume_linear(const KdTreeView& tree, Vec3f position, Vec3f normal) {
+    Nearest nearest;
+    for (std::uint32_t i = 0; i < tree.nodes.count; ++i) nearest.consider(tree.nodes[i], position, normal);
+    return nearest.volume;
+}
+
+}  // namespace pl

@@ -1,0 +1,87 @@
+// Bounding volume hierarchy as an array of 32-byte nodes, and its traversal.
+#pragma once
+
+#include "core/kernel/base/span.h"
+#include "core/kernel/geometry/triangle.h"
+
+namespace pl {
+
+/// Inner node: `count` is 0 and the children are `first` and `first + 1`. Leaf: `count` entries of
+/// BvhView::primitives from `first`.
+struct BvhNode {
+    Vec3f low{kInfinity};
+    std::uint32_t first = 0;
+    Vec3f high{-kInfinity};
+    std::uint32_t count = 0;
+};
+static_assert(sizeof(BvhNode) == 32);
+
+/// Builders keep the depth below this, so the stack cannot overflow.
+inline constexpr int kMaxBvhDepth = 64;
+
+struct BvhView {
+    Span<const BvhNode> nodes;  ///< root first; empty for an empty scene
+    Span<const std::uint32_t> primitives;
+};
+
+/// Conservative slab test: may accept too much, never too little.   [Ize 2013, "Robust BVH Ray Traversal"]
+/// Returns the entry distance, or infinity if the box is missed or lies beyond `t_max`.
+PL_HD inline float intersect_box(const BvhNode& node, Vec3f origin, Vec3f inverse_direction, float t_max) {
+    float entry = 0.0f;
+    float exit = t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float t0 = (node.low[axis] - origin[axis]) * inverse_direction[axis];
+        const float t1 = (node.high[axis] - origin[axis]) * inverse_direction[axis];
+        // 0 * infinity is NaN (origin on a slab that the ray runs along): such a slab does not narrow the interval.
+        if (t0 != t0 || t1 != t1) continue;
+        const float near = min_of(t0, t1);
+        const float far = max_of(t0, t1) * (1.0f + 2.0f * gamma_bound(3));
+        if (near > entry) entry = near;
+        if (far < exit) exit = far;
+    }
+    return entry <= exit ? entry : kInfinity;
+}
+
+/// Visits every triangle whose box the ray may enter, nearer boxes first. `visit(primitive, best)` updates the
+/// best hit and returns true to stop. Boxes farther than the best hit are skipped.
+template <class Visit>
+PL_HD inline void traverse(const BvhView& bvh, const Ray& ray, Hit& best, Visit&& visit) {
+    if (bvh.nodes.empty()) return;
+    const Vec3f inverse{1.0f / ray.direction.x, 1.0f / ray.direction.y, 1.0f / ray.direction.z};
+    std::uint32_t stack[kMaxBvhDepth];
+    int depth = 0;
+    std::uint32_t current = 0;
+    if (intersect_box(bvh.nodes[0], ray.origin, inverse, best.t) == kInfinity) return;
+    while (true) {
+        const BvhNode& node = bvh.nodes[current];
+        if (node.count > 0) {
+            for (std::uint32_t i = 0; i < node.count; ++i)
+                if (visit(bvh.primitives[node.first + i], best)) return;
+        } else {
+            std::uint32_t near = node.first;
+            std::uint32_t far = node.first + 1;
+            float near_t = intersect_box(bvh.nodes[near], ray.origin, inverse, best.t);
+            float far_t = intersect_box(bvh.nodes[far], ray.origin, inverse, best.t);
+            if (far_t < near_t) {
+                const std::uint32_t node_swap = near;
+                near = far;
+                far = node_swap;
+                const float t_swap = near_t;
+                near_t = far_t;
+                far_t = t_swap;
+            }
+            if (far_t != kInfinity) {
+                PL_ASSERT(depth < kMaxBvhDepth);
+                stack[depth++] = far;
+            }
+            if (near_t != kInfinity) {
+                current = near;
+                continue;
+            }
+        }
+        if (depth == 0) return;
+        current = stack[--depth];
+    }
+}
+
+}  // namespace pl

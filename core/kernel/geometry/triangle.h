@@ -1,0 +1,130 @@
+// Watertight ray-triangle test.   [Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1)]
+// The arithmetic is a template over the number type: float for one ray, a vector of lanes for many at once.
+// Same operations in the same order without contraction, so every caller gets the same bits.
+#pragma once
+
+#include "core/kernel/base/math.h"
+#include "core/kernel/geometry/ray.h"
+
+namespace pl {
+
+/// Chooses per lane. `Mask` is bool, or a vector of lanes with all bits set or clear.
+template <class Mask, class Real>
+PL_INLINE Real select(Mask mask, Real yes, Real no) {
+    return mask ? yes : no;
+}
+
+/// A ray prepared for the test: the axis where its direction is largest becomes z, then a shear makes it (0,0,1).
+template <class Real, class Mask>
+struct RaySpace {
+    Real origin_x, origin_y, origin_z;
+    Real shear_x, shear_y, scale_z;
+    Mask along_x, along_y;  ///< which axis became z; neither: z itself
+};
+
+/// A corner in ray space: the ray is the z axis, z is the distance along it.
+template <class Real>
+struct RayCorner {
+    Real x, y, z;
+};
+
+/// Cyclic permutation that brings the dominant axis to z.
+template <class Real, class Mask>
+PL_INLINE void permute_axes(Mask along_x, Mask along_y, Real& x, Real& y, Real& z) {
+    const Real px = select(along_x, y, select(along_y, z, x));
+    const Real py = select(along_x, z, select(along_y, x, y));
+    const Real pz = select(along_x, x, select(along_y, y, z));
+    x = px;
+    y = py;
+    z = pz;
+}
+
+/// `abs_*` are the magnitudes of the direction's components.
+template <class Real, class Mask>
+PL_INLINE RaySpace<Real, Mask> make_ray_space(Real ox, Real oy, Real oz, Real dx, Real dy, Real dz, Real abs_x, Real abs_y,
+                                           Real abs_z, Real one) {
+    RaySpace<Real, Mask> space{ox, oy, oz, {}, {}, {}, static_cast<Mask>((abs_x > abs_y) & (abs_x > abs_z)),
+                               static_cast<Mask>((abs_y >= abs_x) & (abs_y > abs_z))};
+    permute_axes(space.along_x, space.along_y, dx, dy, dz);
+    space.shear_x = dx / dz;
+    space.shear_y = dy / dz;
+    space.scale_z = one / dz;
+    return space;
+}
+
+template <class Real, class Mask>
+PL_INLINE RayCorner<Real> to_ray_space(const RaySpace<Real, Mask>& space, Real px, Real py, Real pz) {
+    Real x = px - space.origin_x;
+    Real y = py - space.origin_y;
+    Real z = pz - space.origin_z;
+    permute_axes(space.along_x, space.along_y, x, y, z);
+    return {x - space.shear_x * z, y - space.shear_y * z, space.scale_z * z};
+}
+
+/// Twice the signed area spanned by the ray and the edge p -> q. Bitwise antisymmetric: e(p,q) = -e(q,p).
+template <class Real>
+PL_INLINE Real edge_function(const RayCorner<Real>& p, const RayCorner<Real>& q) {
+    return p.x * q.y - p.y * q.x;
+}
+
+/// The three edge functions; u weighs corner a, v corner b, w corner c.
+template <class Real>
+struct EdgeFunctions {
+    Real u, v, w;
+};
+
+template <class Real>
+PL_INLINE EdgeFunctions<Real> edge_functions(const RayCorner<Real>& a, const RayCorner<Real>& b,
+                                          const RayCorner<Real>& c) {
+    return {edge_function(c, b), edge_function(a, c), edge_function(b, a)};
+}
+
+/// Where rounding decided an edge, the products are repeated in double, where they are exact: the sign is then
+/// the true sign for the rounded corners, and two triangles that share an edge agree about it.
+PL_HD inline float exact_edge_function(const RayCorner<float>& p, const RayCorner<float>& q) {
+    return static_cast<float>(static_cast<double>(p.x) * static_cast<double>(q.y) -
+                              static_cast<double>(p.y) * static_cast<double>(q.x));
+}
+
+/// Scaled distance: divided by the determinant u + v + w it is the ray parameter t.
+template <class Real>
+PL_INLINE Real scaled_distance(const EdgeFunctions<Real>& e, const RayCorner<Real>& a, const RayCorner<Real>& b,
+                            const RayCorner<Real>& c) {
+    return e.u * a.z + e.v * b.z + e.w * c.z;
+}
+
+/// The order in which hits replace each other: nearer first, then the lower number, so that the result does not
+/// depend on the order of the tests.
+PL_HD inline bool is_closer(float t, std::uint32_t primitive, const Hit& best) {
+    return t < best.t || (t == best.t && primitive < best.primitive);
+}
+
+using ScalarRaySpace = RaySpace<float, bool>;
+
+PL_HD inline ScalarRaySpace make_ray_space(const Ray& ray) {
+    const Vec3f d = ray.direction;
+    return make_ray_space<float, bool>(ray.origin.x, ray.origin.y, ray.origin.z, d.x, d.y, d.z, std::fabs(d.x),
+                                       std::fabs(d.y), std::fabs(d.z), 1.0f);
+}
+
+/// Tests one triangle and keeps the hit in `best` if it is closer. Both sides are hit. `best.t` starts as the
+/// ray's t_max; exclusion of source and target is the caller's.
+PL_HD inline void intersect_triangle(const ScalarRaySpace& space, Vec3f p0, Vec3f p1, Vec3f p2,
+                                     std::uint32_t primitive, Hit& best) {
+    const auto a = to_ray_space(space, p0.x, p0.y, p0.z);
+    const auto b = to_ray_space(space, p1.x, p1.y, p1.z);
+    const auto c = to_ray_space(space, p2.x, p2.y, p2.z);
+    auto e = edge_functions(a, b, c);
+    if (e.u == 0.0f || e.v == 0.0f || e.w == 0.0f)
+        e = {exact_edge_function(c, b), exact_edge_function(a, c), exact_edge_function(b, a)};
+    const bool any_negative = e.u < 0.0f || e.v < 0.0f || e.w < 0.0f;
+    const bool any_positive = e.u > 0.0f || e.v > 0.0f || e.w > 0.0f;
+    if (any_negative && any_positive) return;
+    const float determinant = e.u + e.v + e.w;
+    if (!(determinant != 0.0f)) return;
+    const float t = scaled_distance(e, a, b, c) / determinant;
+    if (!(t > 0.0f) || !is_closer(t, primitive, best)) return;
+    best = {t, primitive, e.v / determinant, e.w / determinant};
+}
+
+}  // namespace pl

@@ -1,0 +1,85 @@
+// Views of the first surface that a pixel sees: what the picture is made of, and what was learned there.
+#pragma once
+
+#include "core/kernel/fields/field_view.h"
+#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/steps.h"
+#include "core/kernel/methods/default.h"
+
+namespace pl {
+
+enum class View : std::uint32_t { Beauty, Direct, RadianceMap, Voronoi, Normal, Albedo, Depth };
+
+/// Stable, well spread color of a number, in [0.15, 1] per channel.
+PL_HD inline Vec3f color_of_id(std::uint32_t id) {
+    const Philox block = philox4x32({{id, 0, 0, 0}}, 0x9E3779B9u, 0xBB67AE85u);
+    return Vec3f{0.15f} +
+           0.85f * Vec3f{to_unit_float(block.v[0]), to_unit_float(block.v[1]), to_unit_float(block.v[2])};
+}
+
+/// The classic ray tracer: emission plus one shadow ray, no light from other surfaces.
+template <Intersector I>
+PL_HD inline Vec3f direct_radiance(const SceneView& scene, const I& intersector, const SurfacePoint& surface,
+                                   const Rng& rng) {
+    const Material& material = scene.materials[surface.material];
+    const Vec3f emitted = emitted_radiance(material, surface.front);
+    const Vec4f u = rng.draw(0, Purpose::Light);
+    const DirectLight sample = sample_direct_light(scene, surface, {u.x, u.y, u.z});
+    if (!(sample.pdf_sa > 0.0f) || intersector.occluded(spawn_shadow_ray(surface, sample.light))) return emitted;
+    return emitted + lambert_eval(material.albedo, sample.cos_i) * sample.emitted * (1.0f / sample.pdf_sa);
+}
+
+/// Learned mean radiance around a point: the nearest volumes, blended with weights that fall to zero at the
+/// distance of the last one, so that the result has no steps. Biased: a preview, not a picture.
+PL_HD inline float interpolated_mean_radiance(const FieldView& field, const SurfacePoint& surface) {
+    NearestSeveral<8> nearest;
+    search_kd_tree(field.tree, surface.position, surface.geometric_normal, nearest);
+    if (nearest.found == 0) return 0.0f;
+    const float reach = std::sqrt(nearest.distance2[nearest.found - 1]) * 1.0001f;
+    float sum = 0.0f;
+    float weight_sum = 0.0f;
+    for (int i = 0; i < nearest.found; ++i) {
+        const float ratio = reach > 0.0f ? std::sqrt(nearest.distance2[i]) / reach : 0.0f;
+        const float weight = square(1.0f - ratio) + 1.0e-6f;  // the last one alone must not divide by zero
+        sum += weight * field.mean_radiance[static_cast<std::uint32_t>(nearest.volume[i])];
+        weight_sum += weight;
+    }
+    return sum / weight_sum;
+}
+
+/// Value of one view at the first surface; the camera ray has missed nothing. Depth is in scene units.
+template <Intersector I>
+PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& intersector, const FieldView& field,
+                                const SurfacePoint& surface, float distance, const Rng& rng) {
+    const Material& material = scene.materials[surface.material];
+    switch (view) {
+    case View::Beauty: return Vec3f{0.0f};
+    case View::Direct: return direct_radiance(scene, intersector, surface, rng);
+    case View::RadianceMap: {
+        const Vec3f emitted = emitted_radiance(material, surface.front);
+        return emitted + material.albedo * interpolated_mean_radiance(field, surface);
+    }
+    case View::Voronoi: {
+        const std::int32_t volume = find_volume(field.tree, surface.position, surface.geometric_normal);
+        return volume == kNoVolume ? Vec3f{0.0f} : color_of_id(static_cast<std::uint32_t>(volume));
+    }
+    case View::Normal: return 0.5f * (surface.shading_normal + Vec3f{1.0f});
+    case View::Albedo: return material.albedo;
+    case View::Depth: return Vec3f{distance};
+    }
+    return Vec3f{0.0f};
+}
+
+/// One sample of a view for one pixel.
+template <FeatureSet F, Intersector I>
+PL_HD inline Vec3f sample_view(View view, const SceneView& scene, const I& intersector, const FieldView& field,
+                               const PinholeCamera& camera, const PathSettings& settings, std::uint32_t width,
+                               std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
+    const auto state = begin_path<DefaultMethod>(camera, settings, width, height, pixel, sample);
+    const Hit hit = intersector.closest_hit(state.ray);
+    if (!hit.found()) return view == View::Direct && F.has(Feature::Environment) ? scene.environment : Vec3f{0.0f};
+    const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
+    return surface_view(view, scene, intersector, field, surface, hit.t, path_rng(settings, pixel, sample));
+}
+
+}  // namespace pl

@@ -1,0 +1,137 @@
+// The integrator as steps on one path: begin, extend (once per hit), connect (once per shadow ray). Pure functions
+// of their arguments, so that a loop over one path, a batch of paths and a GPU thread all call the same code.
+#pragma once
+
+#include "core/kernel/integrator/path.h"
+#include "core/kernel/scene/camera.h"
+#include "core/kernel/shading/lights.h"
+
+namespace pl {
+
+/// Roulette never ends more than 19 of 20 paths at once, which bounds its weight.
+inline constexpr float kMinSurvival = 0.05f;
+
+PL_HD inline Rng path_rng(const PathSettings& settings, std::uint32_t pixel, std::uint32_t sample) {
+    return {settings.seed, settings.stream, pixel, sample};
+}
+
+/// Starts a path at the camera, somewhere in pixel (x, y).
+template <class M>
+PL_HD inline PathState<M> begin_path(const PinholeCamera& camera, const PathSettings& settings, std::uint32_t width,
+                                     std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
+    const Vec4f u = path_rng(settings, pixel, sample).draw(0, Purpose::Pixel);
+    const Vec2f film{static_cast<float>(pixel % width) + u.x, static_cast<float>(pixel / width) + u.y};
+    PathState<M> state;
+    state.ray = generate_ray(camera, film, {static_cast<float>(width), static_cast<float>(height)});
+    state.pixel = pixel;
+    state.sample = sample;
+    return state;
+}
+
+/// Emission of the surface just met, as the path sees it. Where the previous vertex sampled lights too, the two
+/// strategies share it.
+template <FeatureSet F, class M>
+PL_HD inline void add_emission(const SceneView& scene, const PathSettings& settings, const SurfacePoint& surface,
+                               Vec3f emitted, PathState<M>& state) {
+    float weight = 1.0f;
+    if constexpr (F.has(Feature::NextEventEstimation)) {
+        if (settings.next_event != 0 && state.direction_pdf_sa > 0.0f)
+            weight = balance_weight(state.direction_pdf_sa,
+                                    light_pdf_sa(scene, state.ray.origin, surface, state.ray.direction));
+    }
+    state.radiance += weight * (state.throughput * emitted);
+}
+
+/// Light sample at a vertex; `shadow.wanted` stays false if it cannot contribute.
+template <Method M>
+PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, const typename M::Vertex& vertex,
+                                     const SurfacePoint& surface, Vec3f albedo, const Rng& rng,
+                                     const PathState<M>& state, ShadowRequest& shadow) {
+    const Vec4f u = rng.draw(state.vertices, Purpose::Light);
+    const DirectLight sample = sample_direct_light(scene, surface, {u.x, u.y, u.z});
+    if (!(sample.pdf_sa > 0.0f)) return;
+    const float weight = balance_weight(sample.pdf_sa, method.pdf_sa(vertex, surface, sample.wi));
+    shadow.ray = spawn_shadow_ray(surface, sample.light);
+    shadow.contribution =
+        state.throughput * lambert_eval(albedo, sample.cos_i) * sample.emitted * (weight / sample.pdf_sa);
+    shadow.wanted = true;
+}
+
+/// Plays Russian roulette on the albedos alone: a path lives equally long under every method, and a direction that
+/// was guided towards light (and so weighs little) is not ended for it. Returns false if the path ends.
+template <class M>
+PL_HD inline bool survives_roulette(const PathSettings& settings, Vec3f albedo, float u, PathState<M>& state) {
+    state.survival *= max_component(albedo);
+    if (state.vertices < settings.roulette_start) return true;
+    const float probability = clamp_to(state.survival, kMinSurvival, 1.0f);
+    if (u >= probability) return false;
+    state.throughput *= 1.0f / probability;
+    state.survival /= probability;
+    return true;
+}
+
+/// Chooses the next direction and moves the path's ray there.
+template <Method M>
+PL_HD inline PathStatus scatter(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
+                                const SurfacePoint& surface, Vec3f albedo, const Rng& rng, PathState<M>& state,
+                                PathCounters& counters) {
+    const Vec4f u = rng.draw(state.vertices, Purpose::Scatter);
+    const DirectionSample direction = method.sample_direction(vertex, surface, rng, state.vertices, u);
+    const float cos_i = reflection_cosine(surface, direction.wi);
+    if (!(direction.pdf_sa > 0.0f) || cos_i == 0.0f) {
+        ++counters.zero_directions;
+        return PathStatus::Finished;
+    }
+    state.throughput *= lambert_eval(albedo, cos_i) * (1.0f / direction.pdf_sa);
+    if (!survives_roulette(settings, albedo, u.w, state)) return PathStatus::Finished;
+    state.memory = method.remember(vertex, direction.wi);
+    state.ray = spawn_ray(surface, direction.wi);
+    state.direction_pdf_sa = direction.pdf_sa;
+    return PathStatus::Continues;
+}
+
+/// Consumes the hit of the path's segment: collects emission, lets the method learn, asks for a shadow ray and
+/// chooses the next segment. `shadow` comes in cleared.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, const PathSettings& settings,
+                                    const Hit& hit, PathState<M>& state, ShadowRequest& shadow,
+                                    PathCounters& counters) {
+    ++counters.segments;
+    if (!hit.found()) {
+        ++counters.escaped;
+        Vec3f environment{0.0f};
+        if constexpr (F.has(Feature::Environment)) environment = scene.environment;
+        state.radiance += state.throughput * environment;
+        method.learn(state.memory, {.emitted = environment}, typename M::Vertex{}, counters.method);
+        return PathStatus::Finished;
+    }
+    const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
+    const Material& material = scene.materials[surface.material];
+    const Vec3f emitted = emitted_radiance(material, surface.front);
+    if (!is_black(emitted)) add_emission<F>(scene, settings, surface, emitted, state);
+
+    typename M::Vertex vertex{};
+    if (material.reflects()) vertex = method.arrive(surface, counters.method);
+    method.learn(state.memory, {.emitted = emitted, .albedo = material.albedo}, vertex, counters.method);
+
+    ++state.vertices;
+    if (!material.reflects()) return PathStatus::Finished;
+    if (state.vertices >= settings.max_depth) {
+        ++counters.truncated;
+        return PathStatus::Finished;
+    }
+    const Rng rng = path_rng(settings, state.pixel, state.sample);
+    if constexpr (F.has(Feature::NextEventEstimation)) {
+        if (settings.next_event != 0)
+            request_shadow_ray(scene, method, vertex, surface, material.albedo, rng, state, shadow);
+    }
+    return scatter(method, settings, vertex, surface, material.albedo, rng, state, counters);
+}
+
+/// Adds a light sample whose shadow ray found nothing in between.
+template <class M>
+PL_HD inline void connect_light(const ShadowRequest& shadow, PathState<M>& state) {
+    state.radiance += shadow.contribution;
+}
+
+}  // namespace pl

@@ -1,0 +1,29 @@
+// Default path tracing: directions from the BSDF alone, nothing learned.
+#pragma once
+
+#include "core/kernel/methods/method.h"
+
+namespace pl {
+
+struct DefaultMethod {
+    struct Vertex {};
+    struct Memory {};
+
+    PL_HD Vertex arrive(const SurfacePoint&, MethodCounters&) const { return {}; }
+
+    PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const Rng&, std::uint32_t,
+                                           Vec4f u) const {
+        const Vec3f wi = lambert_sample(surface, {u.y, u.z});
+        return {wi, lambert_pdf_sa(surface, wi)};
+    }
+
+    PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, Vec3f wi) const {
+        return lambert_pdf_sa(surface, wi);
+    }
+
+    PL_HD Memory remember(const Vertex&, Vec3f) const { return {}; }
+    PL_HD void learn(Memory&, const Arrival&, const Vertex&, MethodCounters&) const {}
+};
+static_assert(Method<DefaultMethod>);
+
+}  // namespace pl

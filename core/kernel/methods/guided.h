@@ -1,0 +1,49 @@
+// What both learning methods share: one-sample mixture of BSDF and learned table.
+#pragma once
+
+#include "core/kernel/fields/direction_table.h"
+#include "core/kernel/methods/method.h"
+
+namespace pl {
+
+struct GuidedVertex {
+    std::int32_t volume = kNoVolume;
+};
+
+/// q = a p_bsdf + (1-a) p_table, with both densities evaluated whichever of the two chose the direction. A direction
+/// weighs at most 1/a times what it weighs under BSDF sampling.   [Veach 1997, 9.2.4; Mueller et al. 2017]
+struct GuidedSampling {
+    FieldView field;
+    float bsdf_fraction = 0.5f;  ///< a, in (0, 1]
+
+    PL_HD GuidedVertex arrive(const SurfacePoint& surface, MethodCounters& counters) const {
+        const std::int32_t volume = find_volume(field.tree, surface.position, surface.geometric_normal);
+        ++counters.lookups;
+        counters.lookup_misses += volume == kNoVolume ? 1u : 0u;
+        return {volume};
+    }
+
+    PL_HD float pdf_sa(const GuidedVertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
+        const float bsdf_pdf = lambert_pdf_sa(surface, wi);
+        if (vertex.volume == kNoVolume) return bsdf_pdf;
+        const Vec3f local = field.frame(vertex.volume).to_local(wi);
+        const float table_pdf = table_pdf_sa(DirectionTable(field, vertex.volume), local);
+        return bsdf_fraction * bsdf_pdf + (1.0f - bsdf_fraction) * table_pdf;
+    }
+
+    PL_HD DirectionSample sample_direction(const GuidedVertex& vertex, const SurfacePoint& surface, const Rng& rng,
+                                           std::uint32_t index, Vec4f u) const {
+        Vec3f wi;
+        if (vertex.volume == kNoVolume || u.x < bsdf_fraction) {
+            wi = lambert_sample(surface, {u.y, u.z});
+        } else {
+            const Vec4f jitter = rng.draw(index, Purpose::CellJitter);
+            const Vec2f square =
+                sample_square(DirectionTable(field, vertex.volume), {u.y, u.z}, {jitter.x, jitter.y});
+            wi = field.frame(vertex.volume).to_world(square_to_cosine_hemisphere(square));
+        }
+        return {wi, pdf_sa(vertex, surface, wi)};
+    }
+};
+
+}  // namespace pl

@@ -1,0 +1,45 @@
+// What a method is: how the next direction of a path is chosen, and what is learned from where it led.
+// The integrator is a template over it; there are no virtual calls and no run-time switches on the way.
+#pragma once
+
+#include <concepts>
+
+#include "core/kernel/base/rng.h"
+#include "core/kernel/scene/surface_point.h"
+#include "core/kernel/shading/lambert.h"
+
+namespace pl {
+
+/// A sampled direction and the density it was sampled with; pdf_sa 0 means a counted zero-valued sample.
+struct DirectionSample {
+    Vec3f wi{0.0f};
+    float pdf_sa = 0.0f;
+};
+
+/// What a path met at the end of its last segment, for learning. `V` of a guided method's vertex completes it.
+struct Arrival {
+    Vec3f emitted{0.0f};  ///< radiance emitted towards the previous vertex (or the environment's)
+    Vec3f albedo{0.0f};   ///< reflectance of the surface met; 0 on a miss
+};
+
+/// Events a method reports; the driver adds them up.
+struct MethodCounters {
+    std::uint32_t records = 0;
+    std::uint32_t lookups = 0;
+    std::uint32_t lookup_misses = 0;
+};
+
+/// `Vertex` is what a method knows about the surface point a path stands on; `Memory` is what it keeps until the
+/// next vertex is reached. Methods that learn nothing have empty ones, which cost no byte of path state.
+template <class M>
+concept Method = requires(const M& method, const typename M::Vertex& vertex, typename M::Memory& memory,
+                          const SurfacePoint& surface, const Rng& rng, Vec3f wi, Vec4f u, const Arrival& arrival,
+                          MethodCounters& counters) {
+    { method.arrive(surface, counters) } -> std::same_as<typename M::Vertex>;
+    { method.sample_direction(vertex, surface, rng, std::uint32_t{}, u) } -> std::same_as<DirectionSample>;
+    { method.pdf_sa(vertex, surface, wi) } -> std::same_as<float>;
+    { method.remember(vertex, wi) } -> std::same_as<typename M::Memory>;
+    { method.learn(memory, arrival, vertex, counters) } -> std::same_as<void>;
+};
+
+}  // namespace pl

@@ -1,0 +1,41 @@
+// Reinforcement path tracing: Expected Sarsa on radiance volumes, learned by the same paths that make the picture.
+// [Dahm and Keller 2017, "Learning Light Transport the Reinforced Way", section 3]
+#pragma once
+
+#include "core/kernel/methods/guided.h"
+
+namespace pl {
+
+struct ReinforcementMethod : GuidedSampling {
+    using Vertex = GuidedVertex;
+
+    /// The table entry that chose (or could have chosen) the last direction.
+    struct Memory {
+        std::int32_t volume = kNoVolume;
+        std::int32_t cell = 0;
+    };
+
+    PL_HD Memory remember(const Vertex& vertex, Vec3f wi) const {
+        if (vertex.volume == kNoVolume) return {};
+        const Vec3f local = field.frame(vertex.volume).to_local(wi);
+        if (!(local.z > 0.0f)) return {};
+        return {vertex.volume, field.cells.cell_of_direction(local)};
+    }
+
+    /// Expected Sarsa target T = L_e(y) + rho(y) V(y): the expectation over the next direction is the irradiance
+    /// that the volume at y keeps, so it costs one load. T is not multiplied by the BSDF at x: the table holds
+    /// incident radiance. Where y reflects but no volume serves it, nothing is known and nothing recorded.
+    PL_HD void learn(Memory& memory, const Arrival& arrival, const Vertex& vertex, MethodCounters& counters) const {
+        if (memory.volume == kNoVolume) return;
+        float target = luminance(arrival.emitted);
+        if (!is_black(arrival.albedo)) {
+            if (vertex.volume == kNoVolume) return;
+            target += luminance(arrival.albedo) * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
+        }
+        record(field, memory.volume, memory.cell, target);
+        ++counters.records;
+    }
+};
+static_assert(Method<ReinforcementMethod>);
+
+}  // namespace pl

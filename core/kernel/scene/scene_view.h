@@ -1,0 +1,40 @@
+// SceneView: every array of the scene that a kernel may read. A plain handle; core/scene owns the memory.
+#pragma once
+
+#include "core/kernel/base/span.h"
+#include "core/kernel/geometry/bvh_view.h"
+#include "core/kernel/shading/material.h"
+
+namespace pl {
+
+/// Corner indices into SceneView::positions, counter-clockwise seen from the front.
+struct Triangle {
+    std::uint32_t v0, v1, v2;
+    std::uint32_t material;
+};
+
+/// Shading normals of a triangle's corners: indices into SceneView::normals.
+struct TriangleNormals {
+    std::uint32_t n0, n1, n2;
+};
+
+/// A triangle that emits, with the running sum of (area x luminance of the emission) up to and including it,
+/// divided by the sum over all lights: the cumulative probability of choosing it.
+struct Light {
+    std::uint32_t primitive;
+    float cumulative_probability;
+};
+
+struct SceneView {
+    Span<const Vec3f> positions;
+    Span<const Triangle> triangles;
+    Span<const Vec3f> normals;                     ///< empty unless the scene has smooth normals
+    Span<const TriangleNormals> triangle_normals;  ///< one per triangle, or empty
+    Span<const Material> materials;
+    Span<const Light> lights;
+    BvhView bvh;
+    float light_power = 0.0f;  ///< sum over lights of area x luminance of the emission
+    Vec3f environment{0.0f};   ///< radiance of everything that no surface covers
+};
+
+}  // namespace pl

@@ -1,0 +1,108 @@
+// From a hit to a point on a surface, and from there to the next ray without hitting the surface again.
+#pragma once
+
+#include "core/kernel/base/features.h"
+#include "core/kernel/scene/scene_view.h"
+
+namespace pl {
+
+/// A point on a surface seen from direction `wo`. Both normals face the viewer's side.
+struct SurfacePoint {
+    Vec3f position{0.0f};
+    Vec3f geometric_normal{0.0f, 0.0f, 1.0f};
+    Vec3f shading_normal{0.0f, 0.0f, 1.0f};
+    float position_error = 0.0f;  ///< bound on the distance along the geometric normal to the true surface
+    std::uint32_t primitive = kNoPrimitive;
+    std::uint32_t material = 0;
+    bool front = true;  ///< the viewer is on the triangle's front side
+};
+
+/// Hits closer to an edge than this share of the triangle are moved inwards, so that rounding cannot put the
+/// origin of the next ray behind a wall that meets this one. 256 roundoffs cover the error of a watertight test
+/// at a corner (about 20 roundoffs of the triangle's extent) with a margin; the shift stays below 2e-5 extents.
+inline constexpr float kEdgeMargin = 256.0f * kRoundoff;
+
+/// Barycentric weights (b0, b1, b2), kept away from the edges.
+PL_HD inline Vec3f inner_barycentrics(const Hit& hit) {
+    const Vec3f b{max_of(1.0f - hit.b1 - hit.b2, kEdgeMargin), max_of(hit.b1, kEdgeMargin),
+                  max_of(hit.b2, kEdgeMargin)};
+    return b * (1.0f / (b.x + b.y + b.z));
+}
+
+/// Not normalized; its length is twice the area.
+PL_HD inline Vec3f triangle_cross(Vec3f p0, Vec3f p1, Vec3f p2) { return glm::cross(p1 - p0, p2 - p0); }
+
+template <FeatureSet F>
+PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f fallback) {
+    if constexpr (F.has(Feature::SmoothNormals)) {
+        if (!scene.triangle_normals.empty()) {
+            const TriangleNormals t = scene.triangle_normals[primitive];
+            const Vec3f n = b.x * scene.normals[t.n0] + b.y * scene.normals[t.n1] + b.z * scene.normals[t.n2];
+            const float length2 = glm::dot(n, n);
+            if (length2 > 0.0f) return n * (1.0f / std::sqrt(length2));
+        }
+    }
+    return fallback;
+}
+
+/// Point at the given barycentric weights of a triangle, seen from `wo`. The error bound is that of the weighted
+/// sum of corners.   [Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., 6.8.4]
+template <FeatureSet F>
+PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
+    const Triangle& triangle = scene.triangles[primitive];
+    const Vec3f p0 = b.x * scene.positions[triangle.v0];
+    const Vec3f p1 = b.y * scene.positions[triangle.v1];
+    const Vec3f p2 = b.z * scene.positions[triangle.v2];
+    const Vec3f normal = glm::normalize(triangle_cross(
+        scene.positions[triangle.v0], scene.positions[triangle.v1], scene.positions[triangle.v2]));
+    const Vec3f error = gamma_bound(7) * (absolute(p0) + absolute(p1) + absolute(p2));
+
+    SurfacePoint point;
+    point.position = p0 + p1 + p2;
+    point.position_error = glm::dot(absolute(normal), error);
+    point.primitive = primitive;
+    point.material = triangle.material;
+    point.front = glm::dot(normal, wo) >= 0.0f;
+    const Vec3f smooth = interpolate_normal<F>(scene, primitive, b, normal);
+    point.geometric_normal = point.front ? normal : -normal;
+    // A file may give normals that disagree with the winding: the shading normal follows the geometric one.
+    point.shading_normal = glm::dot(smooth, point.geometric_normal) >= 0.0f ? smooth : -smooth;
+    return point;
+}
+
+template <FeatureSet F>
+PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
+    return make_surface_point<F>(scene, hit.primitive, inner_barycentrics(hit), wo);
+}
+
+/// Moves `coordinate` by `offset` and then one float further in the same direction.
+PL_HD inline float offset_outwards(float coordinate, float offset) {
+    const float moved = coordinate + offset;
+    return offset > 0.0f ? next_float_up(moved) : (offset < 0.0f ? next_float_down(moved) : moved);
+}
+
+/// Origin of a ray that leaves the surface towards `direction`: outside the error bound, on the right side.
+PL_HD inline Vec3f spawn_origin(const SurfacePoint& point, Vec3f direction) {
+    const float side = glm::dot(direction, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f;
+    const Vec3f offset = (side * point.position_error) * point.geometric_normal;
+    return {offset_outwards(point.position.x, offset.x), offset_outwards(point.position.y, offset.y),
+            offset_outwards(point.position.z, offset.z)};
+}
+
+PL_HD inline Ray spawn_ray(const SurfacePoint& point, Vec3f direction) {
+    return {.origin = spawn_origin(point, direction), .direction = direction, .source = point.primitive};
+}
+
+/// The segment between two surface points, free of both: 0 < t < 1.
+PL_HD inline Ray spawn_shadow_ray(const SurfacePoint& from, const SurfacePoint& to) {
+    const Vec3f direction = to.position - from.position;
+    const Vec3f origin = spawn_origin(from, direction);
+    const Vec3f end = spawn_origin(to, -direction);
+    return {.origin = origin,
+            .direction = end - origin,
+            .t_max = 1.0f,
+            .source = from.primitive,
+            .target = to.primitive};
+}
+
+}  // namespace pl

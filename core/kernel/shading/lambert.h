@@ -1,0 +1,30 @@
+// The Lambert lobe: f = albedo / pi on the upper side of the shading normal.
+#pragma once
+
+#include "core/kernel/base/frame.h"
+#include "core/kernel/base/warp.h"
+#include "core/kernel/scene/surface_point.h"
+
+namespace pl {
+
+/// cos(theta_i) of a direction that the surface can reflect; 0 for one below the true or the shading surface.
+PL_HD inline float reflection_cosine(const SurfacePoint& surface, Vec3f wi) {
+    if (glm::dot(wi, surface.geometric_normal) <= 0.0f) return 0.0f;
+    return max_of(glm::dot(wi, surface.shading_normal), 0.0f);
+}
+
+/// BSDF times cosine, per steradian.
+PL_HD inline Vec3f lambert_eval(Vec3f albedo, float cos_i) { return albedo * (cos_i * kInvPi); }
+
+/// Cosine-weighted direction around the shading normal; u in [0,1)^2. Density: lambert_pdf_sa.
+PL_HD inline Vec3f lambert_sample(const SurfacePoint& surface, Vec2f u) {
+    return make_frame(surface.shading_normal).to_world(square_to_cosine_hemisphere(u));
+}
+
+/// Density of lambert_sample per steradian. Directions between shading and geometric horizon have a density but
+/// no reflectance: they are zero-valued samples.
+PL_HD inline float lambert_pdf_sa(const SurfacePoint& surface, Vec3f wi) {
+    return cosine_hemisphere_pdf_sa(glm::dot(wi, surface.shading_normal));
+}
+
+}  // namespace pl

@@ -1,0 +1,80 @@
+// Choosing a point on a light, and the density of that choice.
+#pragma once
+
+#include "core/kernel/base/warp.h"
+#include "core/kernel/shading/lambert.h"
+
+namespace pl {
+
+/// Density, per unit area, of choosing a point on this emitter: lights are chosen in proportion to area times
+/// luminance, points uniformly, so the area cancels.
+PL_HD inline float light_pdf_area(const SceneView& scene, const Material& material) {
+    return scene.light_power > 0.0f ? luminance(material.emission) / scene.light_power : 0.0f;
+}
+
+/// Same density per steradian, seen from `from` along the unit direction `wi` that meets `on_light`.
+PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const SurfacePoint& on_light, Vec3f wi) {
+    const float cos_light = std::fabs(glm::dot(wi, on_light.geometric_normal));
+    const Vec3f segment = on_light.position - from;
+    if (cos_light == 0.0f) return 0.0f;
+    return light_pdf_area(scene, scene.materials[on_light.material]) * glm::dot(segment, segment) / cos_light;
+}
+
+/// Index of the light whose interval of the cumulative probabilities holds u in [0,1).
+PL_HD inline std::uint32_t choose_light(const SceneView& scene, float u) {
+    std::uint32_t low = 0;
+    std::uint32_t high = scene.lights.count - 1;
+    while (low < high) {
+        const std::uint32_t middle = (low + high) / 2;
+        if (u < scene.lights[middle].cumulative_probability)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+/// A point on a light as seen from `from`; u in [0,1)^3. The scene must have lights.
+PL_HD inline SurfacePoint sample_light(const SceneView& scene, Vec3f from, Vec3f u) {
+    const std::uint32_t primitive = scene.lights[choose_light(scene, u.x)].primitive;
+    const Vec2f b = square_to_triangle({u.y, u.z});
+    const Vec3f weights{1.0f - b.x - b.y, b.x, b.y};
+    SurfacePoint point = make_surface_point<FeatureSet{}>(scene, primitive, weights, Vec3f{0.0f});
+    if (glm::dot(point.geometric_normal, from - point.position) < 0.0f) {
+        point.geometric_normal = -point.geometric_normal;
+        point.front = false;
+    }
+    return point;
+}
+
+/// A light sample seen from a surface that could reflect it.
+struct DirectLight {
+    SurfacePoint light;
+    Vec3f wi{0.0f};       ///< unit, from the surface to the light
+    Vec3f emitted{0.0f};  ///< radiance of the light towards the surface
+    float cos_i = 0.0f;
+    float pdf_sa = 0.0f;  ///< 0: this sample cannot contribute, whatever is in between
+};
+
+/// Samples a light for a surface; u in [0,1)^3. No visibility: the caller traces the shadow ray.
+PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const SurfacePoint& surface, Vec3f u) {
+    if (scene.lights.empty()) return {};
+    DirectLight sample{.light = sample_light(scene, surface.position, u)};
+    const Vec3f segment = sample.light.position - surface.position;
+    const float distance2 = glm::dot(segment, segment);
+    if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};
+    sample.wi = segment * (1.0f / std::sqrt(distance2));
+    sample.cos_i = reflection_cosine(surface, sample.wi);
+    sample.emitted = emitted_radiance(scene.materials[sample.light.material], sample.light.front);
+    if (sample.cos_i > 0.0f && !is_black(sample.emitted))
+        sample.pdf_sa = light_pdf_sa(scene, surface.position, sample.light, sample.wi);
+    return sample;
+}
+
+/// Balance heuristic for two strategies that draw one sample each; pdfs in the same measure, own pdf first.
+/// [Veach 1997, eq. 9.8]; written as a ratio so that huge densities cannot overflow.
+PL_HD inline float balance_weight(float own_pdf, float other_pdf) {
+    return own_pdf > 0.0f ? 1.0f / (1.0f + other_pdf / own_pdf) : 0.0f;
+}
+
+}  // namespace pl

@@ -1,0 +1,30 @@
+// From a description to the arrays that kernels read.
+#pragma once
+
+#include "core/kernel/scene/camera.h"
+#include "core/scene/description.h"
+#include "core/scene/scene_storage.h"
+
+namespace pl {
+
+/// Axis-aligned bounds of all triangles; empty scenes give low > high.
+struct Bounds {
+    Vec3f low{kInfinity};
+    Vec3f high{-kInfinity};
+
+    bool empty() const { return !(low.x <= high.x); }
+    Vec3f center() const { return 0.5f * (low + high); }
+    float diagonal() const { return empty() ? 0.0f : glm::length(high - low); }
+};
+
+Bounds bounds_of(const SceneDescription& scene);
+
+/// Packs triangles, materials and lights and builds the hierarchy. The description must be valid.
+/// Smooth normals are packed only if a triangle has them: triangles without get their geometric normal.
+HostScene pack_scene(const SceneDescription& scene);
+
+/// Camera basis for an image of the given shape. `up` along the view direction is replaced by the axis that is
+/// farthest from it.
+PinholeCamera make_camera(const CameraDescription& camera, int width, int height);
+
+}  // namespace pl

@@ -1,0 +1,52 @@
+// Owner of a scene's arrays, written once for host and device: SceneStorage<HostArray>, SceneStorage<DeviceArray>.
+#pragma once
+
+#include "core/base/host_array.h"
+#include "core/kernel/scene/scene_view.h"
+
+namespace pl {
+
+template <template <class> class Array>
+struct SceneStorage {
+    Array<Vec3f> positions;
+    Array<Triangle> triangles;
+    Array<Vec3f> normals;
+    Array<TriangleNormals> triangle_normals;
+    Array<Material> materials;
+    Array<Light> lights;
+    Array<BvhNode> bvh_nodes;
+    Array<std::uint32_t> bvh_primitives;
+    float light_power = 0.0f;
+    Vec3f environment{0.0f};
+
+    SceneView view() const {
+        return {.positions = view_of(positions),
+                .triangles = view_of(triangles),
+                .normals = view_of(normals),
+                .triangle_normals = view_of(triangle_normals),
+                .materials = view_of(materials),
+                .lights = view_of(lights),
+                .bvh = {.nodes = view_of(bvh_nodes), .primitives = view_of(bvh_primitives)},
+                .light_power = light_power,
+                .environment = environment};
+    }
+};
+
+using HostScene = SceneStorage<HostArray>;
+
+/// Calls fn(from_array, to_array) for every array and copies the scalars: the one list that uploads go by.
+template <template <class> class From, template <class> class To, class Fn>
+void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
+    fn(from.positions, to.positions);
+    fn(from.triangles, to.triangles);
+    fn(from.normals, to.normals);
+    fn(from.triangle_normals, to.triangle_normals);
+    fn(from.materials, to.materials);
+    fn(from.lights, to.lights);
+    fn(from.bvh_nodes, to.bvh_nodes);
+    fn(from.bvh_primitives, to.bvh_primitives);
+    to.light_power = from.light_power;
+    to.environment = from.environment;
+}
+
+}  // namespace pl
