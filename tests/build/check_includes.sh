@@ -89,20 +89,20 @@ check_includes() {
         else
             check_library "$file:$line" "$file" "${BASH_REMATCH[4]}"
         fi
-    done < <(grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.h' --include='*.cpp' --include='*.cu' \
-        --include='*.cuh' "$folder")
+    done <<<"$(grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.h' --include='*.cpp' --include='*.cu' \
+        --include='*.cuh' "$folder")"
 }
 
 # Words that have no place in device code; comments and strings are cut off first.
 check_kernel_words() {
     local banned='\b(throw|try|catch|virtual|new|malloc|dynamic_cast|typeid)\b|\bdelete\b[^;]*[^; ]' file
-    while read -r file; do
+    find core/kernel -name '*.h' | while read -r file; do
         local words=$banned
         # shellcheck disable=SC2086
         within "$file" $double_allowed || words+='|\bdouble\b'
         sed -E 's://.*$::; s:/\*.*\*/::g; s:"[^"]*":"":g' "$file" | grep -nE "$words" |
             while IFS= read -r text; do printf '%s:%s\n' "$file" "$text"; done
-    done < <(find core/kernel -name '*.h')
+    done
 }
 
 while IFS=: read -r folder allowed; do
@@ -111,13 +111,13 @@ done <<<"$arrows"
 
 if [[ -d core/kernel ]]; then
     while IFS= read -r text; do
-        breach "$text  <- not in core/kernel (no allocation, exceptions, virtual calls; double only in: $double_allowed)"
-    done < <(check_kernel_words)
+        [[ -n $text ]] && breach "$text  <- not in core/kernel (no allocation, exceptions, virtual calls; double only in: $double_allowed)"
+    done <<<"$(check_kernel_words)"
 fi
 
 while IFS= read -r file; do
-    breach "$file: no #pragma once"
-done < <(find core cpu cuda ui app -name '*.h' -exec grep -L '^#pragma once' {} + 2>/dev/null)
+    [[ -n $file ]] && breach "$file: no #pragma once"
+done <<<"$(find core cpu cuda ui app -name '*.h' -exec grep -L '^#pragma once' {} + 2>/dev/null)"
 
 for folder in core/*/; do
     folder=${folder%/}
