@@ -3,7 +3,7 @@
 include(Catch)
 
 # pl_add_test(NAME SOURCES a.cpp... [LIBS target...] [LABELS label...] [PROCESSORS n])
-# One Catch2 program build/<preset>/tests/NAME; its cases become tests called "NAME: case".
+# One Catch2 program build/<preset>/bin/NAME; its cases become tests called "NAME.case".
 # PROCESSORS: how many cores a case keeps busy (default 1).
 function(pl_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "PROCESSORS" "SOURCES;LIBS;LABELS")
@@ -14,7 +14,7 @@ function(pl_add_test name)
     add_executable(${name} ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE ${arg_LIBS} pl_options pl_warnings dep::catch2)
     target_compile_definitions(${name} PRIVATE PL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 
     pl_discover(${name} push "~[merge]~[nightly]~[.]" 300)
     pl_has_tag(in_merge merge ${arg_SOURCES})
@@ -45,14 +45,20 @@ endfunction()
 
 # Uses LABELS and PROCESSORS of the calling pl_add_test.
 function(pl_discover name tier spec timeout)
-    set(labels ${tier} ${arg_LABELS})
-    # A list inside a list: the semicolon must survive two expansions of catch_discover_tests.
-    list(JOIN labels "\\;" labels)
+    set(list "${name}_${tier}_TESTS")
     catch_discover_tests(${name}
         TEST_SPEC "${spec}"
-        TEST_PREFIX "${name}: "
-        TEST_LIST "${name}_${tier}_TESTS"
-        PROPERTIES LABELS "${labels}" TIMEOUT ${timeout} PROCESSORS ${arg_PROCESSORS})
+        TEST_PREFIX "${name}."
+        TEST_LIST ${list}
+        PROPERTIES TIMEOUT ${timeout} PROCESSORS ${arg_PROCESSORS})
+    # A list of labels does not survive catch_discover_tests, so ctest sets it when it has read the tests.
+    set(script "${CMAKE_CURRENT_BINARY_DIR}/${name}_${tier}_labels.cmake")
+    file(CONFIGURE OUTPUT "${script}" @ONLY CONTENT [[
+foreach(test IN LISTS @list@)
+    set_tests_properties("${test}" PROPERTIES LABELS "@tier@;@arg_LABELS@")
+endforeach()
+]])
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${script}")
 endfunction()
 
 # Catch2 2 warns when asked for the tests of a tier that has none, so the sources are searched for the tag first.
