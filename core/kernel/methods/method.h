@@ -24,9 +24,9 @@ struct Arrival {
 
 /// Events a method reports; the driver adds them up.
 struct MethodCounters {
-    std::uint32_t records = 0;
-    std::uint32_t lookups = 0;
-    std::uint32_t lookup_misses = 0;
+    std::uint64_t records = 0;
+    std::uint64_t lookups = 0;
+    std::uint64_t lookup_misses = 0;
 };
 
 /// `Vertex` is what a method knows about the surface point a path stands on; `Memory` is what it keeps until the

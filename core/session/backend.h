@@ -1,0 +1,112 @@
+// The only virtual interface between a session and what runs its kernels; called a few times per pass.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/fields/field_storage.h"
+#include "core/kernel/film/film_view.h"
+#include "core/kernel/integrator/path.h"
+#include "core/kernel/scene/camera.h"
+#include "core/scene/scene_storage.h"
+#include "core/session/methods.h"
+
+namespace pl {
+
+/// Films are parked by method and view, so that switching back resumes instead of starting over.
+struct FilmSlot {
+    MethodId method = MethodId::Default;
+    View view = View::Beauty;
+
+    int index() const { return static_cast<int>(method) * kViewCount + static_cast<int>(view); }
+    static constexpr int kViewCount = 7;
+    static constexpr int kCount = kMethodCount * kViewCount;
+    friend bool operator==(FilmSlot, FilmSlot) = default;
+};
+
+struct BackendInfo {
+    std::string name;        ///< "cpu"
+    std::string device;      ///< what it runs on
+    std::string intersector; ///< how rays find triangles in the uploaded scene
+    int threads = 0;
+};
+
+/// Events of one pass. Integer sums: equal for every thread count.
+struct PassCounters {
+    PathCounters path;
+    std::uint64_t paths = 0; ///< started (and finished): pixels of a picture pass, probes of a precomputation
+    std::uint64_t zero_contribution_paths = 0;
+    std::uint64_t invalid_samples = 0;
+
+    PassCounters& operator+=(const PassCounters& other);
+};
+
+/// Asks a running pass to start no further paths. Those under way are finished, because dropping them would drop
+/// the long ones more often than the short ones. Paths are started in ascending order, so what was done is always a
+/// prefix, PassCounters::paths long, and the pass can be resumed behind it without changing a bit of the result.
+using StopFlag = std::atomic<bool>;
+
+/// One sample for every pixel of a film from `first_pixel` on.
+struct PassRequest {
+    FilmSlot slot;
+    FeatureSet features; ///< needed ones; the back end runs the smallest compiled superset
+    PathSettings path;
+    PinholeCamera camera;
+    float bsdf_fraction = 0.5f;
+    std::uint32_t sample = 0; ///< number of the sample, the same for every pixel
+    std::uint32_t first_pixel = 0;
+    const StopFlag* stop = nullptr;
+};
+
+/// One stratified path for every cell of every volume from `first_probe` on, recorded into a method's tables.
+struct PrecomputeRequest {
+    MethodId method = MethodId::Precomputed;
+    FeatureSet features;
+    PathSettings path;
+    std::uint32_t sample = 0; ///< stratum, below strata_side^2
+    std::uint32_t strata_side = 4;
+    std::uint32_t first_probe = 0; ///< volume-major, then by cell
+    const StopFlag* stop = nullptr;
+};
+
+struct FilmReading {
+    int width = 0;
+    int height = 0;
+    std::vector<Vec3f> mean; ///< [row][column]; NaN where every sample was invalid
+    std::uint64_t samples = 0;
+    std::uint64_t invalid = 0;
+};
+
+class RenderBackend {
+public:
+    virtual ~RenderBackend() = default;
+
+    virtual BackendInfo info() const = 0;
+
+    /// Replaces the scene. The storage stays alive and unchanged as long as the back end holds it.
+    virtual void upload_scene(std::shared_ptr<const HostScene> scene) = 0;
+
+    /// Replaces the placement and forgets all tables.
+    virtual void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) = 0;
+    virtual void upload_tables(MethodId method, HostTables tables) = 0;
+    /// Copy of what a method has learned; empty arrays if it has no tables.
+    virtual HostTables download_tables(MethodId method) const = 0;
+    virtual bool has_tables(MethodId method) const = 0;
+
+    /// Makes the film exist with this size and empties it.
+    virtual void reset_film(FilmSlot slot, int width, int height) = 0;
+    virtual FilmReading read_film(FilmSlot slot) const = 0;
+
+    /// View::Beauty: paths of the slot's method; records if the method learns. Other views: first surfaces.
+    virtual PassCounters run_pass(const PassRequest& request) = 0;
+    virtual PassCounters precompute(const PrecomputeRequest& request) = 0;
+    /// Publishes what a method's tables recorded since the last time.
+    virtual void publish(MethodId method) = 0;
+
+    /// Name of the kernel that serves a request, as shown to people: "reinforcement/next-event-estimation".
+    virtual std::string kernel_name(MethodId method, View view, FeatureSet needed) const = 0;
+};
+
+} // namespace pl

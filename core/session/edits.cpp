@@ -1,0 +1,30 @@
+#include "core/session/edits.h"
+
+namespace pl {
+namespace {
+
+struct Table {
+    Invalidation operator()(const EditCamera&) const { return {.films = true}; }
+    Invalidation operator()(const EditSize&) const { return {.films = true}; }
+    Invalidation operator()(const EditMethod&) const { return {}; }
+    Invalidation operator()(const EditView&) const { return {}; }
+    Invalidation operator()(const EditSeed&) const { return {.films = true, .tables = true}; }
+    Invalidation operator()(const EditEstimator&) const { return {.films = true, .tables = true}; }
+    Invalidation operator()(const EditMixture&) const { return {.films = true}; }
+    Invalidation operator()(const EditField&) const {
+        return {.films = true, .tables = true, .volumes = true};
+    }
+    Invalidation operator()(const EditScene&) const {
+        return {.films = true, .tables = true, .volumes = true, .scene = true};
+    }
+    Invalidation operator()(const EditRestart&) const { return {.films = true}; }
+    Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }
+};
+
+} // namespace
+
+Invalidation invalidated_by(const SessionEdit& edit) {
+    return std::visit(Table{}, edit);
+}
+
+} // namespace pl

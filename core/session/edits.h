@@ -1,0 +1,67 @@
+// What a person may change while a session runs, and the one table that says what each change clears.
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "core/session/settings.h"
+
+namespace pl {
+
+struct EditCamera {
+    CameraDescription camera;
+};
+struct EditSize {
+    int width;
+    int height;
+};
+struct EditMethod {
+    MethodId method;
+};
+struct EditView {
+    View view;
+};
+struct EditSeed {
+    std::uint64_t seed;
+};
+struct EditEstimator {
+    int max_depth;
+    bool next_event;
+}; ///< what paths may do
+struct EditMixture {
+    float bsdf_fraction;
+};
+struct EditField {
+    FieldSettings field;
+}; ///< number of volumes, bins, rates
+struct EditScene {
+    std::shared_ptr<const SceneDescription> scene;
+};
+struct EditRestart {}; ///< clear the pictures, keep what was learned
+struct EditForget {};  ///< clear the pictures and what was learned
+
+using SessionEdit = std::variant<EditCamera,
+                                 EditSize,
+                                 EditMethod,
+                                 EditView,
+                                 EditSeed,
+                                 EditEstimator,
+                                 EditMixture,
+                                 EditField,
+                                 EditScene,
+                                 EditRestart,
+                                 EditForget>;
+
+/// What has to go when an edit is applied. Display settings are not here: they are no part of a session.
+struct Invalidation {
+    bool films = false;   ///< all accumulated pictures
+    bool tables = false;  ///< everything learned
+    bool volumes = false; ///< placement of the volumes
+    bool scene = false;   ///< packed scene and hierarchy
+
+    friend bool operator==(const Invalidation&, const Invalidation&) = default;
+};
+
+Invalidation invalidated_by(const SessionEdit& edit);
+
+} // namespace pl

@@ -1,0 +1,61 @@
+#include "core/session/methods.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pl {
+namespace {
+
+constexpr std::array kMethods{
+    MethodInfo{MethodId::Default, "default", "Default", "Directions from the surface's reflectance alone.",
+               false, false},
+    MethodInfo{MethodId::Precomputed, "precomputed", "Precomputed",
+               "Directions guided by a radiance map that is computed first and then frozen.", true, false},
+    MethodInfo{MethodId::Reinforcement, "reinforcement", "Reinforcement",
+               "Directions guided by what the same paths have learned so far (Expected Sarsa).", true, true},
+};
+
+constexpr std::array kViews{
+    ViewInfo{View::Beauty, "beauty", "Beauty", "The full picture.", false, false},
+    ViewInfo{View::Direct, "direct", "Direct light", "First surface, lit by shadow rays only.", false, false},
+    ViewInfo{View::RadianceMap, "radiance-map", "Radiance map",
+             "The learned irradiance shown directly: a biased preview.", true, true},
+    ViewInfo{View::Voronoi, "voronoi", "Voronoi cells", "Which radiance volume serves each point.", true,
+             false},
+    ViewInfo{View::Normal, "normal", "Normals", "Shading normals, as 0.5 (n + 1).", false, false},
+    ViewInfo{View::Albedo, "albedo", "Albedo", "Diffuse reflectance.", false, false},
+    ViewInfo{View::Depth, "depth", "Depth", "Distance from the camera along the ray, in scene units.", false,
+             false},
+};
+
+} // namespace
+
+std::span<const MethodInfo> all_methods() {
+    return kMethods;
+}
+std::span<const ViewInfo> all_views() {
+    return kViews;
+}
+
+const MethodInfo& info_of(MethodId id) {
+    return kMethods[static_cast<std::size_t>(id)];
+}
+const ViewInfo& info_of(View id) {
+    return kViews[static_cast<std::size_t>(id)];
+}
+
+std::optional<MethodId> method_by_name(std::string_view name) {
+    const auto it = std::ranges::find(kMethods, name, &MethodInfo::name);
+    if (it == kMethods.end())
+        return std::nullopt;
+    return it->id;
+}
+
+std::optional<View> view_by_name(std::string_view name) {
+    const auto it = std::ranges::find(kViews, name, &ViewInfo::name);
+    if (it == kViews.end())
+        return std::nullopt;
+    return it->id;
+}
+
+} // namespace pl

@@ -1,0 +1,323 @@
+#include "core/session/session.h"
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/base/timer.h"
+#include "core/kernel/fields/direction_table.h"
+#include "core/kernel/geometry/intersector.h"
+#include "core/scene/needed_effects.h"
+#include "core/scene/pack_scene.h"
+
+namespace pl {
+namespace {
+
+/// Copies the new values of an edit into the settings; scene and commands have none.
+struct Assign {
+    RenderSettings& settings;
+
+    void operator()(const EditCamera& edit) const { settings.camera = edit.camera; }
+    void operator()(const EditSize& edit) const {
+        settings.width = edit.width;
+        settings.height = edit.height;
+    }
+    void operator()(const EditMethod& edit) const { settings.method = edit.method; }
+    void operator()(const EditView& edit) const { settings.view = edit.view; }
+    void operator()(const EditSeed& edit) const { settings.seed = edit.seed; }
+    void operator()(const EditEstimator& edit) const {
+        settings.max_depth = edit.max_depth;
+        settings.next_event = edit.next_event;
+    }
+    void operator()(const EditMixture& edit) const { settings.bsdf_fraction = edit.bsdf_fraction; }
+    void operator()(const EditField& edit) const { settings.field = edit.field; }
+    void operator()(const EditScene& edit) const { settings.camera = edit.scene->camera; }
+    void operator()(const EditRestart&) const {}
+    void operator()(const EditForget&) const {}
+};
+
+bool is_power_of_two(std::uint32_t n) {
+    return n != 0 && (n & (n - 1)) == 0;
+}
+
+/// The method whose tables the field views show: default path tracing has none of its own.
+MethodId table_owner(MethodId method) {
+    return info_of(method).uses_field ? method : MethodId::Reinforcement;
+}
+
+} // namespace
+
+Session::Session(std::unique_ptr<RenderBackend> backend,
+                 std::shared_ptr<const SceneDescription> scene,
+                 const RenderSettings& settings,
+                 double load_seconds)
+    : backend_(std::move(backend)), scene_(std::move(scene)), settings_(settings),
+      load_seconds_(load_seconds) {
+    load_scene();
+}
+
+void Session::load_scene() {
+    const Stopwatch watch;
+    packed_ = std::make_shared<const HostScene>(pack_scene(*scene_));
+    backend_->upload_scene(packed_);
+    build_seconds_ = watch.seconds();
+}
+
+void Session::apply(const SessionEdit& edit) {
+    const Invalidation clear = invalidated_by(edit);
+    std::visit(Assign{settings_}, edit);
+    if (const auto* change = std::get_if<EditScene>(&edit))
+        scene_ = change->scene;
+    if (clear.films)
+        clear_films();
+    if (clear.tables)
+        clear_tables();
+    if (clear.volumes)
+        volumes_.reset();
+    if (clear.scene)
+        load_scene();
+}
+
+void Session::clear_films() {
+    films_.fill(FilmState{});
+}
+
+void Session::clear_tables() {
+    fields_.fill(FieldState{});
+    if (volumes_)
+        backend_->upload_volumes(volumes_, shape_);
+}
+
+void Session::ensure_volumes() {
+    if (volumes_)
+        return;
+    const Stopwatch watch;
+    shape_ = make_field_shape(*packed_, settings_.field);
+    volumes_ = std::make_shared<const HostVolumes>(place_volumes(*packed_, settings_.field));
+    backend_->upload_volumes(volumes_, shape_);
+    place_seconds_ = watch.seconds();
+}
+
+void Session::ensure_tables() {
+    ensure_volumes();
+    const MethodId owner = table_owner(settings_.method);
+    if (!backend_->has_tables(owner))
+        backend_->upload_tables(owner, make_tables(shape_, volumes_->normals.size()));
+}
+
+void Session::ensure_film(FilmSlot slot) {
+    FilmState& state = films_[static_cast<std::size_t>(slot.index())];
+    if (state.allocated)
+        return;
+    backend_->reset_film(slot, settings_.width, settings_.height);
+    state = FilmState{};
+    state.allocated = true;
+}
+
+FeatureSet Session::needed_features() const {
+    const FeatureSet scene = needed_effects(*packed_);
+    return settings_.next_event ? scene.with(Feature::NextEventEstimation) : scene;
+}
+
+std::string Session::kernel_name() const {
+    return backend_->kernel_name(settings_.method, settings_.view, needed_features());
+}
+
+PathSettings Session::path_settings() const {
+    return {.seed = settings_.seed,
+            .max_depth = static_cast<std::uint32_t>(settings_.max_depth),
+            .next_event = settings_.next_event ? 1u : 0u};
+}
+
+bool Session::needs_precompute() const {
+    const bool wanted = settings_.view == View::Beauty || info_of(settings_.view).needs_tables;
+    return wanted && settings_.method == MethodId::Precomputed &&
+           field().precomputed_slices < static_cast<std::uint32_t>(settings_.field.precompute_samples);
+}
+
+Progress Session::precompute_slice(const StopFlag* stop) {
+    const Stopwatch watch;
+    FieldState& state = field();
+    PathSettings path = path_settings();
+    path.stream = Stream::Precompute;
+    const auto slices = static_cast<std::uint32_t>(settings_.field.precompute_samples);
+    const PassCounters counters =
+        backend_->precompute({.method = settings_.method,
+                              .features = needed_features(),
+                              .path = path,
+                              .sample = state.precomputed_slices,
+                              .strata_side = static_cast<std::uint32_t>(std::lround(std::sqrt(slices))),
+                              .first_probe = state.next_probe,
+                              .stop = stop});
+    state.records += counters.paths;
+    state.next_probe += static_cast<std::uint32_t>(counters.paths);
+    const bool complete = state.next_probe >= probe_count();
+    if (complete) {
+        state.next_probe = 0;
+        if (++state.precomputed_slices == slices) {
+            backend_->publish(settings_.method);
+            ++state.passes;
+        }
+    }
+    state.precompute_seconds += watch.seconds();
+    return complete ? Progress::Precomputed : Progress::Stopped;
+}
+
+std::uint32_t Session::probe_count() const {
+    return static_cast<std::uint32_t>(volumes_->normals.size()) *
+           static_cast<std::uint32_t>(shape_.cells.count());
+}
+
+Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
+    ensure_film(target);
+    FilmState& state = films_[static_cast<std::size_t>(target.index())];
+    // What is learned changes under the map: restarting at powers of two keeps at least half of the samples recent.
+    if (target.view == View::RadianceMap && state.next_pixel == 0 && is_power_of_two(state.passes))
+        backend_->reset_film(target, settings_.width, settings_.height);
+
+    const Stopwatch watch;
+    const PassCounters counters =
+        backend_->run_pass({.slot = target,
+                            .features = needed_features(),
+                            .path = path_settings(),
+                            .camera = make_camera(settings_.camera, settings_.width, settings_.height),
+                            .bsdf_fraction = settings_.bsdf_fraction,
+                            .sample = state.passes,
+                            .first_pixel = state.next_pixel,
+                            .stop = stop});
+    state.render_seconds += watch.seconds();
+    state.counters += counters;
+    state.next_pixel += static_cast<std::uint32_t>(counters.paths);
+    if (target.view == View::Beauty) {
+        field().records += counters.path.method.records;
+        field().lookup_misses += counters.path.method.lookup_misses;
+    }
+    if (state.next_pixel < pixel_count())
+        return Progress::Stopped;
+    state.next_pixel = 0;
+    ++state.passes;
+    if (target.view == View::Beauty && info_of(target.method).learns)
+        publish_pass(state);
+    return Progress::Rendered;
+}
+
+void Session::publish_pass(FilmState& state) {
+    const Stopwatch watch;
+    backend_->publish(settings_.method);
+    ++field().passes;
+    state.learn_seconds += watch.seconds();
+}
+
+Progress Session::advance(const StopFlag* stop) {
+    const ViewInfo& view = info_of(settings_.view);
+    if (view.needs_volumes)
+        ensure_volumes();
+    if (info_of(settings_.method).uses_field || view.needs_tables)
+        ensure_tables();
+    if (needs_precompute())
+        return precompute_slice(stop);
+    if (view.needs_tables && info_of(settings_.method).learns && film().next_pixel == 0) {
+        const Progress learned = render_slot({settings_.method, View::Beauty}, stop);
+        if (learned == Progress::Stopped)
+            return learned;
+    }
+    return render_slot(slot(), stop);
+}
+
+std::optional<FieldStatus> Session::field_status() const {
+    if (!volumes_ || !info_of(settings_.method).uses_field)
+        return std::nullopt;
+    const FieldState& state = field();
+    FieldStatus status{.volumes = static_cast<int>(volumes_->normals.size()),
+                       .bins = shape_.cells.count(),
+                       .bytes = volumes_->normals.size() * bytes_per_volume(shape_.cells.count()),
+                       .passes = state.passes,
+                       .records = state.records,
+                       .lookup_misses = state.lookup_misses,
+                       .precomputed_share = 1.0};
+    if (settings_.method == MethodId::Precomputed)
+        status.precomputed_share =
+            static_cast<double>(state.precomputed_slices) / settings_.field.precompute_samples;
+    return status;
+}
+
+Snapshot Session::snapshot() const {
+    const FilmState& state = film();
+    Snapshot result{.slot = slot(),
+                    .width = settings_.width,
+                    .height = settings_.height,
+                    .pixels = {},
+                    .passes = state.passes,
+                    .counters = state.counters,
+                    .clocks = {.load = load_seconds_,
+                               .build = build_seconds_,
+                               .place = place_seconds_,
+                               .precompute = field().precompute_seconds,
+                               .learn = state.learn_seconds,
+                               .render = state.render_seconds},
+                    .field = field_status(),
+                    .camera = settings_.camera,
+                    .kernel = kernel_name()};
+    if (state.allocated)
+        result.pixels = backend_->read_film(slot()).mean;
+    else
+        result.pixels.assign(static_cast<std::size_t>(settings_.width) *
+                                 static_cast<std::size_t>(settings_.height),
+                             Vec3f{0.0f});
+    return result;
+}
+
+VolumeInspection Session::inspect_volume(std::int32_t volume) const {
+    const MethodId owner = table_owner(settings_.method);
+    if (!volumes_ || !backend_->has_tables(owner))
+        throw Error(ErrorKind::Usage,
+                    "nothing has been learned yet: render with a method that uses radiance volumes "
+                    "(precomputed, reinforcement) first");
+    if (volume < 0 || static_cast<std::size_t>(volume) >= volumes_->normals.size())
+        throw Error(ErrorKind::Usage, "radiance volume " + std::to_string(volume) +
+                                          " does not exist: expected 0 to " +
+                                          std::to_string(volumes_->normals.size()) + " (exclusive)");
+    HostTables tables = backend_->download_tables(owner);
+    const FieldView field = field_view(shape_, *volumes_, tables);
+    const auto index = static_cast<std::size_t>(volume);
+    const auto cells = static_cast<std::size_t>(shape_.cells.count());
+    const auto first = static_cast<std::ptrdiff_t>(index * cells);
+    const auto last = first + static_cast<std::ptrdiff_t>(cells);
+
+    VolumeInspection result{.volume = volume,
+                            .position = volumes_->sites[index].position,
+                            .normal = volumes_->normals[index],
+                            .side = shape_.cells.side,
+                            .radiance = {tables.radiance.begin() + first, tables.radiance.begin() + last},
+                            .probability = {},
+                            .visits = {tables.visits.begin() + first, tables.visits.begin() + last},
+                            .mean_radiance = tables.mean_radiance[index]};
+    const DirectionTable table(field, volume);
+    for (int row = 0; row < shape_.cells.side; ++row)
+        for (int column = 0; column < shape_.cells.side; ++column)
+            result.probability.push_back(table.cell_probability(column, row));
+    return result;
+}
+
+std::int32_t Session::find_volume_at(Vec3f position, Vec3f normal) {
+    ensure_volumes();
+    return find_volume({.nodes = view_of(volumes_->kd_nodes)}, position, normal);
+}
+
+std::optional<PickedPoint> Session::pick(Vec2f film_point) {
+    const SceneView scene = packed_->view();
+    const PinholeCamera camera = make_camera(settings_.camera, settings_.width, settings_.height);
+    const Ray ray = generate_ray(camera, film_point,
+                                 {static_cast<float>(settings_.width), static_cast<float>(settings_.height)});
+    const Hit hit = BvhIntersector{scene}.closest_hit(ray);
+    if (!hit.found())
+        return std::nullopt;
+    const auto surface = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
+    return PickedPoint{.position = surface.position,
+                       .normal = surface.geometric_normal,
+                       .primitive = surface.primitive,
+                       .material = surface.material,
+                       .distance = hit.t,
+                       .volume = find_volume_at(surface.position, surface.geometric_normal)};
+}
+
+} // namespace pl

@@ -1,0 +1,110 @@
+// A session: settings, scene, back end, films and learned fields. Viewer, command line, tests and benchmarks drive
+// the same one. Not thread safe: one thread owns it.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "core/session/backend.h"
+#include "core/session/edits.h"
+#include "core/session/snapshot.h"
+
+namespace pl {
+
+/// What one call of Session::advance did.
+enum class Progress {
+    Precomputed, ///< a slice of the radiance map; the picture has not changed
+    Rendered,    ///< one more sample per pixel
+    Stopped,     ///< the stop flag was seen; the next call goes on where this one ended
+};
+
+class Session {
+public:
+    /// The scene must be valid. `load_seconds` goes into the clocks.
+    Session(std::unique_ptr<RenderBackend> backend,
+            std::shared_ptr<const SceneDescription> scene,
+            const RenderSettings& settings,
+            double load_seconds = 0.0);
+
+    /// Applies a change and clears what invalidated_by() says.
+    void apply(const SessionEdit& edit);
+
+    /// Does the next piece of work: a slice of precomputation if the method still needs it, else one sample for
+    /// every pixel, followed by publication if the method learns.
+    Progress advance(const StopFlag* stop = nullptr);
+
+    /// Copy of the current film and all statistics.
+    Snapshot snapshot() const;
+
+    /// What the current method learned at a volume. Throws Error(Usage) if it learns nothing.
+    VolumeInspection inspect_volume(std::int32_t volume) const;
+    /// Volume that serves a point; kNoVolume if none. Places the volumes if they are not placed yet.
+    std::int32_t find_volume_at(Vec3f position, Vec3f normal);
+    /// First surface under a point of the film, in pixels of the current size; empty where nothing is hit.
+    std::optional<PickedPoint> pick(Vec2f film);
+
+    const RenderSettings& settings() const { return settings_; }
+    const SceneDescription& scene() const { return *scene_; }
+    std::shared_ptr<const HostScene> packed_scene() const { return packed_; }
+    BackendInfo backend() const { return backend_->info(); }
+    RenderBackend& backend_access() { return *backend_; }
+    /// Effects that scene and settings call for.
+    FeatureSet needed_features() const;
+    std::string kernel_name() const;
+    std::uint32_t passes() const { return film().passes; }
+    std::optional<FieldStatus> field_status() const;
+
+private:
+    struct FilmState {
+        bool allocated = false;
+        std::uint32_t passes = 0;     ///< complete ones
+        std::uint32_t next_pixel = 0; ///< where the running pass goes on
+        PassCounters counters{};
+        double render_seconds = 0.0;
+        double learn_seconds = 0.0;
+    };
+    struct FieldState {
+        std::uint64_t passes = 0;
+        std::uint64_t records = 0;
+        std::uint64_t lookup_misses = 0;
+        std::uint32_t precomputed_slices = 0; ///< complete ones
+        std::uint32_t next_probe = 0;         ///< where the running slice goes on
+        double precompute_seconds = 0.0;
+    };
+
+    FilmSlot slot() const { return {settings_.method, settings_.view}; }
+    std::uint32_t pixel_count() const {
+        return static_cast<std::uint32_t>(settings_.width * settings_.height);
+    }
+    std::uint32_t probe_count() const;
+    const FilmState& film() const { return films_[static_cast<std::size_t>(slot().index())]; }
+    FilmState& film() { return films_[static_cast<std::size_t>(slot().index())]; }
+    FieldState& field() { return fields_[static_cast<std::size_t>(settings_.method)]; }
+    const FieldState& field() const { return fields_[static_cast<std::size_t>(settings_.method)]; }
+
+    void load_scene();
+    void ensure_volumes();
+    void ensure_tables();
+    void ensure_film(FilmSlot slot);
+    void clear_films();
+    void clear_tables();
+    bool needs_precompute() const;
+    Progress precompute_slice(const StopFlag* stop);
+    Progress render_slot(FilmSlot slot, const StopFlag* stop);
+    void publish_pass(FilmState& state);
+    PathSettings path_settings() const;
+
+    std::unique_ptr<RenderBackend> backend_;
+    std::shared_ptr<const SceneDescription> scene_;
+    RenderSettings settings_;
+    std::shared_ptr<const HostScene> packed_;
+    std::shared_ptr<const HostVolumes> volumes_;
+    FieldShape shape_;
+    std::array<FilmState, FilmSlot::kCount> films_{};
+    std::array<FieldState, kMethodCount> fields_{};
+    double load_seconds_ = 0.0;
+    double build_seconds_ = 0.0;
+    double place_seconds_ = 0.0;
+};
+
+} // namespace pl

@@ -1,0 +1,34 @@
+// What a person can set. Plain values with defaults; every front end fills the same structs.
+#pragma once
+
+#include <cstdint>
+
+#include "core/fields/make_field.h"
+#include "core/kernel/film/tonemap.h"
+#include "core/kernel/inspect/views.h"
+#include "core/scene/description.h"
+#include "core/session/methods.h"
+
+namespace pl {
+
+/// Everything that decides the numbers of a rendering, besides the scene and the back end.
+struct RenderSettings {
+    MethodId method = MethodId::Default;
+    View view = View::Beauty;
+    int width = 512;
+    int height = 512;
+    CameraDescription camera;
+    std::uint64_t seed = 1;
+    int max_depth = 64;
+    bool next_event = false;
+    float bsdf_fraction = 0.5f; ///< share of BSDF samples in the mixture of the guided methods, in [0.1, 1]
+    FieldSettings field;
+};
+
+/// Display only: never touches what was accumulated or learned.
+struct DisplaySettings {
+    float exposure_ev = 0.0f;
+    ToneCurve curve = ToneCurve::Clamp;
+};
+
+} // namespace pl
