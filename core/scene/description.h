@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -46,6 +47,7 @@ struct SceneDescription {
     std::vector<MaterialDescription> materials;
     CameraDescription camera;
     glm::vec3 environment{0.0f};  ///< constant radiance of everything that no surface covers
+    std::vector<std::pair<std::string, std::string>> settings;  ///< option name and value the file asks for
     std::vector<std::string> warnings;  ///< told once, by whoever loaded the scene
 };
 

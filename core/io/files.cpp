@@ -1,0 +1,121 @@
+#include "core/io/files.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+
+namespace pl {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using FileHandle = std::unique_ptr<std::FILE, CloseFile>;
+
+std::string reason(int error_number) {
+    return std::generic_category().message(error_number);
+}
+
+[[noreturn]] void fail_read(const fs::path& path, const std::string& why) {
+    throw Error(ErrorKind::Input, fmt::format("{}: cannot be read: {}", path.string(), why));
+}
+
+[[noreturn]] void fail_write(const fs::path& path, const std::string& why) {
+    throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
+}
+
+/// Writes and closes; 0 or the error number.
+int write_all(const fs::path& path, const char* mode, std::string_view bytes) {
+    FileHandle file(std::fopen(path.c_str(), mode));
+    if (!file) {
+        return errno;
+    }
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
+        return errno;
+    }
+    // The buffer is written here: a full disk shows up at the latest in this call.
+    return std::fclose(file.release()) == 0 ? 0 : errno;
+}
+
+/// A name in the folder of `path` that no other writer of this machine uses. Short, because names are limited.
+fs::path temporary_beside(const fs::path& path) {
+    static std::atomic<unsigned> counter{0};
+    return path.parent_path() / fmt::format(".pathlight-{}-{}.tmp", ::getpid(), counter.fetch_add(1));
+}
+
+} // namespace
+
+std::string read_file(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) {
+        fail_read(path,
+                  error && error != std::errc::no_such_file_or_directory ? error.message() : "no such file");
+    }
+    if (!fs::is_regular_file(status)) {
+        fail_read(path,
+                  fs::is_directory(status) ? "it is a directory, a file is expected" : "it is not a file");
+    }
+    FileHandle file(std::fopen(path.c_str(), "rb"));
+    if (!file) {
+        fail_read(path, reason(errno));
+    }
+    std::string bytes;
+    const auto size = fs::file_size(path, error);
+    bytes.resize(error ? 0 : static_cast<std::size_t>(size));
+    // The file may shrink or grow while it is read: what counts is what arrives.
+    bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
+    if (std::ferror(file.get()) != 0) {
+        fail_read(path, reason(errno));
+    }
+    return bytes;
+}
+
+std::string read_text_file(const fs::path& path) {
+    std::string text = read_file(path);
+    if (text.starts_with("\xEF\xBB\xBF")) {
+        text.erase(0, 3);
+    }
+    return text;
+}
+
+void write_file_atomic(const fs::path& path, std::string_view bytes) {
+    std::error_code ignored;
+    fs::path target = path;
+    if (fs::is_symlink(path, ignored)) {
+        target = fs::weakly_canonical(path, ignored);
+    }
+    const fs::file_status status = fs::status(target, ignored);
+    if (fs::is_directory(status)) {
+        fail_write(path, "it is a directory");
+    }
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        if (const int failed = write_all(target, "wb", bytes)) {
+            fail_write(path, reason(failed));
+        }
+        return;
+    }
+    const fs::path temporary = temporary_beside(target);
+    int failed = write_all(temporary, "wbx", bytes);
+    if (failed == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) {
+        failed = errno;
+    }
+    if (failed != 0) {
+        if (failed != EEXIST) {
+            fs::remove(temporary, ignored);
+        }
+        fail_write(path, reason(failed));
+    }
+}
+
+} // namespace pl

@@ -1,0 +1,37 @@
+#include "core/io/frame_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/gtc/constants.hpp>
+
+namespace pl {
+
+CameraDescription frame_camera(const SceneDescription& scene, float fov_deg) {
+    glm::vec3 low(std::numeric_limits<float>::max());
+    glm::vec3 high(std::numeric_limits<float>::lowest());
+    for (const TriangleDescription& triangle : scene.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 p = scene.positions[triangle.vertex[k]];
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    }
+    const glm::dvec3 center = 0.5 * (glm::dvec3(low) + glm::dvec3(high));
+    const double radius = 0.5 * glm::length(glm::dvec3(high) - glm::dvec3(low));
+    const double half_angle = 0.5 * static_cast<double>(fov_deg) * glm::pi<double>() / 180.0;
+    // A tiny object far from the origin: the eye must differ from the target in floats.
+    const double smallest =
+        16.0 * std::abs(center.z) * static_cast<double>(std::numeric_limits<float>::epsilon());
+    const double distance = std::max(radius / std::sin(half_angle), smallest);
+
+    CameraDescription camera;
+    camera.eye = glm::vec3(center + glm::dvec3(0.0, 0.0, distance));
+    camera.target = glm::vec3(center);
+    camera.up = {0.0f, 1.0f, 0.0f};
+    camera.fov_deg = fov_deg;
+    return camera;
+}
+
+} // namespace pl

@@ -1,0 +1,12 @@
+// A camera for a scene that brings none.
+#pragma once
+
+#include "core/scene/description.h"
+
+namespace pl {
+
+/// Looks along -z at the middle of the triangles' bounds, from far enough that their bounding sphere fits a square
+/// picture of `fov_deg`. The scene has at least one triangle.
+CameraDescription frame_camera(const SceneDescription& scene, float fov_deg = 40.0f);
+
+} // namespace pl

@@ -1,0 +1,52 @@
+#include "core/io/image.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/image_checks.h"
+
+namespace pl {
+
+ImageKind image_kind(const std::filesystem::path& path) {
+    std::string suffix = path.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (suffix == ".exr") {
+        return ImageKind::Exr;
+    }
+    if (suffix == ".pfm") {
+        return ImageKind::Pfm;
+    }
+    if (suffix == ".png") {
+        return ImageKind::Png;
+    }
+    throw Error(ErrorKind::Usage,
+                fmt::format("{}: the suffix decides the kind of picture: expected .exr, .pfm or .png, got {}",
+                            path.string(), suffix.empty() ? "none" : suffix));
+}
+
+void require_complete(
+    const std::filesystem::path& path, int width, int height, std::size_t size, std::size_t per_pixel) {
+    if (width <= 0 || height <= 0 ||
+        size != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * per_pixel) {
+        throw Error(ErrorKind::Runtime,
+                    fmt::format("{}: cannot be written: a picture of {}x{} with {} values", path.string(),
+                                width, height, size));
+    }
+}
+
+void require_plausible(const std::filesystem::path& path, long long width, long long height) {
+    constexpr long long kMostPixels = 1ll << 28;
+    if (width <= 0 || height <= 0 || width > kMostPixels / height) {
+        fail_image(path, fmt::format("a size of {}x{} is not supported", width, height));
+    }
+}
+
+void fail_image(const std::filesystem::path& path, const std::string& why) {
+    throw Error(ErrorKind::Input, path.string() + ": " + why);
+}
+
+} // namespace pl

@@ -1,0 +1,237 @@
+#include "core/io/json_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/io/line_reader.h"
+#include "core/io/nearest_name.h"
+
+namespace pl {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kDeepest = 64; // each level stores its pointer: deep nesting would cost memory squared
+
+/// Reads characters and tells how far it came.
+class CountingIterator {
+public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    CountingIterator(const char* at, const char** reached) : at_(at), reached_(reached) {}
+    reference operator*() const { return *at_; }
+    CountingIterator& operator++() {
+        *reached_ = ++at_;
+        return *this;
+    }
+    CountingIterator operator++(int) {
+        CountingIterator before = *this;
+        ++*this;
+        return before;
+    }
+    bool operator==(const CountingIterator& other) const { return at_ == other.at_; }
+    bool operator!=(const CountingIterator& other) const { return at_ != other.at_; }
+
+private:
+    const char* at_;
+    const char** reached_;
+};
+
+/// Follows the parser through the text and notes the line of every key.
+class LineFinder : public nlohmann::json_sax<json> {
+public:
+    LineFinder(std::string_view text, const std::filesystem::path& path, std::map<std::string, int>& lines)
+        : path_(path), lines_(lines), counted_(text.data()), reached_(text.data()) {}
+
+    const char** reached() { return &reached_; }
+
+    bool null() override { return value(); }
+    bool boolean(bool) override { return value(); }
+    bool number_integer(number_integer_t) override { return value(); }
+    bool number_unsigned(number_unsigned_t) override { return value(); }
+    bool number_float(number_float_t, const string_t&) override { return value(); }
+    bool string(string_t&) override { return value(); }
+    bool binary(binary_t&) override { return value(); }
+    bool start_object(std::size_t) override { return open(false); }
+    bool start_array(std::size_t) override { return open(true); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+
+    bool key(string_t& name) override {
+        Level& level = levels_.back();
+        level.pointer = level.base + pointer_step(name);
+        // The parser has read the key up to its closing quote and nothing after it.
+        if (!lines_.try_emplace(level.pointer, current_line()).second) {
+            fail_at(path_, current_line(), fmt::format("key {} is given twice", in_quotes(name)));
+        }
+        return true;
+    }
+
+    bool parse_error(std::size_t, const std::string&, const json::exception& error) override {
+        // "[json.exception.NAME] parse error at line 1, column 2: what": the place is told the common way.
+        std::string_view message = error.what();
+        for (const char* lead : {"] ", "column ", ": "}) {
+            const std::size_t at = message.find(lead);
+            message.remove_prefix(at == std::string_view::npos ? 0 : at + std::string_view(lead).size());
+        }
+        fail_at(path_, current_line(), "not valid JSON: " + std::string(message));
+    }
+
+private:
+    /// An object or array that is open: where it is, and where its current member is.
+    struct Level {
+        std::string base;
+        std::string pointer;
+        bool is_array;
+        std::size_t next_index;
+    };
+
+    bool open(bool is_array) {
+        enter_element();
+        if (levels_.size() >= kDeepest) {
+            fail_at(path_, current_line(), fmt::format("nested deeper than {} levels", kDeepest));
+        }
+        levels_.push_back({levels_.empty() ? "" : levels_.back().pointer, "", is_array, 0});
+        return true;
+    }
+
+    bool value() {
+        enter_element();
+        return true;
+    }
+
+    bool close() {
+        levels_.pop_back();
+        return true;
+    }
+
+    void enter_element() {
+        if (!levels_.empty() && levels_.back().is_array) {
+            Level& level = levels_.back();
+            level.pointer = level.base + "/" + std::to_string(level.next_index++);
+        }
+    }
+
+    int current_line() {
+        line_ += static_cast<int>(std::count(counted_, reached_, '\n'));
+        counted_ = reached_;
+        return line_;
+    }
+
+    const std::filesystem::path& path_;
+    std::map<std::string, int>& lines_;
+    std::vector<Level> levels_;
+    const char* counted_;
+    const char* reached_;
+    int line_ = 1;
+};
+
+} // namespace
+
+std::string pointer_step(const std::string& key) {
+    std::string step = "/";
+    for (const char c : key) {
+        step += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    }
+    return step;
+}
+
+JsonDocument::JsonDocument(std::string_view text, std::filesystem::path path) : path_(std::move(path)) {
+    LineFinder finder(text, path_, lines_);
+    const char* const end = text.data() + text.size();
+    json::sax_parse(CountingIterator(text.data(), finder.reached()), CountingIterator(end, finder.reached()),
+                    &finder);
+    root_ = json::parse(text.begin(), text.end());
+    if (!root_.is_object()) {
+        fail_at(path_, 1, "expected an object { ... }");
+    }
+}
+
+void JsonDocument::fail(const std::string& pointer, const std::string& what) const {
+    const auto line = lines_.find(pointer);
+    fail_at(path_, line == lines_.end() ? 1 : line->second,
+            pointer.empty() ? what : "'" + pointer.substr(1) + "': " + what);
+}
+
+const json* JsonDocument::find(const std::string& pointer) const {
+    const json::json_pointer where(pointer);
+    return root_.contains(where) ? &root_.at(where) : nullptr;
+}
+
+const json* JsonDocument::object(const std::string& pointer,
+                                 const std::vector<std::string>& known_keys) const {
+    const json* const value = find(pointer);
+    if (value == nullptr) {
+        return nullptr;
+    }
+    if (!value->is_object()) {
+        fail(pointer, "expected an object { ... }");
+    }
+    for (const auto& [key, member] : value->items()) {
+        if (std::find(known_keys.begin(), known_keys.end(), key) == known_keys.end()) {
+            fail(pointer + pointer_step(key),
+                 fmt::format("unknown key, did you mean '{}'? Known are: {}", nearest_name(key, known_keys),
+                             fmt::join(known_keys, ", ")));
+        }
+    }
+    return value;
+}
+
+std::optional<std::string> JsonDocument::text(const std::string& pointer) const {
+    const json* const value = find(pointer);
+    if (value != nullptr && !value->is_string()) {
+        fail(pointer, "expected a text in quotes, got " + in_quotes(value->dump()));
+    }
+    return value == nullptr ? std::nullopt : std::optional(value->get<std::string>());
+}
+
+std::optional<bool> JsonDocument::boolean(const std::string& pointer) const {
+    const json* const value = find(pointer);
+    if (value != nullptr && !value->is_boolean()) {
+        fail(pointer, "expected true or false, got " + in_quotes(value->dump()));
+    }
+    return value == nullptr ? std::nullopt : std::optional(value->get<bool>());
+}
+
+std::optional<float> JsonDocument::number(const std::string& pointer) const {
+    const json* const value = find(pointer);
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    const double number = value->is_number() ? value->get<double>() : std::numeric_limits<double>::infinity();
+    if (!(std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max()))) {
+        fail(pointer, "expected a number that fits in a float, got " + in_quotes(value->dump()));
+    }
+    return static_cast<float>(number);
+}
+
+std::optional<glm::vec3> JsonDocument::vector(const std::string& pointer) const {
+    const json* const value = find(pointer);
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    glm::vec3 result(0.0f);
+    for (int i = 0; i < 3; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        const bool fits =
+            value->is_array() && value->size() == 3 && (*value)[at].is_number() &&
+            std::abs((*value)[at].get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
+        if (!fits) {
+            fail(pointer, "expected three numbers [x, y, z], got " + in_quotes(value->dump()));
+        }
+        result[i] = (*value)[at].get<float>();
+    }
+    return result;
+}
+
+} // namespace pl

@@ -1,0 +1,50 @@
+// A JSON text whose complaints name file and line: the JSON library forgets where a value came from.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+
+namespace pl {
+
+/// A checked JSON object together with the lines of its keys.
+class JsonDocument {
+public:
+    /// Throws Error(Input) with file and line: not JSON, a key given twice, not an object at the top.
+    JsonDocument(std::string_view text, std::filesystem::path path);
+
+    const nlohmann::json& root() const { return root_; }
+
+    /// Throws Error(Input) at the line of the member `pointer` (a JSON pointer such as "/camera/eye").
+    [[noreturn]] void fail(const std::string& pointer, const std::string& what) const;
+
+    /// The object at `pointer`, nothing if there is none. Throws if it is no object or has a key that is not known;
+    /// the message names the nearest known one.
+    const nlohmann::json* object(const std::string& pointer,
+                                 const std::vector<std::string>& known_keys) const;
+
+    // The value at `pointer`, nothing if there is none; each throws if it is of another type or not finite.
+    std::optional<std::string> text(const std::string& pointer) const;
+    std::optional<bool> boolean(const std::string& pointer) const;
+    std::optional<float> number(const std::string& pointer) const;
+    std::optional<glm::vec3> vector(const std::string& pointer) const;
+
+private:
+    const nlohmann::json* find(const std::string& pointer) const;
+
+    std::filesystem::path path_;
+    std::map<std::string, int> lines_;
+    nlohmann::json root_;
+};
+
+/// A key as one step of a JSON pointer.
+std::string pointer_step(const std::string& key);
+
+} // namespace pl

@@ -1,0 +1,129 @@
+#include "core/io/load_scene.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/error.h"
+#include "core/io/frame_camera.h"
+#include "core/io/nearest_name.h"
+#include "core/io/obj.h"
+#include "core/io/scene_json.h"
+#include "core/scene/validate.h"
+
+namespace pl {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path scene_file(const fs::path& assets_dir, const std::string& name) {
+    return assets_dir / "scenes" / name / (name + ".json");
+}
+
+std::string lower_extension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+bool is_file(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+bool has_scenes(const fs::path& dir) {
+    std::error_code ignored;
+    return fs::is_directory(dir / "scenes", ignored);
+}
+
+SceneDescription load_file(const fs::path& path) {
+    if (lower_extension(path) == ".json") {
+        return load_scene_json(path);
+    }
+    SceneDescription scene = load_obj(path);
+    scene.name = path.stem().string();
+    scene.camera = frame_camera(scene);
+    return scene;
+}
+
+[[noreturn]] void fail_unknown(const std::string& name, const fs::path& assets_dir) {
+    std::error_code ignored;
+    if (fs::exists(name, ignored)) {
+        throw Error(
+            ErrorKind::Input,
+            fmt::format("{}: expected an .obj file, a scene .json file or the name of a scene", name));
+    }
+    const std::vector<std::string> known = list_scenes(assets_dir);
+    const std::string hint = known.empty() ? ""
+                                           : fmt::format(", did you mean '{}'? Known are: {}",
+                                                         nearest_name(name, known), fmt::join(known, ", "));
+    throw Error(ErrorKind::Input, fmt::format("no scene '{}'{}", name, hint));
+}
+
+} // namespace
+
+SceneDescription load_scene(const std::string& name_or_path, const fs::path& assets_dir) {
+    const std::string extension = lower_extension(name_or_path);
+    const bool is_path = extension == ".obj" || extension == ".json";
+    const bool is_name = !is_path && !name_or_path.empty() && name_or_path.find('/') == std::string::npos;
+    const fs::path path = is_path ? fs::path(name_or_path) : scene_file(assets_dir, name_or_path);
+    if (!is_path && !(is_name && is_file(path))) {
+        fail_unknown(name_or_path, assets_dir);
+    }
+    SceneDescription scene = load_file(path);
+    validate_scene(scene);
+    const glm::vec3 up = usable_up(scene.camera);
+    if (up != scene.camera.up) {
+        scene.camera.up = up;
+        scene.warnings.push_back(
+            fmt::format("{}: the camera's up vector is along its view, replaced by {} {} {}",
+                        scene.source.string(), up.x, up.y, up.z));
+    }
+    return scene;
+}
+
+fs::path find_assets_dir() {
+    if (const char* const named = std::getenv("PATHLIGHT_ASSETS"); named != nullptr && *named != '\0') {
+        if (!has_scenes(named)) {
+            throw Error(ErrorKind::Input,
+                        fmt::format("PATHLIGHT_ASSETS={}: expected a folder that has 'scenes'", named));
+        }
+        return named;
+    }
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    for (fs::path dir = program.parent_path(); !dir.empty(); dir = dir.parent_path()) {
+        if (has_scenes(dir / "assets")) {
+            return dir / "assets";
+        }
+        if (dir == dir.root_path()) {
+            break;
+        }
+    }
+    if (!has_scenes(PL_ASSETS_DIR)) {
+        throw Error(ErrorKind::Input, fmt::format("no folder 'assets' at or above {}: set PATHLIGHT_ASSETS",
+                                                  program.parent_path().string()));
+    }
+    return PL_ASSETS_DIR;
+}
+
+std::vector<std::string> list_scenes(const fs::path& assets_dir) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(assets_dir / "scenes", ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (is_file(scene_file(assets_dir, name))) {
+            names.push_back(name);
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+} // namespace pl

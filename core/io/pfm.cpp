@@ -1,0 +1,108 @@
+// Portable float map: a text header of three lines, then floats from the bottom row to the top.
+#include "core/io/image.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/io/files.h"
+#include "core/io/image_checks.h"
+#include "core/io/line_reader.h"
+
+namespace pl {
+
+static_assert(std::endian::native == std::endian::little,
+              "floats are copied to and from little-endian files");
+
+namespace {
+
+struct Header {
+    int width = 0;
+    int height = 0;
+    bool big_endian = false;
+    std::size_t size = 0; ///< bytes up to the first float
+};
+
+/// The next word, after which one byte of white space is skipped too: behind the last word the floats begin.
+std::string_view take_word(std::string_view bytes, std::size_t& at) {
+    constexpr std::string_view kSpace = " \t\r\n";
+    const std::size_t first = std::min(bytes.find_first_not_of(kSpace, at), bytes.size());
+    const std::size_t end = std::min(bytes.find_first_of(kSpace, first), bytes.size());
+    at = std::min(end + 1, bytes.size());
+    return bytes.substr(first, end - first);
+}
+
+Header read_header(const std::filesystem::path& path, std::string_view bytes) {
+    Header header;
+    if (take_word(bytes, header.size) != "PF") {
+        fail_image(path, "not a color PFM file: expected 'PF' at its start");
+    }
+    const std::optional<std::int64_t> width = parse_integer(take_word(bytes, header.size));
+    const std::optional<std::int64_t> height = parse_integer(take_word(bytes, header.size));
+    const std::optional<double> scale = parse_number(take_word(bytes, header.size));
+    if (!width || !height || !scale || *scale == 0.0) {
+        fail_image(path, "PFM header: expected width, height and a scale other than 0");
+    }
+    require_plausible(path, *width, *height);
+    header.width = static_cast<int>(*width);
+    header.height = static_cast<int>(*height);
+    header.big_endian = *scale > 0.0;
+    return header;
+}
+
+std::size_t row_bytes(int width) {
+    return static_cast<std::size_t>(width) * sizeof(glm::vec3);
+}
+
+void swap_bytes(glm::vec3& pixel) {
+    for (int c = 0; c < 3; ++c) {
+        auto bytes = std::bit_cast<std::array<char, sizeof(float)>>(pixel[c]);
+        std::reverse(bytes.begin(), bytes.end());
+        pixel[c] = std::bit_cast<float>(bytes);
+    }
+}
+
+} // namespace
+
+void write_pfm(const std::filesystem::path& path, const LinearImage& image) {
+    require_complete(path, image.width, image.height, image.pixels.size(), 1);
+    std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
+    const std::size_t start = bytes.size();
+    const std::size_t row = row_bytes(image.width);
+    const auto rows = static_cast<std::size_t>(image.height);
+    bytes.resize(start + rows * row);
+    for (std::size_t y = 0; y < rows; ++y) {
+        const glm::vec3* const from =
+            image.pixels.data() + (rows - 1 - y) * static_cast<std::size_t>(image.width);
+        std::memcpy(bytes.data() + start + y * row, from, row);
+    }
+    write_file_atomic(path, bytes);
+}
+
+LinearImage read_pfm(const std::filesystem::path& path) {
+    const std::string bytes = read_file(path);
+    const Header header = read_header(path, bytes);
+    const std::size_t row = row_bytes(header.width);
+    const auto rows = static_cast<std::size_t>(header.height);
+    if (bytes.size() - header.size != rows * row) {
+        fail_image(path, fmt::format("a PFM of {}x{} has {} bytes of pixels, got {}", header.width,
+                                     header.height, rows * row, bytes.size() - header.size));
+    }
+    LinearImage image{.width = header.width, .height = header.height, .pixels = {}};
+    image.pixels.resize(rows * static_cast<std::size_t>(header.width));
+    for (std::size_t y = 0; y < rows; ++y) {
+        glm::vec3* const to = image.pixels.data() + (rows - 1 - y) * static_cast<std::size_t>(header.width);
+        std::memcpy(to, bytes.data() + header.size + y * row, row);
+    }
+    if (header.big_endian) {
+        std::for_each(image.pixels.begin(), image.pixels.end(), swap_bytes);
+    }
+    return image;
+}
+
+} // namespace pl

@@ -1,0 +1,155 @@
+#include "core/io/scene_json.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/io/files.h"
+#include "core/io/frame_camera.h"
+#include "core/io/json_document.h"
+#include "core/io/nearest_name.h"
+#include "core/io/obj.h"
+
+namespace pl {
+
+namespace {
+
+constexpr const char* kSchema = "pathlight.scene/1";
+
+/// Options that a scene may preset: what decides the picture, not where it goes or what is printed.
+const std::vector<std::string> kSettings = {
+    "method",  "view",         "backend", "threads", "spp",          "time-limit", "target-error",
+    "width",   "height",       "size",    "seed",    "nee",          "max-depth",  "exposure",
+    "tonemap", "field-budget", "volumes", "bins",    "bsdf-fraction"};
+
+void read_camera(const JsonDocument& file, SceneDescription& scene) {
+    const bool given =
+        file.object("/camera", {"eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance"});
+    if (!given) {
+        scene.camera = frame_camera(scene);
+        return;
+    }
+    const float fov_deg = file.number("/camera/fov_deg").value_or(CameraDescription{}.fov_deg);
+    if (!(fov_deg > 0.0f && fov_deg < 180.0f)) {
+        file.fail("/camera/fov_deg",
+                  fmt::format("expected an angle within (0, 180) degrees, got {}", fov_deg));
+    }
+    scene.camera = frame_camera(scene, fov_deg);
+    scene.camera.eye = file.vector("/camera/eye").value_or(scene.camera.eye);
+    scene.camera.target = file.vector("/camera/target").value_or(scene.camera.target);
+    scene.camera.up = file.vector("/camera/up").value_or(scene.camera.up);
+    if (scene.camera.eye == scene.camera.target) {
+        file.fail("/camera/eye", "eye and target are the same point");
+    }
+    if (file.number("/camera/aperture_radius").value_or(0.0f) != 0.0f) {
+        file.fail("/camera/aperture_radius", "this version has a pinhole camera only: expected 0");
+    }
+    if (!(file.number("/camera/focus_distance").value_or(1.0f) > 0.0f)) {
+        file.fail("/camera/focus_distance", "expected a number above 0");
+    }
+}
+
+/// Radiance or emission: three finite numbers of at least 0.
+std::optional<glm::vec3> read_light(const JsonDocument& file, const std::string& pointer) {
+    const std::optional<glm::vec3> value = file.vector(pointer);
+    if (value && glm::any(glm::lessThan(*value, glm::vec3(0.0f)))) {
+        file.fail(pointer, "expected numbers of at least 0");
+    }
+    return value;
+}
+
+void read_environment(const JsonDocument& file, SceneDescription& scene) {
+    const nlohmann::json* const environment =
+        file.object("/environment", {"radiance", "map", "scale", "rotation_deg"});
+    if (environment == nullptr) {
+        return;
+    }
+    for (const char* key : {"map", "scale", "rotation_deg"}) {
+        if (environment->contains(key)) {
+            file.fail(std::string("/environment/") + key,
+                      "this version has no environment maps: expected 'radiance' [r, g, b] only");
+        }
+    }
+    scene.environment = read_light(file, "/environment/radiance").value_or(glm::vec3(0.0f));
+}
+
+MaterialDescription&
+find_material(const JsonDocument& file, SceneDescription& scene, const std::string& name) {
+    std::vector<std::string> names;
+    for (MaterialDescription& material : scene.materials) {
+        if (material.name == name) {
+            return material;
+        }
+        names.push_back(material.name);
+    }
+    file.fail("/materials" + pointer_step(name),
+              fmt::format("the scene has no such material, did you mean '{}'?", nearest_name(name, names)));
+}
+
+void read_materials(const JsonDocument& file, SceneDescription& scene) {
+    const auto all = file.root().find("materials");
+    if (all == file.root().end()) {
+        return;
+    }
+    if (!all->is_object()) {
+        file.fail("/materials", "expected an object { ... }");
+    }
+    for (const auto& [name, overrides] : all->items()) {
+        const std::string at = "/materials" + pointer_step(name);
+        file.object(at, {"albedo", "emission", "two_sided_emission"});
+        MaterialDescription& material = find_material(file, scene, name);
+        material.albedo = read_light(file, at + "/albedo").value_or(material.albedo);
+        if (glm::any(glm::greaterThan(material.albedo, glm::vec3(1.0f)))) {
+            file.fail(at + "/albedo", "expected numbers within [0, 1]");
+        }
+        material.emission = read_light(file, at + "/emission").value_or(material.emission);
+        material.two_sided_emission =
+            file.boolean(at + "/two_sided_emission").value_or(material.two_sided_emission);
+    }
+}
+
+void read_settings(const JsonDocument& file, SceneDescription& scene) {
+    const nlohmann::json* const settings = file.object("/settings", kSettings);
+    if (settings == nullptr) {
+        return;
+    }
+    for (const auto& [name, value] : settings->items()) {
+        if (value.is_string()) {
+            scene.settings.emplace_back(name, value.get<std::string>());
+        } else if (value.is_boolean()) {
+            scene.settings.emplace_back(name, value.get<bool>() ? "on" : "off");
+        } else if (value.is_number()) {
+            scene.settings.emplace_back(name, value.dump());
+        } else {
+            file.fail("/settings" + pointer_step(name), "expected a number, a text, true or false");
+        }
+    }
+}
+
+} // namespace
+
+SceneDescription load_scene_json(const std::filesystem::path& path) {
+    const JsonDocument file(read_text_file(path), path);
+    file.object("", {"schema", "name", "obj", "camera", "environment", "materials", "settings"});
+    const std::optional<std::string> schema = file.text("/schema");
+    if (schema != kSchema) {
+        file.fail("/schema",
+                  fmt::format("expected \"{}\", got {}", kSchema, schema ? "\"" + *schema + "\"" : "none"));
+    }
+    const std::optional<std::string> obj = file.text("/obj");
+    if (!obj || obj->empty()) {
+        file.fail("/obj", "expected the name of an OBJ file");
+    }
+    SceneDescription scene = load_obj(path.parent_path() / *obj);
+    scene.source = path;
+    scene.name = file.text("/name").value_or(path.stem().string());
+    read_materials(file, scene);
+    read_environment(file, scene);
+    read_camera(file, scene);
+    read_settings(file, scene);
+    return scene;
+}
+
+} // namespace pl

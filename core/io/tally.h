@@ -1,0 +1,31 @@
+// Something that was left out or corrected while loading, told once with its number and first line.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pl {
+
+struct Tally {
+    std::size_t count = 0;
+    int first_line = 0;
+
+    void add(int line) {
+        first_line = count == 0 ? line : first_line;
+        ++count;
+    }
+
+    /// "file:line: what (3 in all)", unless nothing was counted.
+    void tell(std::vector<std::string>& warnings,
+              const std::filesystem::path& path,
+              const std::string& what) const {
+        if (count > 0) {
+            warnings.push_back(path.string() + ":" + std::to_string(first_line) + ": " + what + " (" +
+                               std::to_string(count) + " in all)");
+        }
+    }
+};
+
+} // namespace pl

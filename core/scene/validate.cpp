@@ -1,0 +1,160 @@
+#include "core/scene/validate.h"
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace pl {
+
+namespace {
+
+bool is_finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool is_light(const glm::vec3& v) {
+    return is_finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
+}
+
+bool is_albedo(const glm::vec3& v) {
+    return is_light(v) && v.x <= 1.0f && v.y <= 1.0f && v.z <= 1.0f;
+}
+
+std::string show(const glm::vec3& v) {
+    return fmt::format("({} {} {})", v.x, v.y, v.z);
+}
+
+/// Complaints of one kind: the first in words, all as a number.
+class Complaint {
+public:
+    explicit Complaint(std::string& list) : list_(list) {}
+    Complaint(const Complaint&) = delete;
+    Complaint& operator=(const Complaint&) = delete;
+
+    template <typename MakeText>
+    void add(MakeText make_text) {
+        if (count_++ == 0) {
+            first_ = make_text();
+        }
+    }
+
+    ~Complaint() {
+        if (count_ == 1) {
+            list_ += "\n  " + first_;
+        } else if (count_ > 1) {
+            list_ += fmt::format("\n  {} ({} such)", first_, count_);
+        }
+    }
+
+private:
+    std::string& list_;
+    std::string first_;
+    std::size_t count_ = 0;
+};
+
+void check_numbers(std::string& list, std::string_view what, const std::vector<glm::vec3>& values) {
+    Complaint complaint(list);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!is_finite(values[i])) {
+            complaint.add([&] { return fmt::format("{} {} is not finite: {}", what, i, show(values[i])); });
+        }
+    }
+}
+
+void check_triangles(std::string& list, const SceneDescription& scene) {
+    Complaint vertex(list);
+    Complaint normal(list);
+    Complaint material(list);
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const TriangleDescription& t = scene.triangles[i];
+        const auto out_of_range = [i](const char* what, std::uint32_t index, std::size_t size) {
+            return fmt::format("triangle {}: {} {} is out of range, there are {}", i, what, index, size);
+        };
+        for (int k = 0; k < 3; ++k) {
+            if (t.vertex[k] >= scene.positions.size()) {
+                vertex.add([&] { return out_of_range("vertex", t.vertex[k], scene.positions.size()); });
+            }
+            if (t.normal[k] != TriangleDescription::kNoNormal && t.normal[k] >= scene.normals.size()) {
+                normal.add([&] { return out_of_range("normal", t.normal[k], scene.normals.size()); });
+            }
+        }
+        if (t.material >= scene.materials.size()) {
+            material.add([&] { return out_of_range("material", t.material, scene.materials.size()); });
+        }
+    }
+}
+
+void check_materials(std::string& list, const SceneDescription& scene) {
+    Complaint albedo(list);
+    Complaint emission(list);
+    for (const MaterialDescription& m : scene.materials) {
+        if (!is_albedo(m.albedo)) {
+            albedo.add([&] {
+                return fmt::format("material '{}': albedo {} is not within [0, 1]", m.name, show(m.albedo));
+            });
+        }
+        if (!is_light(m.emission)) {
+            emission.add([&] {
+                return fmt::format("material '{}': emission {} is not finite and at least 0", m.name,
+                                   show(m.emission));
+            });
+        }
+    }
+}
+
+void check_camera(std::string& list, const CameraDescription& camera) {
+    if (!is_finite(camera.eye) || !is_finite(camera.target) || !is_finite(camera.up)) {
+        list += "\n  camera: eye, target and up must be finite";
+    } else if (camera.eye == camera.target) {
+        list += fmt::format("\n  camera: eye and target are the same point {}", show(camera.eye));
+    }
+    if (!(camera.fov_deg > 0.0f && camera.fov_deg < 180.0f)) {
+        list += fmt::format("\n  camera: field of view {} is not within (0, 180) degrees", camera.fov_deg);
+    }
+}
+
+} // namespace
+
+void validate_scene(const SceneDescription& scene) {
+    std::string list;
+    if (scene.triangles.empty()) {
+        list += "\n  there are no triangles";
+    }
+    check_numbers(list, "vertex", scene.positions);
+    check_numbers(list, "normal", scene.normals);
+    check_triangles(list, scene);
+    check_materials(list, scene);
+    check_camera(list, scene.camera);
+    if (!is_light(scene.environment)) {
+        list +=
+            fmt::format("\n  environment radiance {} is not finite and at least 0", show(scene.environment));
+    }
+    if (!list.empty()) {
+        throw Error(ErrorKind::Input,
+                    fmt::format("{}: the scene is not valid:{}", scene.source.string(), list));
+    }
+}
+
+glm::vec3 usable_up(const CameraDescription& camera) {
+    // In double: coordinates may be as large as the squares of their differences allow.
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
+    const glm::dvec3 up(camera.up);
+    const double length = glm::length(up);
+    // Sine of the angle between the two below which the picture's roll would be decided by rounding of floats.
+    constexpr double kSmallestSine = 1e-5;
+    if (length > 0.0 && glm::length(glm::cross(forward, up / length)) > kSmallestSine) {
+        return camera.up;
+    }
+    const glm::dvec3 size = glm::abs(forward);
+    if (size.y <= size.x && size.y <= size.z) {
+        return {0.0f, 1.0f, 0.0f};
+    }
+    // Looking up or down: the top of the picture is away from a viewer who looks along -z.
+    return size.z <= size.x ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
+}
+
+} // namespace pl
