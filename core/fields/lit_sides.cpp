@@ -1,0 +1,120 @@
+// A short walk of light through the scene, to see which sides of its surfaces it reaches.
+#include <cstdint>
+
+#include "core/fields/surfaces.h"
+#include "core/kernel/base/rng.h"
+#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/shading/lights.h"
+
+namespace pl {
+namespace {
+
+constexpr std::uint32_t kWalks = 4096;
+constexpr std::uint32_t kMaxVertices = 16;
+/// One of this many arrivals makes a side count; fewer are strays from open edges.
+constexpr std::uint32_t kStrayRatio = 50;
+/// Placement is a property of the scene: it does not change with the picture's seed.
+constexpr std::uint64_t kSeed = 0x706c6163656d656e;
+
+struct Arrivals {
+    std::uint32_t front = 0;
+    std::uint32_t back = 0;
+};
+
+/// Sphere around all triangles, for light that comes from outside.
+struct BoundingSphere {
+    Vec3f center{0.0f};
+    float radius = 0.0f;
+};
+
+BoundingSphere bounding_sphere(const HostScene& scene) {
+    if (scene.bvh_nodes.empty())
+        return {};
+    const BvhNode& root = scene.bvh_nodes.front();
+    return {0.5f * root.low + 0.5f * root.high, 0.5f * glm::length(root.high - root.low)};
+}
+
+/// Leaves a light with cosine-distributed direction, on the front or, half of the time, the back where it emits.
+Ray leave_light(const HostScene& scene, const SceneView& view, Vec4f u, Vec4f v) {
+    SurfacePoint point = sample_light(view, Vec3f{0.0f}, {u.x, u.y, u.z});
+    const Material& material = scene.materials[point.material];
+    const bool want_front = material.two_sided_emission == 0 || v.x < 0.5f;
+    if (point.front != want_front)
+        point.geometric_normal = -point.geometric_normal;
+    point.shading_normal = point.geometric_normal;
+    return spawn_ray(point, lambert_sample(point, {v.y, v.z}));
+}
+
+/// Enters from the environment: a uniform direction, through a uniform point of the disk that the scene covers.
+Ray enter_from_environment(const BoundingSphere& sphere, Vec4f u, Vec4f v) {
+    const float cos_theta = 1.0f - 2.0f * u.x;
+    const Vec2f circle = square_to_disk({u.y, u.z});
+    // A uniform point of the disk, lifted to the sphere by its projection on a cylinder.   [Archimedes]
+    const float radius2 = circle.x * circle.x + circle.y * circle.y;
+    const float stretch = radius2 > 0.0f ? safe_sqrt((1.0f - cos_theta * cos_theta) / radius2) : 0.0f;
+    const Vec3f direction = glm::normalize(Vec3f{circle.x * stretch, circle.y * stretch, cos_theta});
+    const Vec2f disk = sphere.radius * square_to_disk({v.x, v.y});
+    const Frame frame = make_frame(direction);
+    const Vec3f origin =
+        sphere.center + disk.x * frame.x + disk.y * frame.y - 2.0f * sphere.radius * direction;
+    return {.origin = origin, .direction = direction};
+}
+
+class LightWalker {
+public:
+    LightWalker(const HostScene& scene, const Surfaces& surfaces)
+        : scene_(scene), view_(scene.view()), intersector_{view_}, surfaces_(surfaces),
+          sphere_(bounding_sphere(scene)), arrivals_(surfaces.list.size()) {}
+
+    std::vector<Arrivals> walk_all() {
+        const bool sky = !is_black(scene_.environment);
+        const bool lights = !scene_.lights.empty();
+        if (!sky && !lights)
+            return arrivals_;
+        for (std::uint32_t i = 0; i < kWalks; ++i) {
+            const Rng rng{kSeed, Stream::Placement, i, 0};
+            const Vec4f u = rng.draw(0, Purpose::Placement);
+            const Vec4f v = rng.draw(1, Purpose::Placement);
+            const bool from_sky = sky && (!lights || i % 2 == 0);
+            walk(from_sky ? enter_from_environment(sphere_, u, v) : leave_light(scene_, view_, u, v), rng);
+        }
+        return arrivals_;
+    }
+
+private:
+    void walk(Ray ray, const Rng& rng) {
+        for (std::uint32_t vertex = 0; vertex < kMaxVertices; ++vertex) {
+            const Hit hit = intersector_.closest_hit(ray);
+            if (!hit.found())
+                return;
+            const std::uint32_t surface = surfaces_.of_triangle[hit.primitive];
+            if (surface == kNoSurface)
+                return;
+            const SurfacePoint point = make_surface_point<FeatureSet{}>(view_, hit, -ray.direction);
+            ++(point.front ? arrivals_[surface].front : arrivals_[surface].back);
+            const Vec4f u = rng.draw(vertex + 2, Purpose::Placement);
+            ray = spawn_ray(point, lambert_sample(point, {u.x, u.y}));
+        }
+    }
+
+    const HostScene& scene_;
+    SceneView view_;
+    BvhIntersector intersector_;
+    const Surfaces& surfaces_;
+    BoundingSphere sphere_;
+    std::vector<Arrivals> arrivals_;
+};
+
+} // namespace
+
+std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& surfaces) {
+    std::vector<LitSides> sides;
+    sides.reserve(surfaces.list.size());
+    for (const Arrivals& a : LightWalker(scene, surfaces).walk_all()) {
+        const std::uint32_t total = a.front + a.back;
+        sides.push_back({total == 0 || a.front * kStrayRatio > total, a.back * kStrayRatio > total});
+    }
+    return sides;
+}
+
+} // namespace pl

@@ -1,0 +1,90 @@
+#include "core/fields/make_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pl {
+namespace {
+
+constexpr double kBytesPerMegabyte = 1.0e6;
+
+int side_of(int bins) {
+    return static_cast<int>(std::lround(std::sqrt(static_cast<double>(bins))));
+}
+
+/// Smallest power of two not below `value`, kept where neither dividing by it nor kMaxRecordedUnits times it can
+/// leave the range of float.
+float power_of_two_above(float value) {
+    constexpr int kMaxExponent = 100;
+    if (!(value > 0.0f))
+        return 1.0f;
+    int exponent = 0;
+    const float mantissa = std::frexp(value, &exponent); // in [0.5, 1)
+    if (mantissa == 0.5f)
+        --exponent;
+    return std::ldexp(1.0f, std::clamp(exponent, -kMaxExponent, kMaxExponent));
+}
+
+template <class T>
+std::size_t bytes_of(const HostArray<T>& array) {
+    return array.size() * sizeof(T);
+}
+
+} // namespace
+
+std::size_t bytes_per_volume(int bins) {
+    const std::size_t per_cell = 2 * sizeof(float) + 2 * sizeof(std::uint32_t) + sizeof(std::int64_t);
+    const std::size_t placement = sizeof(SurfacePoint) + sizeof(Vec3f) + sizeof(KdNode);
+    const std::size_t rows_and_mean = (static_cast<std::size_t>(side_of(bins)) + 1) * sizeof(float);
+    return placement + rows_and_mean + static_cast<std::size_t>(bins) * per_cell;
+}
+
+int volume_count(const FieldSettings& settings) {
+    if (settings.volumes > 0)
+        return settings.volumes;
+    const double budget = settings.budget_megabytes * kBytesPerMegabyte;
+    const double affordable = budget / static_cast<double>(bytes_per_volume(settings.bins));
+    return std::max(1, static_cast<int>(std::min(affordable, static_cast<double>(kDefaultVolumes))));
+}
+
+FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings) {
+    float brightest = luminance(scene.environment);
+    for (const Light& light : scene.lights) {
+        const Material& material = scene.materials[scene.triangles[light.primitive].material];
+        brightest = std::max(brightest, luminance(material.emission));
+    }
+    return {.cells = {side_of(settings.bins)},
+            .radiance_unit = power_of_two_above(brightest),
+            .rate = settings.rate,
+            .uniform_floor = settings.uniform_floor};
+}
+
+HostTables make_tables(const FieldShape& shape, std::size_t volumes) {
+    const auto side = static_cast<std::size_t>(shape.cells.side);
+    const std::size_t cells = volumes * side * side;
+    HostTables tables;
+    tables.radiance.assign(cells, 0.0f);
+    tables.visits.assign(cells, 0);
+    tables.pending_sum.assign(cells, 0);
+    tables.pending_count.assign(cells, 0);
+    tables.row_cdf.resize(volumes * side);
+    tables.column_cdf.resize(cells);
+    tables.mean_radiance.assign(volumes, 0.0f);
+    const auto uniform = [side](std::size_t i) {
+        return static_cast<float>(i % side + 1) / static_cast<float>(side);
+    };
+    for (std::size_t i = 0; i < tables.row_cdf.size(); ++i)
+        tables.row_cdf[i] = uniform(i);
+    for (std::size_t i = 0; i < tables.column_cdf.size(); ++i)
+        tables.column_cdf[i] = uniform(i);
+    return tables;
+}
+
+std::size_t field_bytes(const HostVolumes& volumes, const HostTables& tables) {
+    return bytes_of(volumes.sites) + bytes_of(volumes.normals) + bytes_of(volumes.kd_nodes) +
+           bytes_of(tables.radiance) + bytes_of(tables.visits) + bytes_of(tables.pending_sum) +
+           bytes_of(tables.pending_count) + bytes_of(tables.row_cdf) + bytes_of(tables.column_cdf) +
+           bytes_of(tables.mean_radiance);
+}
+
+} // namespace pl

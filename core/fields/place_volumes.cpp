@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/fields/make_field.h"
+#include "core/fields/surfaces.h"
+
+namespace pl {
+namespace {
+
+/// One side of a surface, and how many volumes stand on it.
+struct Side {
+    std::uint32_t surface;
+    bool front;
+    double area;
+    std::uint32_t volumes = 0;
+};
+
+std::vector<Side> lit_sides_of(const HostScene& scene, const Surfaces& surfaces) {
+    const std::vector<LitSides> lit = find_lit_sides(scene, surfaces);
+    std::vector<Side> sides;
+    for (std::uint32_t i = 0; i < surfaces.list.size(); ++i)
+        for (const bool front : {true, false})
+            if (lit[i][front ? 0 : 1])
+                sides.push_back({i, front, surfaces.list[i].area});
+    return sides;
+}
+
+/// Gives each side its share by area, and at least one, as long as there are enough for that.
+void share_out(std::vector<Side>& sides, std::uint32_t volumes) {
+    const bool one_each = sides.size() <= volumes;
+    double area = 0.0;
+    for (const Side& side : sides)
+        area += side.area;
+    // Sides too small for their share take one; that shrinks the share of the others, so look again.
+    for (bool changed = one_each; changed;) {
+        changed = false;
+        for (Side& side : sides) {
+            if (side.volumes > 0 || side.area * volumes >= area)
+                continue;
+            side.volumes = 1;
+            --volumes;
+            area -= side.area;
+            changed = true;
+        }
+    }
+    // Systematic sampling of the cumulative area of the rest: each gets its share, rounded up or down.
+    double running = 0.0;
+    std::uint32_t given = 0;
+    for (Side& side : sides) {
+        if (side.volumes > 0)
+            continue;
+        running += side.area;
+        const auto due = static_cast<std::uint32_t>(
+            std::min(std::floor(running / area * volumes + 0.5), static_cast<double>(volumes)));
+        side.volumes = one_each ? std::max(due - given, 1u) : due - given;
+        given = due;
+    }
+}
+
+/// Bits of `index` mirrored behind the binary point, in [0, 1).   [van der Corput 1935]
+float radical_inverse(std::uint32_t index) {
+    std::uint32_t mirrored = 0;
+    for (int bit = 0; bit < 32; ++bit)
+        mirrored |= ((index >> bit) & 1u) << (31 - bit);
+    return static_cast<float>(mirrored >> 8) * 0x1p-24f;
+}
+
+/// Places the volumes of one side: a Hammersley set over its cumulative area.
+void place_on(const HostScene& scene, const Surface& surface, const Side& side, HostVolumes& volumes) {
+    const SceneView view = scene.view();
+    std::size_t current = 0;
+    double start = 0.0; // area of the triangles before the current one
+    double area = area_of(scene, surface.triangles.front());
+    for (std::uint32_t i = 0; i < side.volumes; ++i) {
+        const double target = (i + 0.5) / side.volumes * side.area;
+        while (target >= start + area && current + 1 < surface.triangles.size()) {
+            start += area;
+            area = area_of(scene, surface.triangles[++current]);
+        }
+        const auto across = static_cast<float>(std::clamp((target - start) / area, 0.0, 1.0));
+        const Vec2f b = square_to_triangle({across, radical_inverse(i)});
+        const std::uint32_t triangle = surface.triangles[current];
+        const Triangle& t = scene.triangles[triangle];
+        const Vec3f cross =
+            triangle_cross(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]);
+        volumes.sites.push_back(make_surface_point<FeatureSet{}>(view, triangle, {1.0f - b.x - b.y, b.x, b.y},
+                                                                 side.front ? cross : -cross));
+        volumes.normals.push_back(volumes.sites.back().geometric_normal);
+    }
+}
+
+} // namespace
+
+HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings) {
+    const Surfaces surfaces = find_surfaces(scene);
+    std::vector<Side> sides = lit_sides_of(scene, surfaces);
+    share_out(sides, static_cast<std::uint32_t>(volume_count(settings)));
+    HostVolumes volumes;
+    for (const Side& side : sides)
+        place_on(scene, surfaces.list[side.surface], side, volumes);
+    volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
+    return volumes;
+}
+
+} // namespace pl

@@ -1,0 +1,141 @@
+#include "core/scene/pack_scene.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/scene/build_bvh.h"
+
+namespace pl {
+namespace {
+
+/// Cross product of the edges in double: its length is twice the area, and is 0 only for a degenerate triangle.
+Vec3d cross_of(const std::vector<Vec3f>& positions, const Triangle& t) {
+    const Vec3d p0{positions[t.v0]};
+    return glm::cross(Vec3d{positions[t.v1]} - p0, Vec3d{positions[t.v2]} - p0);
+}
+
+bool has_normals(const TriangleDescription& t) {
+    return t.normal.x != TriangleDescription::kNoNormal && t.normal.y != TriangleDescription::kNoNormal &&
+           t.normal.z != TriangleDescription::kNoNormal;
+}
+
+/// Unit, or any unit vector where there is no direction to keep.
+Vec3f unit_or_up(Vec3d v) {
+    const double length = glm::length(v);
+    return length > 0.0 ? Vec3f{v / length} : Vec3f{0.0f, 1.0f, 0.0f};
+}
+
+void pack_triangles(const SceneDescription& scene, HostScene& packed) {
+    packed.positions = scene.positions;
+    packed.triangles.reserve(scene.triangles.size());
+    for (const TriangleDescription& t : scene.triangles)
+        packed.triangles.push_back({t.vertex.x, t.vertex.y, t.vertex.z, t.material});
+}
+
+void pack_normals(const SceneDescription& scene, HostScene& packed) {
+    bool any = false;
+    for (const TriangleDescription& t : scene.triangles)
+        any = any || has_normals(t);
+    if (!any)
+        return;
+    packed.normals.reserve(scene.normals.size());
+    for (const glm::vec3& n : scene.normals)
+        packed.normals.push_back(unit_or_up(Vec3d{n}));
+    packed.triangle_normals.reserve(scene.triangles.size());
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const TriangleDescription& t = scene.triangles[i];
+        if (has_normals(t)) {
+            packed.triangle_normals.push_back({t.normal.x, t.normal.y, t.normal.z});
+        } else {
+            const auto flat = static_cast<std::uint32_t>(packed.normals.size());
+            packed.normals.push_back(unit_or_up(cross_of(packed.positions, packed.triangles[i])));
+            packed.triangle_normals.push_back({flat, flat, flat});
+        }
+    }
+}
+
+void pack_materials(const SceneDescription& scene, HostScene& packed) {
+    packed.materials.reserve(scene.materials.size());
+    for (const MaterialDescription& m : scene.materials)
+        packed.materials.push_back({m.albedo, m.emission, m.two_sided_emission ? 1u : 0u});
+}
+
+/// Collects the emitting triangles. Sums are taken in double and rounded once.
+void pack_lights(HostScene& packed) {
+    std::vector<double> running;
+    double total = 0.0;
+    for (std::uint32_t id = 0; id < packed.triangles.size(); ++id) {
+        const Triangle& t = packed.triangles[id];
+        const Material& material = packed.materials[t.material];
+        const double area = 0.5 * glm::length(cross_of(packed.positions, t));
+        const double power = area * static_cast<double>(luminance(material.emission));
+        if (!material.emits() || !(power > 0.0))
+            continue;
+        total += power;
+        running.push_back(total);
+        packed.lights.push_back({id, 1.0f});
+    }
+    // The last one keeps its 1, so that no number in [0,1) can miss.
+    for (std::size_t i = 0; i + 1 < running.size(); ++i)
+        packed.lights[i].cumulative_probability = static_cast<float>(running[i] / total);
+    packed.light_power = static_cast<float>(total);
+}
+
+/// The coordinate axis that makes the largest angle with a direction.
+Vec3d farthest_axis(Vec3d direction) {
+    const Vec3d a = glm::abs(direction);
+    if (a.y <= a.x && a.y <= a.z)
+        return {0.0, 1.0, 0.0};
+    return a.x <= a.z ? Vec3d{1.0, 0.0, 0.0} : Vec3d{0.0, 0.0, 1.0};
+}
+
+/// Scaled by its largest component first, so that squares neither overflow nor vanish; 0 stays 0.
+Vec3d safe_unit(Vec3d v) {
+    const double scale = glm::max(glm::abs(v.x), glm::max(glm::abs(v.y), glm::abs(v.z)));
+    return scale > 0.0 ? glm::normalize(v / scale) : Vec3d{0.0};
+}
+
+} // namespace
+
+Bounds bounds_of(const SceneDescription& scene) {
+    Bounds bounds;
+    for (const TriangleDescription& t : scene.triangles)
+        for (int corner = 0; corner < 3; ++corner) {
+            const Vec3f p = scene.positions[t.vertex[corner]];
+            bounds.low = glm::min(bounds.low, p);
+            bounds.high = glm::max(bounds.high, p);
+        }
+    return bounds;
+}
+
+HostScene pack_scene(const SceneDescription& scene) {
+    HostScene packed;
+    pack_triangles(scene, packed);
+    pack_normals(scene, packed);
+    pack_materials(scene, packed);
+    pack_lights(packed);
+    packed.environment = scene.environment;
+    Bvh bvh = build_bvh(view_of(std::as_const(packed.positions)), view_of(std::as_const(packed.triangles)));
+    packed.bvh_nodes = std::move(bvh.nodes);
+    packed.bvh_primitives = std::move(bvh.primitives);
+    return packed;
+}
+
+PinholeCamera make_camera(const CameraDescription& camera, int width, int height) {
+    /// Below this sine the rounding of the inputs decides what is to the right.
+    constexpr double kMinSine = 1e-6;
+    constexpr double kDegree = 3.14159265358979323846 / 180.0;
+    Vec3d forward = safe_unit(Vec3d{camera.target} - Vec3d{camera.eye});
+    if (forward == Vec3d{0.0})
+        forward = {0.0, 0.0, -1.0};
+    Vec3d right = glm::cross(forward, safe_unit(Vec3d{camera.up}));
+    if (!(glm::length(right) > kMinSine))
+        right = glm::cross(forward, farthest_axis(forward));
+    right = glm::normalize(right);
+    const Vec3d up = glm::cross(right, forward);
+    const double half_height = std::tan(0.5 * static_cast<double>(camera.fov_deg) * kDegree);
+    const double half_width = half_height * static_cast<double>(width) / static_cast<double>(height);
+    return {camera.eye, Vec3f{forward}, Vec3f{half_width * right}, Vec3f{half_height * up}};
+}
+
+} // namespace pl
