@@ -240,6 +240,15 @@ std::optional<FieldStatus> Session::field_status() const {
     return status;
 }
 
+Clocks Session::clocks() const {
+    return {.load = load_seconds_,
+            .build = build_seconds_,
+            .place = place_seconds_,
+            .precompute = field().precompute_seconds,
+            .learn = film().learn_seconds,
+            .render = film().render_seconds};
+}
+
 Snapshot Session::snapshot() const {
     const FilmState& state = film();
     Snapshot result{.slot = slot(),
@@ -248,12 +257,7 @@ Snapshot Session::snapshot() const {
                     .pixels = {},
                     .passes = state.passes,
                     .counters = state.counters,
-                    .clocks = {.load = load_seconds_,
-                               .build = build_seconds_,
-                               .place = place_seconds_,
-                               .precompute = field().precompute_seconds,
-                               .learn = state.learn_seconds,
-                               .render = state.render_seconds},
+                    .clocks = clocks(),
                     .field = field_status(),
                     .camera = settings_.camera,
                     .kernel = kernel_name()};

@@ -53,6 +53,8 @@ public:
     std::string kernel_name() const;
     std::uint32_t passes() const { return film().passes; }
     std::optional<FieldStatus> field_status() const;
+    /// Of the current film and method; cheap, unlike a snapshot.
+    Clocks clocks() const;
 
 private:
     struct FilmState {
