@@ -4,25 +4,20 @@
 #include <utility>
 
 #include "core/scene/build_bvh.h"
+#include "core/scene/triangle_planes.h"
 
 namespace pl {
 namespace {
-
-/// Cross product of the edges in double: its length is twice the area, and is 0 only for a degenerate triangle.
-Vec3d cross_of(const std::vector<Vec3f>& positions, const Triangle& t) {
-    const Vec3d p0{positions[t.v0]};
-    return glm::cross(Vec3d{positions[t.v1]} - p0, Vec3d{positions[t.v2]} - p0);
-}
 
 bool has_normals(const TriangleDescription& t) {
     return t.normal.x != TriangleDescription::kNoNormal && t.normal.y != TriangleDescription::kNoNormal &&
            t.normal.z != TriangleDescription::kNoNormal;
 }
 
-/// Unit, or any unit vector where there is no direction to keep.
-Vec3f unit_or_up(Vec3d v) {
+/// Unit; a normal of length 0 stays 0, and has no say where normals are interpolated.
+Vec3f unit_or_zero(Vec3d v) {
     const double length = glm::length(v);
-    return length > 0.0 ? Vec3f{v / length} : Vec3f{0.0f, 1.0f, 0.0f};
+    return length > 0.0 ? Vec3f{v / length} : Vec3f{0.0f};
 }
 
 void pack_triangles(const SceneDescription& scene, HostScene& packed) {
@@ -30,6 +25,7 @@ void pack_triangles(const SceneDescription& scene, HostScene& packed) {
     packed.triangles.reserve(scene.triangles.size());
     for (const TriangleDescription& t : scene.triangles)
         packed.triangles.push_back({t.vertex.x, t.vertex.y, t.vertex.z, t.material});
+    packed.planes = make_triangle_planes(view_of(scene.positions), view_of(std::as_const(packed.triangles)));
 }
 
 void pack_normals(const SceneDescription& scene, HostScene& packed) {
@@ -40,7 +36,7 @@ void pack_normals(const SceneDescription& scene, HostScene& packed) {
         return;
     packed.normals.reserve(scene.normals.size());
     for (const glm::vec3& n : scene.normals)
-        packed.normals.push_back(unit_or_up(Vec3d{n}));
+        packed.normals.push_back(unit_or_zero(Vec3d{n}));
     packed.triangle_normals.reserve(scene.triangles.size());
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const TriangleDescription& t = scene.triangles[i];
@@ -48,7 +44,7 @@ void pack_normals(const SceneDescription& scene, HostScene& packed) {
             packed.triangle_normals.push_back({t.normal.x, t.normal.y, t.normal.z});
         } else {
             const auto flat = static_cast<std::uint32_t>(packed.normals.size());
-            packed.normals.push_back(unit_or_up(cross_of(packed.positions, packed.triangles[i])));
+            packed.normals.push_back(packed.planes[i].normal);
             packed.triangle_normals.push_back({flat, flat, flat});
         }
     }
@@ -67,7 +63,8 @@ void pack_lights(HostScene& packed) {
     for (std::uint32_t id = 0; id < packed.triangles.size(); ++id) {
         const Triangle& t = packed.triangles[id];
         const Material& material = packed.materials[t.material];
-        const double area = 0.5 * glm::length(cross_of(packed.positions, t));
+        const double area =
+            0.5 * glm::length(TriangleCorners(view_of(std::as_const(packed.positions)), t).cross());
         const double power = area * static_cast<double>(luminance(material.emission));
         if (!material.emits() || !(power > 0.0))
             continue;

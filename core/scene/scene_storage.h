@@ -10,6 +10,7 @@ template <template <class> class Array>
 struct SceneStorage {
     Array<Vec3f> positions;
     Array<Triangle> triangles;
+    Array<TrianglePlane> planes;
     Array<Vec3f> normals;
     Array<TriangleNormals> triangle_normals;
     Array<Material> materials;
@@ -22,6 +23,7 @@ struct SceneStorage {
     SceneView view() const {
         return {.positions = view_of(positions),
                 .triangles = view_of(triangles),
+                .planes = view_of(planes),
                 .normals = view_of(normals),
                 .triangle_normals = view_of(triangle_normals),
                 .materials = view_of(materials),
@@ -39,6 +41,7 @@ template <template <class> class From, template <class> class To, class Fn>
 void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.positions, to.positions);
     fn(from.triangles, to.triangles);
+    fn(from.planes, to.planes);
     fn(from.normals, to.normals);
     fn(from.triangle_normals, to.triangle_normals);
     fn(from.materials, to.materials);

@@ -13,6 +13,13 @@ struct Triangle {
     std::uint32_t material;
 };
 
+/// Where rays that leave a triangle may start; core/scene/triangle_planes.h derives the bounds.
+struct TrianglePlane {
+    Vec3f normal;          ///< unit, on the front side
+    float position_error;  ///< distance that a ray must start off the plane
+    float edge_margin;     ///< barycentric weights below this are too close to an edge
+};
+
 /// Shading normals of a triangle's corners: indices into SceneView::normals.
 struct TriangleNormals {
     std::uint32_t n0, n1, n2;
@@ -28,6 +35,7 @@ struct Light {
 struct SceneView {
     Span<const Vec3f> positions;
     Span<const Triangle> triangles;
+    Span<const TrianglePlane> planes;              ///< [triangle]
     Span<const Vec3f> normals;                     ///< empty unless the scene has smooth normals
     Span<const TriangleNormals> triangle_normals;  ///< one per triangle, or empty
     Span<const Material> materials;

@@ -11,21 +11,15 @@ struct SurfacePoint {
     Vec3f position{0.0f};
     Vec3f geometric_normal{0.0f, 0.0f, 1.0f};
     Vec3f shading_normal{0.0f, 0.0f, 1.0f};
-    float position_error = 0.0f;  ///< bound on the distance along the geometric normal to the true surface
+    float position_error = 0.0f;  ///< how far a ray that leaves must start off the surface, along the normal
     std::uint32_t primitive = kNoPrimitive;
     std::uint32_t material = 0;
     bool front = true;  ///< the viewer is on the triangle's front side
 };
 
-/// Hits closer to an edge than this share of the triangle are moved inwards, so that rounding cannot put the
-/// origin of the next ray behind a wall that meets this one. 256 roundoffs cover the error of a watertight test
-/// at a corner (about 20 roundoffs of the triangle's extent) with a margin; the shift stays below 2e-5 extents.
-inline constexpr float kEdgeMargin = 256.0f * kRoundoff;
-
 /// Barycentric weights (b0, b1, b2), kept away from the edges.
-PL_HD inline Vec3f inner_barycentrics(const Hit& hit) {
-    const Vec3f b{max_of(1.0f - hit.b1 - hit.b2, kEdgeMargin), max_of(hit.b1, kEdgeMargin),
-                  max_of(hit.b2, kEdgeMargin)};
+PL_HD inline Vec3f inner_barycentrics(const Hit& hit, float margin) {
+    const Vec3f b{max_of(1.0f - hit.b1 - hit.b2, margin), max_of(hit.b1, margin), max_of(hit.b2, margin)};
     return b * (1.0f / (b.x + b.y + b.z));
 }
 
@@ -45,34 +39,40 @@ PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t prim
     return fallback;
 }
 
-/// Point at the given barycentric weights of a triangle, seen from `wo`. The error bound is that of the weighted
-/// sum of corners.   [Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., 6.8.4]
+/// Point at barycentric weights `b` of a triangle, seen from `wo`. `attributes` are the weights for what is
+/// interpolated besides the position.
 template <FeatureSet F>
-PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
+PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32_t primitive, Vec3f b,
+                                             Vec3f attributes, Vec3f wo) {
     const Triangle& triangle = scene.triangles[primitive];
-    const Vec3f p0 = b.x * scene.positions[triangle.v0];
-    const Vec3f p1 = b.y * scene.positions[triangle.v1];
-    const Vec3f p2 = b.z * scene.positions[triangle.v2];
-    const Vec3f normal = glm::normalize(triangle_cross(
-        scene.positions[triangle.v0], scene.positions[triangle.v1], scene.positions[triangle.v2]));
-    const Vec3f error = gamma_bound(7) * (absolute(p0) + absolute(p1) + absolute(p2));
-
+    const TrianglePlane& plane = scene.planes[primitive];
     SurfacePoint point;
-    point.position = p0 + p1 + p2;
-    point.position_error = glm::dot(absolute(normal), error);
+    point.position = b.x * scene.positions[triangle.v0] + b.y * scene.positions[triangle.v1] +
+                     b.z * scene.positions[triangle.v2];
+    point.position_error = plane.position_error;
     point.primitive = primitive;
     point.material = triangle.material;
-    point.front = glm::dot(normal, wo) >= 0.0f;
-    const Vec3f smooth = interpolate_normal<F>(scene, primitive, b, normal);
-    point.geometric_normal = point.front ? normal : -normal;
+    point.front = glm::dot(plane.normal, wo) >= 0.0f;
+    const Vec3f smooth = interpolate_normal<F>(scene, primitive, attributes, plane.normal);
+    point.geometric_normal = point.front ? plane.normal : -plane.normal;
     // A file may give normals that disagree with the winding: the shading normal follows the geometric one.
     point.shading_normal = glm::dot(smooth, point.geometric_normal) >= 0.0f ? smooth : -smooth;
     return point;
 }
 
+/// Point at barycentric weights, exactly there.
+template <FeatureSet F>
+PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
+    return make_surface_point<F>(scene, primitive, b, b, wo);
+}
+
+/// Point of a hit, kept so far from the triangle's edges that rounding cannot put the origin of the next ray behind
+/// a wall that meets this one. Only the position moves: normals stay smooth on the smallest triangles.
 template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
-    return make_surface_point<F>(scene, hit.primitive, inner_barycentrics(hit), wo);
+    return make_surface_point<F>(scene, hit.primitive,
+                                 inner_barycentrics(hit, scene.planes[hit.primitive].edge_margin),
+                                 {1.0f - hit.b1 - hit.b2, hit.b1, hit.b2}, wo);
 }
 
 /// Moves `coordinate` by `offset` and then one float further in the same direction.

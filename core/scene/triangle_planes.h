@@ -1,0 +1,77 @@
+// What rays that leave a triangle need to know about it, computed once in double: its normal, how far to step off
+// its plane and how far to keep from its edges, so that no ray meets the surface it left or slips past the next one.
+// Header only, because tests that compile a changed kernel bring their own scene.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/kernel/scene/scene_view.h"
+
+namespace pl {
+
+/// Roundoffs (per axis, of the coordinates) that separate a position computed from barycentric weights from the true
+/// plane: sum of the weights 2, its inverse 1, weight 1, product with the corner 1, sum of the corners 2.
+inline constexpr double kPositionError = gamma_bound(7);
+
+/// Roundoffs that moving off the plane adds: the addition 1, one more float 2.
+inline constexpr double kMoveError = gamma_bound(3);
+
+/// Roundoffs, of a triangle's longest edge, between a plane and where a ray test that starts close to it sees it.
+/// The test takes corners relative to the origin (1), shears them (3, result 2 at most) in two coordinates, and
+/// multiplies them into edge functions (as if 2 more): 6 sqrt(2) + 2 < 11.
+inline constexpr double kTestError = gamma_bound(11);
+
+/// Walls may meet at an angle: over this factor's inverse, the sine of 3.6 degrees, the bounds above still hold along
+/// the wall; with the step off the plane, which also leads towards the other wall, down to about 8 degrees.
+inline constexpr double kEdgeMarginFactor = 16.0;
+
+/// No point is moved further than this share of its triangle.
+inline constexpr double kMaxEdgeMargin = 1.0 / 16.0;
+
+struct TriangleCorners {
+    Vec3d p[3];
+
+    TriangleCorners(Span<const Vec3f> positions, const Triangle& t)
+        : p{Vec3d{positions[t.v0]}, Vec3d{positions[t.v1]}, Vec3d{positions[t.v2]}} {}
+
+    /// Its length is twice the area.
+    Vec3d cross() const { return glm::cross(p[1] - p[0], p[2] - p[0]); }
+    double longest_edge() const {
+        return std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
+    }
+    /// Largest magnitude of each coordinate.
+    Vec3d reach() const { return glm::max(glm::abs(p[0]), glm::max(glm::abs(p[1]), glm::abs(p[2]))); }
+};
+
+/// `scene_edge`: the longest edge of the scene, which stands for those of the walls that meet this triangle.
+/// A degenerate triangle gets some unit normal, so that whatever asks never sees NaN.
+inline TrianglePlane make_triangle_plane(const TriangleCorners& corners, double scene_edge) {
+    const Vec3d cross = corners.cross();
+    const double twice_area = glm::length(cross);
+    if (!(twice_area > 0.0))
+        return {{0.0f, 1.0f, 0.0f}, 0.0f, static_cast<float>(kMaxEdgeMargin)};
+    const Vec3d normal = cross / twice_area;
+    const Vec3d reach = corners.reach();
+    const double edge = corners.longest_edge();
+    const double step = kPositionError * glm::dot(glm::abs(normal), reach) + kTestError * edge;
+    const double margin = (kPositionError + kMoveError) * glm::length(reach) + kTestError * scene_edge;
+    const double smallest_height = twice_area / edge;
+    return {Vec3f{normal}, static_cast<float>(step),
+            static_cast<float>(std::min(kEdgeMarginFactor * margin / smallest_height, kMaxEdgeMargin))};
+}
+
+inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions,
+                                                       Span<const Triangle> triangles) {
+    double scene_edge = 0.0;
+    for (const Triangle& t : triangles)
+        scene_edge = std::max(scene_edge, TriangleCorners(positions, t).longest_edge());
+    std::vector<TrianglePlane> planes;
+    planes.reserve(triangles.count);
+    for (const Triangle& t : triangles)
+        planes.push_back(make_triangle_plane({positions, t}, scene_edge));
+    return planes;
+}
+
+} // namespace pl
