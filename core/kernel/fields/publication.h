@@ -30,11 +30,19 @@ struct FieldPublicationView {
     Span<float> mean_radiance;         ///< [volume]
 };
 
-/// Share of the old mean that survives `fresh` new records.
-PL_HD inline float surviving_share(std::uint32_t visits, std::uint32_t fresh, LearningRate rate) {
-    const float base = static_cast<float>(visits) / (static_cast<float>(visits) + static_cast<float>(fresh));
-    const float squared = base * base;
-    return rate == LearningRate::SampleMean ? base : squared * squared;
+/// Share of the new mean that `fresh` new records get: 1 - (N/(N+m))^p. Written in terms of m/(N+m), because the
+/// difference from 1 would lose every digit after ten million visits.
+PL_HD inline float learning_step(std::uint32_t visits, std::uint32_t fresh, LearningRate rate) {
+    const auto m = static_cast<float>(fresh);
+    const float share = m / (static_cast<float>(visits) + m);
+    return rate == LearningRate::SampleMean ? share
+                                            : share * (4.0f + share * (-6.0f + share * (4.0f - share)));
+}
+
+/// What a cell has learned, or 0 where memory holds what no record could have put there: NaN, infinite, negative.
+PL_HD inline float learned_radiance(const FieldPublicationView& field, std::uint32_t cell) {
+    const float radiance = field.radiance[cell];
+    return radiance > 0.0f && radiance < kInfinity ? radiance : 0.0f;
 }
 
 /// Moves the learned radiance of one cell towards the mean of its new records and empties the sums.
@@ -42,8 +50,9 @@ PL_HD inline void absorb_records(const FieldPublicationView& field, std::uint32_
     const std::uint32_t fresh = field.pending_count[cell];
     if (fresh == 0) return;
     const float mean = from_fixed_point(field.pending_sum[cell], fresh, field.radiance_unit);
-    const float step = 1.0f - surviving_share(field.visits[cell], fresh, field.rate);
-    field.radiance[cell] += step * (mean - field.radiance[cell]);
+    const float step = learning_step(field.visits[cell], fresh, field.rate);
+    const float old = learned_radiance(field, cell);
+    field.radiance[cell] = old + step * (mean - old);
     const std::uint32_t room = 0xffffffffu - field.visits[cell];
     field.visits[cell] += min_of(fresh, room);
     field.pending_sum[cell] = 0;
@@ -62,12 +71,12 @@ PL_HD inline float smoothed_radiance(const FieldPublicationView& field, std::uin
         for (int x = max_of(column - 1, 0); x <= min_of(column + 1, side - 1); ++x) {
             const std::uint32_t cell = first + static_cast<std::uint32_t>(y * side + x);
             const float visits = min_of(static_cast<float>(field.visits[cell]), 1.0e6f);
-            sum += visits * field.radiance[cell];
+            sum += visits * learned_radiance(field, cell);
             weight += visits;
         }
     const std::uint32_t own = first + static_cast<std::uint32_t>(row * side + column);
     const float visits = min_of(static_cast<float>(field.visits[own]), 1.0e6f);
-    return (visits * field.radiance[own] + kPriorVisits * (sum / weight)) / (visits + kPriorVisits);
+    return (visits * learned_radiance(field, own) + kPriorVisits * (sum / weight)) / (visits + kPriorVisits);
 }
 
 /// Mean of the learned radiance over the cells; those never visited count as the mean of the others.
@@ -77,7 +86,7 @@ PL_HD inline float mean_of_visited(const FieldPublicationView& field, std::uint3
     for (int k = 0; k < field.cells.count(); ++k) {
         const std::uint32_t cell = first + static_cast<std::uint32_t>(k);
         if (field.visits[cell] == 0) continue;
-        sum += field.radiance[cell];
+        sum += learned_radiance(field, cell);
         ++visited;
     }
     return visited > 0 ? sum / static_cast<float>(visited) : 0.0f;

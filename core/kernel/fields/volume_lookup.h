@@ -39,6 +39,11 @@ PL_HD inline float squared_distance(Vec3f a, Vec3f b) {
 
 PL_HD inline bool normals_agree(Vec3f a, Vec3f b) { return glm::dot(a, b) > kMinNormalCosine; }
 
+/// The order of candidates: nearer first, then the lower number, whatever the order of the search.
+PL_HD inline bool is_nearer(float d2, std::int32_t volume, float other_d2, std::int32_t other_volume) {
+    return d2 < other_d2 || (d2 == other_d2 && volume < other_volume);
+}
+
 /// Result of a nearest search.
 struct Nearest {
     std::int32_t volume = kNoVolume;
@@ -47,7 +52,7 @@ struct Nearest {
     PL_HD void consider(const KdNode& node, Vec3f position, Vec3f normal) {
         const float d2 = squared_distance(position, node.position);
         const auto candidate = static_cast<std::int32_t>(node.volume);
-        if ((d2 < distance2 || (d2 == distance2 && candidate < volume)) && normals_agree(normal, node.normal)) {
+        if (is_nearer(d2, candidate, distance2, volume) && normals_agree(normal, node.normal)) {
             distance2 = d2;
             volume = candidate;
         }
@@ -64,13 +69,15 @@ struct NearestSeveral {
 
     PL_HD void consider(const KdNode& node, Vec3f position, Vec3f normal) {
         const float d2 = squared_distance(position, node.position);
-        if ((found == Count && !(d2 < distance2[Count - 1])) || !normals_agree(normal, node.normal)) return;
+        const auto candidate = static_cast<std::int32_t>(node.volume);
+        if (found == Count && !is_nearer(d2, candidate, distance2[Count - 1], volume[Count - 1])) return;
+        if (!(d2 < kInfinity) || !normals_agree(normal, node.normal)) return;
         int slot = found < Count ? found++ : Count - 1;
-        for (; slot > 0 && d2 < distance2[slot - 1]; --slot) {
+        for (; slot > 0 && is_nearer(d2, candidate, distance2[slot - 1], volume[slot - 1]); --slot) {
             volume[slot] = volume[slot - 1];
             distance2[slot] = distance2[slot - 1];
         }
-        volume[slot] = static_cast<std::int32_t>(node.volume);
+        volume[slot] = candidate;
         distance2[slot] = d2;
     }
     PL_HD float limit() const { return found == Count ? distance2[Count - 1] : kInfinity; }
