@@ -1,0 +1,45 @@
+// Which batch intersector serves a scene, chosen once per scene and asked once per batch.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "cpu/bvh_batch.h"
+#include "cpu/dense_intersector.h"
+#if PL_EMBREE_MAJOR > 0
+#include "cpu/embree_intersector.h"
+#endif
+
+namespace pl {
+
+enum class IntersectorChoice;
+
+/// One of the batch intersectors behind the same calls; the switch costs nothing per ray.
+class BatchTracer {
+public:
+    /// Throws Error if the choice is not there or cannot take the scene.
+    BatchTracer(const SceneView& scene, IntersectorChoice choice, int threads);
+
+    void find_closest(RayBatch& batch, std::uint32_t count) const {
+        std::visit([&](const auto& intersector) { intersector.find_closest(batch, count); }, intersector_);
+    }
+    void find_occluded(RayBatch& batch, std::uint32_t count) const {
+        std::visit([&](const auto& intersector) { intersector.find_occluded(batch, count); }, intersector_);
+    }
+
+    /// For people: "dense (avx512)", "embree 3.13.5", "bvh".
+    std::string name() const;
+
+private:
+#if PL_EMBREE_MAJOR > 0
+    using AnyIntersector = std::variant<BvhBatch, DenseIntersector, EmbreeIntersector>;
+#else
+    using AnyIntersector = std::variant<BvhBatch, DenseIntersector>;
+#endif
+    static AnyIntersector choose(const SceneView& scene, IntersectorChoice choice, int threads);
+
+    AnyIntersector intersector_;
+};
+static_assert(BatchIntersector<BatchTracer>);
+
+} // namespace pl

@@ -1,0 +1,28 @@
+// The scene's own hierarchy as a batch intersector: one ray after the other.
+#pragma once
+
+#include "core/kernel/geometry/intersector.h"
+#include "cpu/ray_batch.h"
+
+namespace pl {
+
+/// Satisfies BatchIntersector.
+class BvhBatch {
+public:
+    explicit BvhBatch(const SceneView& scene) : intersector_{scene} {}
+
+    void find_closest(RayBatch& batch, std::uint32_t count) const {
+        for (std::uint32_t i = 0; i < count; ++i)
+            batch.set_hit(i, intersector_.closest_hit(batch.ray(i)));
+    }
+    void find_occluded(RayBatch& batch, std::uint32_t count) const {
+        for (std::uint32_t i = 0; i < count; ++i)
+            batch.set_occluded(i, intersector_.occluded(batch.ray(i)));
+    }
+
+private:
+    BvhIntersector intersector_;
+};
+static_assert(BatchIntersector<BvhBatch>);
+
+} // namespace pl

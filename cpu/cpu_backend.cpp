@@ -1,0 +1,186 @@
+#include "cpu/cpu_backend.h"
+
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/error.h"
+#include "core/scene/needed_effects.h"
+#include "cpu/batch_tracer.h"
+#include "cpu/device_name.h"
+#include "cpu/film_store.h"
+#include "cpu/launchers.h"
+#include "cpu/parallel_for.h"
+#include "cpu/view_pass.h"
+
+namespace pl {
+namespace {
+
+const KernelRow<PicturePass>& picture_kernels(MethodId method) {
+    switch (method) {
+    case MethodId::Default:
+        return kDefaultKernels;
+    case MethodId::Precomputed:
+        return kPrecomputedKernels;
+    case MethodId::Reinforcement:
+        return kReinforcementKernels;
+    }
+    throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
+}
+
+class CpuBackend final : public RenderBackend {
+public:
+    explicit CpuBackend(const CpuSettings& settings) : settings_(settings) {}
+
+    BackendInfo info() const override {
+        return {.name = "cpu",
+                .device = cpu_name(),
+                .intersector = tracer_ ? tracer_->name() : "none",
+                .threads = settings_.threads};
+    }
+
+    void upload_scene(std::shared_ptr<const HostScene> scene) override {
+        tracer_.reset();
+        scene_ = std::move(scene);
+        tracer_.emplace(scene_->view(), settings_.intersector, settings_.threads);
+    }
+
+    void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
+        volumes_ = std::move(volumes);
+        shape_ = shape;
+        tables_.fill(std::nullopt);
+    }
+
+    void upload_tables(MethodId method, HostTables tables) override {
+        if (!volumes_)
+            throw Error(ErrorKind::Runtime, "CPU back end: expected volumes before tables, got none");
+        tables_[index_of(method)] = std::move(tables);
+    }
+    HostTables download_tables(MethodId method) const override {
+        return tables_[index_of(method)].value_or(HostTables{});
+    }
+    bool has_tables(MethodId method) const override { return tables_[index_of(method)].has_value(); }
+
+    void reset_film(FilmSlot slot, int width, int height) override {
+        films_.reset(slot, width, height, settings_.threads);
+    }
+    FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, settings_.threads); }
+
+    PassCounters run_pass(const PassRequest& request) override {
+        const PassSetup setup = make_setup(request.path, request.first_pixel, request.stop);
+        if (request.slot.view != View::Beauty)
+            return run_view(setup, request);
+        const MethodId method = request.slot.method;
+        const FieldView field = info_of(method).uses_field ? learned_field(method) : FieldView{};
+        return launch(picture_kernels(method), request.features,
+                      PicturePass{.setup = setup,
+                                  .tracer = *tracer_,
+                                  .field = field,
+                                  .bsdf_fraction = request.bsdf_fraction,
+                                  .camera = request.camera,
+                                  .sample = request.sample,
+                                  .film = films_.view(request.slot)});
+    }
+
+    PassCounters precompute(const PrecomputeRequest& request) override {
+        return launch(kProbeKernels, request.features,
+                      ProbePass{.setup = make_setup(request.path, request.first_probe, request.stop),
+                                .tracer = *tracer_,
+                                .field = learned_field(request.method),
+                                .sample = request.sample,
+                                .strata_side = request.strata_side});
+    }
+
+    void publish(MethodId method) override {
+        constexpr std::uint32_t kVolumeChunk = 16;
+        const FieldPublicationView field = publication_view(shape_, existing_tables(method));
+        ChunkQueue queue(0, field.mean_radiance.count, kVolumeChunk);
+        parallel_for(settings_.threads, queue, [&](IndexRange range) {
+            for (std::uint32_t volume = range.begin; volume < range.end; ++volume)
+                publish_volume(field, volume);
+        });
+    }
+
+    std::string kernel_name(MethodId method, View view, FeatureSet needed) const override {
+        const std::vector<std::string> effects = effect_names(kCompiledSets[covering_set(needed)]);
+        return fmt::format("cpu/{}/{}", view == View::Beauty ? info_of(method).name : info_of(view).name,
+                           effects.empty() ? "base" : fmt::format("{}", fmt::join(effects, "+")));
+    }
+
+private:
+    static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }
+
+    PassSetup make_setup(const PathSettings& path, std::uint32_t first_path, const StopFlag* stop) const {
+        if (!tracer_)
+            throw Error(ErrorKind::Runtime, "CPU back end: expected a scene, got none");
+        return {.scene = scene_->view(),
+                .path = path,
+                .first_path = first_path,
+                .stop = stop,
+                .threads = settings_.threads,
+                .batch_paths = settings_.batch_paths};
+    }
+
+    HostTables& existing_tables(MethodId method) {
+        std::optional<HostTables>& tables = tables_[index_of(method)];
+        if (!tables)
+            throw Error(ErrorKind::Runtime,
+                        fmt::format("CPU back end: expected tables of '{}', got none", info_of(method).name));
+        return *tables;
+    }
+    FieldView learned_field(MethodId method) {
+        return field_view(shape_, *volumes_, existing_tables(method));
+    }
+
+    /// What the views of a field show. Default path tracing learns nothing: it shows what Reinforcement learned.
+    FieldView shown_field(const FilmSlot& slot) {
+        const ViewInfo& view = info_of(slot.view);
+        if (view.needs_tables)
+            return learned_field(info_of(slot.method).uses_field ? slot.method : MethodId::Reinforcement);
+        if (!view.needs_volumes)
+            return {};
+        if (!volumes_)
+            throw Error(ErrorKind::Runtime, "CPU back end: expected volumes, got none");
+        HostTables none;
+        return field_view(shape_, *volumes_, none);
+    }
+
+    PassCounters run_view(const PassSetup& setup, const PassRequest& request) {
+        return launch(kViewKernels, request.features,
+                      ViewPass{.setup = setup,
+                               .view = request.slot.view,
+                               .field = shown_field(request.slot),
+                               .camera = request.camera,
+                               .sample = request.sample,
+                               .film = films_.view(request.slot)});
+    }
+
+    CpuSettings settings_;
+    std::shared_ptr<const HostScene> scene_;
+    std::optional<BatchTracer> tracer_;
+    std::shared_ptr<const HostVolumes> volumes_;
+    FieldShape shape_;
+    std::array<std::optional<HostTables>, kMethodCount> tables_;
+    FilmStore films_;
+};
+
+} // namespace
+
+std::unique_ptr<RenderBackend> make_cpu_backend(const CpuSettings& settings) {
+    constexpr int kMostThreads = 4096;
+    constexpr std::uint32_t kMostPaths = 1u << 20;
+    if (settings.threads < 0 || settings.threads > kMostThreads)
+        throw Error(ErrorKind::Usage, fmt::format("number of threads: expected 0 to {}, got {}", kMostThreads,
+                                                  settings.threads));
+    if (settings.batch_paths == 0 || settings.batch_paths > kMostPaths)
+        throw Error(ErrorKind::Usage, fmt::format("paths per batch: expected 1 to {}, got {}", kMostPaths,
+                                                  settings.batch_paths));
+    CpuSettings resolved = settings;
+    if (resolved.threads == 0)
+        resolved.threads = hardware_threads();
+    return std::make_unique<CpuBackend>(resolved);
+}
+
+} // namespace pl

@@ -1,0 +1,18 @@
+#include "cpu/dense_lanes.h"
+
+namespace pl {
+namespace {
+
+void find_closest(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups) {
+    closest_of_groups(scene, rays, hits, groups);
+}
+
+void find_occluded(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t groups) {
+    occlusion_of_groups(scene, rays, masks, groups);
+}
+
+} // namespace
+
+const DenseLoops kDenseLoopsBaseline{find_closest, find_occluded};
+
+} // namespace pl

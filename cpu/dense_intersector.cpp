@@ -1,0 +1,77 @@
+#include "cpu/dense_intersector.h"
+
+#include <array>
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace pl {
+namespace {
+
+struct DenseKernels {
+    std::array<DenseKernel, 3> kernels;
+    std::size_t count = 0;
+
+    void add(std::string_view isa, DenseLoops loops) { kernels[count++] = {isa, loops}; }
+};
+
+DenseKernels find_usable_kernels() {
+    DenseKernels usable;
+    usable.add("baseline", kDenseLoopsBaseline);
+#ifdef PL_DENSE_CLONES
+    if (__builtin_cpu_supports("avx2"))
+        usable.add("avx2", kDenseLoopsAvx2);
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
+        usable.add("avx512", kDenseLoopsAvx512);
+#endif
+    return usable;
+}
+
+/// Equal as bits: 0 and -0 stay apart, since nothing is won by merging them.
+bool same_bits(Vec3f a, Vec3f b) {
+    using Bits = std::array<std::uint32_t, 3>;
+    return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
+} // namespace
+
+std::span<const DenseKernel> usable_dense_kernels() {
+    static const DenseKernels usable = find_usable_kernels();
+    return {usable.kernels.data(), usable.count};
+}
+
+DenseIntersector::DenseIntersector(const SceneView& scene, DenseKernel kernel) : kernel_(kernel) {
+    if (scene.triangles.count > kMaxDenseTriangles)
+        throw Error(ErrorKind::Runtime,
+                    fmt::format("dense intersector: expected at most {} triangles, got {}",
+                                kMaxDenseTriangles, scene.triangles.count));
+    for (std::uint32_t i = 0; i < scene.triangles.count; ++i) {
+        const Triangle& triangle = scene.triangles[i];
+        const DenseTriangle dense{number_of(scene.positions[triangle.v0]),
+                                  number_of(scene.positions[triangle.v1]),
+                                  number_of(scene.positions[triangle.v2]), i};
+        // The edge functions of equal corners are exactly opposite or zero: no ray passes the test.
+        if (dense.a != dense.b && dense.b != dense.c && dense.c != dense.a)
+            triangles_.push_back(dense);
+    }
+}
+
+DenseView DenseIntersector::view() const {
+    return {.positions = positions_.data(),
+            .position_count = static_cast<std::uint32_t>(positions_.size()),
+            .triangles = triangles_.data(),
+            .triangle_count = static_cast<std::uint32_t>(triangles_.size())};
+}
+
+std::uint32_t DenseIntersector::number_of(Vec3f position) {
+    for (std::uint32_t i = 0; i < positions_.size(); ++i)
+        if (same_bits(positions_[i], position))
+            return i;
+    positions_.push_back(position);
+    return static_cast<std::uint32_t>(positions_.size() - 1);
+}
+
+} // namespace pl

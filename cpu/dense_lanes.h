@@ -1,0 +1,155 @@
+// Rays against every triangle, a vector of rays at a time. Included by one file per instruction set; see lanes.h.
+#pragma once
+
+#include "cpu/dense_triangles.h"
+#include "cpu/lanes.h"
+
+namespace pl {
+namespace {
+
+using LaneRaySpace = RaySpace<LaneFloat, LaneInt>;
+using LaneCorner = RayCorner<LaneFloat>;
+using LaneEdges = EdgeFunctions<LaneFloat>;
+
+/// The rays of a group from `first` on, prepared for the watertight test.
+PL_INLINE LaneRaySpace load_ray_space(const RayGroup& rays, std::uint32_t first) {
+    const auto dx = load_lanes<LaneFloat>(rays.direction_x + first);
+    const auto dy = load_lanes<LaneFloat>(rays.direction_y + first);
+    const auto dz = load_lanes<LaneFloat>(rays.direction_z + first);
+    return make_ray_space<LaneFloat, LaneInt>(load_lanes<LaneFloat>(rays.origin_x + first),
+                                              load_lanes<LaneFloat>(rays.origin_y + first),
+                                              load_lanes<LaneFloat>(rays.origin_z + first), dx, dy, dz,
+                                              magnitude(dx), magnitude(dy), magnitude(dz), broadcast(1.0f));
+}
+
+PL_INLINE RayCorner<float> lane_of(const LaneCorner& corner, std::uint32_t lane) {
+    return {corner.x[lane], corner.y[lane], corner.z[lane]};
+}
+
+/// True where two numbers that are not zero have the same sign.
+PL_INLINE LaneInt same_sign(LaneFloat x, LaneFloat y) {
+    return (std::bit_cast<LaneInt>(x) ^ std::bit_cast<LaneInt>(y)) >= 0;
+}
+
+/// Repeats the edge functions exactly in the lanes where one of them is zero, as intersect_triangle does, and returns
+/// where they do not contradict each other. Rare, so it is kept out of the way.
+[[gnu::noinline, gnu::cold]] LaneInt repeat_exactly(
+    const LaneCorner& a, const LaneCorner& b, const LaneCorner& c, std::uint32_t lanes, LaneEdges& e) {
+    for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {
+        if (((lanes >> lane) & 1u) == 0)
+            continue;
+        const auto pa = lane_of(a, lane);
+        const auto pb = lane_of(b, lane);
+        const auto pc = lane_of(c, lane);
+        e.u[lane] = exact_edge_function(pc, pb);
+        e.v[lane] = exact_edge_function(pa, pc);
+        e.w[lane] = exact_edge_function(pb, pa);
+    }
+    const LaneInt any_negative = (e.u < 0.0f) | (e.v < 0.0f) | (e.w < 0.0f);
+    const LaneInt any_positive = (e.u > 0.0f) | (e.v > 0.0f) | (e.w > 0.0f);
+    return ~(any_negative & any_positive) & (e.u + e.v + e.w != 0.0f);
+}
+
+/// The lanes of one vector against the triangles of a scene.
+class DenseLanes {
+public:
+    PL_INLINE DenseLanes(const DenseView& scene, const RayGroup& rays, std::uint32_t first)
+        : scene_(scene), source_(load_lanes<LaneUint>(rays.source + first)),
+          target_(load_lanes<LaneUint>(rays.target + first)),
+          t_max_(load_lanes<LaneFloat>(rays.t_max + first)) {
+        const LaneRaySpace space = load_ray_space(rays, first);
+        for (std::uint32_t i = 0; i < scene.position_count; ++i) {
+            const Vec3f& p = scene.positions[i];
+            corners_[i] = to_ray_space(space, broadcast(p.x), broadcast(p.y), broadcast(p.z));
+        }
+    }
+
+    PL_INLINE void find_closest(HitGroup& hits, std::uint32_t first) const {
+        LaneFloat best_t = t_max_;
+        LaneUint best_primitive = broadcast(kNoPrimitive);
+        LaneFloat best_v{}, best_w{};
+        LaneFloat best_determinant = broadcast(1.0f);
+        for (std::uint32_t i = 0; i < scene_.triangle_count; ++i) {
+            const Crossing crossing = cross(scene_.triangles[i]);
+            const LaneUint primitive = broadcast(scene_.triangles[i].primitive);
+            const LaneInt closer =
+                (crossing.t < best_t) | ((crossing.t == best_t) & (primitive < best_primitive));
+            const LaneInt take = crossing.hit & closer;
+            best_t = take ? crossing.t : best_t;
+            best_primitive = take ? primitive : best_primitive;
+            best_v = take ? crossing.edges.v : best_v;
+            best_w = take ? crossing.edges.w : best_w;
+            best_determinant = take ? crossing.determinant : best_determinant;
+        }
+        store_lanes(best_t, hits.t + first);
+        store_lanes(best_primitive, hits.primitive + first);
+        store_lanes(best_v / best_determinant, hits.b1 + first);
+        store_lanes(best_w / best_determinant, hits.b2 + first);
+    }
+
+    /// One bit per lane.
+    PL_INLINE std::uint32_t find_occluded() const {
+        constexpr std::uint32_t kAllLanes = (1u << kLaneWidth) - 1u;
+        LaneInt occluded{};
+        for (std::uint32_t i = 0; i < scene_.triangle_count; ++i) {
+            const Crossing crossing = cross(scene_.triangles[i]);
+            occluded |= crossing.hit & (crossing.t <= t_max_);
+            if (mask_bits(occluded) == kAllLanes)
+                break;
+        }
+        return mask_bits(occluded);
+    }
+
+private:
+    struct Crossing {
+        LaneEdges edges;
+        LaneFloat determinant;
+        LaneFloat t;
+        LaneInt hit; ///< the triangle is met at t > 0 and is neither source nor target
+    };
+
+    PL_INLINE Crossing cross(const DenseTriangle& triangle) const {
+        const LaneCorner& a = corners_[triangle.a];
+        const LaneCorner& b = corners_[triangle.b];
+        const LaneCorner& c = corners_[triangle.c];
+        LaneEdges e = edge_functions(a, b, c);
+        LaneInt inside = same_sign(e.u, e.v) & same_sign(e.u, e.w);
+        const std::uint32_t zero = mask_bits((e.u == 0.0f) | (e.v == 0.0f) | (e.w == 0.0f));
+        if (__builtin_expect(zero != 0, 0)) {
+            LaneEdges repeated = e;
+            inside = repeat_exactly(a, b, c, zero, repeated);
+            e = repeated;
+        }
+        const LaneFloat determinant = e.u + e.v + e.w;
+        const LaneFloat t = scaled_distance(e, a, b, c) / determinant;
+        const LaneInt excluded = (source_ == triangle.primitive) | (target_ == triangle.primitive);
+        return {e, determinant, t, inside & (t > 0.0f) & ~excluded};
+    }
+
+    const DenseView& scene_;
+    LaneUint source_, target_;
+    LaneFloat t_max_;
+    LaneCorner corners_[kMaxDensePositions];
+};
+
+PL_INLINE void
+closest_of_groups(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            DenseLanes(scene, rays[group], first).find_closest(hits[group], first);
+}
+
+PL_INLINE void occlusion_of_groups(const DenseView& scene,
+                                   const RayGroup* rays,
+                                   OcclusionMask* masks,
+                                   std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group) {
+        std::uint32_t bits = 0;
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            bits |= DenseLanes(scene, rays[group], first).find_occluded() << first;
+        masks[group] = static_cast<OcclusionMask>(bits);
+    }
+}
+
+} // namespace
+} // namespace pl

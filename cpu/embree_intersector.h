@@ -1,0 +1,38 @@
+// Embree finds the candidates, our own watertight test decides about them. Built only where Embree 3 or 4 is found.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/kernel/scene/scene_view.h"
+#include "cpu/ray_batch.h"
+
+namespace pl {
+
+/// Satisfies BatchIntersector. Every candidate that Embree offers is confirmed or refused by intersect_triangle, so
+/// distances and barycentric weights are ours bit for bit, and source and target are excluded by number. What remains
+/// Embree's is which triangles it offers: where two surfaces lie within rounding of each other it may settle for the
+/// one that our test would place second, and a ray that grazes the silhouette edge of an open mesh may be offered
+/// nothing where our test would hit, because the two round differently.
+class EmbreeIntersector {
+public:
+    /// Builds the hierarchy on `threads` threads. The scene's arrays must stay as long as this lives.
+    EmbreeIntersector(const SceneView& scene, int threads);
+    ~EmbreeIntersector();
+    EmbreeIntersector(EmbreeIntersector&&) noexcept;
+    EmbreeIntersector& operator=(EmbreeIntersector&&) noexcept;
+
+    void find_closest(RayBatch& batch, std::uint32_t count) const;
+    void find_occluded(RayBatch& batch, std::uint32_t count) const;
+
+    /// "3.13.5"
+    static std::string version();
+
+private:
+    struct Handles;
+    std::unique_ptr<Handles> handles_;
+    SceneView scene_;
+};
+static_assert(BatchIntersector<EmbreeIntersector>);
+
+} // namespace pl

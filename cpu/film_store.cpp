@@ -1,0 +1,80 @@
+#include "cpu/film_store.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "cpu/parallel_for.h"
+
+namespace pl {
+namespace {
+
+/// Pixels that a thread empties or reads at once.
+constexpr std::uint32_t kPixelChunk = 1u << 14;
+
+std::size_t index_of(FilmSlot slot) {
+    return static_cast<std::size_t>(slot.index());
+}
+
+Vec3f mean_or_nan(const FilmPixel& pixel) {
+    const bool all_invalid = pixel.samples == 0 && pixel.invalid > 0;
+    return all_invalid ? Vec3f{std::nanf("")} : mean_radiance(pixel);
+}
+
+} // namespace
+
+void FilmStore::reset(FilmSlot slot, int width, int height, int threads) {
+    constexpr std::int64_t kMostPixels = 0xffffffff;
+    if (width <= 0 || height <= 0 || std::int64_t{width} * height > kMostPixels)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("picture size {}x{}: expected 1x1 to 2^32 pixels", width, height));
+    Film& film = films_[index_of(slot)];
+    film.width = width;
+    film.height = height;
+    film.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    ChunkQueue queue(0, static_cast<std::uint32_t>(film.pixels.size()), kPixelChunk);
+    parallel_for(threads, queue, [&](IndexRange range) {
+        std::fill(film.pixels.begin() + range.begin, film.pixels.begin() + range.end, FilmPixel{});
+    });
+}
+
+FilmView FilmStore::view(FilmSlot slot) {
+    existing(slot);
+    Film& film = films_[index_of(slot)];
+    return {view_of(film.pixels), static_cast<std::uint32_t>(film.width),
+            static_cast<std::uint32_t>(film.height)};
+}
+
+FilmReading FilmStore::read(FilmSlot slot, int threads) const {
+    const Film& film = existing(slot);
+    FilmReading reading{.width = film.width, .height = film.height, .mean = {}, .samples = 0, .invalid = 0};
+    reading.mean.resize(film.pixels.size());
+    std::atomic<std::uint64_t> samples{0};
+    std::atomic<std::uint64_t> invalid{0};
+    ChunkQueue queue(0, static_cast<std::uint32_t>(film.pixels.size()), kPixelChunk);
+    parallel_for(threads, queue, [&](IndexRange range) {
+        std::uint64_t chunk_samples = 0;
+        std::uint64_t chunk_invalid = 0;
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            reading.mean[i] = mean_or_nan(film.pixels[i]);
+            chunk_samples += film.pixels[i].samples;
+            chunk_invalid += film.pixels[i].invalid;
+        }
+        samples += chunk_samples;
+        invalid += chunk_invalid;
+    });
+    reading.samples = samples;
+    reading.invalid = invalid;
+    return reading;
+}
+
+const FilmStore::Film& FilmStore::existing(FilmSlot slot) const {
+    const Film& film = films_[index_of(slot)];
+    if (film.pixels.empty())
+        throw Error(ErrorKind::Runtime, "CPU back end: expected a film, got none: reset it first");
+    return film;
+}
+
+} // namespace pl

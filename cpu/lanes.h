@@ -1,0 +1,74 @@
+// Several floats or integers as one value, by the vector extensions of gcc and clang: operators work on all lanes,
+// comparisons give lanes with all bits set or clear. A file that includes this is compiled once per instruction set
+// (see cpu/CMakeLists.txt), with as many lanes as that set has. Such files must not share an inline function with the
+// rest of the program, or the linker could pick a copy that the machine cannot run: hence the unnamed namespace.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+#include "core/kernel/geometry/triangle.h"
+#include "cpu/ray_batch.h"
+
+namespace pl {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr std::uint32_t kLaneWidth = 16;
+#elif defined(__AVX2__)
+constexpr std::uint32_t kLaneWidth = 8;
+#else
+constexpr std::uint32_t kLaneWidth = 4;
+#endif
+static_assert(kGroupSize % kLaneWidth == 0);
+
+using LaneFloat = float __attribute__((vector_size(4 * kLaneWidth)));
+using LaneInt = std::int32_t __attribute__((vector_size(4 * kLaneWidth)));
+using LaneUint = std::uint32_t __attribute__((vector_size(4 * kLaneWidth)));
+
+template <class Lanes, class T>
+PL_INLINE Lanes load_lanes(const T* row) {
+    Lanes lanes;
+    std::memcpy(&lanes, row, sizeof(lanes));
+    return lanes;
+}
+template <class Lanes, class T>
+PL_INLINE void store_lanes(const Lanes& lanes, T* row) {
+    std::memcpy(row, &lanes, sizeof(lanes));
+}
+
+PL_INLINE LaneFloat broadcast(float x) {
+    return x - LaneFloat{};
+}
+PL_INLINE LaneUint broadcast(std::uint32_t x) {
+    return x - LaneUint{};
+}
+
+/// |x|, bit for bit as std::fabs.
+PL_INLINE LaneFloat magnitude(LaneFloat x) {
+    return std::bit_cast<LaneFloat>(std::bit_cast<LaneUint>(x) & 0x7fffffffu);
+}
+
+/// One bit per lane of a mask, lane 0 lowest.
+PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
+#if defined(__AVX512F__)
+    const auto lanes = std::bit_cast<__m512i>(mask);
+    return _mm512_test_epi32_mask(lanes, lanes);
+#elif defined(__AVX2__)
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(std::bit_cast<__m256>(mask)));
+#elif defined(__SSE2__)
+    return static_cast<std::uint32_t>(_mm_movemask_ps(std::bit_cast<__m128>(mask)));
+#else
+    std::uint32_t bits = 0;
+    for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane)
+        bits |= (mask[lane] != 0 ? 1u : 0u) << lane;
+    return bits;
+#endif
+}
+
+} // namespace
+} // namespace pl

@@ -1,0 +1,108 @@
+// Rays and hits of many paths, in groups of 16: each component of a group lies in one row that vectors load.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <vector>
+
+#include "core/kernel/geometry/ray.h"
+
+namespace pl {
+
+/// Rays that are stored together: 16 floats are a cache line and one vector of the widest instruction set.
+inline constexpr std::uint32_t kGroupSize = 16;
+
+constexpr std::uint32_t group_count(std::uint32_t count) {
+    return (count + kGroupSize - 1) / kGroupSize;
+}
+
+/// 16 rays. Lanes that were never set hold the default ray.
+struct alignas(64) RayGroup {
+    float origin_x[kGroupSize] = {}, origin_y[kGroupSize] = {}, origin_z[kGroupSize] = {};
+    float direction_x[kGroupSize] = {}, direction_y[kGroupSize] = {}, direction_z[kGroupSize] = {};
+    float t_max[kGroupSize] = {};
+    std::uint32_t source[kGroupSize] = {}, target[kGroupSize] = {};
+
+    RayGroup() {
+        for (std::uint32_t lane = 0; lane < kGroupSize; ++lane)
+            set(lane, Ray{});
+    }
+    void set(std::uint32_t lane, const Ray& ray) {
+        origin_x[lane] = ray.origin.x;
+        origin_y[lane] = ray.origin.y;
+        origin_z[lane] = ray.origin.z;
+        direction_x[lane] = ray.direction.x;
+        direction_y[lane] = ray.direction.y;
+        direction_z[lane] = ray.direction.z;
+        t_max[lane] = ray.t_max;
+        source[lane] = ray.source;
+        target[lane] = ray.target;
+    }
+    Ray get(std::uint32_t lane) const {
+        return {.origin = {origin_x[lane], origin_y[lane], origin_z[lane]},
+                .direction = {direction_x[lane], direction_y[lane], direction_z[lane]},
+                .t_max = t_max[lane],
+                .source = source[lane],
+                .target = target[lane]};
+    }
+};
+
+/// The closest hits of 16 rays.
+struct alignas(64) HitGroup {
+    float t[kGroupSize];
+    std::uint32_t primitive[kGroupSize];
+    float b1[kGroupSize], b2[kGroupSize];
+
+    void set(std::uint32_t lane, const Hit& hit) {
+        t[lane] = hit.t;
+        primitive[lane] = hit.primitive;
+        b1[lane] = hit.b1;
+        b2[lane] = hit.b2;
+    }
+    Hit get(std::uint32_t lane) const { return {t[lane], primitive[lane], b1[lane], b2[lane]}; }
+};
+
+/// Bit `lane` is set where something is in the way.
+using OcclusionMask = std::uint16_t;
+
+/// A growing or fixed number of rays and the answers to them.
+class RayBatch {
+public:
+    explicit RayBatch(std::uint32_t capacity)
+        : rays_(group_count(capacity)), hits_(group_count(capacity)), occluded_(group_count(capacity)) {}
+
+    void set_ray(std::uint32_t index, const Ray& ray) {
+        rays_[index / kGroupSize].set(index % kGroupSize, ray);
+    }
+    Ray ray(std::uint32_t index) const { return rays_[index / kGroupSize].get(index % kGroupSize); }
+    void set_hit(std::uint32_t index, const Hit& hit) {
+        hits_[index / kGroupSize].set(index % kGroupSize, hit);
+    }
+    Hit hit(std::uint32_t index) const { return hits_[index / kGroupSize].get(index % kGroupSize); }
+    void set_occluded(std::uint32_t index, bool occluded) {
+        const auto bit = static_cast<OcclusionMask>(1u << (index % kGroupSize));
+        OcclusionMask& mask = occluded_[index / kGroupSize];
+        mask = static_cast<OcclusionMask>(occluded ? mask | bit : mask & ~bit);
+    }
+    bool occluded(std::uint32_t index) const {
+        return ((occluded_[index / kGroupSize] >> (index % kGroupSize)) & 1u) != 0;
+    }
+
+    const RayGroup* ray_groups() const { return rays_.data(); }
+    HitGroup* hit_groups() { return hits_.data(); }
+    OcclusionMask* occlusion_masks() { return occluded_.data(); }
+
+private:
+    std::vector<RayGroup> rays_;
+    std::vector<HitGroup> hits_;
+    std::vector<OcclusionMask> occluded_;
+};
+
+/// Answers the first `count` rays of a batch. Same answers as an Intersector gives for each ray alone.
+template <class T>
+concept BatchIntersector = requires(const T& intersector, RayBatch& batch, std::uint32_t count) {
+    { intersector.find_closest(batch, count) } -> std::same_as<void>;
+    { intersector.find_occluded(batch, count) } -> std::same_as<void>;
+};
+
+} // namespace pl

@@ -1,0 +1,158 @@
+// The main loop of this back end: each thread keeps a batch of paths under way and takes one step with all of them at
+// a time, so that the intersector always has full vectors. What a path brings depends on nothing but its number;
+// batch size, threads and chunks decide speed only.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <vector>
+
+#include "core/kernel/integrator/steps.h"
+#include "core/session/backend.h"
+#include "cpu/parallel_for.h"
+#include "cpu/ray_batch.h"
+
+namespace pl {
+
+/// What every pass has in common.
+struct PassSetup {
+    SceneView scene;
+    PathSettings path;
+    std::uint32_t first_path = 0; ///< those before it were done by an earlier pass that was stopped
+    const StopFlag* stop = nullptr;
+    int threads = 1;
+    std::uint32_t batch_paths = 1024;
+};
+
+/// Where paths start and end. Paths are numbered from 0; finish() says whether the sample was valid.
+template <class W, class M>
+concept PathWork = requires(const W& work, std::uint32_t number, const PathState<M>& state) {
+    { work.count() } -> std::same_as<std::uint32_t>;
+    { work.begin(number) } -> std::same_as<PathState<M>>;
+    { work.finish(state) } -> std::same_as<bool>;
+};
+
+/// Paths that a thread claims, and then also finishes, at once.
+inline constexpr std::uint32_t kPathChunk = 256;
+
+/// The paths of one thread, the live ones first.
+template <FeatureSet F, Method M, BatchIntersector I, PathWork<M> W>
+class PathBatch {
+public:
+    PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work)
+        : setup_(setup), intersector_(intersector), method_(method), work_(work), states_(setup.batch_paths),
+          statuses_(setup.batch_paths), rays_(setup.batch_paths),
+          shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
+          shadow_rays_(static_cast<std::uint32_t>(shadows_.size())) {}
+
+    /// Traces paths until the queue has no more, and finishes those under way.
+    PassCounters run(ChunkQueue& queue) {
+        while (refill(queue)) {
+            find_hits();
+            extend();
+            if constexpr (kSamplesLights)
+                connect();
+            retire();
+        }
+        return counters_;
+    }
+
+private:
+    static constexpr bool kSamplesLights = F.has(Feature::NextEventEstimation);
+
+    bool next_number(ChunkQueue& queue, std::uint32_t& number) {
+        if (chunk_.empty())
+            chunk_ = queue.claim();
+        if (chunk_.empty())
+            return false;
+        number = chunk_.begin++;
+        return true;
+    }
+
+    /// Starts paths in the free places. Returns false if none is under way.
+    bool refill(ChunkQueue& queue) {
+        std::uint32_t number = 0;
+        while (active_ < setup_.batch_paths && next_number(queue, number))
+            states_[active_++] = work_.begin(number);
+        return active_ > 0;
+    }
+
+    void find_hits() {
+        for (std::uint32_t i = 0; i < active_; ++i)
+            rays_.set_ray(i, states_[i].ray);
+        intersector_.find_closest(rays_, active_);
+    }
+
+    void extend() {
+        shadow_count_ = 0;
+        for (std::uint32_t i = 0; i < active_; ++i) {
+            ShadowRequest shadow;
+            statuses_[i] = extend_path<F>(setup_.scene, method_, setup_.path, rays_.hit(i), states_[i],
+                                          shadow, counters_.path);
+            if constexpr (kSamplesLights) {
+                if (!shadow.wanted)
+                    continue;
+                shadow_rays_.set_ray(shadow_count_, shadow.ray);
+                shadow_paths_[shadow_count_] = i;
+                shadows_[shadow_count_++] = shadow;
+            }
+        }
+    }
+
+    void connect() {
+        intersector_.find_occluded(shadow_rays_, shadow_count_);
+        for (std::uint32_t i = 0; i < shadow_count_; ++i)
+            if (!shadow_rays_.occluded(i))
+                connect_light(shadows_[i], states_[shadow_paths_[i]]);
+        counters_.path.shadow_rays += shadow_count_;
+    }
+
+    /// Hands in the finished paths and closes the gaps they leave.
+    void retire() {
+        std::uint32_t kept = 0;
+        for (std::uint32_t i = 0; i < active_; ++i) {
+            if (statuses_[i] == PathStatus::Continues) {
+                if (kept != i)
+                    states_[kept] = states_[i];
+                ++kept;
+                continue;
+            }
+            ++counters_.paths;
+            counters_.zero_contribution_paths += is_black(states_[i].radiance) ? 1u : 0u;
+            counters_.invalid_samples += work_.finish(states_[i]) ? 0u : 1u;
+        }
+        active_ = kept;
+    }
+
+    const PassSetup& setup_;
+    const I& intersector_;
+    const M& method_;
+    const W& work_;
+    std::vector<PathState<M>> states_;
+    std::vector<PathStatus> statuses_;
+    RayBatch rays_;
+    std::vector<ShadowRequest> shadows_;
+    std::vector<std::uint32_t> shadow_paths_;
+    RayBatch shadow_rays_;
+    std::uint32_t active_ = 0;
+    std::uint32_t shadow_count_ = 0;
+    IndexRange chunk_;
+    PassCounters counters_;
+};
+
+/// Traces the paths of `work` on all threads.
+template <FeatureSet F, Method M, BatchIntersector I, PathWork<M> W>
+PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& method, const W& work) {
+    ChunkQueue queue(setup.first_path, work.count(), kPathChunk, setup.stop);
+    std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));
+    run_on_threads(setup.threads, [&](int thread) {
+        PathBatch<F, M, I, W> batch(setup, intersector, method, work);
+        counters[static_cast<std::size_t>(thread)] = batch.run(queue);
+    });
+    PassCounters total;
+    for (const PassCounters& one : counters)
+        total += one;
+    return total;
+}
+
+} // namespace pl

@@ -1,0 +1,35 @@
+#include "cpu/view_pass.h"
+
+namespace pl {
+namespace {
+
+template <FeatureSet F>
+PassCounters run_view_pass(const ViewPass& pass) {
+    const PassSetup& setup = pass.setup;
+    const BvhIntersector intersector{setup.scene};
+    ChunkQueue queue(setup.first_path, pass.film.pixels.count, kPathChunk, setup.stop);
+    std::atomic<std::uint64_t> pixels{0};
+    std::atomic<std::uint64_t> invalid{0};
+    parallel_for(setup.threads, queue, [&](IndexRange range) {
+        pixels.fetch_add(range.end - range.begin, std::memory_order_relaxed);
+        for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) {
+            const Vec3f value =
+                sample_view<F>(pass.view, setup.scene, intersector, pass.field, pass.camera, setup.path,
+                               pass.film.width, pass.film.height, pixel, pass.sample);
+            if (!accumulate(pass.film, pixel, value))
+                invalid.fetch_add(1, std::memory_order_relaxed);
+        }
+    });
+    PassCounters counters;
+    counters.paths = pixels;
+    counters.path.segments = pixels;
+    counters.invalid_samples = invalid;
+    return counters;
+}
+
+} // namespace
+
+constinit const KernelRow<ViewPass> kViewKernels =
+    make_kernel_row<ViewPass>([]<FeatureSet F>() { return run_view_pass<F>; });
+
+} // namespace pl
