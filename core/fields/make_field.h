@@ -31,9 +31,10 @@ int volume_count(const FieldSettings& settings);
 /// Shape of the tables; the radiance unit is the smallest power of two not below the brightest emission.
 FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings);
 
-/// Places volumes on reflecting surfaces by systematic sampling of cumulative area with a Hammersley set, at least
-/// one per connected coplanar surface, on every side of a surface that light can reach. Deterministic in the scene
-/// and the settings.
+/// Places volumes on reflecting surfaces by systematic sampling of cumulative area with a Hammersley set, on every
+/// side of a surface that light can reach. A surface is a connected set of triangles that face (nearly) the same way;
+/// each side gets at least one volume unless there are more sides than volumes. Deterministic in the scene and the
+/// settings; scaling the scene by a power of two scales the result.
 HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings);
 
 /// Balanced tree over the sites, in the layout of KdTreeView. Sites with positions that are not finite are left out.

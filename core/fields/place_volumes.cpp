@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -67,8 +68,9 @@ float radical_inverse(std::uint32_t index) {
 }
 
 /// Places the volumes of one side: a Hammersley set over its cumulative area.
-void place_on(const HostScene& scene, const Surface& surface, const Side& side, HostVolumes& volumes) {
-    const SceneView view = scene.view();
+void place_on(const SceneView& scene, const Surface& surface, const Side& side, HostVolumes& volumes) {
+    // Half a step of the mirrored numbers below `volumes`, so that the first one does not stand on an edge.
+    const float half_step = 0.5f / static_cast<float>(std::bit_ceil(side.volumes));
     std::size_t current = 0;
     double start = 0.0; // area of the triangles before the current one
     double area = area_of(scene, surface.triangles.front());
@@ -79,13 +81,10 @@ void place_on(const HostScene& scene, const Surface& surface, const Side& side, 
             area = area_of(scene, surface.triangles[++current]);
         }
         const auto across = static_cast<float>(std::clamp((target - start) / area, 0.0, 1.0));
-        const Vec2f b = square_to_triangle({across, radical_inverse(i)});
-        const std::uint32_t triangle = surface.triangles[current];
-        const Triangle& t = scene.triangles[triangle];
-        const Vec3f cross =
-            triangle_cross(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]);
-        volumes.sites.push_back(make_surface_point<FeatureSet{}>(view, triangle, {1.0f - b.x - b.y, b.x, b.y},
-                                                                 side.front ? cross : -cross));
+        const Vec2f b = square_to_triangle({across, radical_inverse(i) + half_step});
+        const Hit hit{.primitive = surface.triangles[current], .b1 = b.x, .b2 = b.y};
+        const Vec3f normal = scene.planes[hit.primitive].normal;
+        volumes.sites.push_back(make_surface_point<FeatureSet{}>(scene, hit, side.front ? normal : -normal));
         volumes.normals.push_back(volumes.sites.back().geometric_normal);
     }
 }
@@ -98,7 +97,7 @@ HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings)
     share_out(sides, static_cast<std::uint32_t>(volume_count(settings)));
     HostVolumes volumes;
     for (const Side& side : sides)
-        place_on(scene, surfaces.list[side.surface], side, volumes);
+        place_on(scene.view(), surfaces.list[side.surface], side, volumes);
     volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
     return volumes;
 }

@@ -5,14 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include "core/scene/triangle_planes.h"
+
 namespace pl {
 namespace {
-
-Vec3d cross_of(const HostScene& scene, std::uint32_t triangle) {
-    const Triangle& t = scene.triangles[triangle];
-    const Vec3d p0{scene.positions[t.v0]};
-    return glm::cross(Vec3d{scene.positions[t.v1]} - p0, Vec3d{scene.positions[t.v2]} - p0);
-}
 
 /// Triangles around each distinct position, as one array with offsets.
 struct Corners {
@@ -66,14 +62,10 @@ Corners collect_corners(const HostScene& scene) {
 
 class SurfaceGrower {
 public:
-    explicit SurfaceGrower(const HostScene& scene) : scene_(scene), corners_(collect_corners(scene)) {
-        normals_.reserve(scene.triangles.size());
-        for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-            const Vec3d cross = cross_of(scene, i);
-            const double length = glm::length(cross);
-            normals_.push_back(length > 0.0 ? cross / length : Vec3d{0.0});
-        }
+    explicit SurfaceGrower(const HostScene& scene)
+        : scene_(scene), view_(scene.view()), corners_(collect_corners(scene)) {
         found_.of_triangle.assign(scene.triangles.size(), kNoSurface);
+        last_visitor_.assign(corners_.start.size(), kNoSurface);
     }
 
     Surfaces grow_all() {
@@ -86,7 +78,7 @@ public:
 private:
     bool can_carry(std::uint32_t triangle) const {
         return scene_.materials[scene_.triangles[triangle].material].reflects() &&
-               normals_[triangle] != Vec3d{0.0};
+               area_of(view_, triangle) > 0.0;
     }
 
     void grow(std::uint32_t seed) {
@@ -101,16 +93,20 @@ private:
         }
         std::sort(surface.triangles.begin(), surface.triangles.end());
         for (const std::uint32_t triangle : surface.triangles)
-            surface.area += area_of(scene_, triangle);
+            surface.area += area_of(view_, triangle);
         found_.list.push_back(std::move(surface));
     }
 
+    /// Each surface looks around each point once, so a fan of a million triangles is no trouble.
     void add_around(std::uint32_t point, std::uint32_t seed, std::uint32_t number, Surface& surface) {
+        if (last_visitor_[point] == number)
+            return;
+        last_visitor_[point] = number;
         for (std::uint32_t i = corners_.start[point]; i < corners_.start[point + 1]; ++i) {
             const std::uint32_t triangle = corners_.triangles[i];
             if (found_.of_triangle[triangle] != kNoSurface || !can_carry(triangle))
                 continue;
-            if (glm::dot(normals_[triangle], normals_[seed]) < kMinSurfaceCosine)
+            if (glm::dot(view_.planes[triangle].normal, view_.planes[seed].normal) < kMinSurfaceCosine)
                 continue;
             found_.of_triangle[triangle] = number;
             surface.triangles.push_back(triangle);
@@ -118,15 +114,16 @@ private:
     }
 
     const HostScene& scene_;
+    SceneView view_;
     Corners corners_;
-    std::vector<Vec3d> normals_;
     Surfaces found_;
+    std::vector<std::uint32_t> last_visitor_; ///< [point], the last surface that looked around it
 };
 
 } // namespace
 
-double area_of(const HostScene& scene, std::uint32_t triangle) {
-    return 0.5 * glm::length(cross_of(scene, triangle));
+double area_of(const SceneView& scene, std::uint32_t triangle) {
+    return 0.5 * glm::length(TriangleCorners(scene.positions, scene.triangles[triangle]).cross());
 }
 
 Surfaces find_surfaces(const HostScene& scene) {

@@ -13,7 +13,7 @@ inline constexpr std::uint32_t kNoSurface = 0xffffffffu;
 
 /// Two normals of one surface may each be off by half of the largest angle between the normals of a volume and of
 /// the points it serves: then any volume on the surface may serve any of its points. cos(acos(0.8) / 2).
-inline constexpr double kMinSurfaceCosine = 0.94868329805051381;
+inline constexpr float kMinSurfaceCosine = 0.94868330f;
 
 /// A surface grown over shared corners from its first triangle.
 struct Surface {
@@ -30,7 +30,7 @@ struct Surfaces {
 Surfaces find_surfaces(const HostScene& scene);
 
 /// Area of a triangle, in double.
-double area_of(const HostScene& scene, std::uint32_t triangle);
+double area_of(const SceneView& scene, std::uint32_t triangle);
 
 /// For each surface: does light reach its front, its back?
 using LitSides = std::array<bool, 2>;
