@@ -76,11 +76,23 @@ struct HeaderOwner {
 
 struct ImageOwner {
     EXRImage image;
+    bool loaded = false;
     ImageOwner() { InitEXRImage(&image); }
-    ~ImageOwner() { FreeEXRImage(&image); }
+    ~ImageOwner() {
+        if (loaded) { // after a failure the library has freed the pixels, and would free them again
+            FreeEXRImage(&image);
+        }
+    }
     ImageOwner(const ImageOwner&) = delete;
     ImageOwner& operator=(const ImageOwner&) = delete;
 };
+
+/// Value of an attribute of type string. The library gives an empty one as a single null character.
+std::string text_of(const EXRAttribute& attribute) {
+    const std::string text(reinterpret_cast<const char*>(attribute.value),
+                           static_cast<std::size_t>(attribute.size));
+    return text.substr(0, text.find('\0'));
+}
 
 void read_header(const std::filesystem::path& path, const std::string& bytes, EXRHeader& header) {
     const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -174,9 +186,12 @@ LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata)
         channel[c] = static_cast<std::size_t>(channel_index(path, header, kChannels[2 - c]));
     }
     ImageOwner image;
+    image.image.num_channels = header.num_channels;  // else the library forgets to free them when it fails
     const char* message = nullptr;
     const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
-    if (LoadEXRImageFromMemory(&image.image, &header, data, bytes.size(), &message) != TINYEXR_SUCCESS) {
+    image.loaded =
+        LoadEXRImageFromMemory(&image.image, &header, data, bytes.size(), &message) == TINYEXR_SUCCESS;
+    if (!image.loaded) {
         fail_image(path, "EXR pixels: " + take_message(message));
     }
     LinearImage result{.width = image.image.width, .height = image.image.height, .pixels = {}};
@@ -190,8 +205,7 @@ LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata)
     for (int i = 0; metadata != nullptr && i < header.num_custom_attributes; ++i) {
         const EXRAttribute& attribute = header.custom_attributes[i];
         if (std::strcmp(attribute.type, "string") == 0) {
-            metadata->emplace_back(attribute.name, std::string(reinterpret_cast<const char*>(attribute.value),
-                                                               static_cast<std::size_t>(attribute.size)));
+            metadata->emplace_back(attribute.name, text_of(attribute));
         }
     }
     return result;

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/base/error.h"
@@ -70,10 +71,10 @@ std::string read_file(const fs::path& path) {
     if (!file) {
         fail_read(path, reason(errno));
     }
-    std::string bytes;
-    const auto size = fs::file_size(path, error);
-    bytes.resize(error ? 0 : static_cast<std::size_t>(size));
-    // The file may shrink or grow while it is read: what counts is what arrives.
+    // Of the file that is open, which another may have replaced under this name by now.
+    struct ::stat opened {};
+    std::string bytes(
+        ::fstat(::fileno(file.get()), &opened) == 0 ? static_cast<std::size_t>(opened.st_size) : 0, '\0');
     bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
     if (std::ferror(file.get()) != 0) {
         fail_read(path, reason(errno));

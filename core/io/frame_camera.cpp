@@ -8,6 +8,24 @@
 
 namespace pl {
 
+namespace {
+
+/// Side of the scene (+1: from +z) that shows more front faces; +1 if they differ by less than a hundredth, as the
+/// two sides of a closed surface do by rounding.
+double better_side(const SceneDescription& scene) {
+    double front[2] = {0.0, 0.0}; // projected area facing -z, +z
+    for (const TriangleDescription& triangle : scene.triangles) {
+        const glm::dvec2 a(scene.positions[triangle.vertex.x]);
+        const glm::dvec2 b = glm::dvec2(scene.positions[triangle.vertex.y]) - a;
+        const glm::dvec2 c = glm::dvec2(scene.positions[triangle.vertex.z]) - a;
+        const double area = 0.5 * (b.x * c.y - b.y * c.x);
+        front[area > 0.0 ? 1 : 0] += std::abs(area);
+    }
+    return front[0] > 1.01 * front[1] ? -1.0 : 1.0;
+}
+
+} // namespace
+
 CameraDescription frame_camera(const SceneDescription& scene, float fov_deg) {
     glm::vec3 low(std::numeric_limits<float>::max());
     glm::vec3 high(std::numeric_limits<float>::lowest());
@@ -27,7 +45,7 @@ CameraDescription frame_camera(const SceneDescription& scene, float fov_deg) {
     const double distance = std::max(radius / std::sin(half_angle), smallest);
 
     CameraDescription camera;
-    camera.eye = glm::vec3(center + glm::dvec3(0.0, 0.0, distance));
+    camera.eye = glm::vec3(center + glm::dvec3(0.0, 0.0, better_side(scene) * distance));
     camera.target = glm::vec3(center);
     camera.up = {0.0f, 1.0f, 0.0f};
     camera.fov_deg = fov_deg;

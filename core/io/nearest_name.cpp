@@ -30,7 +30,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     std::string best;
     std::size_t best_distance = std::numeric_limits<std::size_t>::max();
     for (const std::string& candidate : candidates) {
-        const std::size_t distance = edit_distance(name, candidate);
+        // A beginning of a name is an abbreviation of it, however long the rest.
+        const bool shortened = !name.empty() && candidate.starts_with(name);
+        const std::size_t distance = shortened ? 1 : edit_distance(name, candidate);
         if (distance < best_distance) {
             best = candidate;
             best_distance = distance;

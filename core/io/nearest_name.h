@@ -7,7 +7,8 @@
 
 namespace pl {
 
-/// The candidate with the smallest Levenshtein distance to `name` (the first of equals); empty without candidates.
+/// The candidate with the smallest Levenshtein distance to `name`, the first of equals; one that begins with `name`
+/// counts as one edit away. Empty without candidates.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 } // namespace pl

@@ -77,9 +77,9 @@ private:
         } else if (keyword == "vt") {
             count_one(texture_points_);
         } else if (keyword == "usemtl") {
-            const std::string name(reader_.arguments());
-            result_.material_lines.try_emplace(name, reader_.line());
-            fmt::format_to(std::back_inserter(result_.text), "usemtl {}\n", encode_name(name));
+            const std::string word = encode_name(reader_.arguments());
+            result_.material_lines.try_emplace(decode_name(word), reader_.line());
+            fmt::format_to(std::back_inserter(result_.text), "usemtl {}\n", word);
         } else if (keyword == "mtllib") {
             result_.libraries.push_back({std::string(reader_.arguments()), reader_.line()});
         } else if (std::find(kWithoutEffect.begin(), kWithoutEffect.end(), keyword) == kWithoutEffect.end()) {

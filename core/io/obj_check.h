@@ -32,7 +32,8 @@ struct CheckedObj {
 /// Indices may point to vertices that follow; negative ones count back from the face.
 CheckedObj check_obj(std::string_view text, const std::filesystem::path& path);
 
-/// A name as one word, whatever blanks it has: the library's two Debian versions disagree about blanks.
+/// A name as one word, whatever blanks it has: the library's functions disagree about blanks. A tab comes back as a
+/// space.
 std::string encode_name(std::string_view name);
 std::string decode_name(std::string_view word);
 
