@@ -1,8 +1,12 @@
 // Whole files: written completely or not at all.
 #include "core/io/files.h"
 
+#include <csignal>
 #include <thread>
 
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/catch.hpp"
@@ -47,7 +51,6 @@ TEST_CASE("What cannot be written is told with the path and leaves nothing behin
     CHECK_THAT(message(folder.path() / std::string(300, 'x')), contains("File name too long"));
     CHECK(folder.file_count() == 2);
     CHECK(read_file(folder.path() / "file") == "old");
-    CHECK_THAT(message("/dev/full"), contains("/dev/full: cannot be written: No space left"));
 }
 
 TEST_CASE("A folder that may not be written to keeps its old file") {
@@ -64,15 +67,41 @@ TEST_CASE("A folder that may not be written to keeps its old file") {
     CHECK(folder.file_count() == 2);
 }
 
-TEST_CASE("Links are followed and devices are written to, not replaced") {
+TEST_CASE("A full disk leaves the old file and nothing else") {
+    const TemporaryFolder folder;
+    const fs::path path = folder.write("a.txt", "old");
+    // A limit on the size of files fails in the same call as a full disk does.
+    struct ::rlimit before {};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+    const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+    const struct ::rlimit small { .rlim_cur = 100000, .rlim_max = before.rlim_max };
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+    const std::string told =
+        error_message(ErrorKind::Runtime, [&] { write_file_atomic(path, std::string(1 << 20, 'x')); });
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, old_handler);
+    CHECK_THAT(told, contains("a.txt: cannot be written: File too large"));
+    CHECK(read_file(path) == "old");
+    CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("Links are followed and pipes are written to, not replaced") {
     const TemporaryFolder folder;
     const fs::path target = folder.write("real/a.txt", "old");
     fs::create_symlink("real/a.txt", folder.path() / "link");
     write_file_atomic(folder.path() / "link", "new");
     CHECK(fs::is_symlink(folder.path() / "link"));
     CHECK(read_file(target) == "new");
-    write_file_atomic("/dev/null", "gone");
-    CHECK(fs::is_character_file("/dev/null"));
+
+    const fs::path pipe = folder.path() / "pipe";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const int reader = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK);
+    write_file_atomic(pipe, "through");
+    CHECK(fs::is_fifo(pipe));
+    char arrived[16] = {};
+    CHECK(::read(reader, arrived, sizeof(arrived)) == 7);
+    CHECK(std::string(arrived) == "through");
+    ::close(reader);
 }
 
 TEST_CASE("A reader sees one version or the other, never a part") {
