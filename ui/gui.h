@@ -1,0 +1,35 @@
+// Dear ImGui for the life of a window: context, platform code, fonts, drawing.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "ui/display.h"
+#include "ui/imgui_draw.h"
+#include "ui/mouse_tracker.h"
+
+namespace pl {
+
+class Gui {
+public:
+    Gui(const Display& display, std::filesystem::path font, float ui_scale);
+    ~Gui();
+    Gui(const Gui&) = delete;
+    Gui& operator=(const Gui&) = delete;
+
+    void handle(const SDL_Event& event);
+    void set_scale(float ui_scale);
+    /// Runs `build` between the start and the end of a frame of this many seconds.
+    void frame(double delta_seconds, const std::function<void()>& build);
+    /// Draws what the last frame() built.
+    void draw();
+
+private:
+    const Display& display_;
+    std::filesystem::path font_;
+    float scale_ = 0.0f;
+    ImGuiDraw draw_;
+    MouseTracker mouse_;
+};
+
+} // namespace pl

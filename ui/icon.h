@@ -1,0 +1,10 @@
+// The window's icon, drawn by the program.
+#pragma once
+
+struct SDL_Window;
+
+namespace pl {
+
+void set_window_icon(SDL_Window* window);
+
+} // namespace pl

@@ -1,0 +1,54 @@
+// The picture in the window: one streaming texture, filled from the newest frame when something changed.
+#pragma once
+
+#include <memory>
+
+#include "ui/layout.h"
+#include "ui/picture.h"
+#include "ui/viewer_model.h"
+
+struct SDL_Renderer;
+struct SDL_Texture;
+
+namespace pl {
+
+class ImageLayer {
+public:
+    explicit ImageLayer(SDL_Renderer* renderer);
+    ~ImageLayer();
+    ImageLayer(const ImageLayer&) = delete;
+    ImageLayer& operator=(const ImageLayer&) = delete;
+
+    /// Where the picture is within `view`: that of the frame in the window, else that of the settings.
+    Rect place(const ViewerModel& model, const Rect& view) const;
+
+    /// Draws it. Does nothing before the first frame.
+    void draw(const ViewerModel& model, const Rect& image);
+
+private:
+    /// All that decides the texture's pixels.
+    struct Key {
+        std::uint64_t serial = 0; ///< of the frame
+        DisplaySettings display;
+        float opacity = 0.0f;
+        std::int32_t selected = kNoVolume;
+
+        friend bool operator==(const Key& a, const Key& b) {
+            return a.serial == b.serial && a.display.exposure_ev == b.display.exposure_ev &&
+                   a.display.curve == b.display.curve && a.opacity == b.opacity && a.selected == b.selected;
+        }
+    };
+
+    void ensure_texture(int width, int height);
+    void fill(const ViewerModel& model, const Key& key);
+
+    SDL_Renderer* renderer_;
+    SDL_Texture* texture_ = nullptr;
+    int width_ = 0;
+    int height_ = 0;
+    Key key_;
+    ToneTable table_{ToneCurve::Clamp};
+    ToneTable cell_table_{ToneCurve::Clamp};
+};
+
+} // namespace pl

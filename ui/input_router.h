@@ -1,0 +1,52 @@
+// Who gets an input: the panels, the camera, or the table of actions.
+#pragma once
+
+#include <set>
+
+#include <SDL_events.h>
+
+#include "ui/actions.h"
+#include "ui/layout.h"
+#include "ui/pointer_gesture.h"
+#include "ui/viewer_model.h"
+
+namespace pl {
+
+class InputRouter {
+public:
+    explicit InputRouter(SDL_Window* window) : window_(window) {}
+
+    /// `image` is where the picture is, `panels_want_*` whether Dear ImGui claims pointer or text.
+    struct Context {
+        Rect image;
+        Rect view;
+        bool panels_want_pointer = false;
+        bool panels_want_text = false;
+        double seconds = 0.0;
+    };
+    void handle(const SDL_Event& event, ViewerModel& model, const Context& context);
+
+    /// What the held keys ask the camera to do.
+    MoveKeys move_keys() const;
+
+    /// Where the pointer was last seen.
+    Vec2f pointer() const { return pointer_; }
+
+    /// Keys or buttons of ours are down: the window has to be redrawn without further events.
+    bool active() const { return !held_.empty() || gesture_.turning(); }
+
+private:
+    void key_down(const SDL_KeyboardEvent& event, ViewerModel& model, const Context& context);
+    void key_up(const SDL_KeyboardEvent& event);
+    void button(const SDL_MouseButtonEvent& event, ViewerModel& model, const Context& context);
+    void motion(const SDL_MouseMotionEvent& event, ViewerModel& model);
+    void let_go();
+
+    SDL_Window* window_;
+    PointerGesture gesture_;
+    std::set<ActionId> held_;
+    Vec2f pointer_{-1.0f};
+    bool skip_next_motion_ = false; ///< the first one after the focus came back is a jump
+};
+
+} // namespace pl

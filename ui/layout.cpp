@@ -1,0 +1,59 @@
+#include "ui/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pl {
+namespace {
+
+constexpr float kLeftEm = 18.0f;
+constexpr float kRightEm = 25.0f;
+constexpr float kBarEm = 1.75f;     ///< height of menu and status bar
+constexpr float kMinViewEm = 26.0f; ///< of the picture between the panels
+/// A picture that fills more of the view than this is not stretched to fill all of it: stretching blurs.
+constexpr float kNearlyFull = 0.95f;
+
+} // namespace
+
+Layout make_layout(float width, float height, float em, bool panels) {
+    Layout layout;
+    layout.panels = panels;
+    layout.view = {0.0f, 0.0f, width, height};
+    if (!panels)
+        return layout;
+
+    const float bar = std::round(kBarEm * em);
+    const float middle = std::max(height - 2.0f * bar, 1.0f);
+    const float left = std::min(std::round(kLeftEm * em), 0.45f * width);
+    const float right = std::min(std::round(kRightEm * em), 0.45f * width);
+    layout.menu = {0.0f, 0.0f, width, bar};
+    layout.status = {0.0f, height - bar, width, bar};
+    layout.left = {0.0f, bar, left, middle};
+    layout.right = {width - right, bar, right, middle};
+    const bool floating = width - left - right < kMinViewEm * em;
+    layout.view = floating ? Rect{0.0f, bar, width, middle} : Rect{left, bar, width - left - right, middle};
+    return layout;
+}
+
+Rect place_image(const Rect& view, int width, int height) {
+    if (width < 1 || height < 1)
+        return {};
+    const auto w = static_cast<float>(width);
+    const auto h = static_cast<float>(height);
+    float scale = std::min(view.width / w, view.height / h);
+    if (scale >= 1.0f && scale * kNearlyFull <= 1.0f)
+        scale = 1.0f;
+    const float shown_w = std::max(std::round(w * scale), 1.0f);
+    const float shown_h = std::max(std::round(h * scale), 1.0f);
+    return {std::floor(view.x + 0.5f * (view.width - shown_w)),
+            std::floor(view.y + 0.5f * (view.height - shown_h)), shown_w, shown_h};
+}
+
+ImageSize fit_image(const Rect& view, int width, int height) {
+    constexpr float kMinWidth = 64.0f;
+    const float shape = static_cast<float>(std::max(height, 1)) / static_cast<float>(std::max(width, 1));
+    const float w = std::max(std::floor(std::min(view.width, view.height / shape)), kMinWidth);
+    return {static_cast<int>(w), std::max(static_cast<int>(std::lround(w * shape)), 1)};
+}
+
+} // namespace pl

@@ -1,0 +1,32 @@
+// Where things are in the window: recomputed each frame from a few numbers, so that nothing can get lost.
+#pragma once
+
+#include "ui/overlays/draw_list.h"
+
+namespace pl {
+
+struct Layout {
+    Rect menu;
+    Rect left;  ///< settings
+    Rect right; ///< what is known about the picture
+    Rect status;
+    Rect view; ///< what the picture may use
+    bool panels = true;
+};
+
+/// Everything in pixels; `em` is the font size. Where the window is too narrow for both panels and a picture they
+/// float over it.
+Layout make_layout(float width, float height, float em, bool panels);
+
+/// The largest rectangle with the shape of a picture of width x height in the middle of `view`. A picture that is
+/// somewhat smaller than the view is shown pixel by pixel.
+Rect place_image(const Rect& view, int width, int height);
+
+/// Size of a picture with the shape of width x height that fills the view pixel by pixel; at least 64 pixels wide.
+struct ImageSize {
+    int width;
+    int height;
+};
+ImageSize fit_image(const Rect& view, int width, int height);
+
+} // namespace pl

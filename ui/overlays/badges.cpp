@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include "ui/overlays/overlays.h"
+#include "ui/panels/panels.h"
+#include "ui/panels/widgets.h"
+
+namespace pl {
+namespace {
+
+/// Small labels in a row, from the left.
+class BadgeRow {
+public:
+    BadgeRow(ImVec2 corner, float right)
+        : list_(*ImGui::GetBackgroundDrawList()), corner_(corner), left_(corner.x), right_(right) {}
+
+    void add(const std::string& text, ImU32 color) {
+        const ImVec2 pad{em(0.45f), em(0.2f)};
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+        const float width = size.x + 2.0f * pad.x;
+        const float height = size.y + 2.0f * pad.y;
+        if (corner_.x + width > right_ && corner_.x > left_)
+            corner_ = {left_, corner_.y + height + em(0.3f)};
+        list_.AddRectFilled(corner_, {corner_.x + width, corner_.y + height}, colors::kBadge, em(0.2f));
+        list_.AddText({corner_.x + pad.x, corner_.y + pad.y}, color, text.c_str());
+        corner_.x += width + em(0.35f);
+    }
+
+private:
+    ImDrawList& list_;
+    ImVec2 corner_;
+    float left_;
+    float right_;
+};
+
+void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
+    const Snapshot& snapshot = frame.snapshot;
+    const View view = snapshot.slot.view;
+    if (view == View::Beauty || view == View::RadianceMap)
+        row.add(fmt::format("{}  {} spp  {}", info_of(snapshot.slot.method).label, snapshot.passes,
+                            short_seconds(work_seconds(snapshot.clocks))),
+                colors::kText);
+    else
+        row.add(fmt::format("{}  {} spp", info_of(view).label, snapshot.passes), colors::kText);
+    if (view == View::RadianceMap)
+        row.add("radiance map: biased preview", colors::kWarning);
+    if (view == View::Depth)
+        row.add(fmt::format("black 0, white {:.4g}", frame.diagonal), colors::kText);
+    if (frame.divider > 1)
+        row.add(fmt::format("1/{} res", frame.divider), colors::kWarning);
+}
+
+void draw_precompute_progress(ViewerModel& model, const Layout& layout, double share) {
+    const Vec2f center = layout.view.center();
+    const float width = std::min(em(24.0f), layout.view.width - em(2.0f));
+    begin_fixed_window(
+        "precompute",
+        {center.x - 0.5f * width, layout.view.y + layout.view.height - em(7.0f), width, em(5.2f)},
+        ImGuiWindowFlags_NoScrollbar);
+    ImGui::Text("Precomputing the radiance map");
+    const float button = em(5.0f);
+    ImGui::ProgressBar(static_cast<float>(share),
+                       {ImGui::GetContentRegionAvail().x - button - em(0.5f), 0.0f},
+                       fmt::format("{:.0f} %", 100.0 * share).c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel", {button, 0.0f}))
+        model.cancel_precomputation();
+    tooltip("Esc: back to the method before. What is computed so far is kept.");
+    ImGui::End();
+}
+
+} // namespace
+
+void draw_badges(ViewerModel& model, const Layout& layout) {
+    const Rect& view = layout.view;
+    BadgeRow row({view.x + em(0.6f), view.y + em(0.6f)}, view.x + view.width - em(0.6f));
+    if (model.frame() != nullptr)
+        add_picture_badges(row, *model.frame());
+    const WorkerStatus& status = model.status();
+    if (status.state == WorkerState::Starting)
+        row.add("starting", colors::kWarning);
+    if (model.paused())
+        row.add("paused", colors::kWarning);
+    if (status.state == WorkerState::Done)
+        row.add("done", colors::kGood);
+    if (status.state == WorkerState::Failed)
+        row.add("rendering failed, see the log", colors::kError);
+    if (info_of(model.settings().method).learns && status.state == WorkerState::Rendering && status.field)
+        row.add(fmt::format("learning  {}", status.field->passes), colors::kGood);
+    if (model.window().cells)
+        row.add(fmt::format("volumes {:.0f} %", 100.0f * model.window().cells_opacity), colors::kText);
+    if (model.busy())
+        row.add("working", colors::kFaint);
+    if (status.state == WorkerState::Precomputing && status.field)
+        draw_precompute_progress(model, layout, status.field->precomputed_share);
+}
+
+} // namespace pl

@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include "ui/overlays/overlays.h"
+
+namespace pl {
+namespace {
+
+ImU32 stripe_of(LogLevel level) {
+    switch (level) {
+    case LogLevel::Info:
+        return colors::kAccent;
+    case LogLevel::Warning:
+        return colors::kWarning;
+    case LogLevel::Error:
+        return colors::kError;
+    }
+    return colors::kAccent;
+}
+
+/// One message with its lower left corner at `corner`; returns its height.
+float draw_toast(ImDrawList& list, ImVec2 corner, float max_width, LogLevel level, const std::string& text) {
+    const ImVec2 pad{em(0.7f), em(0.5f)};
+    const float wrap = max_width - 2.0f * pad.x;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const float height = size.y + 2.0f * pad.y;
+    const ImVec2 low{corner.x, corner.y - height};
+    const ImVec2 high{corner.x + size.x + 2.0f * pad.x, corner.y};
+    list.AddRectFilled(low, high, IM_COL32(28, 31, 38, 240), em(0.2f));
+    list.AddRectFilled(low, {low.x + em(0.25f), high.y}, stripe_of(level));
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y}, colors::kText,
+                 text.c_str(), nullptr, wrap);
+    return height;
+}
+
+} // namespace
+
+void draw_toasts(const ViewerModel& model, const Layout& layout) {
+    const Rect& view = layout.view;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    ImVec2 corner{view.x + em(0.6f), view.y + view.height - em(0.6f)};
+    const float width = std::min(view.width - em(1.2f), em(34.0f));
+    for (auto toast = model.toasts().rbegin(); toast != model.toasts().rend(); ++toast)
+        corner.y -= draw_toast(list, corner, width, toast->level, toast->text) + em(0.35f);
+
+    if (model.now() >= model.window().speed_shown_until)
+        return;
+    const std::string text = fmt::format("speed {:.4g} units/s", model.controls().speed());
+    const float text_width = ImGui::CalcTextSize(text.c_str()).x;
+    draw_toast(list, {view.center().x - 0.5f * text_width - em(0.7f), view.y + 0.2f * view.height}, em(30.0f),
+               LogLevel::Info, text);
+}
+
+} // namespace pl

@@ -1,0 +1,174 @@
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/kernel/film/tonemap.h"
+#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/scene/surface_point.h"
+#include "ui/panels/panels.h"
+#include "ui/panels/widgets.h"
+#include "ui/picture.h"
+
+namespace pl {
+namespace {
+
+ImU32 color_of(LogLevel level) {
+    switch (level) {
+    case LogLevel::Info:
+        return colors::kText;
+    case LogLevel::Warning:
+        return colors::kWarning;
+    case LogLevel::Error:
+        return colors::kError;
+    }
+    return colors::kText;
+}
+
+std::string vector_text(Vec3f v) {
+    return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x, v.y, v.z);
+}
+
+std::string radiance_text(Vec3f v) {
+    return fmt::format("{:.5g}  {:.5g}  {:.5g}", v.x, v.y, v.z);
+}
+
+/// The surface under the middle of a pixel, by a ray of our own: nobody has to wait for the render thread.
+std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const HoveredPixel& pixel) {
+    const Snapshot& snapshot = frame.snapshot;
+    const PinholeCamera camera = make_camera(snapshot.camera, snapshot.width, snapshot.height);
+    const Ray ray =
+        generate_ray(camera, {static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f},
+                     {static_cast<float>(snapshot.width), static_cast<float>(snapshot.height)});
+    const SceneView scene = frame.scene->view();
+    const Hit hit = BvhIntersector{scene}.closest_hit(ray);
+    if (!hit.found())
+        return std::nullopt;
+    const SurfacePoint surface = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
+    PickedPoint point;
+    point.position = surface.position;
+    point.normal = surface.geometric_normal;
+    point.primitive = surface.primitive;
+    point.material = surface.material;
+    point.distance = hit.t;
+    return point;
+}
+
+void draw_pixel_values(const ViewerModel& model, const PublishedFrame& frame, const HoveredPixel& pixel) {
+    const Snapshot& snapshot = frame.snapshot;
+    const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(snapshot.width) +
+                              static_cast<std::size_t>(pixel.x);
+    const Vec3f value = snapshot.pixels[index];
+    const DisplaySettings display = display_of(snapshot.slot.view, model.display());
+    const Vec3f shown = tone_map(value * display_scale(snapshot.slot.view, frame.diagonal),
+                                 std::exp2(display.exposure_ev), display.curve);
+    std::array<int, 3> code;
+    for (int i = 0; i < 3; ++i)
+        code[static_cast<std::size_t>(i)] = static_cast<int>(std::lround(255.0f * encode_srgb(shown[i])));
+
+    text_row("Pixel", fmt::format("{}, {} of {}x{}", pixel.x, pixel.y, snapshot.width, snapshot.height));
+    text_row("Linear RGB", radiance_text(value), "Mean of all samples before exposure and tone curve.");
+    text_row("Luminance", fmt::format("{:.5g}", luminance(value)));
+    text_row(
+        "On screen",
+        fmt::format("{}  {}  {}   #{:02x}{:02x}{:02x}", code[0], code[1], code[2], code[0], code[1], code[2]),
+        "8-bit sRGB after exposure and tone curve.");
+    ImGui::ColorButton("##swatch",
+                       {static_cast<float>(code[0]) / 255.0f, static_cast<float>(code[1]) / 255.0f,
+                        static_cast<float>(code[2]) / 255.0f, 1.0f},
+                       ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
+                       {ImGui::GetContentRegionAvail().x, em(2.0f)});
+}
+
+void draw_surface(const PublishedFrame& frame, const HoveredPixel& pixel) {
+    const std::optional<PickedPoint> point = surface_under(frame, pixel);
+    if (!point) {
+        faint_text("Nothing is hit there.");
+        return;
+    }
+    text_row("Position", vector_text(point->position), "In scene units.");
+    text_row("Normal", vector_text(point->normal), "Geometric, towards the camera.");
+    text_row("Distance", fmt::format("{:.5g}", point->distance));
+    text_row("Triangle", fmt::format("{}", point->primitive));
+    const auto& materials = frame.description->materials;
+    if (point->material >= materials.size())
+        return;
+    const MaterialDescription& material = materials[point->material];
+    text_row("Material", material.name.empty() ? "(no name)" : material.name);
+    text_row("Albedo", vector_text(material.albedo));
+    if (!is_black(material.emission))
+        text_row("Emission", vector_text(material.emission));
+}
+
+} // namespace
+
+void draw_pixel_tab(const ViewerModel& model, const std::optional<HoveredPixel>& hovered) {
+    const PublishedFrame* frame = model.frame();
+    if (!hovered || frame == nullptr) {
+        faint_text("Move the pointer over the picture.");
+        return;
+    }
+    draw_pixel_values(model, *frame, *hovered);
+    ImGui::Separator();
+    draw_surface(*frame, *hovered);
+}
+
+void draw_log_tab(const ViewerModel& model) {
+    if (ImGui::Button("Copy all")) {
+        std::string text;
+        for (const LogLine& line : model.log())
+            text += fmt::format("{:9.2f}  {}\n", line.seconds, line.text);
+        ImGui::SetClipboardText(text.c_str());
+    }
+    ImGui::BeginChild("lines", {0.0f, 0.0f}, true);
+    for (const LogLine& line : model.log()) {
+        ImGui::TextDisabled("%7.2f", line.seconds);
+        ImGui::SameLine();
+        ImGui::PushStyleColor(ImGuiCol_Text, color_of(line.level));
+        ImGui::TextWrapped("%s", line.text.c_str());
+        ImGui::PopStyleColor();
+    }
+    if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY())
+        ImGui::SetScrollHereY(1.0f);
+    ImGui::EndChild();
+}
+
+void draw_knowledge_panel(ViewerModel& model,
+                          const Layout& layout,
+                          const std::optional<HoveredPixel>& hovered) {
+    model.window().hovered_cell = -1; // the volume tab sets it again if it is in front
+    begin_fixed_window("knowledge", layout.right);
+    if (ImGui::BeginTabBar("tabs")) {
+        const ImGuiTabItemFlags front =
+            model.window().volume_tab_asked ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+        model.window().volume_tab_asked = false;
+        if (ImGui::BeginTabItem("Volume", nullptr, front)) {
+            draw_volume_tab(model);
+            ImGui::EndTabItem();
+        }
+        if (ImGui::BeginTabItem("Pixel")) {
+            draw_pixel_tab(model, hovered);
+            ImGui::EndTabItem();
+        }
+        if (ImGui::BeginTabItem("Statistics")) {
+            draw_statistics_tab(model);
+            ImGui::EndTabItem();
+        }
+        if (ImGui::BeginTabItem("Log")) {
+            draw_log_tab(model);
+            ImGui::EndTabItem();
+        }
+        ImGui::EndTabBar();
+    }
+    ImGui::End();
+}
+
+void begin_fixed_window(const char* name, const Rect& place, int extra_flags) {
+    ImGui::SetNextWindowPos({place.x, place.y});
+    ImGui::SetNextWindowSize({place.width, place.height});
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | extra_flags);
+}
+
+} // namespace pl

@@ -1,0 +1,43 @@
+#include "ui/actions.h"
+#include "ui/panels/panels.h"
+#include "ui/panels/widgets.h"
+
+namespace pl {
+namespace {
+
+/// One menu per group of the key table; keys that are held make no sense as menu items.
+void draw_group(ViewerModel& model, ActionGroup group) {
+    if (!ImGui::BeginMenu(name_of(group)))
+        return;
+    for (const Action& action : all_actions()) {
+        if (action.group != group || action.is_held)
+            continue;
+        if (ImGui::MenuItem(action.text, action.keys))
+            perform(model, action.id);
+    }
+    ImGui::EndMenu();
+}
+
+} // namespace
+
+void draw_menu_bar(ViewerModel& model, const Layout& layout) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(0.4f), 0.0f});
+    begin_fixed_window("menu", layout.menu, ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollbar);
+    ImGui::PopStyleVar();
+    if (ImGui::BeginMenuBar()) {
+        draw_group(model, ActionGroup::File);
+        draw_group(model, ActionGroup::Render);
+        draw_group(model, ActionGroup::Method);
+        draw_group(model, ActionGroup::View);
+        draw_group(model, ActionGroup::Overlay);
+        draw_group(model, ActionGroup::Fly);
+        draw_group(model, ActionGroup::Window);
+        const std::string title = model.title();
+        ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(title.c_str()).x - em(1.0f));
+        ImGui::TextDisabled("%s", title.c_str());
+        ImGui::EndMenuBar();
+    }
+    ImGui::End();
+}
+
+} // namespace pl

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include "core/scene/needed_effects.h"
+#include "ui/panels/panels.h"
+#include "ui/panels/widgets.h"
+
+namespace pl {
+namespace {
+
+std::string count_text(std::uint64_t count) {
+    return short_number(static_cast<double>(count));
+}
+
+std::string share_text(std::uint64_t part, std::uint64_t whole) {
+    return whole > 0 ? fmt::format("{:.2f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole))
+                     : "-";
+}
+
+void clock_row(const char* name, double seconds, double total, const char* tip) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name);
+    tooltip(tip);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(short_seconds(seconds).c_str());
+    ImGui::TableNextColumn();
+    const float share = total > 0.0 ? static_cast<float>(seconds / total) : 0.0f;
+    ImGui::ProgressBar(share, {-1.0f, em(1.1f)}, fmt::format("{:.0f} %", 100.0f * share).c_str());
+}
+
+void draw_clocks(const Clocks& clocks) {
+    if (!section("Time", true))
+        return;
+    if (!ImGui::BeginTable("clocks", 3, ImGuiTableFlags_SizingStretchProp))
+        return;
+    const double total = clocks.total();
+    clock_row("Load", clocks.load, total, "Reading and checking the scene's files.");
+    clock_row("Build", clocks.build, total, "Packing the scene, building the hierarchy.");
+    clock_row("Place volumes", clocks.place, total, "Placing radiance volumes and building their tree.");
+    clock_row("Precompute", clocks.precompute, total, "Filling the precomputed radiance map.");
+    clock_row("Learn", clocks.learn, total, "Publishing learned tables between passes.");
+    clock_row("Render", clocks.render, total, "Passes of this picture, including the records they make.");
+    ImGui::EndTable();
+}
+
+void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
+    if (!section("Paths of this picture", true))
+        return;
+    const PassCounters& c = snapshot.counters;
+    const double per_path = c.paths > 0 ? 1.0 / static_cast<double>(c.paths) : 0.0;
+    text_row("Speed", fmt::format("{:.3f} Mpaths/s", model.mpaths_per_second()));
+    text_row("Paths", count_text(c.paths), "Camera paths.");
+    text_row("Segments", count_text(c.path.segments), "Path rays, without shadow rays.");
+    text_row("Mean length", fmt::format("{:.3f}", static_cast<double>(c.path.segments) * per_path),
+             "Segments per path.");
+    text_row("Shadow rays", count_text(c.path.shadow_rays));
+    text_row("Dark paths", share_text(c.zero_contribution_paths, c.paths),
+             "Paths that brought no light: what guiding makes fewer.");
+    text_row("Escaped", count_text(c.path.escaped), "Paths that left the scene. 0 in a closed one.");
+    text_row("Truncated", count_text(c.path.truncated), "Paths cut at the largest depth.");
+    text_row("Lost rays", count_text(c.path.zero_directions),
+             "Sampled directions that a surface cannot reflect.");
+    text_row("Invalid", count_text(c.invalid_samples),
+             "Samples that were NaN, infinite or negative: dropped and counted.",
+             c.invalid_samples > 0 ? colors::kWarning : colors::kText);
+}
+
+void draw_field(const std::optional<FieldStatus>& field) {
+    if (!section("Learned field", true))
+        return;
+    if (!field) {
+        faint_text("This method has none.");
+        return;
+    }
+    text_row("Volumes", fmt::format("{} x {} directions", field->volumes, field->bins));
+    text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");
+    text_row("Passes", fmt::format("{}", field->passes), "Times that tables were published.");
+    text_row("Records", count_text(field->records));
+    text_row("Misses", count_text(field->lookup_misses), "Surface points that no volume serves.");
+}
+
+void draw_scene(const PublishedFrame& frame, const ViewerModel& model) {
+    if (!section("Scene and kernel", true))
+        return;
+    text_row("Scene", model.scene_name(), frame.description->source.string().c_str());
+    text_row("Triangles", count_text(frame.description->triangles.size()));
+    text_row("Lights", count_text(frame.scene->lights.size()), "Triangles that emit.");
+    text_row("Materials", count_text(frame.description->materials.size()));
+    std::string effects;
+    for (const std::string& name : effect_names(needed_effects(*frame.scene)))
+        effects += (effects.empty() ? "" : ", ") + name;
+    text_row("Effects", effects.empty() ? "none" : effects, "What the scene needs beyond diffuse triangles.");
+    text_row("Kernel", frame.snapshot.kernel, "The compiled variant that serves them.");
+    text_row("Rays", frame.backend.intersector);
+}
+
+} // namespace
+
+void draw_statistics_tab(const ViewerModel& model) {
+    const PublishedFrame* frame = model.frame();
+    if (frame == nullptr) {
+        faint_text("Nothing is rendered yet.");
+        return;
+    }
+    draw_clocks(frame->snapshot.clocks);
+    draw_paths(model, frame->snapshot);
+    draw_field(model.status().field);
+    draw_scene(*frame, model);
+}
+
+} // namespace pl

@@ -1,0 +1,52 @@
+// Rows of a panel: a label on the left, its value or control on the right, an explanation on hover.
+#pragma once
+
+#include <string>
+
+#include "ui/style.h"
+
+namespace pl {
+
+/// Explains the last item while the pointer rests on it.
+void tooltip(const char* text);
+
+/// Puts the label, and makes the next item fill the rest of the row.
+void begin_row(const char* label, const char* tip);
+
+/// A value that can only be read.
+void text_row(const char* label, const std::string& value, const char* tip = "", ImU32 color = colors::kText);
+
+/// Ctrl+click to type, right click for the default. True if the value changed.
+bool slider_row(const char* label,
+                const char* tip,
+                float* value,
+                float low,
+                float high,
+                float standard,
+                const char* format,
+                ImGuiSliderFlags flags = 0);
+
+bool toggle_row(const char* label, const char* tip, bool* value);
+
+/// A whole number; the change counts when the field is left or Enter is pressed.
+bool int_row(const char* label, const char* tip, int* value, int step);
+bool double_row(const char* label, const char* tip, double* value, double step, const char* format);
+
+/// One of several words; the labels are separated by '\0' and end with two.
+bool choice_row(const char* label, const char* tip, int* index, const char* labels);
+
+/// A full-width button.
+bool wide_button(const char* label, const char* tip);
+
+/// A part of the panel that can be folded.
+bool section(const char* title, bool open_at_first);
+
+/// Text that breaks lines, in the faint color.
+void faint_text(const char* text);
+
+/// "12.3 M": three digits and a power of a thousand.
+std::string short_number(double value);
+/// "1.25 s", "85 ms".
+std::string short_seconds(double seconds);
+
+} // namespace pl

@@ -1,0 +1,61 @@
+// What the render thread hands to the window: immutable once published, shared by reference.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/pack_scene.h"
+#include "core/session/snapshot.h"
+
+namespace pl {
+
+/// Which radiance volume serves each pixel, as display colors of color_of_id(); see ui/picture.h.
+struct CellImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint32_t> argb;
+};
+
+struct PublishedFrame {
+    Snapshot snapshot;
+    RenderSettings settings;      ///< width and height are those of the full picture
+    std::uint64_t serial = 0;     ///< number of the frame, from 1
+    std::uint64_t generation = 0; ///< of the newest edit that this picture shows
+    int divider = 1;              ///< width and height of the snapshot are divided by this
+    BackendInfo backend;
+    std::shared_ptr<const SceneDescription> description;
+    std::shared_ptr<const HostScene> scene;
+    float diagonal = 0.0f;                  ///< of the scene's bounds
+    std::shared_ptr<const CellImage> cells; ///< null if not asked for, or of another camera pose
+    std::shared_ptr<const VolumeInspection>
+        volume; ///< of the selected volume; null if there is nothing to show
+};
+
+enum class WorkerState { Starting, Rendering, Precomputing, Paused, Done, Failed };
+const char* name_of(WorkerState state);
+
+/// Changes with every pass; cheap to copy.
+struct WorkerStatus {
+    WorkerState state = WorkerState::Starting;
+    std::uint32_t passes = 0;
+    int divider = 1;
+    double seconds = 0.0; ///< work_seconds()
+    std::uint64_t generation = 0;
+    std::optional<FieldStatus> field;
+};
+
+/// Something to tell the person.
+struct WorkerMessage {
+    bool is_error = false;
+    std::string text;
+};
+
+/// Answer to RenderWorker::request_pick.
+struct PickAnswer {
+    std::optional<PickedPoint> point;
+};
+
+} // namespace pl

@@ -1,0 +1,132 @@
+// The render thread. It owns the session; the window sends edits and wishes, and takes published frames.
+// Every public function may be called from any thread and returns at once.
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "core/session/session.h"
+#include "ui/edit_queue.h"
+#include "ui/motion_resolution.h"
+#include "ui/picture.h"
+#include "ui/published_frame.h"
+#include "ui/viewer.h"
+
+namespace pl {
+
+struct WorkerSetup {
+    std::function<std::unique_ptr<RenderBackend>()> make_backend;
+    std::shared_ptr<const SceneDescription> scene;
+    RenderSettings settings;
+    SampleLimits limits;
+    double load_seconds = 0.0;
+};
+
+class RenderWorker {
+public:
+    explicit RenderWorker(WorkerSetup setup);
+    ~RenderWorker();
+    RenderWorker(const RenderWorker&) = delete;
+    RenderWorker& operator=(const RenderWorker&) = delete;
+
+    /// Queues an edit and returns its number: frames that show it have at least this generation.
+    std::uint64_t submit(SessionEdit edit);
+    /// While the camera moves, pictures may be coarse; afterwards they are complete again.
+    void set_moving(bool moving);
+    void set_low_resolution_allowed(bool allowed);
+    void set_paused(bool paused);
+    /// One more pass while paused.
+    void step();
+    void set_limits(SampleLimits limits);
+    /// Whether frames carry the image of the volumes' cells.
+    void set_cells_wanted(bool wanted);
+    /// Asks for the surface under a point of the image, in [0,1)^2 from the top left.
+    void request_pick(Vec2f image_point);
+    /// The volume whose inspection frames carry; kNoVolume for none.
+    void select_volume(std::int32_t volume);
+
+    std::shared_ptr<const PublishedFrame> latest();
+    /// Number of frames published so far.
+    std::uint64_t frame_count() const { return frame_count_.load(std::memory_order_acquire); }
+    WorkerStatus status() const;
+    std::vector<WorkerMessage> take_messages();
+    std::optional<PickAnswer> take_pick();
+    /// What ended the thread, or null. Only a session that cannot be made ends it.
+    std::exception_ptr failure() const;
+
+private:
+    /// What the window asked for; guarded by mutex_.
+    struct Wishes {
+        bool quit = false;
+        bool moving = false;
+        bool paused = false;
+        bool low_resolution = true;
+        bool cells = false;
+        int steps = 0;
+        SampleLimits limits;
+        std::int32_t volume = kNoVolume;
+        std::optional<Vec2f> pick;
+        std::uint64_t generation = 0;
+    };
+
+    void run();
+    bool take_wishes();
+    bool has_work() const;
+    void apply_edits(std::vector<SessionEdit> edits);
+    void apply_size(int divider);
+    void work();
+    void render();
+    void render_cells();
+    void answer_pick(Vec2f image_point);
+    void refresh_inspection();
+    void publish();
+    bool publish_is_due() const;
+    bool limit_reached() const;
+    bool wants_pass() const;
+    void update_status();
+    void report(bool is_error, const std::string& text);
+
+    WorkerSetup setup_;
+
+    mutable std::mutex mutex_;
+    std::condition_variable wake_;
+    Wishes wishes_;
+    EditQueue edits_;
+    WorkerStatus status_;
+    std::vector<WorkerMessage> messages_;
+    std::optional<PickAnswer> pick_answer_;
+    std::shared_ptr<const PublishedFrame> frame_;
+    bool frame_taken_ = true;
+    bool pass_may_be_cut_ = false; ///< the pass under way is one at rest: a new camera stops it
+    std::exception_ptr failure_;
+    std::atomic<std::uint64_t> frame_count_{0};
+    StopFlag stop_{false};
+
+    // Only the render thread touches what follows.
+    std::unique_ptr<Session> session_;
+    Wishes now_; ///< wishes as of the last look
+    std::shared_ptr<const SceneDescription> scene_;
+    float diagonal_ = 0.0f;
+    MotionResolution motion_;
+    int full_width_ = 0;
+    int full_height_ = 0;
+    int divider_ = 1;
+    std::uint64_t pose_ = 1;       ///< grows with everything that changes which cell a pixel sees
+    std::uint64_t cells_pose_ = 0; ///< pose that cells_ shows
+    std::shared_ptr<const CellImage> cells_;
+    ToneTable cell_table_{ToneCurve::Clamp};
+    std::shared_ptr<const VolumeInspection> inspection_;
+    bool inspection_stale_ = false;
+    bool republish_ = false; ///< the published frame lacks something that is there now
+    bool failed_ = false;
+    double inspected_at_ = 0.0;
+    double published_at_ = 0.0;
+    std::uint32_t published_passes_ = 0;
+
+    std::thread thread_; ///< last: starts when all else is there
+};
+
+} // namespace pl

@@ -1,0 +1,44 @@
+// Scripted input: what a person would do at the window, counted in frames. Drives the real window on SDL's dummy
+// driver and is the automated test of the user interface. One command per line, '#' starts a comment:
+//   FRAME move X Y | aim U V | down B | up B | wheel N | key K [MODS] | keyup K | tap K [MODS] | resize W H | drop FILE
+//   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE | wait_spp N | quit
+// B is left, right or middle; MODS are shift, ctrl, alt; `aim` points at the image, (0, 0) is its top left corner and
+// (1, 1) its bottom right one; OP is one of == != < <= > >= ~ (contains). While a script waits, its frames stand still.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ui/actions.h"
+
+namespace pl {
+
+struct ScriptCondition {
+    std::string name;
+    std::string op;
+    std::string value;
+};
+
+/// Numbers are compared as numbers, everything else as text.
+bool holds(const ScriptCondition& condition, const std::string& actual);
+
+struct ScriptCommand {
+    enum class Kind { Move, Aim, Down, Up, Wheel, Key, KeyUp, Tap, Resize, Drop, Shot, Expect, Wait, Quit };
+    Kind kind = Kind::Quit;
+    int frame = 0;
+    std::string where; ///< file:line, for messages
+    double x = 0.0;    ///< also width, notches
+    double y = 0.0;    ///< also height
+    int button = 0;    ///< SDL's number
+    KeyStroke key{};
+    std::string text; ///< file name
+    ScriptCondition condition;
+};
+
+/// Throws Error(Input) with file and line.
+std::vector<ScriptCommand> parse_script(std::string_view text, const std::string& file_name);
+std::vector<ScriptCommand> load_script(const std::filesystem::path& path);
+
+} // namespace pl

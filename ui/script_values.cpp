@@ -1,0 +1,115 @@
+#include "ui/script_values.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "ui/viewer_model.h"
+
+namespace pl {
+namespace {
+
+struct Value {
+    std::string_view name;
+    std::string (*read)(const ViewerModel& model);
+};
+
+std::string word(bool value) {
+    return value ? "yes" : "no";
+}
+
+std::string vector_text(Vec3f v) {
+    return fmt::format("{:.3f},{:.3f},{:.3f}", v.x, v.y, v.z);
+}
+
+std::string last_message(const ViewerModel& model) {
+    return model.log().empty() ? "" : model.log().back().text;
+}
+
+std::string learned_passes(const ViewerModel& model) {
+    return fmt::format("{}", model.status().field ? model.status().field->passes : 0);
+}
+
+/// What the picture in the window was made with: behind what was asked for until the first pass is there.
+std::string shown(const ViewerModel& model, std::string (*read)(const PublishedFrame& frame)) {
+    return model.frame() != nullptr ? read(*model.frame()) : "none";
+}
+
+constexpr std::array kValues{
+    Value{"method", [](const ViewerModel& m) { return std::string(info_of(m.settings().method).name); }},
+    Value{"view", [](const ViewerModel& m) { return std::string(info_of(m.settings().view).name); }},
+    Value{"state", [](const ViewerModel& m) { return std::string(name_of(m.status().state)); }},
+    Value{"spp", [](const ViewerModel& m) { return fmt::format("{}", m.status().passes); }},
+    Value{"learned", learned_passes},
+    Value{"nee", [](const ViewerModel& m) { return word(m.settings().next_event); }},
+    Value{"exposure", [](const ViewerModel& m) { return fmt::format("{}", m.display().exposure_ev); }},
+    Value{"opacity", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().cells_opacity); }},
+    Value{"cells", [](const ViewerModel& m) { return word(m.window().cells); }},
+    Value{"hemisphere", [](const ViewerModel& m) { return word(m.window().hemisphere); }},
+    Value{"help", [](const ViewerModel& m) { return word(m.window().help); }},
+    Value{"panels", [](const ViewerModel& m) { return word(m.window().panels); }},
+    Value{"moving", [](const ViewerModel& m) { return word(m.moving()); }},
+    Value{"busy", [](const ViewerModel& m) { return word(m.busy()); }},
+    Value{"volume", [](const ViewerModel& m) { return fmt::format("{}", m.selected_volume()); }},
+    Value{"inspected", [](const ViewerModel& m) { return word(m.inspection() != nullptr); }},
+    Value{"scene", [](const ViewerModel& m) { return m.scene_name(); }},
+    Value{"eye", [](const ViewerModel& m) { return vector_text(m.settings().camera.eye); }},
+    Value{"eye_z", [](const ViewerModel& m) { return fmt::format("{}", m.settings().camera.eye.z); }},
+    Value{"target", [](const ViewerModel& m) { return vector_text(m.settings().camera.target); }},
+    Value{"speed", [](const ViewerModel& m) { return fmt::format("{}", m.controls().speed()); }},
+    Value{"size",
+          [](const ViewerModel& m) { return fmt::format("{}x{}", m.settings().width, m.settings().height); }},
+    Value{"title", [](const ViewerModel& m) { return m.title(); }},
+    Value{"message", last_message},
+    Value{"toasts", [](const ViewerModel& m) { return fmt::format("{}", m.toasts().size()); }},
+    Value{"shown_method",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) {
+                  return std::string(info_of(f.snapshot.slot.method).name);
+              });
+          }},
+    Value{"shown_view",
+          [](const ViewerModel& m) {
+              return shown(
+                  m, [](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.view).name); });
+          }},
+    Value{"shown_spp",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return fmt::format("{}", f.snapshot.passes); });
+          }},
+    Value{"shown_divider",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return fmt::format("{}", f.divider); });
+          }},
+    Value{"shown_cells",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return word(f.cells != nullptr); });
+          }},
+    Value{"invalid",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) {
+                  return fmt::format("{}", f.snapshot.counters.invalid_samples);
+              });
+          }},
+};
+
+} // namespace
+
+bool is_script_value(std::string_view name) {
+    return std::ranges::find(kValues, name, &Value::name) != kValues.end();
+}
+
+std::string script_value_names() {
+    std::string text;
+    for (const Value& value : kValues)
+        text += (text.empty() ? "" : ", ") + std::string(value.name);
+    return text;
+}
+
+std::string script_value(const ViewerModel& model, std::string_view name) {
+    const auto value = std::ranges::find(kValues, name, &Value::name);
+    return value != kValues.end() ? value->read(model) : "";
+}
+
+} // namespace pl

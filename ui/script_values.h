@@ -1,0 +1,17 @@
+// What a script can wait for or expect: the state of the viewer as words and numbers.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace pl {
+
+class ViewerModel;
+
+bool is_script_value(std::string_view name);
+/// All names, separated by commas.
+std::string script_value_names();
+/// The value now. The name must be one of the known ones.
+std::string script_value(const ViewerModel& model, std::string_view name);
+
+} // namespace pl

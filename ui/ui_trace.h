@@ -1,0 +1,51 @@
+// How fluid the window is: times of its frames, and how long an input takes to become a picture.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pl {
+
+/// Value below which a share of the sample lies, by linear interpolation between ranks; 0 for an empty sample.
+double percentile(std::vector<double> sample, double share);
+
+class UiTrace {
+public:
+    /// Camera moves further apart than this are separate ones.
+    static constexpr double kNewMoveSeconds = 0.2;
+
+    /// Throws Error(Runtime) if the file cannot be written.
+    explicit UiTrace(const std::filesystem::path& path);
+
+    /// The camera was moved now; pictures of at least this generation show it.
+    void camera_moved(double seconds, std::uint64_t generation);
+
+    /// A frame was shown. `work` is the time the window's thread spent on it, `interval` since the last one (negative
+    /// if it rested in between), `generation` that of the picture in it.
+    void frame_shown(double seconds, double work, double interval, std::uint64_t generation);
+
+    /// The percentiles, also as the last line of the file.
+    std::string finish();
+
+private:
+    struct Move {
+        double seconds;
+        std::uint64_t generation;
+        bool is_first;
+    };
+
+    std::ofstream file_;
+    std::vector<Move> waiting_;
+    std::vector<double> work_ms_;
+    std::vector<double> interval_ms_;
+    std::vector<double> first_picture_ms_; ///< moves after a rest
+    std::vector<double> picture_ms_;       ///< all moves
+    double last_move_ = -1.0e9;
+    std::uint64_t frames_ = 0;
+};
+
+} // namespace pl

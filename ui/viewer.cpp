@@ -1,0 +1,278 @@
+#include "ui/viewer.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+#include <SDL.h>
+
+#include "core/base/error.h"
+#include "ui/gui.h"
+#include "ui/image_layer.h"
+#include "ui/input_router.h"
+#include "ui/overlays/overlays.h"
+#include "ui/panels/panels.h"
+#include "ui/script_player.h"
+#include "ui/ui_trace.h"
+
+namespace pl {
+namespace {
+
+constexpr double kFrameSeconds = 1.0 / 60.0;
+constexpr int kIdleWaitMs = 250;       ///< nothing changes: only look now and then
+constexpr double kStatusSeconds = 0.1; ///< while rendering: counters move although no new picture is there
+constexpr int kSettleFrames = 3;       ///< after an event the panels need a few frames to come to rest
+constexpr double kLongestDelta = 0.1;
+
+double steady_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// A window, its panels and the model behind them.
+class Viewer {
+public:
+    Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene, double load_seconds);
+    void run();
+    void print_trace();
+
+private:
+    void wait_for_events();
+    void dispatch(const SDL_Event& event);
+    bool needs_redraw(double now);
+    void fly(double delta);
+    void build_panels();
+    void show();
+    void do_window_wishes();
+    Layout current_layout() const;
+    RenderSettings first_settings(const SceneDescription& scene) const;
+
+    const ViewerOptions& options_;
+    Display display_;
+    Gui gui_;
+    ImageLayer image_layer_;
+    InputRouter input_;
+    ViewerModel model_;
+    std::optional<ScriptPlayer> script_;
+    std::optional<UiTrace> trace_;
+    Layout layout_;
+    Rect image_;
+    double start_ = steady_seconds();
+    double last_frame_ = start_;
+    double last_shown_ = -1.0;
+    std::uint64_t shown_frames_ = 0; ///< of the render thread
+    std::uint64_t traced_camera_ = 0;
+    int settle_ = kSettleFrames;
+    bool rested_ = true;
+    bool hidden_ = false;
+    std::string title_;
+};
+
+Viewer::Viewer(const ViewerOptions& options,
+               std::shared_ptr<const SceneDescription> scene,
+               double load_seconds)
+    : options_(options), display_("pathlight", options.width, options.height, options.software),
+      gui_(display_, options.font, 1.0f), image_layer_(display_.renderer()), input_(display_.window()),
+      model_(options, scene, first_settings(*scene), load_seconds) {
+    if (options.script)
+        script_.emplace(load_script(*options.script), display_.window());
+    if (options.ui_trace)
+        trace_.emplace(*options.ui_trace);
+    model_.note(LogLevel::Info, "window drawn by " + display_.renderer_name());
+    layout_ = current_layout();
+    image_ = image_layer_.place(model_, layout_.view);
+}
+
+Layout Viewer::current_layout() const {
+    int width = 0;
+    int height = 0;
+    SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
+    return make_layout(static_cast<float>(width), static_cast<float>(height),
+                       kFontPixels * model_.window().ui_scale, model_.window().panels);
+}
+
+RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
+    RenderSettings settings = options_.settings;
+    if (options_.camera_from_scene)
+        settings.camera = scene.camera;
+    if (options_.size_from_window) {
+        int width = 0;
+        int height = 0;
+        SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
+        const Layout layout =
+            make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels, true);
+        const ImageSize size = fit_image(layout.view, settings.width, settings.height);
+        settings.width = size.width;
+        settings.height = size.height;
+    }
+    return settings;
+}
+
+void Viewer::run() {
+    while (!model_.window().quit_asked) {
+        wait_for_events();
+        const double now = steady_seconds();
+        const double delta =
+            script_ ? ScriptPlayer::kFrameSeconds : std::min(now - last_frame_, kLongestDelta);
+        if (script_)
+            script_->step(model_, image_, now);
+        SDL_Event event;
+        while (SDL_PollEvent(&event) != 0)
+            dispatch(event);
+        model_.update(now - start_);
+        fly(delta);
+        last_frame_ = now;
+        if (!needs_redraw(now))
+            continue;
+
+        gui_.set_scale(model_.window().ui_scale);
+        gui_.frame(delta, [this] { build_panels(); });
+        do_window_wishes();
+        show();
+        const double end = steady_seconds();
+        if (trace_)
+            trace_->frame_shown(end - start_, end - now, rested_ ? -1.0 : end - last_shown_,
+                                model_.frame() != nullptr ? model_.frame()->generation : 0);
+        last_shown_ = end;
+        rested_ = false;
+    }
+}
+
+/// Sleeps until the next frame is due; while nothing happens, much longer.
+void Viewer::wait_for_events() {
+    const WorkerState state = model_.status().state;
+    const bool at_rest =
+        (state == WorkerState::Paused || state == WorkerState::Done) && model_.toasts().empty();
+    const bool idle = !script_ && settle_ == 0 && !input_.active() && !model_.moving() && !model_.busy() &&
+                      (at_rest || hidden_);
+    if (idle) {
+        rested_ = true;
+        SDL_WaitEventTimeout(nullptr, kIdleWaitMs);
+        return;
+    }
+    const double left = last_frame_ + kFrameSeconds - steady_seconds();
+    if (left <= 0.0)
+        return;
+    if (script_)
+        SDL_Delay(static_cast<Uint32>(left * 1000.0));
+    else
+        SDL_WaitEventTimeout(nullptr, std::max(1, static_cast<int>(left * 1000.0)));
+}
+
+void Viewer::dispatch(const SDL_Event& event) {
+    settle_ = kSettleFrames;
+    if (event.type == SDL_WINDOWEVENT) {
+        if (event.window.event == SDL_WINDOWEVENT_MINIMIZED || event.window.event == SDL_WINDOWEVENT_HIDDEN)
+            hidden_ = true;
+        if (event.window.event == SDL_WINDOWEVENT_RESTORED || event.window.event == SDL_WINDOWEVENT_SHOWN ||
+            event.window.event == SDL_WINDOWEVENT_EXPOSED)
+            hidden_ = false;
+    }
+    gui_.handle(event);
+    const ImGuiIO& io = ImGui::GetIO();
+    input_.handle(event, model_,
+                  {image_, layout_.view, io.WantCaptureMouse, io.WantTextInput, steady_seconds() - start_});
+}
+
+void Viewer::fly(double delta) {
+    model_.fly(input_.move_keys(), delta);
+    if (trace_ && model_.camera_generation() != traced_camera_) {
+        traced_camera_ = model_.camera_generation();
+        trace_->camera_moved(steady_seconds() - start_, traced_camera_);
+    }
+}
+
+bool Viewer::needs_redraw(double now) {
+    if (hidden_)
+        return false;
+    const std::uint64_t frames = model_.frame() != nullptr ? model_.frame()->serial : 0;
+    const bool new_picture = frames != shown_frames_;
+    shown_frames_ = frames;
+    const bool redraw = script_ || new_picture || settle_ > 0 || input_.active() ||
+                        !model_.toasts().empty() || now - last_shown_ >= kStatusSeconds;
+    if (settle_ > 0)
+        --settle_;
+    return redraw;
+}
+
+void Viewer::build_panels() {
+    layout_ = current_layout();
+    image_ = image_layer_.place(model_, layout_.view);
+    if (layout_.panels) {
+        std::optional<HoveredPixel> hovered;
+        const PublishedFrame* frame = model_.frame();
+        if (frame != nullptr && image_.contains(input_.pointer()) && !ImGui::GetIO().WantCaptureMouse) {
+            const Vec2f at = input_.pointer() - Vec2f{image_.x, image_.y};
+            hovered = HoveredPixel{
+                std::min(static_cast<int>(at.x / image_.width * static_cast<float>(frame->snapshot.width)),
+                         frame->snapshot.width - 1),
+                std::min(static_cast<int>(at.y / image_.height * static_cast<float>(frame->snapshot.height)),
+                         frame->snapshot.height - 1)};
+        }
+        draw_menu_bar(model_, layout_);
+        draw_settings_panel(model_, layout_);
+        draw_knowledge_panel(model_, layout_, hovered);
+        draw_status_bar(model_, layout_);
+    }
+    draw_hemisphere(model_, image_);
+    if (layout_.panels)
+        draw_badges(model_, layout_);
+    draw_toasts(model_, layout_);
+    draw_help(model_, layout_);
+}
+
+void Viewer::do_window_wishes() {
+    WindowState& window = model_.window();
+    if (std::exchange(window.full_screen_asked, false))
+        display_.toggle_full_screen();
+    if (std::exchange(window.fit_size_asked, false)) {
+        const ImageSize size = fit_image(layout_.view, model_.settings().width, model_.settings().height);
+        model_.set_size(size.width, size.height);
+    }
+    if (std::string title = model_.title(); title != title_) {
+        title_ = std::move(title);
+        display_.set_title(title_);
+    }
+}
+
+void Viewer::show() {
+    SDL_SetRenderDrawColor(display_.renderer(), 12, 13, 16, 255);
+    SDL_RenderClear(display_.renderer());
+    image_layer_.draw(model_, image_);
+    gui_.draw();
+    if (std::exchange(model_.window().window_shot_asked, false))
+        model_.save_window(display_.read_pixels(), model_.next_window_shot());
+    if (script_) {
+        if (const auto path = script_->take_shot())
+            model_.save_window(display_.read_pixels(), *path);
+    }
+    SDL_RenderPresent(display_.renderer());
+}
+
+void Viewer::print_trace() {
+    if (trace_)
+        std::fputs(trace_->finish().c_str(), stderr);
+}
+
+} // namespace
+
+int run_viewer(const ViewerOptions& options) {
+    // A script needs no screen; a driver that the environment names wins.
+    if (options.script && std::getenv("SDL_VIDEODRIVER") == nullptr)
+        SDL_setenv("SDL_VIDEODRIVER", "dummy", 1);
+    if (options.script)
+        (void)load_script(*options.script); // a mistake in it should not cost a window
+
+    std::shared_ptr<const SceneDescription> scene = options.scene;
+    double load_seconds = options.load_seconds;
+    if (!scene) {
+        const double start = steady_seconds();
+        scene = options.load_scene(options.scene_name);
+        load_seconds = steady_seconds() - start;
+    }
+    Viewer viewer(options, std::move(scene), load_seconds);
+    viewer.run();
+    viewer.print_trace();
+    return 0;
+}
+
+} // namespace pl

@@ -1,0 +1,83 @@
+// The viewer: a window in which a session runs. File formats, back ends and the command line come in as functions,
+// so that this folder knows none of them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/description.h"
+#include "core/session/backend.h"
+#include "core/session/settings.h"
+#include "core/session/snapshot.h"
+
+namespace pl {
+
+/// Rendering rests when the first one is reached. 0: no such limit.
+struct SampleLimits {
+    std::uint32_t spp = 0;
+    double seconds = 0.0; ///< placing, precomputing, learning and rendering; see work_seconds()
+
+    friend bool operator==(const SampleLimits&, const SampleLimits&) = default;
+};
+
+/// The time that limits are counted in and that is shown: all work but loading and building.
+inline double work_seconds(const Clocks& clocks) {
+    return clocks.place + clocks.precompute + clocks.learn + clocks.render;
+}
+
+/// What the viewer shows, as far as a saved file or a command line has to repeat it.
+struct ViewerPicture {
+    std::string scene; ///< name as load_scene takes it
+    RenderSettings settings;
+    DisplaySettings display;
+    SampleLimits limits;
+};
+
+/// 8-bit RGB, rows from the top without padding.
+struct ScreenPixels {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgb;
+};
+
+struct ViewerOptions {
+    RenderSettings settings;
+    DisplaySettings display;
+    SampleLimits limits;
+    std::string scene_name; ///< what load_scene is called with at the start
+    /// The scene if it is loaded already; else it is loaded before the window opens.
+    std::shared_ptr<const SceneDescription> scene;
+    double load_seconds = 0.0;     ///< of `scene`
+    bool camera_from_scene = true; ///< start from the scene's camera instead of settings.camera
+    bool size_from_window = true;  ///< settings.width : height is a shape only; the window decides the size
+
+    int width = 1440; ///< of the window
+    int height = 900;
+    bool software = false;      ///< do not look for an accelerated renderer
+    std::filesystem::path font; ///< .ttf; the built-in font if it is missing
+    std::filesystem::path screenshot_dir = ".";
+    std::optional<std::filesystem::path> script;   ///< scripted input, see ui/script.h
+    std::optional<std::filesystem::path> ui_trace; ///< one JSON object per UI frame; percentiles on stderr
+
+    /// Called once, on the render thread. Should leave one hardware thread to the window where there are several.
+    std::function<std::unique_ptr<RenderBackend>()> make_backend;
+    /// Throws Error(Input) with file and line. Called on a helper thread after the start.
+    std::function<std::shared_ptr<const SceneDescription>(const std::string& name)> load_scene;
+    /// Writes .png (tone mapped) or .exr (linear) by suffix. Called on a helper thread.
+    std::function<void(const std::filesystem::path&, const Snapshot&, const ViewerPicture&)> save_image;
+    /// Writes what the window shows, panels included.
+    std::function<void(const std::filesystem::path&, const ScreenPixels&)> save_screen;
+    /// The shell command that renders what is shown.
+    std::function<std::string(const ViewerPicture&)> command_line;
+};
+
+/// Runs until the window is closed; returns 0. Throws Error: Unavailable without display or back end, Input for a bad
+/// scene or script, Runtime if a scripted expectation fails.
+int run_viewer(const ViewerOptions& options);
+
+} // namespace pl

@@ -1,0 +1,434 @@
+#include "ui/viewer_model.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace pl {
+namespace {
+
+constexpr double kRestSeconds = 0.1; ///< without input until the picture is whole again
+constexpr double kToastSeconds = 4.0;
+constexpr double kErrorToastSeconds = 10.0;
+constexpr std::size_t kMaxToasts = 4;
+constexpr std::size_t kMaxLogLines = 1000;
+constexpr double kThroughputSeconds = 0.5;
+constexpr float kMaxExposureEv = 16.0f;
+
+} // namespace
+
+std::string back_end_label(const std::string& name) {
+    std::string label = name;
+    for (char& c : label)
+        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return label;
+}
+
+ViewerModel::ViewerModel(const ViewerOptions& options,
+                         std::shared_ptr<const SceneDescription> scene,
+                         const RenderSettings& settings,
+                         double load_seconds)
+    : options_(options), scene_name_(options.scene_name), settings_(settings), display_(options.display),
+      limits_(options.limits), controls_(settings.camera, bounds_of(*scene).diagonal()),
+      worker_({options.make_backend, scene, settings, options.limits, load_seconds}) {
+    for (const std::string& warning : scene->warnings)
+        say(LogLevel::Warning, warning);
+    note(LogLevel::Info, fmt::format("opened {}: {} triangles", scene_name_, scene->triangles.size()));
+}
+
+void ViewerModel::update(double seconds) {
+    now_ = seconds;
+    if (const std::exception_ptr failure = worker_.failure())
+        std::rethrow_exception(failure);
+    if (moving_ && now_ >= moving_until_) {
+        moving_ = false;
+        worker_.set_moving(false);
+    }
+    if (auto latest = worker_.latest(); latest != frame_) {
+        frame_ = std::move(latest);
+        measure_throughput();
+    }
+    status_ = worker_.status();
+    for (const WorkerMessage& message : worker_.take_messages())
+        say(message.is_error ? LogLevel::Error : LogLevel::Info, message.text);
+    take_pick();
+    for (const JobThread::Report& report : jobs_.take_reports())
+        if (report)
+            report();
+    std::erase_if(toasts_, [&](const Toast& toast) { return toast.until <= now_; });
+}
+
+void ViewerModel::measure_throughput() {
+    const Snapshot& snapshot = frame_->snapshot;
+    const double seconds = snapshot.clocks.render;
+    const bool other_film = snapshot.slot != measured_slot_ || snapshot.counters.paths < measured_paths_;
+    if (other_film) {
+        measured_slot_ = snapshot.slot;
+        measured_paths_ = 0;
+        measured_seconds_ = 0.0;
+    }
+    const double elapsed = seconds - measured_seconds_;
+    if (elapsed <= 0.0 || (elapsed < kThroughputSeconds && measured_paths_ > 0))
+        return;
+    mpaths_per_second_ = 1.0e-6 * static_cast<double>(snapshot.counters.paths - measured_paths_) / elapsed;
+    measured_paths_ = snapshot.counters.paths;
+    measured_seconds_ = seconds;
+}
+
+const VolumeInspection* ViewerModel::inspection() const {
+    if (!frame_ || !frame_->volume || frame_->volume->volume != selected_volume_ || frame_->volume->side == 0)
+        return nullptr;
+    return frame_->volume.get();
+}
+
+std::string ViewerModel::title() const {
+    const std::string back_end = frame_ ? back_end_label(frame_->backend.name) : "starting";
+    std::string text = fmt::format("{} spp - {} - {} - {}", status_.passes, info_of(settings_.method).label,
+                                   back_end, scene_name_);
+    if (status_.state == WorkerState::Done)
+        text = "done: " + text;
+    if (status_.state == WorkerState::Paused)
+        text = "paused: " + text;
+    return text;
+}
+
+RenderSettings ViewerModel::asked_settings() const {
+    RenderSettings settings = settings_;
+    settings.camera = controls_.camera();
+    return settings;
+}
+
+std::string ViewerModel::command_line() const {
+    return options_.command_line ? options_.command_line(picture()) : "";
+}
+
+// --- edits -----------------------------------------------------------------------------------------------------
+
+void ViewerModel::set_method(MethodId method) {
+    if (method == settings_.method)
+        return;
+    previous_method_ = settings_.method;
+    settings_.method = method;
+    worker_.submit(EditMethod{method});
+}
+
+void ViewerModel::set_view(View view) {
+    if (view == settings_.view)
+        return;
+    settings_.view = view;
+    worker_.submit(EditView{view});
+}
+
+void ViewerModel::step_view(int steps) {
+    const int count = static_cast<int>(all_views().size());
+    const int index = (static_cast<int>(settings_.view) + steps % count + count) % count;
+    set_view(all_views()[static_cast<std::size_t>(index)].id);
+}
+
+void ViewerModel::set_next_event(bool on) {
+    if (on == settings_.next_event)
+        return;
+    settings_.next_event = on;
+    worker_.submit(EditEstimator{settings_.max_depth, on});
+    note(LogLevel::Info, on ? "next-event estimation on: pictures and tables start over"
+                            : "next-event estimation off: pictures and tables start over");
+}
+
+void ViewerModel::set_max_depth(int depth) {
+    if (depth == settings_.max_depth || depth < 1)
+        return;
+    settings_.max_depth = depth;
+    worker_.submit(EditEstimator{depth, settings_.next_event});
+}
+
+void ViewerModel::set_seed(std::uint64_t seed) {
+    if (seed == settings_.seed)
+        return;
+    settings_.seed = seed;
+    worker_.submit(EditSeed{seed});
+}
+
+void ViewerModel::set_mixture(float bsdf_fraction) {
+    const float fraction = std::clamp(bsdf_fraction, 0.1f, 1.0f);
+    if (fraction == settings_.bsdf_fraction)
+        return;
+    settings_.bsdf_fraction = fraction;
+    touch_motion();
+    worker_.submit(EditMixture{fraction});
+}
+
+void ViewerModel::set_field(const FieldSettings& field) {
+    if (field == settings_.field)
+        return;
+    settings_.field = field;
+    deselect();
+    worker_.submit(EditField{field});
+}
+
+void ViewerModel::set_size(int width, int height) {
+    if (width < 1 || height < 1 || (width == settings_.width && height == settings_.height))
+        return;
+    settings_.width = width;
+    settings_.height = height;
+    worker_.submit(EditSize{width, height});
+}
+
+void ViewerModel::set_limits(const SampleLimits& limits) {
+    if (limits == limits_)
+        return;
+    limits_ = limits;
+    worker_.set_limits(limits);
+}
+
+void ViewerModel::set_paused(bool paused) {
+    paused_ = paused;
+    worker_.set_paused(paused);
+}
+
+void ViewerModel::single_pass() {
+    if (!paused_) {
+        say(LogLevel::Info, "single passes are for a paused picture: press Space first");
+        return;
+    }
+    worker_.step();
+}
+
+void ViewerModel::restart() {
+    worker_.submit(EditRestart{});
+}
+
+void ViewerModel::forget() {
+    worker_.submit(EditForget{});
+    say(LogLevel::Info, "forgot what was learned");
+}
+
+void ViewerModel::cancel() {
+    if (window_.help)
+        window_.help = false;
+    else if (status_.state == WorkerState::Precomputing)
+        cancel_precomputation();
+    else
+        deselect();
+}
+
+void ViewerModel::cancel_precomputation() {
+    const bool back = previous_method_ != settings_.method;
+    set_method(back ? previous_method_ : MethodId::Default);
+    say(LogLevel::Info,
+        fmt::format("precomputation interrupted, back to {}", info_of(settings_.method).name));
+}
+
+// --- display ---------------------------------------------------------------------------------------------------
+
+void ViewerModel::set_exposure(float ev) {
+    display_.exposure_ev = std::clamp(ev, -kMaxExposureEv, kMaxExposureEv);
+}
+
+void ViewerModel::set_curve(ToneCurve curve) {
+    display_.curve = curve;
+}
+
+void ViewerModel::set_cells(bool on) {
+    window_.cells = on;
+    worker_.set_cells_wanted(on || selected_volume_ != kNoVolume);
+}
+
+void ViewerModel::set_cells_opacity(float opacity) {
+    window_.cells_opacity = std::clamp(opacity, 0.0f, 1.0f);
+}
+
+void ViewerModel::set_low_resolution(bool allowed) {
+    window_.low_resolution = allowed;
+    worker_.set_low_resolution_allowed(allowed);
+}
+
+// --- camera ----------------------------------------------------------------------------------------------------
+
+void ViewerModel::touch_motion() {
+    moving_until_ = now_ + kRestSeconds;
+    if (moving_)
+        return;
+    moving_ = true;
+    worker_.set_moving(true);
+}
+
+void ViewerModel::submit_camera() {
+    touch_motion();
+    settings_.camera = controls_.camera();
+    camera_generation_ = worker_.submit(EditCamera{settings_.camera});
+}
+
+void ViewerModel::fly(const MoveKeys& keys, double seconds) {
+    if (controls_.move(keys, seconds))
+        submit_camera();
+}
+
+void ViewerModel::look(Vec2f pixels) {
+    if (pixels.x == 0.0f && pixels.y == 0.0f)
+        return;
+    controls_.look(pixels);
+    submit_camera();
+}
+
+void ViewerModel::change_speed(float notches) {
+    constexpr double kShownSeconds = 1.5;
+    controls_.change_speed(notches);
+    window_.speed_shown_until = now_ + kShownSeconds;
+}
+
+void ViewerModel::camera_home() {
+    controls_.go_home();
+    submit_camera();
+}
+
+void ViewerModel::set_camera(const CameraDescription& camera) {
+    controls_.set_camera(camera);
+    submit_camera();
+}
+
+// --- selection -------------------------------------------------------------------------------------------------
+
+void ViewerModel::pick(Vec2f image_point) {
+    worker_.request_pick(image_point);
+}
+
+void ViewerModel::take_pick() {
+    const std::optional<PickAnswer> answer = worker_.take_pick();
+    if (!answer)
+        return;
+    if (!answer->point) {
+        say(LogLevel::Info, "nothing to select there: the ray leaves the scene");
+        return;
+    }
+    picked_ = answer->point;
+    if (picked_->volume == kNoVolume) {
+        say(LogLevel::Info, "no radiance volume serves this surface: it reflects nothing");
+        return;
+    }
+    select(picked_->volume);
+    window_.volume_tab_asked = true;
+}
+
+void ViewerModel::select(std::int32_t volume) {
+    selected_volume_ = volume;
+    window_.hovered_cell = -1;
+    worker_.select_volume(volume);
+    worker_.set_cells_wanted(window_.cells || volume != kNoVolume);
+}
+
+void ViewerModel::deselect() {
+    picked_.reset();
+    select(kNoVolume);
+}
+
+// --- files -----------------------------------------------------------------------------------------------------
+
+void ViewerModel::reload() {
+    start_loading(scene_name_, true);
+}
+
+void ViewerModel::open(const std::string& scene) {
+    start_loading(scene, false);
+}
+
+void ViewerModel::start_loading(const std::string& name, bool keep_camera) {
+    note(LogLevel::Info, "loading " + name);
+    jobs_.push([this, name, keep_camera]() -> JobThread::Report {
+        try {
+            auto scene = options_.load_scene(name);
+            return [this, scene, name, keep_camera] { adopt_scene(scene, name, keep_camera); };
+        } catch (const std::exception& error) {
+            return [this, text = std::string(error.what())] { say(LogLevel::Error, text); };
+        }
+    });
+}
+
+void ViewerModel::adopt_scene(std::shared_ptr<const SceneDescription> scene,
+                              const std::string& name,
+                              bool keep_camera) {
+    deselect();
+    scene_name_ = name;
+    const CameraDescription camera = keep_camera ? controls_.camera() : scene->camera;
+    controls_ = CameraControls(scene->camera, bounds_of(*scene).diagonal());
+    controls_.set_camera(camera);
+    settings_.camera = camera;
+    for (const std::string& warning : scene->warnings)
+        say(LogLevel::Warning, warning);
+    say(LogLevel::Info, fmt::format("opened {}: {} triangles", name, scene->triangles.size()));
+    worker_.submit(EditScene{std::move(scene)});
+    worker_.submit(EditCamera{camera});
+}
+
+void ViewerModel::save_screenshot() {
+    save({".png"});
+}
+
+void ViewerModel::save_picture() {
+    save({".exr", ".png"});
+}
+
+void ViewerModel::save(std::initializer_list<const char*> suffixes) {
+    if (!frame_ || !options_.save_image) {
+        say(LogLevel::Warning, "there is no picture to save yet");
+        return;
+    }
+    ViewerPicture shown = picture();
+    shown.settings = frame_->settings;
+    const std::string stem =
+        fmt::format("{}-{}", file_name_part(std::filesystem::path(scene_name_).stem().string()),
+                    info_of(shown.settings.method).name);
+    const std::filesystem::path name = names_.next(options_.screenshot_dir, stem, suffixes);
+    for (const char* suffix : suffixes) {
+        const std::filesystem::path path = name.string() + suffix;
+        jobs_.push([this, path, shown, frame = frame_]() -> JobThread::Report {
+            try {
+                options_.save_image(path, frame->snapshot, shown);
+                return [this, path] { say(LogLevel::Info, "saved " + path.string()); };
+            } catch (const std::exception& error) {
+                return [this, text = std::string(error.what())] { say(LogLevel::Error, text); };
+            }
+        });
+    }
+}
+
+std::filesystem::path ViewerModel::next_window_shot() {
+    const std::string stem = file_name_part(std::filesystem::path(scene_name_).stem().string()) + "-window";
+    return names_.next(options_.screenshot_dir, stem, {".png"}).string() + ".png";
+}
+
+void ViewerModel::save_window(ScreenPixels pixels, std::filesystem::path path) {
+    if (!options_.save_screen) {
+        say(LogLevel::Warning, "this build cannot save the window");
+        return;
+    }
+    jobs_.push(
+        [this, path, shared = std::make_shared<ScreenPixels>(std::move(pixels))]() -> JobThread::Report {
+            try {
+                options_.save_screen(path, *shared);
+                return [this, path] { say(LogLevel::Info, "saved " + path.string()); };
+            } catch (const std::exception& error) {
+                return [this, text = std::string(error.what())] { say(LogLevel::Error, text); };
+            }
+        });
+}
+
+// --- messages --------------------------------------------------------------------------------------------------
+
+void ViewerModel::note(LogLevel level, const std::string& text) {
+    if (log_.size() >= kMaxLogLines)
+        log_.erase(log_.begin());
+    log_.push_back({now_, level, text});
+}
+
+void ViewerModel::say(LogLevel level, const std::string& text) {
+    note(level, text);
+    if (toasts_.size() >= kMaxToasts)
+        toasts_.erase(toasts_.begin());
+    toasts_.push_back({level, text, now_ + (level == LogLevel::Info ? kToastSeconds : kErrorToastSeconds)});
+}
+
+} // namespace pl

@@ -1,0 +1,180 @@
+// The state of the viewer and everything that can be done to it, without window: keys, menus, panels and scripts all
+// call the same functions. Lives on the window's thread.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ui/camera_controls.h"
+#include "ui/job_thread.h"
+#include "ui/numbered_names.h"
+#include "ui/overlays/direction_disc.h"
+#include "ui/render_worker.h"
+#include "ui/viewer.h"
+
+namespace pl {
+
+enum class LogLevel { Info, Warning, Error };
+
+struct LogLine {
+    double seconds; ///< since the start
+    LogLevel level;
+    std::string text;
+};
+
+/// A message over the picture that goes away by itself.
+struct Toast {
+    LogLevel level;
+    std::string text;
+    double until; ///< on the window's clock
+};
+
+/// Look of the window: nothing in it reaches the rendering.
+struct WindowState {
+    bool panels = true;
+    bool help = false;
+    bool cells = false;
+    float cells_opacity = 0.4f;
+    bool hemisphere = true;
+    bool low_resolution = true; ///< allowed while the camera moves
+    float ui_scale = 1.0f;
+    CellQuantity quantity = CellQuantity::Radiance;
+    ColorScale scale = ColorScale::Linear;
+    int hovered_cell = -1; ///< of the selected volume's disk
+    double speed_shown_until = 0.0;
+    bool full_screen_asked = false;
+    bool window_shot_asked = false;
+    bool quit_asked = false;
+    bool fit_size_asked = false;   ///< make the picture as large as the window has room for
+    bool volume_tab_asked = false; ///< bring it to the front
+};
+
+/// "cpu" as people read it: "CPU".
+std::string back_end_label(const std::string& name);
+
+class ViewerModel {
+public:
+    /// `settings` hold the final size and camera.
+    ViewerModel(const ViewerOptions& options,
+                std::shared_ptr<const SceneDescription> scene,
+                const RenderSettings& settings,
+                double load_seconds);
+
+    /// Once per frame of the window: takes what the other threads have, ends motion, drops old messages.
+    /// Throws what ended the render thread.
+    void update(double seconds);
+
+    const PublishedFrame* frame() const { return frame_.get(); }
+    const WorkerStatus& status() const { return status_; }
+    const RenderSettings& settings() const { return settings_; }
+    const DisplaySettings& display() const { return display_; }
+    const SampleLimits& limits() const { return limits_; }
+    const CameraControls& controls() const { return controls_; }
+    const std::vector<LogLine>& log() const { return log_; }
+    const std::vector<Toast>& toasts() const { return toasts_; }
+    const std::string& scene_name() const { return scene_name_; }
+    const ViewerOptions& options() const { return options_; }
+    WindowState& window() { return window_; }
+    const WindowState& window() const { return window_; }
+    bool paused() const { return paused_; }
+    bool moving() const { return moving_; }
+    bool busy() const { return jobs_.pending() > 0; }
+    double now() const { return now_; }
+    std::int32_t selected_volume() const { return selected_volume_; }
+    const std::optional<PickedPoint>& picked() const { return picked_; }
+    /// Learned table of the selected volume, or null.
+    const VolumeInspection* inspection() const;
+    /// Million camera paths per second, of the last half second of rendering or more.
+    double mpaths_per_second() const { return mpaths_per_second_; }
+    /// Number of the newest camera edit; 0 before the first.
+    std::uint64_t camera_generation() const { return camera_generation_; }
+    std::string title() const;
+    ViewerPicture picture() const { return {scene_name_, asked_settings(), display_, limits_}; }
+    std::string command_line() const;
+
+    void set_method(MethodId method);
+    void set_view(View view);
+    void step_view(int steps);
+    void set_next_event(bool on);
+    void set_max_depth(int depth);
+    void set_seed(std::uint64_t seed);
+    void set_mixture(float bsdf_fraction);
+    void set_field(const FieldSettings& field);
+    void set_size(int width, int height);
+    void set_limits(const SampleLimits& limits);
+    void set_paused(bool paused);
+    void single_pass();
+    void restart();
+    void forget();
+    void cancel(); ///< what Esc does
+    void cancel_precomputation();
+
+    void set_exposure(float ev);
+    void set_curve(ToneCurve curve);
+    void set_cells(bool on);
+    void set_cells_opacity(float opacity);
+    void set_low_resolution(bool allowed);
+
+    void fly(const MoveKeys& keys, double seconds);
+    void look(Vec2f pixels);
+    void change_speed(float notches);
+    void camera_home();
+    void set_camera(const CameraDescription& camera);
+
+    void pick(Vec2f image_point);
+    void deselect();
+
+    void reload();
+    void open(const std::string& scene);
+    void save_screenshot();
+    void save_picture();
+    /// What the window shows; read by the window, because only it can.
+    void save_window(ScreenPixels pixels, std::filesystem::path path);
+    std::filesystem::path next_window_shot();
+
+    void say(LogLevel level, const std::string& text);  ///< toast and log
+    void note(LogLevel level, const std::string& text); ///< log only
+
+private:
+    RenderSettings asked_settings() const;
+    void touch_motion();
+    void submit_camera();
+    void take_pick();
+    void measure_throughput();
+    void
+    adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name, bool keep_camera);
+    void start_loading(const std::string& name, bool keep_camera);
+    void save(std::initializer_list<const char*> suffixes);
+    void select(std::int32_t volume);
+
+    const ViewerOptions& options_;
+    std::string scene_name_;
+    RenderSettings settings_;
+    DisplaySettings display_;
+    SampleLimits limits_;
+    CameraControls controls_;
+    WindowState window_;
+    double now_ = 0.0;
+    bool paused_ = false;
+    bool moving_ = false;
+    double moving_until_ = -1.0;
+    MethodId previous_method_ = MethodId::Default;
+    std::uint64_t camera_generation_ = 0;
+    std::int32_t selected_volume_ = kNoVolume;
+    std::optional<PickedPoint> picked_;
+    std::vector<LogLine> log_;
+    std::vector<Toast> toasts_;
+    NumberedNames names_;
+    std::shared_ptr<const PublishedFrame> frame_;
+    WorkerStatus status_;
+    double mpaths_per_second_ = 0.0;
+    FilmSlot measured_slot_;
+    std::uint64_t measured_paths_ = 0;
+    double measured_seconds_ = 0.0;
+
+    RenderWorker worker_;
+    JobThread jobs_; ///< last: its reports use what is above
+};
+
+} // namespace pl
