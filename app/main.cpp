@@ -1,7 +1,58 @@
-// The program: for now it only tells its version.
+// The program: understands the command line, runs a subcommand, turns errors into messages and exit codes.
 #include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
 
-int main() {
-    std::puts("pathlight " PL_VERSION);
-    return 0;
+#include "app/commands.h"
+#include "core/base/error.h"
+
+namespace {
+
+using namespace pl;
+
+int run(const std::vector<std::string>& arguments, Console& console) {
+    const CommandLine line = parse_command_line(arguments);
+    if (line.answer) {
+        console.result(*line.answer);
+        return 0;
+    }
+    console.configure(line.options);
+    switch (line.command) {
+    case Command::View:
+        return run_view(line, console);
+    case Command::Render:
+        return run_render(line, console);
+    case Command::Info:
+        return run_info(line, console);
+    case Command::Devices:
+        return run_devices(line, console);
+    case Command::Inspect:
+        return run_inspect(line, console);
+    }
+    return static_cast<int>(ErrorKind::Usage);
+}
+
+int tell(const std::string& message, ErrorKind kind, Console& console) {
+    console.log().error(message);
+    console.event("error", {{"message", message}, {"exit_code", static_cast<int>(kind)}});
+    return static_cast<int>(kind);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Console console;
+    try {
+        const int code = run({argv + 1, argv + argc}, console);
+        console.finish();
+        return code;
+    } catch (const Error& error) {
+        return tell(error.what(), error.kind(), console);
+    } catch (const std::bad_alloc&) {
+        return tell("out of memory", ErrorKind::Runtime, console);
+    } catch (const std::exception& error) {
+        return tell(error.what(), ErrorKind::Runtime, console);
+    }
 }

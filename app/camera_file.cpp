@@ -1,0 +1,20 @@
+#include "app/camera_file.h"
+
+#include "core/io/files.h"
+#include "core/io/json_document.h"
+
+namespace pl {
+
+CameraChoice load_camera_file(const std::filesystem::path& path) {
+    const JsonDocument file(read_text_file(path), path);
+    file.object("", {"eye", "target", "up", "fov_deg"});
+    const CameraChoice camera{.eye = file.vector("/eye"),
+                              .target = file.vector("/target"),
+                              .up = file.vector("/up"),
+                              .fov_deg = file.number("/fov_deg")};
+    if (camera.fov_deg && !(*camera.fov_deg > 0.0f && *camera.fov_deg < 180.0f))
+        file.fail("/fov_deg", "expected an angle between 0 and 180 degrees");
+    return camera;
+}
+
+} // namespace pl

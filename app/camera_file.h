@@ -1,0 +1,14 @@
+// Cameras in files of their own.
+#pragma once
+
+#include <filesystem>
+
+#include "app/option_values.h"
+
+namespace pl {
+
+/// Reads {"eye": [x,y,z], "target": [x,y,z], "up": [x,y,z], "fov_deg": vertical}; every member may be left out. Throws
+/// Error(Input) with file and line.
+CameraChoice load_camera_file(const std::filesystem::path& path);
+
+} // namespace pl

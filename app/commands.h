@@ -1,0 +1,15 @@
+// The subcommands, one file each. They return the exit code, or throw Error.
+#pragma once
+
+#include "app/console.h"
+#include "app/options.h"
+
+namespace pl {
+
+int run_view(const CommandLine& line, Console& console);
+int run_render(const CommandLine& line, Console& console);
+int run_info(const CommandLine& line, Console& console);
+int run_devices(const CommandLine& line, Console& console);
+int run_inspect(const CommandLine& line, Console& console);
+
+} // namespace pl

@@ -1,0 +1,40 @@
+// Where a subcommand's words go: results to standard output, messages to the log.
+#pragma once
+
+#include <string>
+
+#include "app/events.h"
+#include "app/option_values.h"
+#include "core/base/log.h"
+#include "core/scene/description.h"
+
+namespace pl {
+
+class Console {
+public:
+    /// Takes -q, -v, --json and --log-file from the options.
+    void configure(const Options& options);
+
+    Log& log() { return log_; }
+    bool json() const { return json_; }
+
+    /// Text for standard output, unless --json asks for events instead. -q leaves out `remark`s, never `result`s.
+    void result(const std::string& text);
+    void remark(const std::string& text);
+    /// One line of JSON for standard output, with --json only.
+    void event(std::string_view kind, const Json& members);
+    void warn_about(const SceneDescription& scene);
+
+    /// Throws Error(Runtime) if something could not be written to standard output.
+    void finish();
+
+private:
+    void write(const std::string& text);
+
+    Log log_;
+    bool json_ = false;
+    bool quiet_ = false;
+    int failure_ = 0;
+};
+
+} // namespace pl

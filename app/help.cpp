@@ -1,0 +1,166 @@
+#include "app/help.h"
+
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/events.h"
+#include "app/options.h"
+
+namespace pl {
+namespace {
+
+constexpr std::array kCommands{
+    CommandInfo{Command::View, "view", "[SCENE]",
+                "Opens the viewer (default scene: cornell). The word 'view' may be left out."},
+    CommandInfo{Command::Render, "render", "SCENE -o IMAGE", "Makes a picture without a display."},
+    CommandInfo{Command::Info, "info", "SCENE", "Tells what a scene holds and which kernel serves it."},
+    CommandInfo{Command::Devices, "devices", "", "Lists the back ends, and why one is unavailable."},
+    CommandInfo{Command::Inspect, "inspect", "SCENE (--at X,Y,Z[,NX,NY,NZ] | --pixel X,Y) -o FILE",
+                "Trains, then writes what was learned at a point.\n"
+                "Training takes --spp samples per pixel with method reinforcement; method precomputed\n"
+                "only computes its radiance map. The suffix decides what is written: .json, .csv (one\n"
+                "row per direction cell) or .png (the hemisphere as an equal-area disc)."},
+};
+
+constexpr std::string_view kScene =
+    "SCENE is a name (cornell, door, ...), an .obj file or a scene .json file. Settings of a scene file are\n"
+    "defaults that options override.\n";
+
+constexpr std::string_view kExitCodes =
+    "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 input missing or invalid, 4 back end, device or "
+    "display\n"
+    "unavailable, 5 a threshold was missed, 130 interrupted (a partial picture is written and marked).\n";
+
+constexpr std::size_t kHelpColumn = 32;
+constexpr std::size_t kLineWidth = 110;
+
+const CommandInfo& info_of_command(Command command) {
+    return kCommands[static_cast<std::size_t>(command)];
+}
+
+/// "-t,--threads" as "-t, --threads N".
+std::string option_head(const OptionSpec& spec) {
+    std::string head = "  ";
+    for (const char c : spec.flags)
+        head += c == ',' ? std::string(", ") : std::string(1, c);
+    if (!spec.value.empty())
+        head += fmt::format(" {}", spec.value);
+    return head;
+}
+
+/// `text` in lines of at most kLineWidth, from kHelpColumn on, behind `head`.
+std::string in_columns(const std::string& head, std::string_view text) {
+    std::string result = head;
+    std::size_t column = head.size();
+    const auto new_line = [&] {
+        result += "\n" + std::string(kHelpColumn, ' ');
+        column = kHelpColumn;
+    };
+    if (column + 2 > kHelpColumn) {
+        new_line();
+    } else {
+        result.append(kHelpColumn - column, ' ');
+        column = kHelpColumn;
+    }
+    while (!text.empty()) {
+        const std::string_view word = text.substr(0, text.find(' '));
+        text.remove_prefix(std::min(text.size(), word.size() + 1));
+        if (column > kHelpColumn && column + 1 + word.size() > kLineWidth)
+            new_line();
+        if (column > kHelpColumn) {
+            result += ' ';
+            ++column;
+        }
+        result += word;
+        column += word.size();
+    }
+    return result + "\n";
+}
+
+std::string options_help(Command command) {
+    std::vector<std::string_view> groups;
+    for (const OptionSpec& spec : option_table())
+        if (std::find(groups.begin(), groups.end(), spec.group) == groups.end() && !spec.group.empty())
+            groups.push_back(spec.group);
+    std::string text;
+    for (const std::string_view group : groups) {
+        std::string lines;
+        for (const OptionSpec& spec : option_table())
+            if (spec.group == group && spec.commands.has(command))
+                lines += in_columns(option_head(spec), spec.help);
+        if (!lines.empty())
+            text += fmt::format("\n{}:\n{}", group, lines);
+    }
+    return text;
+}
+
+} // namespace
+
+std::span<const CommandInfo> all_commands() {
+    return kCommands;
+}
+
+std::string_view command_name(Command command) {
+    return info_of_command(command).name;
+}
+
+std::string program_help() {
+    std::string text =
+        "Pathlight, an interactive path tracer that learns where light comes from.\n\nUsage:\n";
+    for (const CommandInfo& info : kCommands) {
+        const std::string name = info.id == Command::View ? "[view]" : std::string(info.name);
+        text += fmt::format("  pathlight {}{}{}\n", name, info.arguments.empty() ? "" : " ", info.arguments);
+    }
+    text += "\n";
+    for (const CommandInfo& info : kCommands)
+        text += in_columns(fmt::format("  {}", info.name), info.summary.substr(0, info.summary.find('\n')));
+    text += fmt::format(
+        "\n{}\nOptions: pathlight SUBCOMMAND --help. Also: --list-methods, --list-views, --version.\n\n{}",
+        kScene, kExitCodes);
+    return text;
+}
+
+std::string command_help(Command command) {
+    const CommandInfo& info = info_of_command(command);
+    const std::string scene = command == Command::Devices ? "" : fmt::format("\n{}", kScene);
+    return fmt::format("{}\n\nUsage: pathlight {} {} [OPTIONS]\n{}{}\n{}", info.summary, info.name,
+                       info.arguments, scene, options_help(command), kExitCodes);
+}
+
+std::string version_text() {
+    return "pathlight " PL_VERSION "\n";
+}
+
+std::string method_list(bool json) {
+    std::string text;
+    for (const MethodInfo& info : all_methods()) {
+        if (json)
+            text += event_line("method", {{"name", info.name},
+                                          {"label", info.label},
+                                          {"summary", info.summary},
+                                          {"uses_field", info.uses_field},
+                                          {"learns", info.learns}});
+        else
+            text += fmt::format("{:<15} {}\n", info.name, info.summary);
+    }
+    return text;
+}
+
+std::string view_list(bool json) {
+    std::string text;
+    for (const ViewInfo& info : all_views()) {
+        if (json)
+            text += event_line("view", {{"name", info.name},
+                                        {"label", info.label},
+                                        {"summary", info.summary},
+                                        {"needs_learning", info.needs_tables}});
+        else
+            text += fmt::format("{:<15} {}\n", info.name, info.summary);
+    }
+    return text;
+}
+
+} // namespace pl

@@ -1,0 +1,29 @@
+// What the program says about itself: help, version, lists of methods and views.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/option_values.h"
+
+namespace pl {
+
+struct CommandInfo {
+    Command id;
+    std::string_view name;
+    std::string_view arguments;
+    std::string_view summary;
+};
+
+std::span<const CommandInfo> all_commands();
+
+/// Help of the whole program and of one subcommand. All texts end with a line feed.
+std::string program_help();
+std::string command_help(Command command);
+std::string version_text();
+/// Registries as a table, or as one JSON object per line.
+std::string method_list(bool json);
+std::string view_list(bool json);
+
+} // namespace pl

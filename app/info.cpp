@@ -1,0 +1,134 @@
+// `pathlight info`: what a scene holds, and what it takes to render it.
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/make_backend.h"
+#include "app/open_scene.h"
+#include "app/parse_values.h"
+#include "core/scene/needed_effects.h"
+#include "core/scene/pack_scene.h"
+#include "core/scene/scene_hash.h"
+
+namespace pl {
+namespace {
+
+Json vector_json(const glm::vec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+/// Why an effect is needed, in words.
+std::string reason_of(Feature feature, const SceneDescription& scene) {
+    switch (feature) {
+    case Feature::SmoothNormals: {
+        const auto smooth =
+            std::count_if(scene.triangles.begin(), scene.triangles.end(), [](const auto& triangle) {
+                return triangle.normal.x != TriangleDescription::kNoNormal;
+            });
+        return fmt::format("{} triangles have normals of their own", smooth);
+    }
+    case Feature::Environment:
+        return fmt::format("the environment shines with radiance {}", print_vector(scene.environment));
+    case Feature::NextEventEstimation:
+        return "asked for by --nee on";
+    }
+    return "";
+}
+
+struct Effect {
+    std::string name;
+    std::string reason;
+};
+
+std::vector<Effect> effects_of(FeatureSet needed, const SceneDescription& scene) {
+    std::vector<Effect> effects;
+    for (const Feature feature : kAllFeatures)
+        if (needed.has(feature))
+            effects.push_back({effect_names(FeatureSet{}.with(feature)).front(), reason_of(feature, scene)});
+    return effects;
+}
+
+/// Everything that `info` tells.
+struct SceneReport {
+    const SceneDescription& scene;
+    const HostScene& packed;
+    Bounds bounds;
+    std::vector<Effect> effects;
+    std::vector<std::string> compiled;
+    std::string kernel;
+};
+
+std::string text_of(const SceneReport& report) {
+    const SceneDescription& scene = report.scene;
+    const CameraDescription& camera = scene.camera;
+    std::string text = fmt::format("name       {}\nfile       {}\nhash       {}\n", scene.name,
+                                   scene.source.string(), scene_hash(scene));
+    text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", scene.triangles.size(),
+                        report.packed.lights.size(), scene.materials.size());
+    for (const MaterialDescription& material : scene.materials)
+        text += fmt::format("           {}: reflects {}, emits {}{}\n", material.name,
+                            print_vector(material.albedo), print_vector(material.emission),
+                            material.two_sided_emission ? " on both sides" : "");
+    text += fmt::format("bounds     {} to {}\n", print_vector(report.bounds.low),
+                        print_vector(report.bounds.high));
+    text += fmt::format("camera     eye {}, target {}, up {}, fov {} degrees\n", print_vector(camera.eye),
+                        print_vector(camera.target), print_vector(camera.up), print_float(camera.fov_deg));
+    text += fmt::format("effects    {}\n", report.effects.empty() ? "none needed" : "");
+    for (const Effect& effect : report.effects)
+        text += fmt::format("           {}: {}\n", effect.name, effect.reason);
+    text += fmt::format("kernel     {} (compiled for: {})\n", report.kernel,
+                        report.compiled.empty() ? "no effects"
+                                                : fmt::format("{}", fmt::join(report.compiled, ", ")));
+    return text;
+}
+
+Json json_of(const SceneReport& report) {
+    const SceneDescription& scene = report.scene;
+    Json materials = Json::array();
+    for (const MaterialDescription& material : scene.materials)
+        materials.push_back({{"name", material.name},
+                             {"albedo", vector_json(material.albedo)},
+                             {"emission", vector_json(material.emission)},
+                             {"two_sided_emission", material.two_sided_emission}});
+    Json effects = Json::array();
+    for (const Effect& effect : report.effects)
+        effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
+    return {{"name", scene.name},
+            {"file", scene.source.string()},
+            {"scene_hash", scene_hash(scene)},
+            {"triangles", scene.triangles.size()},
+            {"lights", report.packed.lights.size()},
+            {"materials", materials},
+            {"bounds", {{"low", vector_json(report.bounds.low)}, {"high", vector_json(report.bounds.high)}}},
+            {"camera",
+             {{"eye", vector_json(scene.camera.eye)},
+              {"target", vector_json(scene.camera.target)},
+              {"up", vector_json(scene.camera.up)},
+              {"fov_deg", scene.camera.fov_deg}}},
+            {"effects_needed", effects},
+            {"effects_compiled", report.compiled},
+            {"kernel", report.kernel}};
+}
+
+} // namespace
+
+int run_info(const CommandLine& line, Console& console) {
+    const LoadedScene loaded = open_scene(line.options.scene, console);
+    const Options options = resolve_options(line, *loaded.scene);
+    const HostScene packed = pack_scene(*loaded.scene);
+    FeatureSet needed = needed_effects(packed);
+    if (options.render.next_event)
+        needed = needed.with(Feature::NextEventEstimation);
+    const auto backend = make_backend(options.backend, options.threads);
+    const SceneReport report{.scene = *loaded.scene,
+                             .packed = packed,
+                             .bounds = bounds_of(*loaded.scene),
+                             .effects = effects_of(needed, *loaded.scene),
+                             .compiled = effect_names(kCompiledSets[smallest_superset(needed)]),
+                             .kernel =
+                                 backend->kernel_name(options.render.method, options.render.view, needed)};
+    console.result(text_of(report));
+    console.event("info", json_of(report));
+    return 0;
+}
+
+} // namespace pl

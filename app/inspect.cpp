@@ -1,0 +1,110 @@
+// `pathlight inspect`: trains, then writes what was learned at a point.
+#include <fmt/format.h>
+
+#include "app/closest_surface.h"
+#include "app/commands.h"
+#include "app/inspection_file.h"
+#include "app/interrupt.h"
+#include "app/make_backend.h"
+#include "app/open_scene.h"
+#include "app/parse_values.h"
+#include "app/picture_file.h"
+#include "app/run_passes.h"
+#include "app/stats_json.h"
+#include "core/base/error.h"
+#include "core/io/files.h"
+#include "core/scene/scene_hash.h"
+
+namespace pl {
+namespace {
+
+void require_outputs(const Options& options) {
+    inspection_kind(options.output);
+    require_writable(options.output);
+    if (!options.stats_file.empty())
+        require_writable(options.stats_file);
+}
+
+[[noreturn]] void fail_nothing(const std::string& where) {
+    throw Error(ErrorKind::Runtime,
+                fmt::format("no radiance volume serves {}: volumes stand on surfaces that reflect", where));
+}
+
+std::int32_t volume_at(Session& session, const ScenePoint& point) {
+    if (point.normal) {
+        const std::int32_t volume = session.find_volume_at(point.position, *point.normal);
+        if (volume == kNoVolume)
+            fail_nothing(fmt::format("the point {} with normal {}", print_vector(point.position),
+                                     print_vector(*point.normal)));
+        return volume;
+    }
+    const ClosestSurface surface = closest_surface(session.scene(), point.position);
+    std::int32_t volume = session.find_volume_at(surface.position, surface.normal);
+    if (volume == kNoVolume)
+        volume = session.find_volume_at(surface.position, -surface.normal);
+    if (volume == kNoVolume)
+        fail_nothing(fmt::format("the surface closest to {}", print_vector(point.position)));
+    return volume;
+}
+
+std::int32_t volume_under(Session& session, const glm::ivec2& pixel) {
+    const std::optional<PickedPoint> picked = session.pick(Vec2f(pixel) + 0.5f);
+    if (!picked)
+        throw Error(ErrorKind::Runtime,
+                    fmt::format("--pixel {},{}: nothing is seen there", pixel.x, pixel.y));
+    if (picked->volume == kNoVolume)
+        fail_nothing(fmt::format("what pixel {},{} shows", pixel.x, pixel.y));
+    return picked->volume;
+}
+
+void require_inside(const Options& options) {
+    if (!options.pixel)
+        return;
+    const glm::ivec2 pixel = *options.pixel;
+    if (pixel.x >= options.render.width || pixel.y >= options.render.height)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--pixel: expected a pixel of {}x{}, got {},{}", options.render.width,
+                                options.render.height, pixel.x, pixel.y));
+}
+
+void report(const VolumeInspection& volume, const Options& options, bool interrupted, Console& console) {
+    console.remark(fmt::format("{}: volume {} at {}, normal {}, mean radiance {}{}\n", options.output,
+                               volume.volume, print_vector(volume.position), print_vector(volume.normal),
+                               print_float(volume.mean_radiance), interrupted ? ", partial" : ""));
+    console.event("done", {{"output", options.output},
+                           {"volume", volume.volume},
+                           {"mean_radiance", volume.mean_radiance},
+                           {"interrupted", interrupted}});
+}
+
+} // namespace
+
+int run_inspect(const CommandLine& line, Console& console) {
+    const InterruptGuard interrupt;
+    require_outputs(line.options);
+    const LoadedScene loaded = open_scene(line.options.scene, console);
+    const Options options = resolve_options(line, *loaded.scene);
+    require_inside(options);
+    Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
+                    loaded.load_seconds);
+    // Before training: a place without a volume should not cost a minute.
+    const std::int32_t index =
+        options.at ? volume_at(session, *options.at) : volume_under(session, *options.pixel);
+
+    const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Learned);
+    const VolumeInspection volume = session.inspect_volume(index);
+    save_inspection(options.output, volume,
+                    {.scene = options.scene,
+                     .scene_hash = scene_hash(*loaded.scene),
+                     .method = std::string(info_of(options.render.method).name),
+                     .spp = session.passes(),
+                     .seed = options.render.seed,
+                     .partial = outcome.interrupted});
+    if (!options.stats_file.empty())
+        write_text_file_atomic(options.stats_file,
+                               stats_json(session, session.snapshot(), options).dump(2) + "\n");
+    report(volume, options, outcome.interrupted, console);
+    return outcome.interrupted ? kExitInterrupted : 0;
+}
+
+} // namespace pl

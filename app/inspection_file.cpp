@@ -1,0 +1,107 @@
+#include "app/inspection_file.h"
+
+#include <fmt/format.h>
+
+#include "app/draw_hemisphere.h"
+#include "app/parse_values.h"
+#include "core/base/error.h"
+#include "core/io/files.h"
+#include "core/kernel/base/frame.h"
+#include "core/kernel/fields/direction_cells.h"
+
+namespace pl {
+namespace {
+
+std::vector<Vec3f> world_directions(const VolumeInspection& volume) {
+    const DirectionCells cells{.side = volume.side};
+    const Frame frame = make_frame(volume.normal);
+    std::vector<Vec3f> directions;
+    for (int cell = 0; cell < cells.count(); ++cell)
+        directions.push_back(
+            frame.to_world(square_to_cosine_hemisphere(cells.point_in_cell(cell, {0.5f, 0.5f}))));
+    return directions;
+}
+
+Json vector_json(const Vec3f& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+ImageMetadata metadata_of(const VolumeInspection& volume, const InspectionSource& source) {
+    ImageMetadata metadata{{"Software", "pathlight " PL_VERSION},    {"scene", source.scene},
+                           {"scene_hash", source.scene_hash},        {"method", source.method},
+                           {"spp", std::to_string(source.spp)},      {"seed", std::to_string(source.seed)},
+                           {"volume", std::to_string(volume.volume)}};
+    if (source.partial)
+        metadata.emplace_back("partial", "true");
+    return metadata;
+}
+
+} // namespace
+
+InspectionKind inspection_kind(const std::filesystem::path& path) {
+    const std::string suffix = path.extension().string();
+    if (suffix == ".json")
+        return InspectionKind::AsJson;
+    if (suffix == ".csv")
+        return InspectionKind::AsCsv;
+    if (suffix == ".png")
+        return InspectionKind::AsPng;
+    throw Error(ErrorKind::Usage,
+                fmt::format("{}: the suffix decides what is written: expected .json, .csv or .png, got {}",
+                            path.string(), suffix.empty() ? "none" : suffix));
+}
+
+Json inspection_json(const VolumeInspection& volume, const InspectionSource& source) {
+    Json directions = Json::array();
+    for (const Vec3f& direction : world_directions(volume))
+        directions.push_back(vector_json(direction));
+    return {{"schema", "pathlight.inspection/1"},
+            {"scene", source.scene},
+            {"scene_hash", source.scene_hash},
+            {"method", source.method},
+            {"spp", source.spp},
+            {"seed", source.seed},
+            {"partial", source.partial},
+            {"volume", volume.volume},
+            {"position", vector_json(volume.position)},
+            {"normal", vector_json(volume.normal)},
+            {"bins", volume.side * volume.side},
+            {"side", volume.side},
+            {"mean_radiance", volume.mean_radiance},
+            {"direction", directions},
+            {"radiance", volume.radiance},
+            {"probability", volume.probability},
+            {"visits", volume.visits}};
+}
+
+std::string inspection_csv(const VolumeInspection& volume) {
+    const std::vector<Vec3f> directions = world_directions(volume);
+    std::string text = "cell,row,column,dx,dy,dz,radiance,probability,visits\n";
+    const auto side = static_cast<std::size_t>(volume.side);
+    for (std::size_t cell = 0; cell < directions.size(); ++cell)
+        text += fmt::format("{},{},{},{},{},{},{}\n", cell, cell / side, cell % side,
+                            print_vector(directions[cell]), print_float(volume.radiance[cell]),
+                            print_float(volume.probability[cell]), volume.visits[cell]);
+    return text;
+}
+
+void save_inspection(const std::filesystem::path& path,
+                     const VolumeInspection& volume,
+                     const InspectionSource& source) {
+    switch (inspection_kind(path)) {
+    case InspectionKind::AsJson:
+        write_text_file_atomic(path, json_line(inspection_json(volume, source)));
+        return;
+    case InspectionKind::AsCsv:
+        write_text_file_atomic(path, inspection_csv(volume));
+        return;
+    case InspectionKind::AsPng:
+        write_png8(
+            path,
+            draw_hemisphere(volume, fmt::format("{}, {}, {} spp", source.scene, source.method, source.spp)),
+            metadata_of(volume, source));
+        return;
+    }
+}
+
+} // namespace pl

@@ -1,0 +1,33 @@
+// The values of options that take more than a line to read. Each throws Error(Usage) "expected ..., got '...'".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "app/option_values.h"
+
+namespace pl {
+
+/// For words of the contract that a later version will understand.
+[[noreturn]] void fail_not_yet(std::string_view what);
+
+void parse_method(Options& options, const std::string& text);
+void parse_view(Options& options, const std::string& text);
+void parse_backend(Options& options, const std::string& text);
+void parse_tone_curve(Options& options, const std::string& text);
+void parse_bins(Options& options, const std::string& text);
+void parse_bsdf_fraction(Options& options, const std::string& text);
+void parse_fov(Options& options, const std::string& text);
+void parse_field_budget(Options& options, const std::string& text);
+void parse_time_limit(Options& options, const std::string& text);
+void parse_window(Options& options, const std::string& text);
+void parse_picture_size(Options& options, const std::string& text);
+void parse_at(Options& options, const std::string& text);
+void parse_pixel(Options& options, const std::string& text);
+
+/// "precomputed or reinforcement": the methods that have something to show in views of what was learned.
+std::string field_method_choices();
+
+std::string_view tone_curve_name(ToneCurve curve);
+
+} // namespace pl

@@ -1,0 +1,231 @@
+#include "app/option_table.h"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "app/camera_file.h"
+#include "app/option_parsers.h"
+#include "app/parse_values.h"
+#include "core/base/error.h"
+
+namespace pl {
+namespace {
+
+constexpr CommandSet
+    kEverywhere(Command::View, Command::Render, Command::Info, Command::Devices, Command::Inspect);
+constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Info, Command::Inspect);
+constexpr CommandSet kSampling(Command::View, Command::Render, Command::Inspect);
+constexpr CommandSet kPictures(Command::View, Command::Render);
+constexpr CommandSet kHeadless(Command::Render, Command::Info, Command::Devices, Command::Inspect);
+constexpr CommandSet kFiles(Command::Render, Command::Inspect);
+constexpr CommandSet kView(Command::View);
+constexpr CommandSet kInspect(Command::Inspect);
+
+constexpr std::string_view kOutput = "Output";
+constexpr std::string_view kPicture = "Picture";
+constexpr std::string_view kStop = "When to stop (the first one that is met)";
+constexpr std::string_view kCamera = "Camera";
+constexpr std::string_view kField = "Learned field";
+constexpr std::string_view kPlace = "What to inspect";
+constexpr std::string_view kMessages = "Messages";
+constexpr std::string_view kViewer = "Viewer";
+constexpr std::string_view kHidden = "";
+
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+template <auto kMember>
+void parse_text(Options& options, const std::string& text) {
+    options.*kMember = text;
+}
+
+template <auto kMember>
+void parse_flag(Options& options, const std::string&) {
+    options.*kMember = true;
+}
+
+template <auto kMember>
+void parse_side(Options& options, const std::string& text) {
+    options.*kMember = static_cast<int>(parse_whole(text, 1, kMaxImageSide));
+}
+
+void refuse_field_files(Options&, const std::string&) {
+    fail_not_yet("learned fields live as long as the program runs");
+}
+
+using Text = const std::string&;
+
+// clang-format off
+const auto kTable = std::to_array<OptionSpec>({
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "FILE", .group = kOutput,
+     .help = "What to write; the suffix decides the kind: .exr and .pfm linear, .png tone mapped "
+             "(inspect: .json, .csv, .png)",
+     .commands = kFiles, .parse = parse_text<&Options::output>,
+     .print = [](const Options& o) { return o.output; }},
+    {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
+     .help = "Write counts and timings as JSON",
+     .commands = kFiles, .parse = parse_text<&Options::stats_file>},
+
+    {.name = "at", .flags = "--at", .value = "X,Y,Z[,NX,NY,NZ]", .group = kPlace,
+     .help = "The volume nearest to this point whose normal agrees; without a normal, the point is moved to the "
+             "closest surface and the side it lies on counts",
+     .commands = kInspect, .parse = parse_at},
+    {.name = "pixel", .flags = "--pixel", .value = "X,Y", .group = kPlace,
+     .help = "The volume that serves the surface seen there; 0,0 is the top left pixel",
+     .commands = kInspect, .parse = parse_pixel},
+
+    {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,
+     .help = "How directions are chosen: default, precomputed, reinforcement (see --list-methods)",
+     .commands = kWithScene, .in_scene_files = true, .parse = parse_method,
+     .print = [](const Options& o) { return std::string(info_of(o.render.method).name); }},
+    {.name = "view", .flags = "--view", .value = "NAME", .group = kPicture,
+     .help = "What is shown: beauty, direct, radiance-map, voronoi, normal, albedo, depth (see --list-views)",
+     .commands = kPictures, .in_scene_files = true, .parse = parse_view,
+     .print = [](const Options& o) { return std::string(info_of(o.render.view).name); }},
+    {.name = "backend", .flags = "--backend", .value = "NAME", .group = kPicture,
+     .help = "What computes: auto, cpu, cuda",
+     .commands = kWithScene, .in_scene_files = true, .parse = parse_backend,
+     .print = [](const Options& o) { return o.backend; }},
+    {.name = "threads", .flags = "-t,--threads", .value = "N", .group = kPicture,
+     .help = "CPU threads (default: all); the picture does not depend on it",
+     .commands = kWithScene, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.threads = static_cast<int>(parse_whole(text, 1, 1024)); },
+     .print = [](const Options& o) { return o.threads == 0 ? "" : std::to_string(o.threads); }},
+    {.name = "size", .flags = "--size", .value = "WxH", .group = kPicture,
+     .help = "Picture size in pixels (default 512x512, or the scene's)",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_picture_size,
+     .print = [](const Options& o) { return fmt::format("{}x{}", o.render.width, o.render.height); }},
+    {.name = "width", .flags = "--width", .value = "N", .group = kPicture,
+     .help = "Picture width; alone, the height keeps the scene's aspect",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_side<&Options::width>},
+    {.name = "height", .flags = "--height", .value = "N", .group = kPicture,
+     .help = "Picture height; alone, the width keeps the scene's aspect",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_side<&Options::height>},
+    {.name = "seed", .flags = "--seed", .value = "N", .group = kPicture,
+     .help = "Of the random numbers (default 1): same seed, same bits",
+     .commands = kSampling, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.render.seed = parse_whole(text, 0, kNoLimit); },
+     .print = [](const Options& o) { return std::to_string(o.render.seed); }},
+    {.name = "max-depth", .flags = "--max-depth", .value = "N", .group = kPicture,
+     .help = "Most surface points on a path (default 64), a safety net: roulette ends paths",
+     .commands = kSampling, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.render.max_depth = static_cast<int>(parse_whole(text, 1, 65536)); },
+     .print = [](const Options& o) { return std::to_string(o.render.max_depth); }},
+    {.name = "nee", .flags = "--nee", .value = "on|off", .group = kPicture,
+     .help = "Next-event estimation: also aim at lights, combined by multiple importance sampling (default off)",
+     .commands = kWithScene, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.render.next_event = parse_switch(text); },
+     .print = [](const Options& o) { return std::string(o.render.next_event ? "on" : "off"); }},
+    {.name = "exposure", .flags = "--exposure", .value = "EV", .group = kPicture,
+     .help = "Display only: factor 2^EV (default 0)",
+     .commands = kPictures, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.display.exposure_ev = static_cast<float>(parse_real(text, -64, 64)); },
+     .print = [](const Options& o) { return print_float(o.display.exposure_ev); }},
+    {.name = "tonemap", .flags = "--tonemap", .value = "NAME", .group = kPicture,
+     .help = "Display only: clamp (default), reinhard, aces",
+     .commands = kPictures, .in_scene_files = true, .parse = parse_tone_curve,
+     .print = [](const Options& o) { return std::string(tone_curve_name(o.display.curve)); }},
+
+    {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
+     .help = "Samples per pixel (default 64 unless a time limit is given; the viewer goes on)",
+     .commands = kSampling, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000)); },
+     .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
+    {.name = "time-limit", .flags = "--time-limit", .value = "SECONDS", .group = kStop,
+     .help = "Of work after loading, looked at after every sample per pixel; at least one is made",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_time_limit,
+     .print = [](const Options& o) { return o.time_limit_seconds ? print_real(*o.time_limit_seconds) : ""; }},
+    {.name = "target-error", .flags = "--target-error", .value = "X", .group = kHidden, .help = "",
+     .commands = kSampling, .in_scene_files = true,
+     .parse = [](Options&, Text) { fail_not_yet("stop by --spp or --time-limit"); }},
+
+    {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
+     .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical}; goes "
+             "over the scene's camera, and the options below over both",
+     .commands = kSampling, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
+    {.name = "eye", .flags = "--eye", .value = "X,Y,Z", .group = kCamera, .help = "Where the camera is",
+     .commands = kSampling, .parse = [](Options& o, Text text) { o.camera.eye = parse_vector(text); },
+     .print = [](const Options& o) { return print_vector(o.render.camera.eye); }},
+    {.name = "target", .flags = "--target", .value = "X,Y,Z", .group = kCamera,
+     .help = "A point in the middle of the picture",
+     .commands = kSampling, .parse = [](Options& o, Text text) { o.camera.target = parse_vector(text); },
+     .print = [](const Options& o) { return print_vector(o.render.camera.target); }},
+    {.name = "up", .flags = "--up", .value = "X,Y,Z", .group = kCamera,
+     .help = "A direction that points up in the picture",
+     .commands = kSampling, .parse = [](Options& o, Text text) { o.camera.up = parse_vector(text); },
+     .print = [](const Options& o) { return print_vector(o.render.camera.up); }},
+    {.name = "fov", .flags = "--fov", .value = "DEG", .group = kCamera, .help = "Full vertical angle of view",
+     .commands = kSampling, .parse = parse_fov,
+     .print = [](const Options& o) { return print_float(o.render.camera.fov_deg); }},
+
+    {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,
+     .help = "Number of radiance volumes (default: what the budget holds, at most 1000)",
+     .commands = kSampling, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.render.field.volumes = static_cast<int>(parse_whole(text, 1, 1000000)); },
+     .print = [](const Options& o) {
+         return o.render.field.volumes == 0 ? "" : std::to_string(o.render.field.volumes);
+     }},
+    {.name = "field-budget", .flags = "--field-budget", .value = "MB", .group = kField,
+     .help = "Memory of one method's learned field (default 16)",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_field_budget,
+     .print = [](const Options& o) { return print_real(o.render.field.budget_megabytes); }},
+    {.name = "bins", .flags = "--bins", .value = "N", .group = kField,
+     .help = "Directions per volume, a square number from 4 to 1024 (default 256)",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_bins,
+     .print = [](const Options& o) { return std::to_string(o.render.field.bins); }},
+    {.name = "bsdf-fraction", .flags = "--bsdf-fraction", .value = "X", .group = kField,
+     .help = "Share of directions that follow the surface instead of the field, 0.1 to 1 (default 0.5)",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_bsdf_fraction,
+     .print = [](const Options& o) { return print_float(o.render.bsdf_fraction); }},
+    {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kHidden, .help = "",
+     .commands = kSampling, .parse = refuse_field_files},
+    {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kHidden, .help = "",
+     .commands = kSampling, .parse = refuse_field_files},
+
+    {.name = "json", .flags = "--json", .value = "", .group = kMessages,
+     .help = "One JSON object per line on standard output instead of text",
+     .commands = kEverywhere, .parse = parse_flag<&Options::json>},
+    {.name = "quiet", .flags = "-q,--quiet", .value = "", .group = kMessages, .help = "Errors only",
+     .commands = kEverywhere, .parse = parse_flag<&Options::quiet>},
+    {.name = "verbose", .flags = "-v,--verbose", .value = "", .group = kMessages, .help = "More messages",
+     .commands = kEverywhere, .parse = [](Options& o, Text) { ++o.verbosity; }},
+    {.name = "log-file", .flags = "--log-file", .value = "FILE", .group = kMessages,
+     .help = "Append all messages to a file as well",
+     .commands = kEverywhere, .parse = parse_text<&Options::log_file>},
+    {.name = "no-progress", .flags = "--no-progress", .value = "", .group = kMessages,
+     .help = "No progress bar, no progress lines",
+     .commands = kFiles, .parse = parse_flag<&Options::no_progress>},
+    {.name = "headless", .flags = "--headless,--no-gui", .value = "", .group = kHidden, .help = "",
+     .commands = kHeadless, .parse = [](Options&, Text) {}},
+
+    {.name = "window", .flags = "--window", .value = "WxH", .group = kViewer, .help = "Window size (default 1440x900)",
+     .commands = kView, .parse = parse_window},
+    {.name = "software", .flags = "--software", .value = "", .group = kViewer,
+     .help = "Draw the window without a graphics card",
+     .commands = kView, .parse = parse_flag<&Options::software>},
+    {.name = "script", .flags = "--script", .value = "FILE", .group = kViewer,
+     .help = "Feed the window with input from a file; needs no display",
+     .commands = kView, .parse = parse_text<&Options::script>},
+    {.name = "ui-trace", .flags = "--ui-trace", .value = "FILE", .group = kViewer,
+     .help = "Write the time of every frame of the window",
+     .commands = kView, .parse = parse_text<&Options::ui_trace>},
+});
+// clang-format on
+
+} // namespace
+
+std::span<const OptionSpec> option_table() {
+    return kTable;
+}
+
+void apply_option(const OptionSpec& spec, Options& options, const std::string& text) {
+    try {
+        spec.parse(options, text);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Usage)
+            throw;
+        throw Error(ErrorKind::Usage, fmt::format("--{}: {}", spec.name, error.what()));
+    }
+}
+
+} // namespace pl

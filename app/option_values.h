@@ -1,0 +1,68 @@
+// Options: what a person has asked for on the command line and in a scene file, as values.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "core/session/settings.h"
+
+namespace pl {
+
+enum class Command : std::uint32_t { View, Render, Info, Devices, Inspect };
+
+/// Which of the camera's parts were given; the rest is the scene's.
+struct CameraChoice {
+    std::optional<glm::vec3> eye;
+    std::optional<glm::vec3> target;
+    std::optional<glm::vec3> up;
+    std::optional<float> fov_deg;
+};
+
+/// A place in the scene, and the side of a surface if a normal was given.
+struct ScenePoint {
+    glm::vec3 position{0.0f};
+    std::optional<glm::vec3> normal;
+};
+
+struct Options {
+    std::string scene; ///< name or path; empty if none was given
+    std::string output;
+
+    RenderSettings render; ///< final only after resolve_options(): camera and size depend on the scene
+    DisplaySettings display;
+    std::string backend = "auto";
+    int threads = 0; ///< 0: all
+    std::optional<std::uint32_t> spp;
+    std::optional<double> time_limit_seconds;
+    int width = 0;  ///< 0: not given
+    int height = 0; ///< 0: not given
+    CameraChoice camera;
+
+    std::optional<ScenePoint> at;
+    std::optional<glm::ivec2> pixel;
+
+    std::string stats_file;
+    std::string log_file;
+    bool json = false;
+    bool quiet = false;
+    int verbosity = 0;
+    bool no_progress = false;
+
+    std::string script;    ///< viewer: file of scripted input
+    std::string ui_trace;  ///< viewer: file of frame times
+    bool software = false; ///< viewer: no graphics card
+    std::optional<glm::ivec2> window;
+
+    /// Samples per pixel after which to stop. 64 unless something else ends the rendering.
+    std::uint32_t spp_limit() const {
+        constexpr std::uint32_t kDefaultSpp = 64;
+        constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
+        return spp.value_or(time_limit_seconds ? kNever : kDefaultSpp);
+    }
+};
+
+} // namespace pl

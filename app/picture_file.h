@@ -1,0 +1,28 @@
+// Pictures to files: linear as they are, or as they look.
+#pragma once
+
+#include <filesystem>
+
+#include "core/io/image.h"
+#include "core/session/settings.h"
+#include "core/session/snapshot.h"
+
+namespace pl {
+
+/// Factor that brings a picture's values into what a screen can show: 1 / the largest one for depth, else 1.
+float shown_scale(const Snapshot& snapshot);
+
+/// What a screen shows of linear values: scaled, tone mapped, sRGB. Exposure and curve apply to radiance only: views
+/// of data, such as normals, are shown as they are.
+ByteImage display_image(const Snapshot& snapshot, const DisplaySettings& display);
+
+/// Writes .exr or .pfm linear, .png as display_image(). Throws Error: Usage for another suffix, Runtime.
+void save_picture(const std::filesystem::path& path,
+                  const Snapshot& snapshot,
+                  const DisplaySettings& display,
+                  const ImageMetadata& metadata);
+
+/// Throws Error(Runtime) unless a file of this name can be made or replaced. Leaves no trace.
+void require_writable(const std::filesystem::path& path);
+
+} // namespace pl

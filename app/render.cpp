@@ -1,0 +1,96 @@
+// `pathlight render`: a picture without a display.
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/make_backend.h"
+#include "app/open_scene.h"
+#include "app/parse_values.h"
+#include "app/picture_file.h"
+#include "app/progress.h"
+#include "app/run_passes.h"
+#include "app/stats_json.h"
+#include "core/io/files.h"
+
+namespace pl {
+namespace {
+
+void require_outputs(const Options& options) {
+    image_kind(options.output);
+    require_writable(options.output);
+    if (!options.stats_file.empty())
+        require_writable(options.stats_file);
+}
+
+void announce(const Session& session, Console& console) {
+    const BackendInfo backend = session.backend();
+    console.log().detail(fmt::format("{} on {} ({} threads, rays by {})", backend.name, backend.device,
+                                     backend.threads, backend.intersector));
+    console.log().detail(fmt::format("kernel {}", session.kernel_name()));
+    console.event("start", {{"scene", session.scene().source.string()},
+                            {"method", info_of(session.settings().method).name},
+                            {"view", info_of(session.settings().view).name},
+                            {"backend", backend.name},
+                            {"width", session.settings().width},
+                            {"height", session.settings().height},
+                            {"kernel", session.kernel_name()}});
+}
+
+ImageMetadata metadata_of(const Json& stats, const std::string& command, bool interrupted) {
+    ImageMetadata metadata{{"Software", "pathlight " PL_VERSION}, {"command", command}};
+    if (interrupted)
+        metadata.emplace_back("partial", "true");
+    for (const char* key : {"scene", "scene_hash", "method", "view", "backend", "width", "height", "spp",
+                            "seed", "max_depth", "nee", "kernel"}) {
+        const Json& value = stats.at(key);
+        metadata.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    metadata.emplace_back("seconds", print_real(stats.at("seconds").at("total").get<double>()));
+    return metadata;
+}
+
+void report(
+    const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted, Console& console) {
+    const double seconds = snapshot.clocks.total();
+    console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}\n", options.output, snapshot.width,
+                               snapshot.height, info_of(snapshot.slot.method).name,
+                               info_of(snapshot.slot.view).name, snapshot.passes, seconds,
+                               interrupted ? ", partial" : ""));
+    console.event("done", {{"output", options.output},
+                           {"run", 1},
+                           {"spp", snapshot.passes},
+                           {"t_render", snapshot.clocks.render},
+                           {"interrupted", interrupted},
+                           {"stats", stats}});
+    if (interrupted)
+        console.log().warning(image_kind(options.output) == ImageKind::Pfm
+                                  ? "interrupted: the picture is partial, and a .pfm file cannot be marked so"
+                                  : "interrupted: the picture is partial and marked so");
+    if (snapshot.counters.invalid_samples > 0)
+        console.log().warning(fmt::format("{} samples were NaN, infinite or negative and left out",
+                                          snapshot.counters.invalid_samples));
+}
+
+} // namespace
+
+int run_render(const CommandLine& line, Console& console) {
+    const InterruptGuard interrupt;
+    require_outputs(line.options);
+    const LoadedScene loaded = open_scene(line.options.scene, console);
+    const Options options = resolve_options(line, *loaded.scene);
+    Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
+                    loaded.load_seconds);
+    announce(session, console);
+
+    const RunOutcome outcome = run_passes(session, options, interrupt, console);
+    const Snapshot snapshot = session.snapshot();
+    const Json stats = stats_json(session, snapshot, options);
+    const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
+    save_picture(options.output, snapshot, options.display, metadata_of(stats, command, outcome.interrupted));
+    if (!options.stats_file.empty())
+        write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
+    report(snapshot, options, stats, outcome.interrupted, console);
+    return outcome.interrupted ? kExitInterrupted : 0;
+}
+
+} // namespace pl

@@ -1,0 +1,84 @@
+#include "app/stats_json.h"
+
+#include <cmath>
+
+#include "core/scene/needed_effects.h"
+#include "core/scene/scene_hash.h"
+
+namespace pl {
+namespace {
+
+/// Mean over all pixels that have a value.
+Json mean_radiance(const Snapshot& snapshot) {
+    glm::dvec3 sum(0.0);
+    std::size_t count = 0;
+    for (const Vec3f& pixel : snapshot.pixels) {
+        if (!std::isfinite(pixel.x + pixel.y + pixel.z))
+            continue;
+        sum += glm::dvec3(pixel);
+        ++count;
+    }
+    if (count > 0)
+        sum /= static_cast<double>(count);
+    return Json::array({sum.x, sum.y, sum.z});
+}
+
+Json clocks_json(const Clocks& clocks) {
+    return {{"load", clocks.load},    {"build", clocks.build},
+            {"place", clocks.place},  {"precompute", clocks.precompute},
+            {"learn", clocks.learn},  {"render", clocks.render},
+            {"total", clocks.total()}};
+}
+
+Json field_json(const std::optional<FieldStatus>& field) {
+    if (!field)
+        return nullptr;
+    return {{"volumes", field->volumes}, {"bins", field->bins},
+            {"bytes", field->bytes},     {"passes", field->passes},
+            {"records", field->records}, {"lookup_misses", field->lookup_misses}};
+}
+
+void add_counters(Json& stats, const PassCounters& counters) {
+    const double paths = static_cast<double>(counters.paths);
+    stats["paths"] = counters.paths;
+    stats["segments"] = counters.path.segments;
+    stats["shadow_rays"] = counters.path.shadow_rays;
+    stats["zero_contribution_paths"] = counters.zero_contribution_paths;
+    stats["mean_path_length"] =
+        counters.paths == 0 ? 0.0 : static_cast<double>(counters.path.segments) / paths;
+    stats["invalid_samples"] = counters.invalid_samples;
+    stats["escaped_paths"] = counters.path.escaped;
+}
+
+} // namespace
+
+Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options) {
+    const RenderSettings& settings = session.settings();
+    const BackendInfo backend = session.backend();
+    const FeatureSet needed = session.needed_features();
+    Json stats{{"schema", "pathlight.stats/1"},
+               {"version", PL_VERSION},
+               {"scene", options.scene},
+               {"scene_hash", scene_hash(session.scene())},
+               {"method", info_of(settings.method).name},
+               {"view", info_of(settings.view).name},
+               {"backend", backend.name},
+               {"device", backend.device},
+               {"threads", backend.threads},
+               {"width", snapshot.width},
+               {"height", snapshot.height},
+               {"spp", snapshot.passes},
+               {"seed", settings.seed},
+               {"max_depth", settings.max_depth},
+               {"nee", settings.next_event},
+               {"seconds", clocks_json(snapshot.clocks)}};
+    add_counters(stats, snapshot.counters);
+    stats["mean_radiance"] = mean_radiance(snapshot);
+    stats["field"] = field_json(snapshot.field);
+    stats["effects_needed"] = effect_names(needed);
+    stats["effects_compiled"] = effect_names(kCompiledSets[smallest_superset(needed)]);
+    stats["kernel"] = snapshot.kernel;
+    return stats;
+}
+
+} // namespace pl

@@ -1,0 +1,155 @@
+// `pathlight view`: the window, with what it may not know itself: files, back ends, the command line.
+#include "app/commands.h"
+#include "core/base/error.h"
+
+#if PL_VIEWER
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "app/make_backend.h"
+#include "app/open_scene.h"
+#include "app/picture_file.h"
+#include "core/io/load_scene.h"
+#include "ui/viewer.h"
+
+namespace pl {
+namespace {
+
+/// The scenes that were opened, for the functions that the viewer calls from any of its threads.
+class OpenedScenes {
+public:
+    void add(const std::string& name, std::shared_ptr<const SceneDescription> scene) {
+        const std::lock_guard lock(mutex_);
+        scenes_[name] = std::move(scene);
+    }
+    std::shared_ptr<const SceneDescription> find(const std::string& name) const {
+        const std::lock_guard lock(mutex_);
+        return scenes_.at(name);
+    }
+
+private:
+    mutable std::mutex mutex_;
+    std::map<std::string, std::shared_ptr<const SceneDescription>> scenes_;
+};
+
+/// The window needs a core for itself, where there are several.
+int viewer_threads(int asked) {
+    return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+}
+
+std::string command_of(const ViewerPicture& picture, const SceneDescription& scene, const Options& opened) {
+    const Options defaults = scene_defaults(picture.scene, scene);
+    Options shown = defaults;
+    shown.output = scene.source.stem().string() + ".png";
+    shown.render = picture.settings;
+    shown.display = picture.display;
+    shown.backend = opened.backend;
+    shown.threads = opened.threads;
+    if (picture.limits.spp > 0)
+        shown.spp = picture.limits.spp;
+    if (picture.limits.seconds > 0.0)
+        shown.time_limit_seconds = picture.limits.seconds;
+    return command_text(shown, defaults);
+}
+
+ImageMetadata
+metadata_of(const ViewerPicture& picture, const Snapshot& snapshot, const std::string& command) {
+    return {{"Software", "pathlight " PL_VERSION},
+            {"scene", picture.scene},
+            {"method", std::string(info_of(snapshot.slot.method).name)},
+            {"view", std::string(info_of(snapshot.slot.view).name)},
+            {"spp", std::to_string(snapshot.passes)},
+            {"command", command}};
+}
+
+bool has_size(const CommandLine& line) {
+    return std::any_of(line.given.begin(), line.given.end(), [](const GivenOption& given) {
+        return given.spec->name == "size" || given.spec->name == "width" || given.spec->name == "height";
+    });
+}
+
+/// Everything but the functions.
+ViewerOptions viewer_options(const CommandLine& line, const Options& options, const LoadedScene& loaded) {
+    ViewerOptions viewer;
+    viewer.settings = options.render;
+    viewer.display = options.display;
+    viewer.limits = {.spp = options.spp.value_or(0), .seconds = options.time_limit_seconds.value_or(0.0)};
+    viewer.scene_name = options.scene;
+    viewer.scene = loaded.scene;
+    viewer.load_seconds = loaded.load_seconds;
+    viewer.camera_from_scene = false; // resolved already
+    viewer.size_from_window = !has_size(line);
+    if (options.window) {
+        viewer.width = options.window->x;
+        viewer.height = options.window->y;
+    }
+    viewer.software = options.software;
+    viewer.font = find_assets_dir() / "fonts" / "roboto-medium-latin.ttf";
+    if (!options.script.empty())
+        viewer.script = options.script;
+    if (!options.ui_trace.empty())
+        viewer.ui_trace = options.ui_trace;
+    return viewer;
+}
+
+} // namespace
+
+int run_view(const CommandLine& line, Console& console) {
+    const LoadedScene loaded = open_scene(line.options.scene, console);
+    const Options options = resolve_options(line, *loaded.scene);
+    OpenedScenes scenes;
+    scenes.add(options.scene, loaded.scene);
+
+    ViewerOptions viewer = viewer_options(line, options, loaded);
+    // Made here, so that a back end that is not there is told before a window opens.
+    const auto backend = std::make_shared<std::unique_ptr<RenderBackend>>(
+        make_backend(options.backend, viewer_threads(options.threads)));
+    viewer.make_backend = [backend] { return std::move(*backend); };
+    viewer.load_scene = [&](const std::string& name) {
+        const auto scene = open_scene(name, console).scene;
+        scenes.add(name, scene);
+        return scene;
+    };
+    viewer.command_line = [&](const ViewerPicture& picture) {
+        return command_of(picture, *scenes.find(picture.scene), options);
+    };
+    viewer.save_image = [&](const std::filesystem::path& path, const Snapshot& snapshot,
+                            const ViewerPicture& picture) {
+        const auto scene = scenes.find(picture.scene);
+        save_picture(path, snapshot, picture.display,
+                     metadata_of(picture, snapshot, command_of(picture, *scene, options)));
+    };
+    viewer.save_screen = [](const std::filesystem::path& path, const ScreenPixels& pixels) {
+        write_png8(path, {.width = pixels.width, .height = pixels.height, .rgb = pixels.rgb});
+    };
+    try {
+        return run_viewer(viewer);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Unavailable)
+            throw;
+        throw Error(ErrorKind::Unavailable,
+                    fmt::format("{}; without a display: pathlight render {} -o {}.png", error.what(),
+                                options.scene, loaded.scene->source.stem().string()));
+    }
+}
+
+} // namespace pl
+
+#else
+
+namespace pl {
+
+int run_view(const CommandLine& line, Console&) {
+    throw Error(ErrorKind::Unavailable,
+                "this build has no viewer (it needs SDL2 and Dear ImGui); without one: pathlight render " +
+                    line.options.scene + " -o picture.png");
+}
+
+} // namespace pl
+
+#endif

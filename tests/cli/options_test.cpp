@@ -1,0 +1,427 @@
+// The words: parsing, precedence, and the way back to a command line.
+#include <cstdint>
+#include <limits>
+#include <random>
+
+#include <wordexp.h>
+
+#include "app/options.h"
+#include "app/parse_values.h"
+#include "core/base/error.h"
+#include "core/io/load_scene.h"
+#include "tests/catch.hpp"
+#include "tests/cli/run_program.h"
+
+namespace pl {
+namespace {
+
+using test::TempDir;
+
+SceneDescription plain_scene() {
+    SceneDescription scene;
+    scene.name = "plain";
+    scene.camera = {.eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 1, 0}, .fov_deg = 50};
+    return scene;
+}
+
+Options parse(const std::vector<std::string>& arguments, const SceneDescription& scene = plain_scene()) {
+    const CommandLine line = parse_command_line(arguments);
+    REQUIRE_FALSE(line.answer);
+    return resolve_options(line, scene);
+}
+
+std::string complaint(const std::vector<std::string>& arguments) {
+    try {
+        parse(arguments);
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::Usage);
+        return error.what();
+    }
+    return "nothing";
+}
+
+std::vector<std::string> shell_words(const std::string& command) {
+    wordexp_t words{};
+    REQUIRE(wordexp(command.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) == 0);
+    std::vector<std::string> result(words.we_wordv, words.we_wordv + words.we_wordc);
+    wordfree(&words);
+    return result;
+}
+
+/// A float of any finite bit pattern.
+float any_float(std::mt19937& random) {
+    for (;;) {
+        const float value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+        if (std::isfinite(value))
+            return value;
+    }
+}
+
+glm::vec3 any_vector(std::mt19937& random) {
+    return {any_float(random), any_float(random), any_float(random)};
+}
+
+/// Options that a person can have, far from the defaults.
+Options any_options(std::mt19937& random) {
+    const auto whole = [&](int low, int high) {
+        return std::uniform_int_distribution<int>(low, high)(random);
+    };
+    const auto real = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    Options o;
+    o.scene = "some folder/it's a $scene.json";
+    o.output = "out \"1\".exr";
+    o.render.method = all_methods()[static_cast<std::size_t>(whole(1, 2))].id;
+    o.render.view = all_views()[static_cast<std::size_t>(whole(0, 6))].id;
+    o.render.width = whole(1, 16384);
+    o.render.height = whole(1, 16384);
+    o.render.camera = {any_vector(random), any_vector(random), any_vector(random), real(0.001f, 179.9f)};
+    o.render.seed = (std::uint64_t{random()} << 32) | random();
+    o.render.max_depth = whole(1, 65536);
+    o.render.next_event = whole(0, 1) == 1;
+    o.render.bsdf_fraction = real(0.1f, 1.0f);
+    o.render.field.volumes = whole(0, 1) * whole(1, 1000000);
+    o.render.field.budget_megabytes = real(0.5f, 9000.0f);
+    o.render.field.bins = whole(2, 32);
+    o.render.field.bins *= o.render.field.bins;
+    o.display.exposure_ev = real(-64.0f, 64.0f);
+    o.display.curve = static_cast<ToneCurve>(whole(0, 2));
+    if (whole(0, 1) == 1)
+        o.spp = static_cast<std::uint32_t>(whole(1, 1000000000));
+    if (whole(0, 1) == 1)
+        o.time_limit_seconds = real(0.001f, 1.0e9f);
+    o.threads = whole(0, 1024);
+    o.backend = whole(0, 1) == 1 ? "cpu" : "auto";
+    return o;
+}
+
+void require_equal(const Options& a, const Options& b) {
+    REQUIRE(a.scene == b.scene);
+    REQUIRE(a.output == b.output);
+    REQUIRE(a.render.method == b.render.method);
+    REQUIRE(a.render.view == b.render.view);
+    REQUIRE(a.render.width == b.render.width);
+    REQUIRE(a.render.height == b.render.height);
+    REQUIRE((a.render.camera.eye == b.render.camera.eye));
+    REQUIRE((a.render.camera.target == b.render.camera.target));
+    REQUIRE((a.render.camera.up == b.render.camera.up));
+    REQUIRE(a.render.camera.fov_deg == b.render.camera.fov_deg);
+    REQUIRE(a.render.seed == b.render.seed);
+    REQUIRE(a.render.max_depth == b.render.max_depth);
+    REQUIRE(a.render.next_event == b.render.next_event);
+    REQUIRE(a.render.bsdf_fraction == b.render.bsdf_fraction);
+    REQUIRE((a.render.field == b.render.field));
+    REQUIRE(a.display.exposure_ev == b.display.exposure_ev);
+    REQUIRE(a.display.curve == b.display.curve);
+    REQUIRE(a.spp == b.spp);
+    REQUIRE(a.time_limit_seconds == b.time_limit_seconds);
+    REQUIRE(a.threads == b.threads);
+    REQUIRE(a.backend == b.backend);
+}
+
+} // namespace
+
+TEST_CASE("a copied command gives back the options it was made from") {
+    std::mt19937 random(7);
+    const SceneDescription scene = plain_scene();
+    for (int i = 0; i < 300; ++i) {
+        const Options options = any_options(random);
+        const std::string command = command_text(options, scene_defaults(options.scene, scene));
+        std::vector<std::string> words = shell_words(command);
+        REQUIRE(words.front() == "pathlight");
+        words.erase(words.begin());
+        CAPTURE(command);
+        require_equal(parse(words, scene), options);
+    }
+}
+
+TEST_CASE("a copied command leaves out what the scene sets already") {
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"method", "precomputed"}, {"size", "640x360"}, {"nee", "on"}};
+    Options options = scene_defaults("plain.json", scene);
+    CHECK(command_text(options, scene_defaults("plain.json", scene)) == "pathlight render plain.json");
+
+    // What differs from the scene is said, also where it is the program's own default.
+    options.render.method = MethodId::Default;
+    options.render.next_event = false;
+    CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
+          "pathlight render plain.json --method default --nee off");
+}
+
+TEST_CASE("options go over the scene's settings, settings over defaults") {
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"spp", "7"}, {"seed", "9"}, {"height", "100"}, {"width", "300"}};
+    const Options options = parse({"render", "s", "-o", "x.png", "--seed", "11"}, scene);
+    CHECK(options.spp == 7u);
+    CHECK(options.render.seed == 11u);
+    CHECK(options.render.width == 300);
+    CHECK(options.render.height == 100);
+    CHECK(options.render.max_depth == 64);
+    CHECK(options.render.camera.eye.x == 1.0f);
+}
+
+TEST_CASE("one side of the picture keeps the scene's aspect") {
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"size", "300x100"}};
+    const Options narrow = parse({"render", "s", "-o", "x.png", "--width", "30"}, scene);
+    CHECK(narrow.render.width == 30);
+    CHECK(narrow.render.height == 10);
+    const Options tall = parse({"render", "s", "-o", "x.png", "--height=7"}, scene);
+    CHECK(tall.render.width == 21);
+    const Options square = parse({"render", "s", "-o", "x.png", "--width", "30"});
+    CHECK(square.render.height == 30);
+    const Options both = parse({"render", "s", "-o", "x.png", "--size", "5x9", "--height", "4"}, scene);
+    CHECK(both.render.width == 5);
+    CHECK(both.render.height == 4);
+}
+
+TEST_CASE("the limits: 64 samples unless something else is given") {
+    CHECK(parse({"render", "s", "-o", "x.png"}).spp_limit() == 64);
+    CHECK(parse({"render", "s", "-o", "x.png", "--spp", "3"}).spp_limit() == 3);
+    CHECK(parse({"render", "s", "-o", "x.png", "--time-limit", "3"}).spp_limit() ==
+          std::numeric_limits<std::uint32_t>::max());
+    CHECK(parse({"render", "s", "-o", "x.png", "--time-limit", "3", "--spp", "5"}).spp_limit() == 5);
+}
+
+TEST_CASE("spellings: aliases, equals signs, negative numbers, the last of two") {
+    const Options options =
+        parse({"render", "--scene=s", "--outfile", "x.pfm", "--samples=5", "-t3", "--eye", "-1,-2,-3.5",
+               "--exposure", "-2", "--seed", "1", "--seed", "2", "--headless", "--fov=+30"});
+    CHECK(options.scene == "s");
+    CHECK(options.output == "x.pfm");
+    CHECK(options.spp == 5u);
+    CHECK(options.threads == 3);
+    CHECK((options.render.camera.eye == glm::vec3(-1, -2, -3.5f)));
+    CHECK(options.display.exposure_ev == -2.0f);
+    CHECK(options.render.seed == 2u);
+    CHECK(options.render.camera.fov_deg == 30.0f);
+}
+
+TEST_CASE("without a subcommand the viewer opens, on the Cornell box") {
+    CHECK(parse_command_line({}).command == Command::View);
+    CHECK(parse_command_line({}).options.scene == "cornell");
+    CHECK(parse_command_line({"--software"}).options.software);
+    CHECK(parse_command_line({"door"}).options.scene == "door");
+    CHECK(parse_command_line({"some/file.obj", "--spp", "3"}).options.scene == "some/file.obj");
+    CHECK(parse_command_line({"view", "door"}).options.scene == "door");
+}
+
+TEST_CASE("help, version and lists are answers, whatever else is missing") {
+    CHECK_THAT(*parse_command_line({"--help"}).answer, test::contains("inspect SCENE"));
+    CHECK_THAT(*parse_command_line({"-h"}).answer, test::contains("Exit codes"));
+    CHECK_THAT(*parse_command_line({"render", "--help"}).answer, test::contains("--bsdf-fraction"));
+    CHECK_THAT(*parse_command_line({"--version"}).answer, test::contains("pathlight "));
+    CHECK_THAT(*parse_command_line({"--list-methods"}).answer, test::contains("reinforcement"));
+    CHECK_THAT(*parse_command_line({"render", "--list-views"}).answer, test::contains("radiance-map"));
+    CHECK_THAT(*parse_command_line({"--list-methods", "--json"}).answer, test::contains("{\"schema\""));
+}
+
+TEST_CASE("every option that can be given is in the help of its subcommand") {
+    for (const char* command : {"view", "render", "info", "devices", "inspect"}) {
+        const std::string help = *parse_command_line({command, "--help"}).answer;
+        const Command id = parse_command_line({command, "--help"}).command;
+        for (const OptionSpec& spec : option_table()) {
+            CAPTURE(command, std::string(spec.name));
+            const bool listed = help.find("--" + std::string(spec.name)) != std::string::npos;
+            if (!spec.group.empty() && spec.commands.has(id))
+                CHECK(listed);
+        }
+        for (const std::string& line : test::lines_of(help))
+            CHECK(line.size() <= 110);
+    }
+}
+
+TEST_CASE("wrong values name the option, what is expected and what was given") {
+    struct Wrong {
+        std::vector<std::string> words;
+        std::string expected;
+    };
+    const std::vector<Wrong> wrongs{
+        {{"--spp", "-4"}, "--spp: expected a whole number from 1"},
+        {{"--spp", "0"}, "--spp: expected"},
+        {{"--spp", "1.5"}, "--spp: expected"},
+        {{"--spp", ""}, "--spp: expected"},
+        {{"--spp", "12abc"}, "--spp: expected"},
+        {{"--spp", "99999999999999999999"}, "--spp: expected"},
+        {{"--time-limit", "0"}, "--time-limit: expected a number of seconds above 0"},
+        {{"--time-limit", "-1"}, "--time-limit: expected"},
+        {{"--time-limit", "nan"}, "--time-limit: expected"},
+        {{"--size", "0x512"}, "--size: expected WIDTHxHEIGHT, each from 1 to 16384"},
+        {{"--size", "512"}, "--size: expected"},
+        {{"--size", "512x"}, "--size: expected"},
+        {{"--size", "5x5x5"}, "--size: expected"},
+        {{"--size", "16385x1"}, "--size: expected"},
+        {{"--width", "0"}, "--width: expected a whole number from 1 to 16384"},
+        {{"--height", "16385"}, "--height: expected"},
+        {{"--bins", "200"}, "--bins: expected a square number"},
+        {{"--bins", "1"}, "--bins: expected"},
+        {{"--bins", "2025"}, "--bins: expected"},
+        {{"--fov", "0"}, "--fov: expected an angle between 0 and 180"},
+        {{"--fov", "180"}, "--fov: expected"},
+        {{"--fov", "inf"}, "--fov: expected"},
+        {{"--eye", "1,2"}, "--eye: expected three numbers X,Y,Z"},
+        {{"--eye", "1,2,nan"}, "--eye: expected"},
+        {{"--up", "0,0,0"}, "--up: expected a direction"},
+        {{"--eye", "4,5,6"}, "--eye, --target: expected two different points"},
+        {{"--bsdf-fraction", "0.05"}, "--bsdf-fraction: expected a number from 0.1 to 1"},
+        {{"--bsdf-fraction", "1.01"}, "--bsdf-fraction: expected"},
+        {{"--nee", "yes"}, "--nee: expected on or off, got 'yes'"},
+        {{"--method", "reinforcment"},
+         "--method: expected default, precomputed or reinforcement, got 'reinforcment' "
+         "(nearest: 'reinforcement')"},
+        {{"--view", "voroni"}, "nearest: 'voronoi'"},
+        {{"--backend", "gpu"}, "--backend: expected auto, cpu or cuda"},
+        {{"--tonemap", "filmic"}, "--tonemap: expected clamp, reinhard or aces"},
+        {{"--exposure", "65"}, "--exposure: expected"},
+        {{"--max-depth", "0"}, "--max-depth: expected"},
+        {{"--threads", "0"}, "--threads: expected"},
+        {{"--volumes", "0"}, "--volumes: expected"},
+        {{"--field-budget", "0"}, "--field-budget: expected"},
+        {{"--seed", "-1"}, "--seed: expected a whole number of at least 0"},
+        {{"--seed", "18446744073709551616"}, "--seed: expected"},
+    };
+    for (const Wrong& wrong : wrongs) {
+        std::vector<std::string> arguments{"render", "s", "-o", "x.png"};
+        arguments.insert(arguments.end(), wrong.words.begin(), wrong.words.end());
+        CAPTURE(wrong.words);
+        CHECK_THAT(complaint(arguments), test::contains(wrong.expected));
+    }
+}
+
+TEST_CASE("the limits of values are values") {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"--bsdf-fraction", "0.1"},
+                                               {"--bsdf-fraction", "1"},
+                                               {"--bins", "4"},
+                                               {"--bins", "1024"},
+                                               {"--size", "16384x1"},
+                                               {"--seed", "18446744073709551615"},
+                                               {"--fov", "179.99"},
+                                               {"--max-depth", "1"}}) {
+        std::vector<std::string> arguments{"render", "s", "-o", "x.png"};
+        arguments.insert(arguments.end(), words.begin(), words.end());
+        CHECK_NOTHROW(parse(arguments));
+    }
+    CHECK(parse({"render", "s", "-o", "x.png", "--bsdf-fraction", "0.1"}).render.bsdf_fraction >= 0.1f);
+}
+
+TEST_CASE("what a later version will have is refused by name") {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"--target-error", "0.1"},
+                                               {"--save-field", "f"},
+                                               {"--load-field", "f"},
+                                               {"--bsdf-fraction", "learned"}}) {
+        std::vector<std::string> arguments{"render", "s", "-o", "x.png"};
+        arguments.insert(arguments.end(), words.begin(), words.end());
+        CHECK_THAT(complaint(arguments),
+                   test::contains(words.front()) && test::contains("this version does not have it"));
+    }
+    for (const char* command : {"reference", "bench", "compare", "report"})
+        CHECK_THAT(complaint({command, "x"}),
+                   test::contains("unknown subcommand '" + std::string(command) + "'"));
+}
+
+TEST_CASE("unknown words name the nearest one") {
+    CHECK_THAT(complaint({"rendr", "s"}), test::contains("nearest: 'render'"));
+    CHECK_THAT(complaint({"render", "s", "-o", "x.png", "--sppp", "3"}), test::contains("nearest: '--spp'"));
+    CHECK_THAT(complaint({"render", "s", "-o", "x.png", "--metod=default"}),
+               test::contains("nearest: '--method'"));
+    CHECK_THAT(complaint({"devices", "--jsn"}), test::contains("nearest: '--json'"));
+    CHECK_THAT(complaint({"info", "s", "--bins", "4"}), test::contains("unknown option '--bins' of 'info'"));
+    CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), test::contains("unexpected argument 't'"));
+}
+
+TEST_CASE("views of what was learned need a method that learns") {
+    CHECK_THAT(complaint({"render", "s", "-o", "x.png", "--view", "radiance-map"}),
+               test::contains("precomputed or reinforcement"));
+    CHECK_NOTHROW(parse({"render", "s", "-o", "x.png", "--view", "radiance-map", "--method", "precomputed"}));
+    CHECK_NOTHROW(parse({"render", "s", "-o", "x.png", "--view", "voronoi"}));
+}
+
+TEST_CASE("inspection is about a method that learns") {
+    CHECK(parse({"inspect", "s", "--pixel", "1,2", "-o", "x.csv"}).render.method == MethodId::Reinforcement);
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"method", "default"}};
+    CHECK(parse({"inspect", "s", "--pixel", "1,2", "-o", "x.csv"}, scene).render.method ==
+          MethodId::Reinforcement);
+    CHECK_THAT(complaint({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--method", "default"}),
+               test::contains("precomputed or reinforcement"));
+    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv"}), test::contains("--at"));
+    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv", "--at", "1,2,3", "--pixel", "1,2"}),
+               test::contains("--at"));
+    const Options options = parse({"inspect", "s", "-o", "x.csv", "--at", "1,2,3,0,0,-2"});
+    CHECK((options.at->position == glm::vec3(1, 2, 3)));
+    CHECK((*options.at->normal == glm::vec3(0, 0, -1)));
+    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv", "--at", "1,2,3,0,0,0"}), test::contains("normal"));
+    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv", "--at", "1,2,3,4"}),
+               test::contains("three or six numbers"));
+    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv", "--pixel", "-1,0"}),
+               test::contains("--pixel: expected"));
+}
+
+TEST_CASE("a camera file goes over the scene's camera, single options over both") {
+    const TempDir folder;
+    test::write_all(folder / "camera.json", R"({"eye": [7, 8, 9], "fov_deg": 33})");
+    const Options options =
+        parse({"render", "s", "-o", "x.png", "--fov", "44", "--camera", folder / "camera.json"});
+    CHECK((options.render.camera.eye == glm::vec3(7, 8, 9)));
+    CHECK((options.render.camera.target == glm::vec3(4, 5, 6)));
+    CHECK(options.render.camera.fov_deg == 44.0f);
+
+    test::write_all(folder / "camera.json", "{\n \"eye\": [7, 8, 9],\n \"fov\": 33\n}");
+    try {
+        parse({"render", "s", "-o", "x.png", "--camera", folder / "camera.json"});
+        FAIL("an unknown key was accepted");
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::Input);
+        CHECK_THAT(error.what(), test::contains("camera.json:3") && test::contains("fov_deg"));
+    }
+}
+
+TEST_CASE("scene files may set exactly the options that the table says") {
+    const TempDir folder;
+    test::write_all(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const OptionSpec& spec : option_table()) {
+        CAPTURE(std::string(spec.name));
+        test::write_all(folder / "a.json",
+                        "{\"schema\": \"pathlight.scene/1\", \"obj\": \"a.obj\", \"settings\": {\"" +
+                            std::string(spec.name) + "\": 1}}");
+        bool accepted = true;
+        try {
+            load_scene(folder / "a.json", "");
+        } catch (const Error& error) {
+            CHECK_THAT(error.what(), test::contains("unknown key"));
+            accepted = false;
+        }
+        CHECK(accepted == spec.in_scene_files);
+    }
+}
+
+TEST_CASE("a wrong setting of a scene file is told with its file and line") {
+    const TempDir folder;
+    test::write_all(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    test::write_all(folder / "a.json",
+                    "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"a.obj\",\n\"settings\": {\n"
+                    "\"seed\": 3,\n\"spp\": -5}}");
+    const SceneDescription scene = load_scene(folder / "a.json", "");
+    try {
+        parse({"render", "s", "-o", "x.png"}, scene);
+        FAIL("-5 samples were accepted");
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::Input);
+        CHECK_THAT(error.what(),
+                   test::contains("a.json:5") && test::contains("expected a whole number from 1"));
+    }
+}
+
+TEST_CASE("numbers print as what reads back to the same bits") {
+    std::mt19937 random(3);
+    for (int i = 0; i < 10000; ++i) {
+        const float value = any_float(random);
+        REQUIRE(std::bit_cast<std::uint32_t>(parse_float(print_float(value))) ==
+                std::bit_cast<std::uint32_t>(value));
+    }
+}
+
+} // namespace pl

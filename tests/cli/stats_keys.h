@@ -1,0 +1,44 @@
+// What the statistics file promises.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pl::test {
+
+inline const std::vector<std::string> kStatsKeys{"schema",
+                                                 "version",
+                                                 "scene",
+                                                 "scene_hash",
+                                                 "method",
+                                                 "view",
+                                                 "backend",
+                                                 "device",
+                                                 "threads",
+                                                 "width",
+                                                 "height",
+                                                 "spp",
+                                                 "seed",
+                                                 "max_depth",
+                                                 "nee",
+                                                 "seconds",
+                                                 "paths",
+                                                 "segments",
+                                                 "shadow_rays",
+                                                 "zero_contribution_paths",
+                                                 "mean_path_length",
+                                                 "invalid_samples",
+                                                 "escaped_paths",
+                                                 "mean_radiance",
+                                                 "field",
+                                                 "effects_needed",
+                                                 "effects_compiled",
+                                                 "kernel"};
+
+inline const std::vector<std::string> kSecondsKeys{"load",  "build",  "place", "precompute",
+                                                   "learn", "render", "total"};
+
+inline const std::vector<std::string> kFieldKeys{"volumes", "bins",    "bytes",
+                                                 "passes",  "records", "lookup_misses"};
+
+} // namespace pl::test
