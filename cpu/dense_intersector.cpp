@@ -10,26 +10,6 @@
 namespace pl {
 namespace {
 
-struct DenseKernels {
-    std::array<DenseKernel, 3> kernels;
-    std::size_t count = 0;
-
-    void add(std::string_view isa, DenseLoops loops) { kernels[count++] = {isa, loops}; }
-};
-
-DenseKernels find_usable_kernels() {
-    DenseKernels usable;
-    usable.add("baseline", kDenseLoopsBaseline);
-#ifdef PL_DENSE_CLONES
-    if (__builtin_cpu_supports("avx2"))
-        usable.add("avx2", kDenseLoopsAvx2);
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
-        usable.add("avx512", kDenseLoopsAvx512);
-#endif
-    return usable;
-}
-
 /// Equal as bits: 0 and -0 stay apart, since nothing is won by merging them.
 bool same_bits(Vec3f a, Vec3f b) {
     using Bits = std::array<std::uint32_t, 3>;
@@ -38,12 +18,7 @@ bool same_bits(Vec3f a, Vec3f b) {
 
 } // namespace
 
-std::span<const DenseKernel> usable_dense_kernels() {
-    static const DenseKernels usable = find_usable_kernels();
-    return {usable.kernels.data(), usable.count};
-}
-
-DenseIntersector::DenseIntersector(const SceneView& scene, DenseKernel kernel) : kernel_(kernel) {
+DenseIntersector::DenseIntersector(const SceneView& scene, const LaneKernels& kernels) : kernels_(kernels) {
     if (scene.triangles.count > kMaxDenseTriangles)
         throw Error(ErrorKind::Runtime,
                     fmt::format("dense intersector: expected at most {} triangles, got {}",

@@ -1,7 +1,7 @@
 // Rays against every triangle, a vector of rays at a time. Included by one file per instruction set; see lanes.h.
 #pragma once
 
-#include "cpu/dense_triangles.h"
+#include "cpu/lane_kernels.h"
 #include "cpu/lanes.h"
 
 namespace pl {

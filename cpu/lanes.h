@@ -53,6 +53,31 @@ PL_INLINE LaneFloat magnitude(LaneFloat x) {
     return std::bit_cast<LaneFloat>(std::bit_cast<LaneUint>(x) & 0x7fffffffu);
 }
 
+/// As to_unit_float.
+PL_INLINE LaneFloat to_unit_lanes(LaneUint bits) {
+    return __builtin_convertvector(std::bit_cast<LaneInt>(bits >> 8), LaneFloat) * 0x1p-24f;
+}
+
+/// Lanes of 64 bits, half as many.
+using LaneWide = std::uint64_t __attribute__((vector_size(4 * kLaneWidth)));
+
+/// Full products of the lower halves of all lanes with one factor.
+PL_INLINE LaneWide multiply_low_halves(LaneWide lanes, std::uint32_t factor) {
+#if defined(__AVX512F__)
+    // The masked form: gcc 12 warns of an uninitialized value inside the plain one.
+    return std::bit_cast<LaneWide>(_mm512_maskz_mul_epu32(0xff, std::bit_cast<__m512i>(lanes),
+                                                          _mm512_set1_epi64(static_cast<long long>(factor))));
+#elif defined(__AVX2__)
+    return std::bit_cast<LaneWide>(
+        _mm256_mul_epu32(std::bit_cast<__m256i>(lanes), _mm256_set1_epi64x(static_cast<long long>(factor))));
+#elif defined(__SSE2__)
+    return std::bit_cast<LaneWide>(
+        _mm_mul_epu32(std::bit_cast<__m128i>(lanes), _mm_set1_epi64x(static_cast<long long>(factor))));
+#else
+    return (lanes & 0xffffffffu) * factor;
+#endif
+}
+
 /// One bit per lane of a mask, lane 0 lowest.
 PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
 #if defined(__AVX512F__)

@@ -9,6 +9,7 @@
 
 #include "core/kernel/integrator/steps.h"
 #include "core/session/backend.h"
+#include "cpu/number_batch.h"
 #include "cpu/parallel_for.h"
 #include "cpu/ray_batch.h"
 
@@ -41,7 +42,8 @@ class PathBatch {
 public:
     PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work)
         : setup_(setup), intersector_(intersector), method_(method), work_(work), states_(setup.batch_paths),
-          statuses_(setup.batch_paths), rays_(setup.batch_paths),
+          statuses_(setup.batch_paths),
+          numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0), rays_(setup.batch_paths),
           shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())) {}
 
@@ -49,6 +51,7 @@ public:
     PassCounters run(ChunkQueue& queue) {
         while (refill(queue)) {
             find_hits();
+            draw_numbers();
             extend();
             if constexpr (kSamplesLights)
                 connect();
@@ -83,12 +86,19 @@ private:
         intersector_.find_closest(rays_, active_);
     }
 
-    void extend() {
+    void draw_numbers() {
+        for (std::uint32_t i = 0; i < active_; ++i)
+            numbers_.set_path(i, states_[i]);
+        numbers_.draw(setup_.path, active_);
+    }
+
+    /// Inlined to the last call: half of the time of a small scene is spent here.
+    [[gnu::flatten]] void extend() {
         shadow_count_ = 0;
         for (std::uint32_t i = 0; i < active_; ++i) {
             ShadowRequest shadow;
-            statuses_[i] = extend_path<F>(setup_.scene, method_, setup_.path, rays_.hit(i), states_[i],
-                                          shadow, counters_.path);
+            statuses_[i] = extend_path<F>(setup_.scene, method_, setup_.path, rays_.hit(i),
+                                          numbers_.numbers(i), states_[i], shadow, counters_.path);
             if constexpr (kSamplesLights) {
                 if (!shadow.wanted)
                     continue;
@@ -130,6 +140,7 @@ private:
     const W& work_;
     std::vector<PathState<M>> states_;
     std::vector<PathStatus> statuses_;
+    NumberBatch numbers_;
     RayBatch rays_;
     std::vector<ShadowRequest> shadows_;
     std::vector<std::uint32_t> shadow_paths_;

@@ -21,23 +21,40 @@ enum class Purpose : std::uint32_t {
 /// Which family of paths draws: pictures and precomputation never share a number.
 enum class Stream : std::uint32_t { Picture = 0, Precompute = 1, Placement = 2 };
 
-struct Philox {
-    std::uint32_t v[4];
+/// A 128-bit counter or block of random bits; `Word` is a 32-bit integer, or a vector of them.
+template <class Word>
+struct PhiloxWords {
+    Word v[4];
+};
+using Philox = PhiloxWords<std::uint32_t>;
+
+/// The two halves of a 64-bit product.
+template <class Word>
+struct WideProduct {
+    Word high, low;
 };
 
-/// One Philox4x32-10 block: a keyed bijection of 128-bit counters.
-PL_HD inline Philox philox4x32(Philox counter, std::uint32_t key0, std::uint32_t key1) {
+/// One Philox4x32-10 block: a keyed bijection of 128-bit counters. `multiply(factor, word)` gives a WideProduct.
+template <class Word, class Multiply>
+PL_INLINE PhiloxWords<Word> philox4x32(PhiloxWords<Word> counter, std::uint32_t key0, std::uint32_t key1,
+                                       Multiply multiply) {
     for (int round = 0; round < 10; ++round) {
-        const std::uint64_t product0 = std::uint64_t{0xD2511F53u} * counter.v[0];
-        const std::uint64_t product1 = std::uint64_t{0xCD9E8D57u} * counter.v[2];
-        counter = {{static_cast<std::uint32_t>(product1 >> 32) ^ counter.v[1] ^ key0,
-                    static_cast<std::uint32_t>(product1),
-                    static_cast<std::uint32_t>(product0 >> 32) ^ counter.v[3] ^ key1,
-                    static_cast<std::uint32_t>(product0)}};
+        const WideProduct<Word> product0 = multiply(0xD2511F53u, counter.v[0]);
+        const WideProduct<Word> product1 = multiply(0xCD9E8D57u, counter.v[2]);
+        counter = {{product1.high ^ counter.v[1] ^ key0, product1.low, product0.high ^ counter.v[3] ^ key1,
+                    product0.low}};
         key0 += 0x9E3779B9u;
         key1 += 0xBB67AE85u;
     }
     return counter;
+}
+
+PL_HD inline Philox philox4x32(Philox counter, std::uint32_t key0, std::uint32_t key1) {
+    return philox4x32(counter, key0, key1, [](std::uint32_t factor, std::uint32_t word) {
+        const std::uint64_t product = std::uint64_t{factor} * word;
+        return WideProduct<std::uint32_t>{static_cast<std::uint32_t>(product >> 32),
+                                          static_cast<std::uint32_t>(product)};
+    });
 }
 
 /// Uniform in [0, 1): the top 24 bits, so that 1.0 can never appear.

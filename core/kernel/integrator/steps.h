@@ -15,6 +15,23 @@ PL_HD inline Rng path_rng(const PathSettings& settings, std::uint32_t pixel, std
     return {settings.seed, settings.stream, pixel, sample};
 }
 
+/// The uniform numbers that a path uses up where its segment ends. An argument of the step, so that a back end may
+/// draw those of many paths at once.
+struct VertexNumbers {
+    Vec4f scatter{0.0f};
+    Vec4f light{0.0f};  ///< drawn only where lights are sampled
+};
+
+template <FeatureSet F, class M>
+PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, const PathState<M>& state) {
+    const Rng rng = path_rng(settings, state.pixel, state.sample);
+    VertexNumbers numbers{.scatter = rng.draw(state.vertices + 1, Purpose::Scatter)};
+    if constexpr (F.has(Feature::NextEventEstimation)) {
+        if (settings.next_event != 0) numbers.light = rng.draw(state.vertices + 1, Purpose::Light);
+    }
+    return numbers;
+}
+
 /// Starts a path at the camera, somewhere in pixel (x, y).
 template <class M>
 PL_HD inline PathState<M> begin_path(const PinholeCamera& camera, const PathSettings& settings, std::uint32_t width,
@@ -45,9 +62,8 @@ PL_HD inline void add_emission(const SceneView& scene, const PathSettings& setti
 /// Light sample at a vertex; `shadow.wanted` stays false if it cannot contribute.
 template <Method M>
 PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, const typename M::Vertex& vertex,
-                                     const SurfacePoint& surface, Vec3f albedo, const Rng& rng,
+                                     const SurfacePoint& surface, Vec3f albedo, Vec4f u,
                                      const PathState<M>& state, ShadowRequest& shadow) {
-    const Vec4f u = rng.draw(state.vertices, Purpose::Light);
     const DirectLight sample = sample_direct_light(scene, surface, {u.x, u.y, u.z});
     if (!(sample.pdf_sa > 0.0f)) return;
     const float weight = balance_weight(sample.pdf_sa, method.pdf_sa(vertex, surface, sample.wi));
@@ -73,9 +89,9 @@ PL_HD inline bool survives_roulette(const PathSettings& settings, Vec3f albedo, 
 /// Chooses the next direction and moves the path's ray there.
 template <Method M>
 PL_HD inline PathStatus scatter(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
-                                const SurfacePoint& surface, Vec3f albedo, const Rng& rng, PathState<M>& state,
+                                const SurfacePoint& surface, Vec3f albedo, Vec4f u, PathState<M>& state,
                                 PathCounters& counters) {
-    const Vec4f u = rng.draw(state.vertices, Purpose::Scatter);
+    const Rng rng = path_rng(settings, state.pixel, state.sample);
     const DirectionSample direction = method.sample_direction(vertex, surface, rng, state.vertices, u);
     const float cos_i = reflection_cosine(surface, direction.wi);
     if (!(direction.pdf_sa > 0.0f) || cos_i == 0.0f) {
@@ -94,8 +110,8 @@ PL_HD inline PathStatus scatter(const M& method, const PathSettings& settings, c
 /// chooses the next segment. `shadow` comes in cleared.
 template <FeatureSet F, Method M>
 PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, const PathSettings& settings,
-                                    const Hit& hit, PathState<M>& state, ShadowRequest& shadow,
-                                    PathCounters& counters) {
+                                    const Hit& hit, const VertexNumbers& numbers, PathState<M>& state,
+                                    ShadowRequest& shadow, PathCounters& counters) {
     ++counters.segments;
     if (!hit.found()) {
         ++counters.escaped;
@@ -120,12 +136,11 @@ PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, con
         ++counters.truncated;
         return PathStatus::Finished;
     }
-    const Rng rng = path_rng(settings, state.pixel, state.sample);
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (settings.next_event != 0)
-            request_shadow_ray(scene, method, vertex, surface, material.albedo, rng, state, shadow);
+            request_shadow_ray(scene, method, vertex, surface, material.albedo, numbers.light, state, shadow);
     }
-    return scatter(method, settings, vertex, surface, material.albedo, rng, state, counters);
+    return scatter(method, settings, vertex, surface, material.albedo, numbers.scatter, state, counters);
 }
 
 /// Adds a light sample whose shadow ray found nothing in between.

@@ -12,8 +12,9 @@ PL_HD inline void trace_path(const SceneView& scene, const I& intersector, const
     PathStatus status = PathStatus::Continues;
     while (status == PathStatus::Continues) {
         const Hit hit = intersector.closest_hit(state.ray);
+        const VertexNumbers numbers = draw_vertex_numbers<F>(settings, state);
         ShadowRequest shadow;
-        status = extend_path<F>(scene, method, settings, hit, state, shadow, counters);
+        status = extend_path<F>(scene, method, settings, hit, numbers, state, shadow, counters);
         if (shadow.wanted) {
             ++counters.shadow_rays;
             if (!intersector.occluded(shadow.ray)) connect_light(shadow, state);

@@ -1,4 +1,5 @@
 #include "cpu/dense_lanes.h"
+#include "cpu/philox_lanes.h"
 
 namespace pl {
 namespace {
@@ -11,8 +12,12 @@ void find_occluded(const DenseView& scene, const RayGroup* rays, OcclusionMask* 
     occlusion_of_groups(scene, rays, masks, groups);
 }
 
+void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups) {
+    draw_groups(key, counters, numbers, groups);
+}
+
 } // namespace
 
-const DenseLoops kDenseLoopsBaseline{find_closest, find_occluded};
+const LaneKernels kLaneKernelsAvx2{"avx2", find_closest, find_occluded, draw};
 
 } // namespace pl

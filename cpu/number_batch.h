@@ -1,0 +1,52 @@
+// The random numbers that many paths use up at their next vertices.
+#pragma once
+
+#include <vector>
+
+#include "core/kernel/integrator/steps.h"
+#include "cpu/lane_kernels.h"
+
+namespace pl {
+
+/// Gives what draw_vertex_numbers gives for each path alone.
+class NumberBatch {
+public:
+    NumberBatch(std::uint32_t capacity, bool with_light)
+        : counters_(group_count(capacity)), scatter_(counters_.size()),
+          light_(with_light ? counters_.size() : 0) {}
+
+    template <class M>
+    void set_path(std::uint32_t index, const PathState<M>& state) {
+        CounterGroup& group = counters_[index / kGroupSize];
+        const std::uint32_t lane = index % kGroupSize;
+        group.pixel[lane] = state.pixel;
+        group.sample[lane] = state.sample;
+        group.vertex[lane] = state.vertices + 1;
+    }
+
+    /// Draws for the first `count` paths.
+    void draw(const PathSettings& settings, std::uint32_t count) {
+        draw_rows({settings.seed, settings.stream, Purpose::Scatter}, scatter_, count);
+        if (!light_.empty())
+            draw_rows({settings.seed, settings.stream, Purpose::Light}, light_, count);
+    }
+
+    VertexNumbers numbers(std::uint32_t index) const {
+        VertexNumbers numbers{.scatter = scatter_[index / kGroupSize].get(index % kGroupSize)};
+        if (!light_.empty())
+            numbers.light = light_[index / kGroupSize].get(index % kGroupSize);
+        return numbers;
+    }
+
+private:
+    void draw_rows(const DrawKey& key, std::vector<NumberGroup>& rows, std::uint32_t count) const {
+        kernels_.draw(key, counters_.data(), rows.data(), group_count(count));
+    }
+
+    LaneKernels kernels_ = best_lane_kernels();
+    std::vector<CounterGroup> counters_;
+    std::vector<NumberGroup> scatter_;
+    std::vector<NumberGroup> light_; ///< empty where no lights are sampled
+};
+
+} // namespace pl

@@ -1,0 +1,43 @@
+// Random numbers of a vector of paths. Included by one file per instruction set; see lanes.h.
+#pragma once
+
+#include "core/kernel/base/rng.h"
+#include "cpu/lane_kernels.h"
+#include "cpu/lanes.h"
+
+namespace pl {
+namespace {
+
+/// Products of 32-bit lanes with one factor.
+PL_INLINE WideProduct<LaneUint> multiply_lanes(std::uint32_t factor, LaneUint words) {
+    constexpr std::uint64_t kLowHalf = 0xffffffffu;
+    const auto pairs = std::bit_cast<LaneWide>(words);
+    const LaneWide even = multiply_low_halves(pairs, factor);
+    const LaneWide odd = multiply_low_halves(pairs >> 32, factor);
+    return {std::bit_cast<LaneUint>((even >> 32) | (odd & ~kLowHalf)),
+            std::bit_cast<LaneUint>((even & kLowHalf) | (odd << 32))};
+}
+
+/// The lanes of a group from `first` on.
+PL_INLINE void
+draw_lanes(const DrawKey& key, const CounterGroup& counters, NumberGroup& numbers, std::uint32_t first) {
+    const PhiloxWords<LaneUint> counter{
+        {load_lanes<LaneUint>(counters.pixel + first), load_lanes<LaneUint>(counters.sample + first),
+         load_lanes<LaneUint>(counters.vertex + first) | (static_cast<std::uint32_t>(key.purpose) << 24),
+         broadcast(static_cast<std::uint32_t>(key.stream))}};
+    const PhiloxWords<LaneUint> block =
+        philox4x32(counter, static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32),
+                   [](std::uint32_t factor, LaneUint words) { return multiply_lanes(factor, words); });
+    for (int i = 0; i < 4; ++i)
+        store_lanes(to_unit_lanes(block.v[i]), numbers.rows[i] + first);
+}
+
+PL_INLINE void
+draw_groups(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            draw_lanes(key, counters[group], numbers[group], first);
+}
+
+} // namespace
+} // namespace pl
