@@ -19,8 +19,10 @@ inline constexpr double kPositionError = gamma_bound(7);
 inline constexpr double kMoveError = gamma_bound(3);
 
 /// Roundoffs, of a triangle's longest edge, between a plane and where a ray test that starts close to it sees it.
-/// The test takes corners relative to the origin (1), shears them (3, result 2 at most) in two coordinates, and
-/// multiplies them into edge functions (as if 2 more): 6 sqrt(2) + 2 < 11.
+/// The test takes corners relative to the origin (1 roundoff) and shears them (3, and 2 of the result), in two
+/// coordinates: 6 sqrt(2). The products of its edge functions add 2 for a triangle as high as long. For slivers they
+/// add more, but that only shows to rays that graze: walks next to the edges of strips 3 mm by 3 m find such rays,
+/// 1.5e8 segments of diffuse paths did not.
 inline constexpr double kTestError = gamma_bound(11);
 
 /// Walls may meet at an angle: over this factor's inverse, the sine of 3.6 degrees, the bounds above still hold along
