@@ -203,6 +203,7 @@ bool RenderWorker::take_wishes() {
             now_ = wishes_;
             if (!edits_.empty() || has_work())
                 break;
+            status_ = make_status();
             wake_.wait(lock);
         }
         if (wishes_.quit)
@@ -295,7 +296,7 @@ bool RenderWorker::limit_reached() const {
     const SampleLimits& limits = now_.limits;
     if (limits.spp > 0 && session_->passes() >= limits.spp)
         return true;
-    return limits.seconds > 0.0 && status_.seconds >= limits.seconds;
+    return limits.seconds > 0.0 && work_seconds(session_->clocks()) >= limits.seconds;
 }
 
 void RenderWorker::render() {
@@ -393,7 +394,7 @@ void RenderWorker::publish() {
     frame_count_.fetch_add(1, std::memory_order_release);
 }
 
-void RenderWorker::update_status() {
+WorkerStatus RenderWorker::make_status() const {
     WorkerStatus status;
     status.passes = session_->passes();
     status.divider = divider_;
@@ -407,12 +408,17 @@ void RenderWorker::update_status() {
         status.state = WorkerState::Precomputing;
     else if (now_.paused)
         status.state = WorkerState::Paused;
+    else if (status.passes > 0 && limit_reached())
+        status.state = WorkerState::Done;
     else
         status.state = WorkerState::Rendering;
+    return status;
+}
+
+void RenderWorker::update_status() {
+    const WorkerStatus status = make_status();
     const std::lock_guard lock(mutex_);
     status_ = status;
-    if (status.state == WorkerState::Rendering && status.passes > 0 && limit_reached())
-        status_.state = WorkerState::Done;
 }
 
 } // namespace pl

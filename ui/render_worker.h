@@ -86,6 +86,7 @@ private:
     bool publish_is_due() const;
     bool limit_reached() const;
     bool wants_pass() const;
+    WorkerStatus make_status() const;
     void update_status();
     void report(bool is_error, const std::string& text);
 

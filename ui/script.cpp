@@ -107,7 +107,7 @@ KeyStroke read_key(LineReader& line) {
     const SDL_Scancode scancode = SDL_GetScancodeFromName(name.c_str());
     if (scancode == SDL_SCANCODE_UNKNOWN)
         line.fail(fmt::format("expected the name of a key such as W, Space, F12 or [, got '{}'", name));
-    KeyStroke key{scancode, SDL_GetKeyFromScancode(scancode), {}};
+    KeyStroke key{scancode, 0, {}}; // the symbol follows from the keyboard layout of the window
     while (const auto modifier = line.next()) {
         if (*modifier == "shift")
             key.modifiers.shift = true;

@@ -161,7 +161,7 @@ void ScriptPlayer::push_key(const KeyStroke& key, bool down) {
     event.key.windowID = SDL_GetWindowID(window_);
     event.key.state = down ? SDL_PRESSED : SDL_RELEASED;
     event.key.keysym.scancode = static_cast<SDL_Scancode>(key.scancode);
-    event.key.keysym.sym = key.symbol;
+    event.key.keysym.sym = SDL_GetKeyFromScancode(event.key.keysym.scancode);
     event.key.keysym.mod = sdl_modifiers(key.modifiers);
     SDL_PushEvent(&event);
 }

@@ -1,0 +1,144 @@
+// A back end for tests of what surrounds it: paints a value per pass, counts, and can be held inside a pass.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "core/scene/description.h"
+#include "core/session/backend.h"
+
+namespace pl::test {
+
+/// What a test and the back end on the render thread share.
+struct FakeControl {
+    std::atomic<bool> hold{false};         ///< passes stay inside until they are stopped or let go
+    std::atomic<bool> inside{false};       ///< a pass is held
+    std::atomic<bool> fail{false};         ///< the next pass throws
+    std::atomic<int> stopped{0};           ///< passes that saw the stop flag
+    std::atomic<int> passes{0};            ///< passes that were complete
+    std::atomic<int> pass_microseconds{0}; ///< of a picture of 64x64; others in proportion to their pixels
+};
+
+class FakeBackend : public RenderBackend {
+public:
+    explicit FakeBackend(std::shared_ptr<FakeControl> control) : control_(std::move(control)) {}
+
+    BackendInfo info() const override { return {"fake", "test double", "none", 1}; }
+    void upload_scene(std::shared_ptr<const HostScene>) override {}
+    void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
+        probes_ = static_cast<std::uint32_t>(volumes->normals.size()) *
+                  static_cast<std::uint32_t>(shape.cells.count());
+        tables_.clear();
+    }
+    void upload_tables(MethodId method, HostTables tables) override { tables_[method] = std::move(tables); }
+    HostTables download_tables(MethodId method) const override { return tables_.at(method); }
+    bool has_tables(MethodId method) const override { return tables_.count(method) > 0; }
+
+    void reset_film(FilmSlot slot, int width, int height) override {
+        films_[slot.index()] = {width, height, std::vector<Vec3f>(static_cast<std::size_t>(width * height))};
+    }
+    FilmReading read_film(FilmSlot slot) const override {
+        const Film& film = films_.at(slot.index());
+        return {film.width, film.height, film.pixels, 0, 0};
+    }
+
+    PassCounters run_pass(const PassRequest& request) override {
+        if (control_->fail.exchange(false))
+            throw std::runtime_error("the device is gone");
+        Film& film = films_.at(request.slot.index());
+        const auto pixels = static_cast<std::uint32_t>(film.width * film.height);
+        PassCounters counters;
+        wait_in_pass(pixels, request.stop);
+        if (request.stop != nullptr && *request.stop) {
+            ++control_->stopped;
+            return counters;
+        }
+        for (std::uint32_t i = request.first_pixel; i < pixels; ++i)
+            film.pixels[i] =
+                request.slot.view == View::Voronoi ? color_of_id(i % 7) : Vec3f{request.camera.eye.x};
+        counters.paths = pixels - request.first_pixel;
+        counters.path.method.records = counters.paths;
+        ++control_->passes;
+        return counters;
+    }
+    PassCounters precompute(const PrecomputeRequest& request) override {
+        PassCounters counters;
+        wait_in_pass(0, request.stop);
+        if (request.stop == nullptr || !*request.stop)
+            counters.paths = probes_ - request.first_probe;
+        return counters;
+    }
+    void publish(MethodId) override {}
+    std::string kernel_name(MethodId, View, FeatureSet) const override { return "fake"; }
+
+private:
+    struct Film {
+        int width = 0;
+        int height = 0;
+        std::vector<Vec3f> pixels;
+    };
+
+    void wait_in_pass(std::uint32_t pixels, const StopFlag* stop) {
+        using namespace std::chrono;
+        const auto cost =
+            microseconds(static_cast<std::int64_t>(control_->pass_microseconds) * pixels / 4096);
+        const auto end = steady_clock::now() + cost;
+        while (steady_clock::now() < end && !(stop != nullptr && *stop))
+            std::this_thread::sleep_for(microseconds(50));
+        control_->inside = control_->hold.load();
+        while (control_->hold && !(stop != nullptr && *stop))
+            std::this_thread::sleep_for(microseconds(50));
+        control_->inside = false;
+    }
+
+    std::shared_ptr<FakeControl> control_;
+    std::uint32_t probes_ = 0;
+    std::map<MethodId, HostTables> tables_;
+    std::map<int, Film> films_;
+};
+
+/// Two facing squares: something to stand on and a light.
+inline std::shared_ptr<const SceneDescription> small_scene() {
+    auto scene = std::make_shared<SceneDescription>();
+    scene->name = "small";
+    scene->positions = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1},
+                        {-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
+    MaterialDescription floor;
+    floor.name = "floor";
+    floor.albedo = glm::vec3{0.5f};
+    MaterialDescription light;
+    light.name = "light";
+    light.emission = glm::vec3{1.0f};
+    scene->materials = {floor, light};
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material) {
+        TriangleDescription triangle;
+        triangle.vertex = {a, b, c};
+        triangle.material = material;
+        scene->triangles.push_back(triangle);
+    };
+    add(0, 2, 1, 0);
+    add(0, 3, 2, 0);
+    add(4, 5, 6, 1);
+    add(4, 6, 7, 1);
+    scene->camera.eye = {0.0f, 1.0f, 4.0f};
+    scene->camera.target = {0.0f, 0.5f, 0.0f};
+    return scene;
+}
+
+/// True as soon as the condition holds; false after ten seconds, which on a busy machine is long enough.
+template <class Condition>
+bool eventually(Condition&& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end)
+            return false;
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    return true;
+}
+
+} // namespace pl::test

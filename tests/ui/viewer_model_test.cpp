@@ -1,0 +1,232 @@
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+
+#include "core/base/error.h"
+#include "tests/catch.hpp"
+#include "tests/ui/fake_backend.h"
+#include "ui/script_values.h"
+#include "ui/viewer_model.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+/// A model over the fake back end, with what it saves kept in memory.
+struct Bench {
+    std::shared_ptr<FakeControl> control = std::make_shared<FakeControl>();
+    ViewerOptions options;
+    std::mutex mutex;
+    std::vector<std::filesystem::path> saved;
+    double clock = 0.0;
+
+    Bench() {
+        options.scene_name = "small";
+        options.settings.width = 64;
+        options.settings.height = 64;
+        options.settings.camera = small_scene()->camera;
+        options.settings.field.volumes = 16;
+        options.settings.field.bins = 16;
+        options.screenshot_dir = std::filesystem::temp_directory_path() / "pathlight-model-test";
+        options.make_backend = [control = control] { return std::make_unique<FakeBackend>(control); };
+        options.load_scene = [](const std::string& name) -> std::shared_ptr<const SceneDescription> {
+            if (name == "broken.obj")
+                throw Error(ErrorKind::Input, "broken.obj:7: expected a number, got 'x'");
+            auto scene = std::make_shared<SceneDescription>(*small_scene());
+            scene->camera.eye.y = 1.5f;
+            return scene;
+        };
+        options.save_image = [this](const std::filesystem::path& path, const Snapshot&,
+                                    const ViewerPicture&) {
+            const std::lock_guard lock(mutex);
+            saved.push_back(path);
+        };
+        options.command_line = [](const ViewerPicture& picture) {
+            return "pathlight render " + picture.scene;
+        };
+    }
+
+    /// Runs the model's frames until the condition holds.
+    template <class Condition>
+    bool run_until(ViewerModel& model, Condition&& condition) {
+        return eventually([&] {
+            model.update(clock += 1.0 / 60.0);
+            return condition();
+        });
+    }
+};
+
+bool has_frame(const ViewerModel& model) {
+    return model.frame() != nullptr;
+}
+
+} // namespace
+
+TEST_CASE("Viewer model: a scene that cannot be read leaves the old one and says why") {
+    Bench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.open("broken.obj");
+    REQUIRE(bench.run_until(model, [&] { return !model.toasts().empty(); }));
+    CHECK(model.toasts().back().level == LogLevel::Error);
+    CHECK_THAT(model.toasts().back().text, contains("broken.obj:7"));
+    CHECK(model.scene_name() == "small");
+    CHECK(model.status().state == WorkerState::Rendering);
+}
+
+TEST_CASE("Viewer model: reloading keeps the camera, another scene brings its own") {
+    Bench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.fly({.right = 1.0f}, 0.1);
+    const Vec3f eye = model.controls().camera().eye;
+    model.reload();
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->description->camera.eye.y == 1.5f; }));
+    CHECK(model.frame()->snapshot.camera.eye.x == eye.x);
+    CHECK(model.controls().camera().eye.x == eye.x);
+    model.open("other.obj");
+    REQUIRE(bench.run_until(model, [&] { return model.scene_name() == "other.obj"; }));
+    CHECK(model.controls().camera().eye.y == 1.5f);
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->snapshot.camera.eye.y == 1.5f; }));
+    // Home is the new scene's camera.
+    model.fly({.up = 1.0f}, 0.1);
+    model.camera_home();
+    CHECK(model.controls().camera().eye.y == 1.5f);
+}
+
+TEST_CASE("Viewer model: motion ends by itself a tenth of a second after the last input") {
+    Bench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    model.update(1.0);
+    model.look({5.0f, 0.0f});
+    CHECK(model.moving());
+    model.update(1.09);
+    CHECK(model.moving());
+    model.look({5.0f, 0.0f});
+    model.update(1.18);
+    CHECK(model.moving());
+    model.update(1.20);
+    CHECK_FALSE(model.moving());
+    CHECK(model.camera_generation() == 2);
+}
+
+TEST_CASE("Viewer model: exposure and overlays restart nothing") {
+    Bench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return model.status().passes >= 5; }));
+    const std::uint64_t generation = model.status().generation;
+    model.set_exposure(3.0f);
+    model.set_curve(ToneCurve::Aces);
+    model.set_cells(true);
+    model.set_cells_opacity(2.0f);
+    model.window().hemisphere = false;
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model) && model.frame()->cells != nullptr; }));
+    CHECK(model.status().generation == generation);
+    CHECK(model.status().passes >= 5);
+    CHECK(model.window().cells_opacity == 1.0f);
+    model.set_exposure(1000.0f);
+    CHECK(model.display().exposure_ev == 16.0f);
+}
+
+TEST_CASE("Viewer model: views go round in both directions") {
+    Bench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    model.step_view(-1);
+    CHECK(model.settings().view == View::Depth);
+    for (std::size_t i = 0; i < all_views().size(); ++i)
+        model.step_view(1);
+    CHECK(model.settings().view == View::Depth);
+    model.step_view(1);
+    CHECK(model.settings().view == View::Beauty);
+}
+
+TEST_CASE("Viewer model: saves both formats under one new number, without waiting") {
+    Bench bench;
+    std::filesystem::create_directories(bench.options.screenshot_dir);
+    std::ofstream(bench.options.screenshot_dir / "small-default-0001.png") << "x";
+    {
+        ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+        model.save_picture();
+        CHECK(model.toasts().back().level == LogLevel::Warning); // nothing to save yet
+        REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+        model.save_picture();
+        model.save_screenshot();
+    } // what was asked for is written before the end
+    std::filesystem::remove_all(bench.options.screenshot_dir);
+    const auto name = [&](const char* file) { return bench.options.screenshot_dir / file; };
+    REQUIRE(bench.saved.size() == 3);
+    CHECK(bench.saved[0] == name("small-default-0002.exr"));
+    CHECK(bench.saved[1] == name("small-default-0002.png"));
+    CHECK(bench.saved[2] == name("small-default-0003.png"));
+}
+
+TEST_CASE("Viewer model: a picked volume is selected, deselected, and forgotten with its field") {
+    Bench bench;
+    bench.options.settings.method = MethodId::Reinforcement;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.inspection() != nullptr; }));
+    CHECK(model.selected_volume() != kNoVolume);
+    CHECK(script_value(model, "inspected") == "yes");
+    model.cancel();
+    CHECK(model.selected_volume() == kNoVolume);
+    CHECK(model.inspection() == nullptr);
+
+    model.pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.inspection() != nullptr; }));
+    FieldSettings field = model.settings().field;
+    field.bins = 64;
+    model.set_field(field);
+    CHECK(model.selected_volume() == kNoVolume);
+
+    model.pick({0.01f, 0.01f});
+    REQUIRE(bench.run_until(model, [&] { return !model.toasts().empty(); }));
+    CHECK_THAT(model.toasts().back().text, contains("nothing to select"));
+}
+
+TEST_CASE("Viewer model: Esc closes the help, then interrupts precomputation, then deselects") {
+    Bench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    bench.control->pass_microseconds = 0;
+    bench.control->hold = true;
+    model.set_method(MethodId::Precomputed);
+    // The first slice is held: the state shows once it is let go and the next one is under way.
+    REQUIRE(bench.run_until(model, [&] { return bench.control->inside.load(); }));
+    bench.control->hold = false;
+    bench.run_until(model, [&] {
+        bench.control->hold = model.status().state == WorkerState::Precomputing;
+        return model.status().state == WorkerState::Precomputing || model.status().passes > 0;
+    });
+    model.window().help = true;
+    model.cancel();
+    CHECK_FALSE(model.window().help);
+    CHECK(model.settings().method == MethodId::Precomputed);
+    if (model.status().state == WorkerState::Precomputing) {
+        model.cancel();
+        CHECK(model.settings().method == MethodId::Default);
+    }
+    bench.control->hold = false;
+}
+
+TEST_CASE("Viewer model: title and command line tell what is shown") {
+    Bench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    CHECK_THAT(model.title(), contains(" spp - Default - FAKE - small"));
+    CHECK(model.command_line() == "pathlight render small");
+    model.set_paused(true);
+    REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Paused; }));
+    CHECK_THAT(model.title(), contains("paused: "));
+}
+
+TEST_CASE("Viewer model: a back end that cannot be made ends the viewer with its own error") {
+    Bench bench;
+    bench.options.make_backend = []() -> std::unique_ptr<RenderBackend> {
+        throw Error(ErrorKind::Unavailable, "no such device");
+    };
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    CHECK_THROWS_AS(bench.run_until(model, [] { return false; }), Error);
+}
