@@ -36,6 +36,14 @@ inline std::ostream& operator<<(std::ostream& out, const Decision& decision) {
     return out << kNames[static_cast<int>(decision.verdict)] << ": " << decision.reason;
 }
 
+/// The worse of two decisions: failed, then undecided, then passed.
+inline Decision worse_of(const Decision& a, const Decision& b) {
+    const auto severity = [](const Decision& d) {
+        return d.verdict == Verdict::Pass ? 0 : (d.verdict == Verdict::Inconclusive ? 1 : 2);
+    };
+    return severity(a) < severity(b) ? b : a;
+}
+
 /// What a mean is compared with: the value, and a bound on how far the value itself may be off.
 struct Reference {
     double value = 0.0;

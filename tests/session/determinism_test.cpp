@@ -1,0 +1,194 @@
+// What decides a bit: scene, settings and seed. Not the number of threads, the size of batches, when a pass was stopped,
+// what was rendered in between, or which compiled superset of effects ran.
+#include <thread>
+
+#include "core/scene/needed_effects.h"
+#include "core/scene/pack_scene.h"
+#include "tests/catch.hpp"
+#include "tests/kernel/shapes.h"
+#include "tests/session/same_bits.h"
+#include "tests/statistical/shipped_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+RenderSettings small_settings(const SceneDescription& scene, Estimator estimator) {
+    RenderSettings settings = settings_for(scene, estimator, 61, 47);
+    settings.field.volumes = 60;
+    settings.field.bins = 64;
+    settings.field.precompute_samples = 4;
+    return settings;
+}
+
+State render(const SceneDescription& scene, const RenderSettings& settings, const CpuSettings& cpu) {
+    Session session(make_cpu_backend(cpu), std::make_shared<const SceneDescription>(scene), settings);
+    render_passes(session, 4);
+    return state_of(session);
+}
+
+} // namespace
+
+TEST_CASE("Threads and batches do not change a bit of films, tables and counters") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        const RenderSettings settings = small_settings(scene, estimator);
+        const State one = render(scene, settings, {.threads = 1});
+        CHECK(same_state(one, render(scene, settings, {.threads = 2})));
+        CHECK(same_state(one, render(scene, settings, {.threads = 7})));
+        CHECK(same_state(one, render(scene, settings, {.threads = 2, .batch_paths = 37})));
+        CHECK(one.tables.radiance.empty() == !info_of(estimator.method).uses_field);
+    }
+}
+
+TEST_CASE("A seed changes films and tables") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        RenderSettings settings = small_settings(scene, estimator);
+        const State one = render(scene, settings, {.threads = 2});
+        settings.seed = 2;
+        const State other = render(scene, settings, {.threads = 2});
+        CHECK_FALSE(same_bits(one.snapshot.pixels, other.snapshot.pixels));
+        if (info_of(estimator.method).uses_field)
+            CHECK_FALSE(same_bits(one.tables.radiance, other.tables.radiance));
+        // Seeds beyond 32 bits count too.
+        settings.seed = 2 + (std::uint64_t{1} << 32);
+        CHECK_FALSE(
+            same_bits(other.snapshot.pixels, render(scene, settings, {.threads = 2}).snapshot.pixels));
+    }
+}
+
+// A second thread sets the flag after 0 to 2 milliseconds, wherever the pass or the precomputation then is; at
+// least some of the 60 attempts per method must have stopped something half-way.
+TEST_CASE("Work that is stopped and resumed at any moment does not change a bit") {
+    const SceneDescription scene = shipped_scene("door");
+    Uniforms random(1);
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        const RenderSettings settings = small_settings(scene, estimator);
+        const State uninterrupted = render(scene, settings, {.threads = 2});
+        Session session = make_session(scene, settings, 2);
+        int stops = 0;
+        while (session.passes() < 4) {
+            StopFlag stop{false};
+            const bool interrupt = stops < 60;
+            std::thread other([&] {
+                const float delay = random.next();
+                std::this_thread::sleep_for(
+                    std::chrono::microseconds(static_cast<int>(2000.0f * delay * delay)));
+                stop = interrupt;
+            });
+            stops += session.advance(&stop) == Progress::Stopped ? 1 : 0;
+            other.join();
+        }
+        CHECK(stops > 0);
+        CHECK(same_state(uninterrupted, state_of(session)));
+    }
+}
+
+TEST_CASE("A flag that is set from the beginning starts nothing and loses nothing") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        const RenderSettings settings = small_settings(scene, estimator);
+        Session session = make_session(scene, settings, 2);
+        const StopFlag stop{true};
+        for (int i = 0; i < 3; ++i)
+            CHECK(session.advance(&stop) == Progress::Stopped);
+        CHECK(session.passes() == 0);
+        render_passes(session, 4);
+        CHECK(same_state(render(scene, settings, {.threads = 2}), state_of(session)));
+    }
+}
+
+TEST_CASE("Switching methods and views back and forth resumes each where it was") {
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene, {MethodId::Default, false});
+    Session session = make_session(scene, settings, 2);
+    const auto go_on_with = [&](MethodId method, std::uint32_t passes) {
+        session.apply(EditMethod{method});
+        render_passes(session, passes);
+    };
+    for (const MethodId method : {MethodId::Reinforcement, MethodId::Default, MethodId::Precomputed,
+                                  MethodId::Default, MethodId::Reinforcement, MethodId::Precomputed}) {
+        go_on_with(method, 2);
+        session.apply(EditView{View::Normal});
+        render_passes(session, 1);
+        session.apply(EditView{View::Beauty});
+    }
+    for (const MethodInfo& method : all_methods()) {
+        INFO(method.name);
+        RenderSettings alone = settings;
+        alone.method = method.id;
+        session.apply(EditMethod{method.id});
+        CHECK(same_state(render(scene, alone, {.threads = 2}), state_of(session)));
+    }
+}
+
+namespace {
+
+/// The scene with normals that differ from the geometric ones, and a sky: it needs every effect.
+SceneDescription with_all_effects(SceneDescription scene) {
+    scene.normals = {Vec3f{0.1f, 1.0f, 0.05f}, Vec3f{-0.1f, 0.9f, 0.2f}};
+    scene.triangles.front().normal = {0, 1, 0};
+    scene.environment = Vec3f{0.2f, 0.3f, 0.5f};
+    return scene;
+}
+
+/// One pass by the kernel that was compiled for `set`.
+std::vector<Vec3f> render_with(Session& session, FeatureSet set, bool next_event) {
+    const RenderSettings& settings = session.settings();
+    const FilmSlot slot{settings.method, View::Beauty};
+    RenderBackend& backend = session.backend_access();
+    backend.reset_film(slot, settings.width, settings.height);
+    backend.run_pass({.slot = slot,
+                      .features = set,
+                      .path = {.seed = 5, .next_event = next_event ? 1u : 0u},
+                      .camera = make_camera(settings.camera, settings.width, settings.height)});
+    return backend.read_film(slot).mean;
+}
+
+} // namespace
+
+TEST_CASE("Every compiled superset of the needed effects makes the same picture") {
+    std::vector<SceneDescription> scenes;
+    for (const std::string& name : list_scenes(PL_SOURCE_DIR "/assets"))
+        scenes.push_back(shipped_scene(name));
+    scenes.push_back(with_all_effects(shipped_scene("cornell")));
+    int compared = 0;
+    for (const SceneDescription& scene : scenes)
+        for (const Estimator estimator : kEstimators) {
+            Session session = make_session(scene, small_settings(scene, estimator), 2);
+            render_passes(session, 2); // something to be guided by
+            const FeatureSet needed = session.needed_features();
+            const std::vector<Vec3f> expected =
+                render_with(session, kCompiledSets[smallest_superset(needed)], estimator.next_event);
+            for (const FeatureSet set : kCompiledSets) {
+                if (!set.covers(needed))
+                    continue;
+                INFO(scene.name << ", " << estimator << ", effects " << set.bits);
+                CHECK(same_bits(expected, render_with(session, set, estimator.next_event)));
+                ++compared;
+            }
+        }
+    // Three shipped scenes need nothing: four sets without light samples, two with; the last scene needs all.
+    CHECK(compared >= 3 * 3 * (4 + 2) + 3 * (2 + 1));
+}
+
+// An effect that is there must change the picture, or the test above compares nothing.
+TEST_CASE("Each effect changes the picture of a scene that needs it") {
+    const SceneDescription plain = shipped_scene("cornell");
+    SceneDescription sky = plain;
+    sky.environment = Vec3f{0.2f, 0.3f, 0.5f};
+    SceneDescription smooth = plain;
+    smooth.normals = with_all_effects(plain).normals;
+    smooth.triangles.front().normal = {0, 1, 0};
+    const RenderSettings settings = small_settings(plain, {MethodId::Default, true});
+    const State expected = render(plain, settings, {.threads = 2});
+    CHECK_FALSE(same_film(expected, render(sky, settings, {.threads = 2})));
+    CHECK_FALSE(same_film(expected, render(smooth, settings, {.threads = 2})));
+    CHECK_FALSE(same_film(expected, render(plain, small_settings(plain, {}), {.threads = 2})));
+}

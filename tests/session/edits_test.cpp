@@ -1,0 +1,223 @@
+// What each edit clears, and that it clears no more: the table of core/session/edits.h, one case per edit, on real
+// sessions in which all three methods have rendered and learned.
+#include "tests/catch.hpp"
+#include "tests/session/same_bits.h"
+#include "tests/statistical/shipped_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr std::uint32_t kPasses = 2;
+
+RenderSettings small_settings(const SceneDescription& scene) {
+    RenderSettings settings = settings_for(scene, {MethodId::Default, false}, 40, 30);
+    settings.field.volumes = 60;
+    settings.field.bins = 64;
+    settings.field.precompute_samples = 4;
+    return settings;
+}
+
+/// What can be lost, seen from outside.
+struct Contents {
+    std::array<State, kMethodCount> methods;
+    std::shared_ptr<const HostScene> scene;
+    double place_seconds = 0.0; ///< measured anew by every placement
+};
+
+/// Looks at all methods and comes back to the one that was set.
+Contents contents_of(Session& session) {
+    const MethodId current = session.settings().method;
+    session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f}); // places volumes if there are none
+    Contents contents{{}, session.packed_scene(), session.snapshot().clocks.place};
+    for (const MethodInfo& method : all_methods()) {
+        session.apply(EditMethod{method.id});
+        contents.methods[static_cast<std::size_t>(method.id)] = state_of(session);
+    }
+    session.apply(EditMethod{current});
+    return contents;
+}
+
+/// A session in which every method has rendered, and precomputed or learned.
+Session used_session(const SceneDescription& scene, const RenderSettings& settings) {
+    Session session = make_session(scene, settings, 2);
+    for (const MethodInfo& method : all_methods()) {
+        session.apply(EditMethod{method.id});
+        render_passes(session, kPasses);
+    }
+    return session;
+}
+
+bool all_films_empty(const Contents& contents) {
+    return std::ranges::all_of(contents.methods, [](const State& s) {
+        return s.snapshot.passes == 0 && s.snapshot.counters.paths == 0 &&
+               std::ranges::all_of(s.snapshot.pixels, [](const Vec3f& p) { return p == Vec3f{0.0f}; });
+    });
+}
+bool all_films_kept(const Contents& before, const Contents& after) {
+    return std::ranges::equal(before.methods, after.methods, [](const State& a, const State& b) {
+        return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters);
+    });
+}
+bool all_tables_empty(const Contents& contents) {
+    return std::ranges::all_of(contents.methods, [](const State& s) {
+        return std::ranges::all_of(s.tables.visits, [](std::uint32_t n) { return n == 0; });
+    });
+}
+bool all_tables_kept(const Contents& before, const Contents& after) {
+    return std::ranges::equal(before.methods, after.methods,
+                              [](const State& a, const State& b) { return same_bits(a.tables, b.tables); });
+}
+
+struct Case {
+    std::string name;
+    SessionEdit edit;
+    Invalidation cleared;
+};
+
+std::vector<Case> all_cases(const RenderSettings& settings) {
+    CameraDescription camera = settings.camera;
+    camera.eye.x += 0.1f;
+    FieldSettings field = settings.field;
+    field.volumes = 50;
+    SceneDescription brighter = shipped_scene("door");
+    for (MaterialDescription& material : brighter.materials)
+        material.emission *= 2.0f;
+    return {
+        {"camera", EditCamera{camera}, {.films = true}},
+        {"size", EditSize{50, 20}, {.films = true}},
+        {"method", EditMethod{MethodId::Precomputed}, {}},
+        {"view", EditView{View::Albedo}, {}},
+        {"seed", EditSeed{7}, {.films = true, .tables = true}},
+        {"depth", EditEstimator{10, false}, {.films = true, .tables = true}},
+        {"light samples", EditEstimator{64, true}, {.films = true, .tables = true}},
+        {"mixture", EditMixture{0.3f}, {.films = true}},
+        {"field", EditField{field}, {.films = true, .tables = true, .volumes = true}},
+        {"scene",
+         EditScene{std::make_shared<const SceneDescription>(brighter)},
+         {.films = true, .tables = true, .volumes = true, .scene = true}},
+        {"restart", EditRestart{}, {.films = true}},
+        {"forget", EditForget{}, {.films = true, .tables = true}},
+    };
+}
+
+/// The settings that a session should have after an edit; those of commands and scenes stay.
+RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
+    if (const auto* camera = std::get_if<EditCamera>(&edit))
+        settings.camera = camera->camera;
+    if (const auto* size = std::get_if<EditSize>(&edit)) {
+        settings.width = size->width;
+        settings.height = size->height;
+    }
+    if (const auto* seed = std::get_if<EditSeed>(&edit))
+        settings.seed = seed->seed;
+    if (const auto* estimator = std::get_if<EditEstimator>(&edit)) {
+        settings.max_depth = estimator->max_depth;
+        settings.next_event = estimator->next_event;
+    }
+    if (const auto* mixture = std::get_if<EditMixture>(&edit))
+        settings.bsdf_fraction = mixture->bsdf_fraction;
+    if (const auto* field = std::get_if<EditField>(&edit))
+        settings.field = field->field;
+    return settings;
+}
+
+} // namespace
+
+TEST_CASE("Every edit clears what the table says and keeps the rest") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Case& c : all_cases(small_settings(scene))) {
+        INFO(c.name);
+        CHECK(invalidated_by(c.edit) == c.cleared);
+        Session session = used_session(scene, small_settings(scene));
+        const Contents before = contents_of(session);
+        REQUIRE_FALSE(all_films_empty(before));
+        REQUIRE_FALSE(all_tables_empty(before));
+
+        session.apply(c.edit);
+        session.apply(EditView{View::Beauty});
+        const Contents after = contents_of(session);
+        CHECK(all_films_empty(after) == c.cleared.films);
+        CHECK(all_films_kept(before, after) == !c.cleared.films);
+        CHECK(all_tables_empty(after) == c.cleared.tables);
+        CHECK(all_tables_kept(before, after) == !c.cleared.tables);
+        CHECK((after.place_seconds == before.place_seconds) == !c.cleared.volumes);
+        CHECK((after.scene == before.scene) == !c.cleared.scene);
+    }
+}
+
+TEST_CASE("An edit that clears what was learned leaves a session like a new one") {
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene);
+    for (const Case& c : all_cases(settings)) {
+        if (!c.cleared.tables)
+            continue;
+        Session session = used_session(scene, settings);
+        session.apply(c.edit);
+        const auto* replaced = std::get_if<EditScene>(&c.edit);
+        const SceneDescription& new_scene = replaced != nullptr ? *replaced->scene : scene;
+        for (const MethodInfo& method : all_methods()) {
+            INFO(c.name << ", " << method.name);
+            RenderSettings fresh_settings = edited(settings, c.edit);
+            fresh_settings.method = method.id;
+            Session fresh = make_session(new_scene, fresh_settings, 2);
+            render_passes(fresh, kPasses);
+            session.apply(EditMethod{method.id});
+            render_passes(session, kPasses);
+            CHECK(same_state(state_of(fresh), state_of(session)));
+        }
+    }
+}
+
+// Default path tracing learns nothing, so a cleared film alone must already be like a new one.
+TEST_CASE("An edit that clears the films leaves default path tracing like a new session") {
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene);
+    for (const Case& c : all_cases(settings)) {
+        if (!c.cleared.films || c.cleared.tables)
+            continue;
+        INFO(c.name);
+        Session session = used_session(scene, settings);
+        session.apply(c.edit);
+        session.apply(EditMethod{MethodId::Default});
+        render_passes(session, kPasses);
+        Session fresh = make_session(scene, edited(settings, c.edit), 2);
+        render_passes(fresh, kPasses);
+        CHECK(same_state(state_of(fresh), state_of(session)));
+    }
+}
+
+// What a moved camera keeps is used at once: the first pass is guided by what the old view taught.
+TEST_CASE("A moved camera goes on with what was learned") {
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = small_settings(scene);
+    settings.method = MethodId::Reinforcement;
+    Session session = make_session(scene, settings, 2);
+    render_passes(session, 8);
+    const std::uint64_t records = session.field_status()->records;
+    CameraDescription camera = settings.camera;
+    camera.eye.x += 0.1f;
+    session.apply(EditCamera{camera});
+    CHECK(session.field_status()->records == records);
+    CHECK(session.field_status()->passes == 8);
+    render_passes(session, 1);
+    CHECK(session.field_status()->records > records);
+    settings.camera = camera;
+    Session fresh = make_session(scene, settings, 2);
+    render_passes(fresh, 1);
+    CHECK_FALSE(same_bits(fresh.snapshot().pixels, session.snapshot().pixels));
+}
+
+TEST_CASE("A pass that was stopped is forgotten with its film") {
+    const SceneDescription scene = shipped_scene("door");
+    Session session = make_session(scene, small_settings(scene), 2);
+    render_passes(session, 1);
+    StopFlag stop{true};
+    REQUIRE(session.advance(&stop) == Progress::Stopped);
+    session.apply(EditRestart{});
+    render_passes(session, 1);
+    Session fresh = make_session(scene, small_settings(scene), 2);
+    render_passes(fresh, 1);
+    CHECK(same_state(state_of(fresh), state_of(session)));
+}

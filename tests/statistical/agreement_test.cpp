@@ -1,0 +1,126 @@
+// All methods, with and without light samples, make the same picture: rule S2 on scenes without a closed form.
+#include "tests/catch.hpp"
+#include "tests/statistical/sessions.h"
+#include "tests/statistical/shipped_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr int kSide = 64;
+constexpr int kBatches = 64;
+
+/// Small tables are learned from few samples, so that guiding is at work within the time of a test.
+RenderSettings small_settings(const SceneDescription& scene, Estimator estimator, std::uint64_t seed) {
+    RenderSettings settings = settings_for(scene, estimator, kSide, kSide);
+    settings.seed = seed;
+    settings.field.volumes = 200;
+    settings.field.bins = 64;
+    return settings;
+}
+
+/// Passes per batch with which the mean of a picture has two thirds of the standard error that a comparison may
+/// have, from the measured coefficient of variation per path.
+std::uint32_t passes_for(Estimator estimator, double resolution) {
+    double variation = 4.5;
+    if (estimator.method == MethodId::Default)
+        variation = estimator.next_event ? 2.8 : 6.0;
+    else if (estimator.next_event)
+        variation = 2.8;
+    const double paths = std::pow(variation / (2.0 / 3.0 * resolution / 8.0), 2);
+    return static_cast<std::uint32_t>(std::ceil(paths / (kBatches * kSide * kSide)));
+}
+
+/// Pictures with different seeds are independent, as Welch's statistic wants them.
+constexpr std::uint64_t kReferenceSeed = 2;
+constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kFirstRunSeed = 1000;
+
+/// One long run; reinforcement learns while it goes, and each pass uses what the passes before it have learned.
+Picture one_run(const SceneDescription& scene, Estimator estimator, std::uint64_t seed, double resolution) {
+    Session session = make_session(scene, small_settings(scene, estimator, seed));
+    Picture picture(kSide, kSide);
+    render_batches(session, picture, kBatches, passes_for(estimator, resolution));
+    return picture;
+}
+
+/// Many runs that know nothing, one batch of four passes each: all samples come from the beginning of learning.
+Picture first_passes(const SceneDescription& scene, Estimator estimator, int runs) {
+    constexpr std::uint32_t kPasses = 4;
+    Session session = make_session(scene, small_settings(scene, estimator, kSeed));
+    Picture picture(kSide, kSide);
+    for (int run = 0; run < runs; ++run) {
+        session.apply(EditSeed{kFirstRunSeed + static_cast<std::uint64_t>(run)});
+        render_passes(session, kPasses);
+        picture.add(film_sums(session), kPasses);
+    }
+    return picture;
+}
+
+/// Default path tracing with light samples: learns nothing, and is the least noisy of those that do not.
+constexpr Estimator kReference{MethodId::Default, true};
+
+void check_agreement(const std::string& name, double resolution) {
+    const SceneDescription scene = shipped_scene(name);
+    const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution);
+    for (const Estimator estimator : kEstimators) {
+        INFO(name << ", " << estimator);
+        CHECK(same_picture(one_run(scene, estimator, kSeed, resolution), expected, resolution));
+    }
+}
+
+void check_first_passes(const std::string& name, int runs, double resolution) {
+    const SceneDescription scene = shipped_scene(name);
+    const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution);
+    for (const bool next_event : {false, true}) {
+        const Estimator estimator{MethodId::Reinforcement, next_event};
+        INFO(name << ", first passes of " << estimator);
+        CHECK(same_picture(first_passes(scene, estimator, runs), expected, resolution));
+    }
+}
+
+} // namespace
+
+// 64 batches of pictures of 64 x 64 pixels (16 tiles), seeds 1 and 2; alpha 1e-6 per decision and channel. The
+// comparisons resolve a global difference of 4 % (8 standard errors), and one tile that is 20 % off.
+TEST_CASE("All methods agree on the Cornell box") {
+    check_agreement("cornell", 0.04);
+}
+TEST_CASE("All methods agree on the door ajar") {
+    check_agreement("door", 0.04);
+}
+TEST_CASE("The first passes of learning agree on the Cornell box") {
+    check_first_passes("cornell", 128, 0.04);
+}
+TEST_CASE("The first passes of learning agree on the door ajar") {
+    check_first_passes("door", 128, 0.04);
+}
+
+// The same with four times the samples.
+TEST_CASE("All methods agree on the Cornell box within 2 %", "[merge]") {
+    check_agreement("cornell", 0.02);
+}
+TEST_CASE("All methods agree on the door ajar within 2 %", "[merge]") {
+    check_agreement("door", 0.02);
+}
+TEST_CASE("The first passes of learning agree on the Cornell box within 2 %", "[merge]") {
+    check_first_passes("cornell", 512, 0.02);
+}
+TEST_CASE("The first passes of learning agree on the door ajar within 2 %", "[merge]") {
+    check_first_passes("door", 512, 0.02);
+}
+
+// And with 64 times.
+TEST_CASE("All methods agree on the Cornell box within 0.5 %", "[nightly]") {
+    check_agreement("cornell", 0.005);
+}
+TEST_CASE("All methods agree on the door ajar within 0.5 %", "[nightly]") {
+    check_agreement("door", 0.005);
+}
+TEST_CASE("The first passes of learning agree on the Cornell box within 0.5 %", "[nightly]") {
+    check_first_passes("cornell", 8192, 0.005);
+}
+TEST_CASE("The first passes of learning agree on the door ajar within 0.5 %", "[nightly]") {
+    check_first_passes("door", 8192, 0.005);
+}

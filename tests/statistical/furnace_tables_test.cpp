@@ -1,0 +1,137 @@
+// What is learned in a furnace: e/(1-rho) in every cell of every table.
+#include "tests/catch.hpp"
+#include "tests/statistical/scenes.h"
+#include "tests/statistical/sessions.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr float kRho = 0.5f;
+constexpr float kEmission = 0.5f;
+
+RenderSettings furnace_settings(Estimator estimator, const SceneDescription& scene) {
+    RenderSettings settings = settings_for(scene, estimator, 32, 32);
+    settings.field.volumes = 12;
+    settings.field.bins = 16;
+    return settings;
+}
+
+HostTables tables_of(Session& session) {
+    return session.backend_access().download_tables(session.settings().method);
+}
+
+/// Follows a table through its publications and bounds how far each cell can still be from the fixed point. Targets
+/// are e + rho V of some volume, so a cell that starts with error E and takes the share s of new targets is left with
+/// at most (1-s) E + s rho max V-error; V averages the cells that were visited. The bound needs nothing of the table
+/// but its visits.
+class ErrorBound {
+public:
+    explicit ErrorBound(const HostTables& tables)
+        : volumes_(tables.mean_radiance.size()), cells_(tables.radiance.size() / volumes_),
+          error_(tables.radiance.size(), 1.0), visits_(tables.visits) {}
+
+    void publish(const HostTables& tables, LearningRate rate) {
+        const double target_error = kRho * worst_mean_;
+        for (std::size_t i = 0; i < error_.size(); ++i) {
+            const double now = tables.visits[i];
+            const double kept =
+                now > 0.0 ? std::pow(visits_[i] / now, rate == LearningRate::SampleMean ? 1 : 4) : 1.0;
+            error_[i] = kept * error_[i] + (1.0 - kept) * target_error;
+        }
+        visits_ = tables.visits;
+        worst_mean_ = 0.0;
+        for (std::size_t v = 0; v < volumes_; ++v)
+            worst_mean_ = std::max(worst_mean_, mean_error(v));
+    }
+
+    double operator[](std::size_t cell) const { return error_[cell]; }
+    double worst_mean() const { return worst_mean_; }
+
+private:
+    /// A volume that saw nothing says 0: an error of 1.
+    double mean_error(std::size_t volume) const {
+        Moments visited;
+        for (std::size_t i = volume * cells_; i < (volume + 1) * cells_; ++i)
+            if (visits_[i] > 0)
+                visited.add(error_[i]);
+        return visited.count() > 0 ? visited.mean() : 1.0;
+    }
+
+    std::size_t volumes_;
+    std::size_t cells_;
+    std::vector<double> error_;
+    HostArray<std::uint32_t> visits_;
+    double worst_mean_ = 1.0;
+};
+
+/// Rounding of what is learned, in units of the fixed point 1: the target (4 operations), its fixed-point step, the
+/// mean and the update (6), and the sum over 16 cells in V; errors come back multiplied by rho: 1/(1-rho) = 2.
+constexpr double kTableRounding = 2.0 * (4 + 1 + 6 + 16) * static_cast<double>(kRoundoff);
+
+} // namespace
+
+// Targets in a furnace have no noise given the tables, so there is nothing statistical here: every cell has to
+// be within its derived bound. Seed 1, 1024 paths per pass: the forgetful rate has to bring all bounds below 0.1 % in
+// 150 passes; the rate 1/(1+visits), whose error falls like visits^-(1-rho), below 3 % in 800.
+TEST_CASE("Reinforcement learns e/(1-rho) in every cell of the furnace") {
+    for (const LearningRate rate : {LearningRate::Forgetful, LearningRate::SampleMean})
+        for (const bool next_event : {false, true}) {
+            const SceneDescription scene = furnace_scene(kEmission, kRho);
+            RenderSettings settings = furnace_settings({MethodId::Reinforcement, next_event}, scene);
+            settings.field.rate = rate;
+            const std::uint32_t passes = rate == LearningRate::Forgetful ? 150 : 800;
+            const double wanted = rate == LearningRate::Forgetful ? 0.001 : 0.03;
+            INFO("rate " << static_cast<int>(rate) << ", next-event estimation " << next_event);
+            Session session = make_session(scene, settings);
+            session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f}); // places the volumes
+            render_passes(session, 1);
+            HostTables tables = tables_of(session);
+            HostTables empty = tables;
+            std::fill(empty.visits.begin(), empty.visits.end(), 0u);
+            ErrorBound bound(empty);
+            bound.publish(tables, rate);
+            for (std::uint32_t pass = 1; pass < passes; ++pass) {
+                render_passes(session, 1);
+                tables = tables_of(session);
+                bound.publish(tables, rate);
+            }
+            double worst_bound = 0.0;
+            double worst_excess = 0.0;
+            for (std::size_t i = 0; i < tables.radiance.size(); ++i) {
+                const double low = 1.0 - static_cast<double>(tables.radiance[i]);
+                worst_bound = std::max(worst_bound, bound[i]);
+                worst_excess = std::max({worst_excess, low - bound[i], -low});
+            }
+            CHECK(worst_excess <= kTableRounding);
+            CHECK(worst_bound <= wanted);
+            for (const float mean : tables.mean_radiance)
+                CHECK(static_cast<double>(mean) == Approx(1.0).margin(bound.worst_mean() + kTableRounding));
+        }
+}
+
+// Precomputation is a path per stratum. The furnace makes all cells samples of the same random number, so the spread
+// of the cells is the standard error of each of them: rule S1 per cell (24^2 paths of coefficient of variation 0.4,
+// resolves 15 %) and for the mean of all of them (192 cells, resolves 1 %). Seed 1.
+TEST_CASE("Precomputation fills e/(1-rho) into every cell of the furnace") {
+    for (const bool next_event : {false, true}) {
+        const SceneDescription scene = furnace_scene(kEmission, kRho);
+        RenderSettings settings = furnace_settings({MethodId::Precomputed, next_event}, scene);
+        settings.field.precompute_samples = 24 * 24;
+        Session session = make_session(scene, settings);
+        render_passes(session, 1);
+        const HostTables tables = tables_of(session);
+        Moments cells;
+        for (const float radiance : tables.radiance)
+            cells.add(static_cast<double>(radiance));
+        INFO("next-event estimation " << next_event);
+        CHECK(mean_equals(cells, {1.0}, 0.01));
+        const double error = std::sqrt(cells.variance());
+        CHECK(error <= resolving_error(0.15));
+        for (std::size_t i = 0; i < tables.radiance.size(); ++i) {
+            CHECK(std::fabs(static_cast<double>(tables.radiance[i]) - 1.0) <= kZAlpha * error);
+            CHECK(tables.visits[i] == 24 * 24);
+        }
+    }
+}

@@ -1,0 +1,12 @@
+// The scenes that come with the program.
+#pragma once
+
+#include "core/io/load_scene.h"
+
+namespace pl::test {
+
+inline SceneDescription shipped_scene(const std::string& name) {
+    return load_scene(name, PL_SOURCE_DIR "/assets");
+}
+
+} // namespace pl::test
