@@ -33,8 +33,8 @@ struct BoxRay {
 
 /// The triangle test sees corners off by 8 roundoffs of their distance across the ray, returns a distance off by
 /// 10, and a slab is computed with 3. Growing boxes by 32 roundoffs of the greatest distance in the scene covers
-/// them, so that no box is skipped that holds the result of testing all triangles: both agree bit by bit. (Where a ray
-/// runs along a triangle the test may be off by more; tests have not found a ray for which it matters.)
+/// them, so that no box is skipped that holds the result of testing all triangles: both agree bit by bit. (Triangles
+/// without area, which loaders remove, are beyond this: of rays aimed at them about one in 1e6 differs.)
 PL_HD inline BoxRay make_box_ray(const BvhNode& root, const Ray& ray) {
     const Vec3f reach = glm::max(absolute(root.low - ray.origin), absolute(root.high - ray.origin));
     const Vec3f d = ray.direction;
