@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/kernel/fields/volume_lookup.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/shapes.h"
 
