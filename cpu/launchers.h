@@ -51,7 +51,7 @@ PassCounters run_picture_pass(const PicturePass& pass) {
         method.field = pass.field;
         method.bsdf_fraction = pass.bsdf_fraction;
     }
-    const PictureWork<M> work{pass.camera, pass.setup.path, pass.sample, pass.film};
+    const PictureWork<M> work{pass.camera, pass.sample, pass.film};
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }
 

@@ -10,30 +10,33 @@ namespace pl {
 /// One path per pixel, into a film.
 template <class M>
 struct PictureWork {
+    static constexpr Purpose kStartPurpose = Purpose::Pixel;
+
     PinholeCamera camera;
-    PathSettings path;
     std::uint32_t sample = 0;
     FilmView film;
 
     std::uint32_t count() const { return film.pixels.count; }
-    PathState<M> begin(std::uint32_t pixel) const {
-        return begin_path<M>(camera, path, film.width, film.height, pixel, sample);
+    PathState<M> begin(std::uint32_t pixel, Vec4f u) const {
+        __builtin_prefetch(&film.pixels[pixel], 1); // the film does not stay in the cache, the batch does
+        return begin_path<M>(camera, film.width, film.height, pixel, sample, u);
     }
     bool finish(const PathState<M>& state) const { return accumulate(film, state.pixel, state.radiance); }
 };
 
 /// One path per cell of every volume, into a table.
 struct ProbeWork {
+    static constexpr Purpose kStartPurpose = Purpose::Probe;
+
     FieldView field;
-    PathSettings path;
     std::uint32_t sample = 0;
     std::uint32_t strata_side = 1;
 
     std::uint32_t count() const {
         return field.normals.count * static_cast<std::uint32_t>(field.cells.count());
     }
-    PathState<DefaultMethod> begin(std::uint32_t probe) const {
-        return begin_probe(field, path, probe, sample, strata_side);
+    PathState<DefaultMethod> begin(std::uint32_t probe, Vec4f u) const {
+        return begin_probe(field, probe, sample, strata_side, u);
     }
     bool finish(const PathState<DefaultMethod>& state) const {
         finish_probe(field, state);

@@ -5,12 +5,12 @@
 
 #include <concepts>
 #include <cstdint>
+#include <new>
 #include <vector>
 
 #include "core/kernel/integrator/steps.h"
 #include "core/session/backend.h"
-#include "cpu/number_batch.h"
-#include "cpu/parallel_for.h"
+#include "cpu/path_source.h"
 #include "cpu/ray_batch.h"
 
 namespace pl {
@@ -27,14 +27,11 @@ struct PassSetup {
 
 /// Where paths start and end. Paths are numbered from 0; finish() says whether the sample was valid.
 template <class W, class M>
-concept PathWork = requires(const W& work, std::uint32_t number, const PathState<M>& state) {
+concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<M>& state) {
     { work.count() } -> std::same_as<std::uint32_t>;
-    { work.begin(number) } -> std::same_as<PathState<M>>;
+    { work.begin(number, u) } -> std::same_as<PathState<M>>;
     { work.finish(state) } -> std::same_as<bool>;
 };
-
-/// Paths that a thread claims, and then also finishes, at once.
-inline constexpr std::uint32_t kPathChunk = 256;
 
 /// The paths of one thread, the live ones first.
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<M> W>
@@ -47,15 +44,17 @@ public:
           shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())) {}
 
-    /// Traces paths until the queue has no more, and finishes those under way.
-    PassCounters run(ChunkQueue& queue) {
-        while (refill(queue)) {
-            find_hits();
-            draw_numbers();
+    /// Traces paths until the source has no more, and finishes those under way.
+    PassCounters run(PathSource& source) {
+        while (active_ < setup_.batch_paths && start(source, active_))
+            ++active_;
+        while (active_ > 0) {
+            intersector_.find_closest(rays_, active_);
+            numbers_.draw(setup_.path, active_);
             extend();
             if constexpr (kSamplesLights)
                 connect();
-            retire();
+            retire(source);
         }
         return counters_;
     }
@@ -63,33 +62,22 @@ public:
 private:
     static constexpr bool kSamplesLights = F.has(Feature::NextEventEstimation);
 
-    bool next_number(ChunkQueue& queue, std::uint32_t& number) {
-        if (chunk_.empty())
-            chunk_ = queue.claim();
-        if (chunk_.empty())
+    /// Puts the next path of the source into place i. Returns false if there is none.
+    bool start(PathSource& source, std::uint32_t i) {
+        std::uint32_t number = 0;
+        Vec4f u;
+        if (!source.next(number, u))
             return false;
-        number = chunk_.begin++;
+        // Made in its place: copying what was just written in smaller pieces would wait for the writes.
+        ::new (static_cast<void*>(&states_[i])) PathState<M>(work_.begin(number, u));
+        prepare(i);
         return true;
     }
 
-    /// Starts paths in the free places. Returns false if none is under way.
-    bool refill(ChunkQueue& queue) {
-        std::uint32_t number = 0;
-        while (active_ < setup_.batch_paths && next_number(queue, number))
-            states_[active_++] = work_.begin(number);
-        return active_ > 0;
-    }
-
-    void find_hits() {
-        for (std::uint32_t i = 0; i < active_; ++i)
-            rays_.set_ray(i, states_[i].ray);
-        intersector_.find_closest(rays_, active_);
-    }
-
-    void draw_numbers() {
-        for (std::uint32_t i = 0; i < active_; ++i)
-            numbers_.set_path(i, states_[i]);
-        numbers_.draw(setup_.path, active_);
+    /// Lays out path i for the loops over all paths.
+    void prepare(std::uint32_t i) {
+        rays_.set_ray(i, states_[i].ray);
+        numbers_.set_path(i, states_[i]);
     }
 
     /// Inlined to the last call: half of the time of a small scene is spent here.
@@ -117,21 +105,28 @@ private:
         counters_.path.shadow_rays += shadow_count_;
     }
 
-    /// Hands in the finished paths and closes the gaps they leave.
-    void retire() {
-        std::uint32_t kept = 0;
-        for (std::uint32_t i = 0; i < active_; ++i) {
+    /// Hands in the finished paths and puts new ones, or the last ones, into their places.
+    void retire(PathSource& source) {
+        for (std::uint32_t i = 0; i < active_;) {
             if (statuses_[i] == PathStatus::Continues) {
-                if (kept != i)
-                    states_[kept] = states_[i];
-                ++kept;
+                prepare(i++);
                 continue;
             }
-            ++counters_.paths;
-            counters_.zero_contribution_paths += is_black(states_[i].radiance) ? 1u : 0u;
-            counters_.invalid_samples += work_.finish(states_[i]) ? 0u : 1u;
+            finish(states_[i]);
+            if (start(source, i)) {
+                ++i;
+                continue;
+            }
+            --active_;
+            states_[i] = states_[active_];
+            statuses_[i] = statuses_[active_];
         }
-        active_ = kept;
+    }
+
+    void finish(const PathState<M>& state) {
+        ++counters_.paths;
+        counters_.zero_contribution_paths += is_black(state.radiance) ? 1u : 0u;
+        counters_.invalid_samples += work_.finish(state) ? 0u : 1u;
     }
 
     const PassSetup& setup_;
@@ -147,7 +142,6 @@ private:
     RayBatch shadow_rays_;
     std::uint32_t active_ = 0;
     std::uint32_t shadow_count_ = 0;
-    IndexRange chunk_;
     PassCounters counters_;
 };
 
@@ -157,8 +151,9 @@ PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& me
     ChunkQueue queue(setup.first_path, work.count(), kPathChunk, setup.stop);
     std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));
     run_on_threads(setup.threads, [&](int thread) {
+        PathSource source(queue, {setup.path.seed, setup.path.stream, W::kStartPurpose, work.sample});
         PathBatch<F, M, I, W> batch(setup, intersector, method, work);
-        counters[static_cast<std::size_t>(thread)] = batch.run(queue);
+        counters[static_cast<std::size_t>(thread)] = batch.run(source);
     });
     PassCounters total;
     for (const PassCounters& one : counters)

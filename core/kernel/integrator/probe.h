@@ -19,12 +19,10 @@ PL_HD inline ProbeTarget probe_target(const FieldView& field, std::uint32_t prob
 }
 
 /// Starts a path that measures the radiance arriving through one cell. Directions are stratified: sample s of S
-/// (a square number) takes one of S sub-cells.
-PL_HD inline PathState<DefaultMethod> begin_probe(const FieldView& field, const PathSettings& settings,
-                                                  std::uint32_t probe, std::uint32_t sample,
-                                                  std::uint32_t strata_side) {
+/// (a square number) takes one of S sub-cells. `u` is drawn for vertex 0 and Purpose::Probe.
+PL_HD inline PathState<DefaultMethod> begin_probe(const FieldView& field, std::uint32_t probe, std::uint32_t sample,
+                                                  std::uint32_t strata_side, Vec4f u) {
     const ProbeTarget target = probe_target(field, probe);
-    const Vec4f u = path_rng(settings, probe, sample).draw(0, Purpose::Probe);
     const Vec2f stratum{static_cast<float>(sample % strata_side), static_cast<float>(sample / strata_side)};
     const Vec2f in_cell = (stratum + Vec2f{u.x, u.y}) * (1.0f / static_cast<float>(strata_side));
     const Vec3f local = square_to_cosine_hemisphere(field.cells.point_in_cell(target.cell, in_cell));
@@ -34,6 +32,13 @@ PL_HD inline PathState<DefaultMethod> begin_probe(const FieldView& field, const 
     state.pixel = probe;
     state.sample = sample;
     return state;
+}
+
+PL_HD inline PathState<DefaultMethod> begin_probe(const FieldView& field, const PathSettings& settings,
+                                                  std::uint32_t probe, std::uint32_t sample,
+                                                  std::uint32_t strata_side) {
+    const Vec4f u = path_rng(settings, probe, sample).draw(0, Purpose::Probe);
+    return begin_probe(field, probe, sample, strata_side, u);
 }
 
 /// Stores what a finished probe path brought.

@@ -53,10 +53,13 @@ PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32
     point.primitive = primitive;
     point.material = triangle.material;
     point.front = glm::dot(plane.normal, wo) >= 0.0f;
-    const Vec3f smooth = interpolate_normal<F>(scene, primitive, attributes, plane.normal);
-    point.geometric_normal = point.front ? plane.normal : -plane.normal;
-    // A file may give normals that disagree with the winding: the shading normal follows the geometric one.
-    point.shading_normal = glm::dot(smooth, point.geometric_normal) >= 0.0f ? smooth : -smooth;
+    point.geometric_normal = (point.front ? 1.0f : -1.0f) * plane.normal;
+    point.shading_normal = point.geometric_normal;
+    if constexpr (F.has(Feature::SmoothNormals)) {
+        // A file may give normals that disagree with the winding: the shading normal follows the geometric one.
+        const Vec3f smooth = interpolate_normal<F>(scene, primitive, attributes, plane.normal);
+        point.shading_normal = (glm::dot(smooth, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f) * smooth;
+    }
     return point;
 }
 

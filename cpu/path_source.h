@@ -1,0 +1,60 @@
+// Where a thread gets its next path from: a claimed chunk of numbers, with the random numbers that start each.
+#pragma once
+
+#include "cpu/number_batch.h"
+#include "cpu/parallel_for.h"
+
+namespace pl {
+
+/// Paths that a thread claims, and then also finishes, at once.
+inline constexpr std::uint32_t kPathChunk = 256;
+
+/// What draws for the start of a path.
+struct StartKey {
+    std::uint64_t seed = 0;
+    Stream stream = Stream::Picture;
+    Purpose purpose = Purpose::Pixel;
+    std::uint32_t sample = 0;
+};
+
+/// One thread's view of the queue.
+class PathSource {
+public:
+    PathSource(ChunkQueue& queue, const StartKey& key) : queue_(queue), key_(key) {}
+
+    /// Number of the next path and what Rng::draw gives for its vertex 0. Returns false if there is no more.
+    bool next(std::uint32_t& number, Vec4f& u) {
+        if (chunk_.empty() && !claim())
+            return false;
+        const std::uint32_t index = chunk_.begin - first_;
+        u = numbers_[index / kGroupSize].get(index % kGroupSize);
+        number = chunk_.begin++;
+        return true;
+    }
+
+private:
+    static constexpr std::uint32_t kGroups = group_count(kPathChunk);
+
+    bool claim() {
+        chunk_ = queue_.claim();
+        if (chunk_.empty())
+            return false;
+        first_ = chunk_.begin;
+        for (std::uint32_t i = 0; i < kPathChunk; ++i) {
+            counters_[i / kGroupSize].pixel[i % kGroupSize] = first_ + i;
+            counters_[i / kGroupSize].sample[i % kGroupSize] = key_.sample;
+        }
+        kernels_.draw({key_.seed, key_.stream, key_.purpose}, counters_, numbers_, kGroups);
+        return true;
+    }
+
+    ChunkQueue& queue_;
+    StartKey key_;
+    LaneKernels kernels_ = best_lane_kernels();
+    IndexRange chunk_;
+    std::uint32_t first_ = 0;
+    CounterGroup counters_[kGroups];
+    NumberGroup numbers_[kGroups];
+};
+
+} // namespace pl
