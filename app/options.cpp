@@ -1,7 +1,6 @@
 #include "app/options.h"
 
 #include <algorithm>
-#include <array>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -7,7 +7,6 @@
 #include "app/open_scene.h"
 #include "app/parse_values.h"
 #include "app/picture_file.h"
-#include "app/progress.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/io/files.h"

@@ -97,19 +97,8 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
     return viewer;
 }
 
-} // namespace
-
-int run_view(const CommandLine& line, Console& console) {
-    const LoadedScene loaded = open_scene(line.options.scene, console);
-    const Options options = resolve_options(line, *loaded.scene);
-    OpenedScenes scenes;
-    scenes.add(options.scene, loaded.scene);
-
-    ViewerOptions viewer = viewer_options(line, options, loaded);
-    // Made here, so that a back end that is not there is told before a window opens.
-    const auto backend = std::make_shared<std::unique_ptr<RenderBackend>>(
-        make_backend(options.backend, viewer_threads(options.threads)));
-    viewer.make_backend = [backend] { return std::move(*backend); };
+/// What the viewer asks of the program. Scenes, options and console outlive it.
+void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& options, Console& console) {
     viewer.load_scene = [&](const std::string& name) {
         const auto scene = open_scene(name, console).scene;
         scenes.add(name, scene);
@@ -120,13 +109,28 @@ int run_view(const CommandLine& line, Console& console) {
     };
     viewer.save_image = [&](const std::filesystem::path& path, const Snapshot& snapshot,
                             const ViewerPicture& picture) {
-        const auto scene = scenes.find(picture.scene);
-        save_picture(path, snapshot, picture.display,
-                     metadata_of(picture, snapshot, command_of(picture, *scene, options)));
+        const std::string command = command_of(picture, *scenes.find(picture.scene), options);
+        save_picture(path, snapshot, picture.display, metadata_of(picture, snapshot, command));
     };
     viewer.save_screen = [](const std::filesystem::path& path, const ScreenPixels& pixels) {
         write_png8(path, {.width = pixels.width, .height = pixels.height, .rgb = pixels.rgb});
     };
+}
+
+} // namespace
+
+int run_view(const CommandLine& line, Console& console) {
+    const LoadedScene loaded = open_scene(line.options.scene, console);
+    const Options options = resolve_options(line, *loaded.scene);
+    OpenedScenes scenes;
+    scenes.add(options.scene, loaded.scene);
+
+    ViewerOptions viewer = viewer_options(line, options, loaded);
+    add_functions(viewer, scenes, options, console);
+    // Made here, so that a back end that is not there is told before a window opens.
+    const auto backend = std::make_shared<std::unique_ptr<RenderBackend>>(
+        make_backend(options.backend, viewer_threads(options.threads)));
+    viewer.make_backend = [backend] { return std::move(*backend); };
     try {
         return run_viewer(viewer);
     } catch (const Error& error) {

@@ -1,44 +1,19 @@
 // The words: parsing, precedence, and the way back to a command line.
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <random>
 
 #include <wordexp.h>
 
-#include "app/options.h"
 #include "app/parse_values.h"
-#include "core/base/error.h"
 #include "core/io/load_scene.h"
-#include "tests/catch.hpp"
+#include "tests/cli/parsing.h"
 #include "tests/cli/run_program.h"
 
-namespace pl {
+namespace pl::test {
 namespace {
-
-using test::TempDir;
-
-SceneDescription plain_scene() {
-    SceneDescription scene;
-    scene.name = "plain";
-    scene.camera = {.eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 1, 0}, .fov_deg = 50};
-    return scene;
-}
-
-Options parse(const std::vector<std::string>& arguments, const SceneDescription& scene = plain_scene()) {
-    const CommandLine line = parse_command_line(arguments);
-    REQUIRE_FALSE(line.answer);
-    return resolve_options(line, scene);
-}
-
-std::string complaint(const std::vector<std::string>& arguments) {
-    try {
-        parse(arguments);
-    } catch (const Error& error) {
-        CHECK(error.kind() == ErrorKind::Usage);
-        return error.what();
-    }
-    return "nothing";
-}
 
 std::vector<std::string> shell_words(const std::string& command) {
     wordexp_t words{};
@@ -208,13 +183,13 @@ TEST_CASE("without a subcommand the viewer opens, on the Cornell box") {
 }
 
 TEST_CASE("help, version and lists are answers, whatever else is missing") {
-    CHECK_THAT(*parse_command_line({"--help"}).answer, test::contains("inspect SCENE"));
-    CHECK_THAT(*parse_command_line({"-h"}).answer, test::contains("Exit codes"));
-    CHECK_THAT(*parse_command_line({"render", "--help"}).answer, test::contains("--bsdf-fraction"));
-    CHECK_THAT(*parse_command_line({"--version"}).answer, test::contains("pathlight "));
-    CHECK_THAT(*parse_command_line({"--list-methods"}).answer, test::contains("reinforcement"));
-    CHECK_THAT(*parse_command_line({"render", "--list-views"}).answer, test::contains("radiance-map"));
-    CHECK_THAT(*parse_command_line({"--list-methods", "--json"}).answer, test::contains("{\"schema\""));
+    CHECK_THAT(*parse_command_line({"--help"}).answer, contains("inspect SCENE"));
+    CHECK_THAT(*parse_command_line({"-h"}).answer, contains("Exit codes"));
+    CHECK_THAT(*parse_command_line({"render", "--help"}).answer, contains("--bsdf-fraction"));
+    CHECK_THAT(*parse_command_line({"--version"}).answer, contains("pathlight "));
+    CHECK_THAT(*parse_command_line({"--list-methods"}).answer, contains("reinforcement"));
+    CHECK_THAT(*parse_command_line({"render", "--list-views"}).answer, contains("radiance-map"));
+    CHECK_THAT(*parse_command_line({"--list-methods", "--json"}).answer, contains("{\"schema\""));
 }
 
 TEST_CASE("every option that can be given is in the help of its subcommand") {
@@ -227,171 +202,43 @@ TEST_CASE("every option that can be given is in the help of its subcommand") {
             if (!spec.group.empty() && spec.commands.has(id))
                 CHECK(listed);
         }
-        for (const std::string& line : test::lines_of(help))
+        for (const std::string& line : lines_of(help))
             CHECK(line.size() <= 110);
     }
 }
 
-TEST_CASE("wrong values name the option, what is expected and what was given") {
-    struct Wrong {
-        std::vector<std::string> words;
-        std::string expected;
-    };
-    const std::vector<Wrong> wrongs{
-        {{"--spp", "-4"}, "--spp: expected a whole number from 1"},
-        {{"--spp", "0"}, "--spp: expected"},
-        {{"--spp", "1.5"}, "--spp: expected"},
-        {{"--spp", ""}, "--spp: expected"},
-        {{"--spp", "12abc"}, "--spp: expected"},
-        {{"--spp", "99999999999999999999"}, "--spp: expected"},
-        {{"--time-limit", "0"}, "--time-limit: expected a number of seconds above 0"},
-        {{"--time-limit", "-1"}, "--time-limit: expected"},
-        {{"--time-limit", "nan"}, "--time-limit: expected"},
-        {{"--size", "0x512"}, "--size: expected WIDTHxHEIGHT, each from 1 to 16384"},
-        {{"--size", "512"}, "--size: expected"},
-        {{"--size", "512x"}, "--size: expected"},
-        {{"--size", "5x5x5"}, "--size: expected"},
-        {{"--size", "16385x1"}, "--size: expected"},
-        {{"--width", "0"}, "--width: expected a whole number from 1 to 16384"},
-        {{"--height", "16385"}, "--height: expected"},
-        {{"--bins", "200"}, "--bins: expected a square number"},
-        {{"--bins", "1"}, "--bins: expected"},
-        {{"--bins", "2025"}, "--bins: expected"},
-        {{"--fov", "0"}, "--fov: expected an angle between 0 and 180"},
-        {{"--fov", "180"}, "--fov: expected"},
-        {{"--fov", "inf"}, "--fov: expected"},
-        {{"--eye", "1,2"}, "--eye: expected three numbers X,Y,Z"},
-        {{"--eye", "1,2,nan"}, "--eye: expected"},
-        {{"--up", "0,0,0"}, "--up: expected a direction"},
-        {{"--eye", "4,5,6"}, "--eye, --target: expected two different points"},
-        {{"--bsdf-fraction", "0.05"}, "--bsdf-fraction: expected a number from 0.1 to 1"},
-        {{"--bsdf-fraction", "1.01"}, "--bsdf-fraction: expected"},
-        {{"--nee", "yes"}, "--nee: expected on or off, got 'yes'"},
-        {{"--method", "reinforcment"},
-         "--method: expected default, precomputed or reinforcement, got 'reinforcment' "
-         "(nearest: 'reinforcement')"},
-        {{"--view", "voroni"}, "nearest: 'voronoi'"},
-        {{"--backend", "gpu"}, "--backend: expected auto, cpu or cuda"},
-        {{"--tonemap", "filmic"}, "--tonemap: expected clamp, reinhard or aces"},
-        {{"--exposure", "65"}, "--exposure: expected"},
-        {{"--max-depth", "0"}, "--max-depth: expected"},
-        {{"--threads", "0"}, "--threads: expected"},
-        {{"--volumes", "0"}, "--volumes: expected"},
-        {{"--field-budget", "0"}, "--field-budget: expected"},
-        {{"--seed", "-1"}, "--seed: expected a whole number of at least 0"},
-        {{"--seed", "18446744073709551616"}, "--seed: expected"},
-    };
-    for (const Wrong& wrong : wrongs) {
-        std::vector<std::string> arguments{"render", "s", "-o", "x.png"};
-        arguments.insert(arguments.end(), wrong.words.begin(), wrong.words.end());
-        CAPTURE(wrong.words);
-        CHECK_THAT(complaint(arguments), test::contains(wrong.expected));
-    }
-}
-
-TEST_CASE("the limits of values are values") {
-    for (const std::vector<std::string>& words :
-         std::vector<std::vector<std::string>>{{"--bsdf-fraction", "0.1"},
-                                               {"--bsdf-fraction", "1"},
-                                               {"--bins", "4"},
-                                               {"--bins", "1024"},
-                                               {"--size", "16384x1"},
-                                               {"--seed", "18446744073709551615"},
-                                               {"--fov", "179.99"},
-                                               {"--max-depth", "1"}}) {
-        std::vector<std::string> arguments{"render", "s", "-o", "x.png"};
-        arguments.insert(arguments.end(), words.begin(), words.end());
-        CHECK_NOTHROW(parse(arguments));
-    }
-    CHECK(parse({"render", "s", "-o", "x.png", "--bsdf-fraction", "0.1"}).render.bsdf_fraction >= 0.1f);
-}
-
-TEST_CASE("what a later version will have is refused by name") {
-    for (const std::vector<std::string>& words :
-         std::vector<std::vector<std::string>>{{"--target-error", "0.1"},
-                                               {"--save-field", "f"},
-                                               {"--load-field", "f"},
-                                               {"--bsdf-fraction", "learned"}}) {
-        std::vector<std::string> arguments{"render", "s", "-o", "x.png"};
-        arguments.insert(arguments.end(), words.begin(), words.end());
-        CHECK_THAT(complaint(arguments),
-                   test::contains(words.front()) && test::contains("this version does not have it"));
-    }
-    for (const char* command : {"reference", "bench", "compare", "report"})
-        CHECK_THAT(complaint({command, "x"}),
-                   test::contains("unknown subcommand '" + std::string(command) + "'"));
-}
-
-TEST_CASE("unknown words name the nearest one") {
-    CHECK_THAT(complaint({"rendr", "s"}), test::contains("nearest: 'render'"));
-    CHECK_THAT(complaint({"render", "s", "-o", "x.png", "--sppp", "3"}), test::contains("nearest: '--spp'"));
-    CHECK_THAT(complaint({"render", "s", "-o", "x.png", "--metod=default"}),
-               test::contains("nearest: '--method'"));
-    CHECK_THAT(complaint({"devices", "--jsn"}), test::contains("nearest: '--json'"));
-    CHECK_THAT(complaint({"info", "s", "--bins", "4"}), test::contains("unknown option '--bins' of 'info'"));
-    CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), test::contains("unexpected argument 't'"));
-}
-
-TEST_CASE("views of what was learned need a method that learns") {
-    CHECK_THAT(complaint({"render", "s", "-o", "x.png", "--view", "radiance-map"}),
-               test::contains("precomputed or reinforcement"));
-    CHECK_NOTHROW(parse({"render", "s", "-o", "x.png", "--view", "radiance-map", "--method", "precomputed"}));
-    CHECK_NOTHROW(parse({"render", "s", "-o", "x.png", "--view", "voronoi"}));
-}
-
-TEST_CASE("inspection is about a method that learns") {
-    CHECK(parse({"inspect", "s", "--pixel", "1,2", "-o", "x.csv"}).render.method == MethodId::Reinforcement);
-    SceneDescription scene = plain_scene();
-    scene.settings = {{"method", "default"}};
-    CHECK(parse({"inspect", "s", "--pixel", "1,2", "-o", "x.csv"}, scene).render.method ==
-          MethodId::Reinforcement);
-    CHECK_THAT(complaint({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--method", "default"}),
-               test::contains("precomputed or reinforcement"));
-    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv"}), test::contains("--at"));
-    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv", "--at", "1,2,3", "--pixel", "1,2"}),
-               test::contains("--at"));
-    const Options options = parse({"inspect", "s", "-o", "x.csv", "--at", "1,2,3,0,0,-2"});
-    CHECK((options.at->position == glm::vec3(1, 2, 3)));
-    CHECK((*options.at->normal == glm::vec3(0, 0, -1)));
-    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv", "--at", "1,2,3,0,0,0"}), test::contains("normal"));
-    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv", "--at", "1,2,3,4"}),
-               test::contains("three or six numbers"));
-    CHECK_THAT(complaint({"inspect", "s", "-o", "x.csv", "--pixel", "-1,0"}),
-               test::contains("--pixel: expected"));
-}
-
 TEST_CASE("a camera file goes over the scene's camera, single options over both") {
     const TempDir folder;
-    test::write_all(folder / "camera.json", R"({"eye": [7, 8, 9], "fov_deg": 33})");
+    write_all(folder / "camera.json", R"({"eye": [7, 8, 9], "fov_deg": 33})");
     const Options options =
         parse({"render", "s", "-o", "x.png", "--fov", "44", "--camera", folder / "camera.json"});
     CHECK((options.render.camera.eye == glm::vec3(7, 8, 9)));
     CHECK((options.render.camera.target == glm::vec3(4, 5, 6)));
     CHECK(options.render.camera.fov_deg == 44.0f);
 
-    test::write_all(folder / "camera.json", "{\n \"eye\": [7, 8, 9],\n \"fov\": 33\n}");
+    write_all(folder / "camera.json", "{\n \"eye\": [7, 8, 9],\n \"fov\": 33\n}");
     try {
         parse({"render", "s", "-o", "x.png", "--camera", folder / "camera.json"});
         FAIL("an unknown key was accepted");
     } catch (const Error& error) {
         CHECK(error.kind() == ErrorKind::Input);
-        CHECK_THAT(error.what(), test::contains("camera.json:3") && test::contains("fov_deg"));
+        CHECK_THAT(error.what(), contains("camera.json:3") && contains("fov_deg"));
     }
 }
 
 TEST_CASE("scene files may set exactly the options that the table says") {
     const TempDir folder;
-    test::write_all(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_all(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     for (const OptionSpec& spec : option_table()) {
         CAPTURE(std::string(spec.name));
-        test::write_all(folder / "a.json",
-                        "{\"schema\": \"pathlight.scene/1\", \"obj\": \"a.obj\", \"settings\": {\"" +
-                            std::string(spec.name) + "\": 1}}");
+        write_all(folder / "a.json",
+                  "{\"schema\": \"pathlight.scene/1\", \"obj\": \"a.obj\", \"settings\": {\"" +
+                      std::string(spec.name) + "\": 1}}");
         bool accepted = true;
         try {
             load_scene(folder / "a.json", "");
         } catch (const Error& error) {
-            CHECK_THAT(error.what(), test::contains("unknown key"));
+            CHECK_THAT(error.what(), contains("unknown key"));
             accepted = false;
         }
         CHECK(accepted == spec.in_scene_files);
@@ -400,18 +247,16 @@ TEST_CASE("scene files may set exactly the options that the table says") {
 
 TEST_CASE("a wrong setting of a scene file is told with its file and line") {
     const TempDir folder;
-    test::write_all(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    test::write_all(folder / "a.json",
-                    "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"a.obj\",\n\"settings\": {\n"
-                    "\"seed\": 3,\n\"spp\": -5}}");
+    write_all(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_all(folder / "a.json", "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"a.obj\",\n\"settings\": {\n"
+                                 "\"seed\": 3,\n\"spp\": -5}}");
     const SceneDescription scene = load_scene(folder / "a.json", "");
     try {
         parse({"render", "s", "-o", "x.png"}, scene);
         FAIL("-5 samples were accepted");
     } catch (const Error& error) {
         CHECK(error.kind() == ErrorKind::Input);
-        CHECK_THAT(error.what(),
-                   test::contains("a.json:5") && test::contains("expected a whole number from 1"));
+        CHECK_THAT(error.what(), contains("a.json:5") && contains("expected a whole number from 1"));
     }
 }
 
@@ -424,4 +269,4 @@ TEST_CASE("numbers print as what reads back to the same bits") {
     }
 }
 
-} // namespace pl
+} // namespace pl::test
