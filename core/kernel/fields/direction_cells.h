@@ -20,12 +20,16 @@ struct DirectionCells {
     /// Cell that holds a unit direction with z >= 0, in the volume's own frame.
     PL_HD int cell_of_direction(Vec3f local) const { return cell_of(cosine_hemisphere_to_square(local)); }
 
-    /// Point of the unit square at (u, v) in [0,1)^2 inside a cell.
+    /// Point of the unit square at (u, v) in [0,1)^2 inside a cell. It keeps so far from the borders that its direction,
+    /// taken to the world and back, gives the same cell again.
     PL_HD Vec2f point_in_cell(int cell, Vec2f u) const {
         const float inverse_side = 1.0f / static_cast<float>(side);
-        return {(static_cast<float>(cell % side) + u.x) * inverse_side,
-                (static_cast<float>(cell / side) + u.y) * inverse_side};
+        return {(static_cast<float>(cell % side) + clamp_to(u.x, kBorderGap, 1.0f - kBorderGap)) * inverse_side,
+                (static_cast<float>(cell / side) + clamp_to(u.y, kBorderGap, 1.0f - kBorderGap)) * inverse_side};
     }
+
+    /// In cells: maps and frames are off by less than 1e-6 of the square, which has at most 32 cells to a side.
+    static constexpr float kBorderGap = 0x1p-14f;
 };
 
 /// Triangular density on [-1, 1] from a uniform number: one cell width to each side.

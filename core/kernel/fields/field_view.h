@@ -13,8 +13,8 @@ namespace pl {
 /// Learned radiance is clamped at this multiple of the field's radiance unit before it is summed. Pictures are not.
 inline constexpr float kMaxRecordedUnits = 65536.0f;
 
-/// Steps per radiance unit of the fixed-point sums: 2^-24 resolves what a float can, 2^63 holds 2^23 records of the
-/// largest value in one pass and cell.
+/// Steps per radiance unit of the fixed-point sums: 2^-24 resolves what a float can, 63 bits hold 2^23 - 1 records of
+/// the largest value in one pass and cell.
 inline constexpr float kStepsPerUnit = 16777216.0f;
 
 struct FieldView {

@@ -35,8 +35,9 @@ struct FieldPublicationView {
 PL_HD inline float learning_step(std::uint32_t visits, std::uint32_t fresh, LearningRate rate) {
     const auto m = static_cast<float>(fresh);
     const float share = m / (static_cast<float>(visits) + m);
-    return rate == LearningRate::SampleMean ? share
-                                            : share * (4.0f + share * (-6.0f + share * (4.0f - share)));
+    if (rate == LearningRate::SampleMean) return share;
+    // 1 - (1-s)^4; rounding must not carry the mean past its targets.
+    return min_of(share * (4.0f + share * (-6.0f + share * (4.0f - share))), 1.0f);
 }
 
 /// What a cell has learned, or 0 where memory holds what no record could have put there: NaN, infinite, negative.

@@ -1,0 +1,99 @@
+// Cells of directions: which one holds a direction, where they are, and that both agree.
+#include "core/kernel/fields/direction_cells.h"
+
+#include "core/kernel/base/frame.h"
+
+#include "tests/catch.hpp"
+#include "tests/kernel/shapes.h"
+
+using namespace pl;
+using test::Uniforms;
+
+namespace {
+
+constexpr float kAlmostOne = 1.0f - 0x1p-24f;
+
+} // namespace
+
+TEST_CASE("A point in a cell leads back to the cell through square and hemisphere and world") {
+    Uniforms random(1);
+    for (int side = 2; side <= 32; ++side) {
+        const DirectionCells cells{side};
+        for (int cell = 0; cell < cells.count(); ++cell) {
+            const Vec2f inside[] = {{0.0f, 0.0f},       {kAlmostOne, kAlmostOne},
+                                    {0.0f, kAlmostOne}, {kAlmostOne, 0.5f},
+                                    {0.5f, 0.5f},       random.square()};
+            for (const Vec2f u : inside) {
+                const Vec2f square = cells.point_in_cell(cell, u);
+                REQUIRE(cells.cell_of(square) == cell);
+                const Vec3f local = square_to_cosine_hemisphere(square);
+                REQUIRE(cells.cell_of_direction(local) == cell);
+                const Frame frame = make_frame(random.direction());
+                REQUIRE(cells.cell_of_direction(frame.to_local(frame.to_world(local))) == cell);
+            }
+        }
+    }
+}
+
+// Directions that were not made by a cell may lie on a border; then rounding may name the neighbour, and nothing else.
+TEST_CASE("Directions keep their cell or the neighbour on the way through the world") {
+    Uniforms random(2);
+    const DirectionCells cells{12};
+    int moved = 0;
+    float largest = 0.0f;
+    for (int i = 0; i < 2000000; ++i) {
+        const Vec3f local = square_to_cosine_hemisphere(random.square());
+        const Vec2f square = cosine_hemisphere_to_square(local);
+        const Frame frame = make_frame(random.direction());
+        const Vec2f back = cosine_hemisphere_to_square(frame.to_local(frame.to_world(local)));
+        largest = max_of(largest, max_of(std::fabs(back.x - square.x), std::fabs(back.y - square.y)));
+        moved += cells.cell_of(square) != cells.cell_of(back) ? 1 : 0;
+    }
+    CHECK(largest <= 1e-6f);
+    CHECK(moved <= 200); // a share of 1e-4
+}
+
+TEST_CASE("Cells are in range for every point of the closed square") {
+    for (int side = 2; side <= 32; ++side) {
+        const DirectionCells cells{side};
+        for (const float x : {0.0f, 1e-45f, 0.5f, kAlmostOne, 1.0f})
+            for (const float y : {0.0f, 1e-45f, 0.5f, kAlmostOne, 1.0f}) {
+                const int cell = cells.cell_of({x, y});
+                CHECK(cell >= 0);
+                CHECK(cell < cells.count());
+            }
+        CHECK(cells.cell_of({0.0f, 0.0f}) == 0);
+        CHECK(cells.cell_of({1.0f, 0.0f}) == side - 1);
+        CHECK(cells.cell_of({0.0f, 1.0f}) == side * (side - 1));
+        CHECK(cells.cell_of({1.0f, 1.0f}) == cells.count() - 1);
+    }
+    // The horizon and the normal.
+    const DirectionCells cells{16};
+    for (const Vec3f d : {Vec3f{1, 0, 0}, Vec3f{-1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, -1, 0}, Vec3f{0, 0, 1}}) {
+        CHECK(cells.cell_of_direction(d) >= 0);
+        CHECK(cells.cell_of_direction(d) < cells.count());
+    }
+}
+
+TEST_CASE("The tent covers a cell width to each side") {
+    CHECK(sample_tent(0.0f) == -1.0f);
+    CHECK(sample_tent(0.5f) == 0.0f);
+    CHECK(sample_tent(kAlmostOne) < 1.0f);
+    CHECK(sample_tent(0.125f) == -0.5f);
+    CHECK(sample_tent(0.875f) == 0.5f);
+    float before = -2.0f;
+    for (int i = 0; i < 100000; ++i) {
+        const float x = sample_tent(static_cast<float>(i) * 1e-5f);
+        REQUIRE(x >= before);
+        REQUIRE(std::fabs(x) <= 1.0f);
+        before = x;
+    }
+}
+
+TEST_CASE("Folding keeps coordinates in the square") {
+    CHECK(reflect_into(-0.25f, 16.0f) == 0.25f);
+    CHECK(reflect_into(16.25f, 16.0f) == 15.75f);
+    CHECK(reflect_into(3.5f, 16.0f) == 3.5f);
+    CHECK(reflect_into(0.0f, 16.0f) == 0.0f);
+    CHECK(reflect_into(16.0f, 16.0f) == 16.0f);
+}
