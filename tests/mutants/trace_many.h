@@ -8,6 +8,10 @@ namespace pl::test {
 
 inline constexpr FeatureSet kWithNextEvent = FeatureSet{}.with(Feature::NextEventEstimation);
 
+/// The unit cube of tests/statistical/cube_radiosity.h.
+inline constexpr Vec3f kCubeLow{0.0f};
+inline constexpr Vec3f kCubeHigh{1.0f};
+
 struct Range {
     std::uint32_t first = 0;
     std::uint32_t count = 0;

@@ -1,0 +1,186 @@
+// Checks of what is learned, and of directions drawn from it.
+#pragma once
+
+#include "core/kernel/integrator/probe.h"
+#include "core/kernel/methods/default.h"
+#include "core/kernel/methods/reinforcement.h"
+#include "tests/mutants/small_field.h"
+#include "tests/mutants/trace_many.h"
+#include "tests/statistical/rules.h"
+#include "tests/statistical/scenes.h"
+
+namespace pl::test {
+
+/// What a cell of a volume on the floor of the unit cube sees, judged at 17 x 17 directions.
+enum class Sees { WallX0, Others, Both };
+
+/// Written without the direction map of core/kernel/fields, which may be the mutant.
+inline Sees seen_by_cell(const FieldView& field, std::int32_t volume, int cell, Vec3f origin) {
+    constexpr int kSteps = 16;
+    // Covers what lies between two directions, and that paths do not all start in one point.
+    constexpr float kMargin = 1.03f;
+    const int side = field.cells.side;
+    const Frame frame = field.frame(volume);
+    int wall = 0;
+    int others = 0;
+    for (int i = 0; i <= kSteps; ++i)
+        for (int j = 0; j <= kSteps; ++j) {
+            const Vec2f at{static_cast<float>(cell % side) + static_cast<float>(i) / kSteps,
+                           static_cast<float>(cell / side) + static_cast<float>(j) / kSteps};
+            const Vec3f local = square_to_cosine_hemisphere(at * (1.0f / static_cast<float>(side)));
+            const Vec3f d = local.x * frame.x + local.y * frame.y + local.z * frame.z;
+            const float to_x0 = d.x < 0.0f ? -origin.x / d.x : kInfinity;
+            const float to_top = (1.0f - origin.y) / d.y;
+            const float to_z = (d.z < 0.0f ? -origin.z : 1.0f - origin.z) / d.z;
+            const float to_others = min_of(to_top, to_z);
+            wall += to_x0 * kMargin < to_others ? 1 : 0;
+            others += to_x0 > to_others * kMargin ? 1 : 0;
+        }
+    constexpr int kAll = (kSteps + 1) * (kSteps + 1);
+    return wall == kAll ? Sees::WallX0 : (others == kAll ? Sees::Others : Sees::Both);
+}
+
+/// What a volume on the floor learned is exactly 1 in cells that see only the bright wall, exactly 0 in those that see
+/// none of it; there have to be eight of each kind at least.
+inline Decision judge_cells(SmallField& field, std::int32_t volume, Vec3f origin) {
+    const FieldView view = field.view();
+    int bright = 0;
+    int dark = 0;
+    int wrong = 0;
+    for (int cell = 0; cell < view.cells.count(); ++cell) {
+        const std::uint32_t index = view.cell_index(volume, cell);
+        const Sees sees = seen_by_cell(view, volume, cell, origin);
+        if (field.tables().visits[index] == 0 || sees == Sees::Both)
+            continue;
+        ++(sees == Sees::WallX0 ? bright : dark);
+        wrong += field.tables().radiance[index] == (sees == Sees::WallX0 ? 1.0f : 0.0f) ? 0 : 1;
+    }
+    const std::string reason = std::to_string(bright) + " bright cells, " + std::to_string(dark) +
+                               " dark ones, " + std::to_string(wrong) + " learned something else";
+    if (wrong > 0)
+        return {Verdict::Fail, reason};
+    return {bright >= 8 && dark >= 8 ? Verdict::Pass : Verdict::Inconclusive, reason};
+}
+
+/// A box whose only light is one wall; the other walls are black, the floor is gray.
+inline HostScene box_with_bright_wall() {
+    BoxLook look;
+    look.albedo[kFloor] = Vec3f{0.5f};
+    look.emission[kWallX0] = Vec3f{1.0f};
+    return pack_scene(box_scene(look));
+}
+
+/// Cells filled by paths from the middle of the floor. Seed 1, 2e4 paths.
+inline Decision check_learned_cells() {
+    const HostScene scene = box_with_bright_wall();
+    SmallField field(scene, 30, 12);
+    trace_many<FeatureSet{}>(scene, camera_at_center(kFloor, kCubeLow, kCubeHigh),
+                             ReinforcementMethod{{.field = field.view()}}, {.seed = 1}, {0, 20'000},
+                             [](const auto&, const auto&) {});
+    field.publish();
+    const Vec3f middle = wall_center(kFloor, kCubeLow, kCubeHigh);
+    return judge_cells(field, field.volume_at(middle, {0.0f, 1.0f, 0.0f}), middle);
+}
+
+/// Cells filled by precomputation: 4 x 4 strata each, seed 1.
+inline Decision check_probed_cells() {
+    const HostScene scene = box_with_bright_wall();
+    const SceneView view = scene.view();
+    SmallField field(scene, 30, 12);
+    const FieldView tables = field.view();
+    const std::int32_t volume = field.volume_at(wall_center(kFloor, kCubeLow, kCubeHigh), {0.0f, 1.0f, 0.0f});
+    const PathSettings settings{.seed = 1, .stream = Stream::Precompute};
+    for (int cell = 0; cell < tables.cells.count(); ++cell)
+        for (std::uint32_t sample = 0; sample < 16; ++sample) {
+            PathCounters counters;
+            auto state = begin_probe(tables, settings, tables.cell_index(volume, cell), sample, 4);
+            trace_path<FeatureSet{}>(view, BvhIntersector{view}, DefaultMethod{}, settings, state, counters);
+            finish_probe(tables, state);
+        }
+    field.publish();
+    return judge_cells(field, volume, field.site(volume).position);
+}
+
+/// In a furnace every target is the fixed point's image of what is known, so cells approach 1 without noise; the
+/// error falls like 1/passes^2 here. 64 passes of 1000 paths, seed 1: every cell with records in half of the passes
+/// has to be within 2 %.
+inline Decision check_furnace_cells() {
+    const HostScene scene = pack_scene(furnace_scene(0.5f, 0.5f));
+    SmallField field(scene, 30, 4);
+    for (std::uint32_t pass = 0; pass < 64; ++pass) {
+        trace_many<FeatureSet{}>(scene, CameraDescription{.eye = Vec3f{0.0f}, .target = Vec3f{1.0f}},
+                                 ReinforcementMethod{{.field = field.view()}}, {.seed = 1},
+                                 {1000 * pass, 1000}, [](const auto&, const auto&) {});
+        field.publish();
+    }
+    float worst = 0.0f;
+    int cells = 0;
+    for (std::size_t i = 0; i < field.tables().radiance.size(); ++i)
+        if (field.tables().visits[i] >= 32) {
+            worst = max_of(worst, std::fabs(field.tables().radiance[i] - 1.0f));
+            ++cells;
+        }
+    const std::string reason = std::to_string(cells) + " cells, the worst off by " + std::to_string(worst);
+    if (!(worst <= 0.02f))
+        return {Verdict::Fail, reason};
+    return {cells > 100 ? Verdict::Pass : Verdict::Inconclusive, reason};
+}
+
+/// Mixture samples on the floor follow the mixture's density, by rule S3 on quarters of cells, in which the bilinear
+/// density is integrated exactly by its value in the middle. Seed 1, 3e6 samples, resolves 1.2 %.
+inline Decision check_mixture_density() {
+    const HostScene scene = box_with_bright_wall();
+    SmallField field(scene, 30, 8);
+    Uniforms radiances(7);
+    for (std::size_t i = 0; i < field.tables().radiance.size(); ++i) {
+        field.tables().radiance[i] = radiances.next() < 0.5f ? 0.0f : radiances.next();
+        field.tables().visits[i] = 1000;
+    }
+    field.publish();
+    const ReinforcementMethod method{{.field = field.view(), .bsdf_fraction = 0.3f}};
+    const std::int32_t volume = field.volume_at({0.5f, 0.0f, 0.5f}, {0.0f, 1.0f, 0.0f});
+    const SurfacePoint& surface = field.site(volume);
+    const Frame frame = field.view().frame(volume);
+
+    constexpr int kBins = 32;
+    constexpr std::uint32_t kSamples = 3'000'000;
+    std::vector<std::uint64_t> observed(kBins * kBins);
+    std::vector<double> expected(kBins * kBins);
+    const DirectionCells bins{kBins};
+    for (int bin = 0; bin < bins.count(); ++bin) {
+        const Vec3f wi = frame.to_world(square_to_cosine_hemisphere(bins.point_in_cell(bin, Vec2f{0.5f})));
+        const float cosine = cosine_hemisphere_pdf_sa(glm::dot(wi, surface.shading_normal));
+        expected[static_cast<std::size_t>(bin)] =
+            static_cast<double>(method.pdf_sa({volume}, surface, wi) / cosine) * kSamples / bins.count();
+    }
+    for (std::uint32_t i = 0; i < kSamples; ++i) {
+        const Rng rng{.seed = 1, .sample = i};
+        const DirectionSample sample =
+            method.sample_direction({volume}, surface, rng, 1, rng.draw(1, Purpose::Scatter));
+        const Vec3f local{glm::dot(sample.wi, frame.x), glm::dot(sample.wi, frame.y),
+                          glm::dot(sample.wi, frame.z)};
+        ++observed[static_cast<std::size_t>(bins.cell_of_direction(local))];
+    }
+    return follows_density(observed, expected, 0.012);
+}
+
+/// Every cell of a table keeps at least its share of the uniform floor, also when all light comes through one cell.
+inline Decision check_floor() {
+    const HostScene scene = box_with_bright_wall();
+    SmallField field(scene, 30, 8);
+    for (std::size_t i = 0; i < field.tables().radiance.size(); ++i) {
+        field.tables().radiance[i] = i % 64 == 10 ? 1.0f : 0.0f;
+        field.tables().visits[i] = 1'000'000;
+    }
+    field.publish();
+    const DirectionTable table(field.view(), 0);
+    float least = 1.0f;
+    for (int cell = 0; cell < 64; ++cell)
+        least = min_of(least, table.cell_probability(cell % 8, cell / 8));
+    // Probabilities are differences of cumulative sums up to 1, in two steps: 4 roundoffs, 8 columns per row.
+    const float share = field.shape().uniform_floor / 64.0f - 32.0f * kRoundoff;
+    return {least >= share ? Verdict::Pass : Verdict::Fail,
+            "least probability " + std::to_string(least) + ", floor " + std::to_string(share)};
+}
+
+} // namespace pl::test
