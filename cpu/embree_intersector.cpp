@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/kernel/geometry/intersector.h"
 
 namespace pl {
 namespace {
@@ -29,6 +30,7 @@ struct Query {
     Ray ray;
     ScalarRaySpace space;
     Hit best;
+    bool disagreed = false; ///< Embree met a triangle that our test refused
 
     Query(const SceneView& scene_view, const Ray& traced)
         : scene(&scene_view), ray(traced), space(make_ray_space(traced)), best{.t = traced.t_max} {
@@ -46,7 +48,19 @@ struct Query {
         const Triangle& triangle = scene->triangles[primitive];
         intersect_triangle(space, scene->positions[triangle.v0], scene->positions[triangle.v1],
                            scene->positions[triangle.v2], primitive, best);
+        disagreed = disagreed || best.primitive != primitive;
         return best.primitive == primitive;
+    }
+
+    /// Where the tests disagree about one triangle, Embree may not offer the one that ours would have taken instead:
+    /// its neighbor at an edge. And even in its robust mode a ray through a corner of a closed mesh may get out, which
+    /// ours never lets happen. Both go through our own hierarchy: the first is rare, the second ends a path.
+    Hit closest() const {
+        return disagreed || !best.found() ? BvhIntersector{*scene}.closest_hit(ray) : best;
+    }
+    /// Misses are not looked at again: they are what most shadow rays are for, and one in millions matters to none.
+    bool occluded() const {
+        return best.found() || (disagreed && BvhIntersector{*scene}.occluded(ray));
     }
 };
 static_assert(std::is_standard_layout_v<Query>);
@@ -160,7 +174,7 @@ void EmbreeIntersector::find_closest(RayBatch& batch, std::uint32_t count) const
 #else
         rtcIntersect1(handles_->scene, &query.context, &embree);
 #endif
-        batch.set_hit(i, query.best);
+        batch.set_hit(i, query.closest());
     }
 }
 
@@ -176,7 +190,7 @@ void EmbreeIntersector::find_occluded(RayBatch& batch, std::uint32_t count) cons
 #else
         rtcOccluded1(handles_->scene, &query.context, &embree);
 #endif
-        batch.set_occluded(i, query.best.found());
+        batch.set_occluded(i, query.occluded());
     }
 }
 

@@ -10,10 +10,10 @@
 namespace pl {
 
 /// Satisfies BatchIntersector. Every candidate that Embree offers is confirmed or refused by intersect_triangle, so
-/// distances and barycentric weights are ours bit for bit, and source and target are excluded by number. What remains
-/// Embree's is which triangles it offers: where two surfaces lie within rounding of each other it may settle for the
-/// one that our test would place second, and a ray that grazes the silhouette edge of an open mesh may be offered
-/// nothing where our test would hit, because the two round differently.
+/// distances and barycentric weights are ours bit for bit, and source and target are excluded by number; a ray for
+/// which ours refuses a candidate goes through our own hierarchy instead. What remains Embree's is which candidates it
+/// offers: where two surfaces lie within rounding of each other it may settle for the one that our test places second,
+/// and a ray within rounding of an edge may be offered nothing of a triangle that ours would hit.
 class EmbreeIntersector {
 public:
     /// Builds the hierarchy on `threads` threads. The scene's arrays must stay as long as this lives.
