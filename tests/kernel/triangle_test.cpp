@@ -74,6 +74,27 @@ TEST_CASE("Edge functions are antisymmetric on a grid around a degenerate point"
     CHECK(negative == positive);
 }
 
+// A ray along z from the origin sees corners as they are. Where the float products of an edge cancel to 0 although the
+// origin lies outside by less than rounding, the exact products must refuse the hit, and the neighbour must take it.
+TEST_CASE("Edges that rounding cannot decide are decided exactly") {
+    Uniforms random(7);
+    int undecided = 0;
+    for (int i = 0; i < 4000000 && undecided < 200; ++i) {
+        const Vec3f a{random.between(0.5f, 1), random.between(0.5f, 1), 1};
+        const float back = -random.between(0.5f, 1);
+        const Vec3f b{a.x * back, a.y * back, 1};
+        const Corner p{a.x, a.y, 1}, q{b.x, b.y, 1};
+        const float exact = exact_edge_function(p, q);
+        if (edge_function(p, q) != 0.0f || exact == 0.0f)
+            continue;
+        ++undecided;
+        const bool left = hit_of({}, a, b, {-3, 3, 1}).found();
+        const bool right = hit_of({}, a, b, {3, -3, 1}).found();
+        REQUIRE(left != right);
+    }
+    CHECK(undecided == 200);
+}
+
 TEST_CASE("Both sides are hit alike and barycentric weights give the point") {
     Uniforms random(2);
     int hits = 0;
