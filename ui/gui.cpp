@@ -14,6 +14,7 @@ Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr; // the layout follows from the window's size: nothing to remember
     io.LogFilename = nullptr;
+    io.UserData = &pointer_rest_seconds_;
     if (!init_imgui_platform(display.window(), display.renderer())) {
         ImGui::DestroyContext();
         throw Error(ErrorKind::Unavailable, "cannot connect the user interface to the window");
@@ -52,6 +53,8 @@ void Gui::frame(double delta_seconds, const std::function<void()>& build) {
     io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     io.DisplayFramebufferScale = {1.0f, 1.0f};
     ImGui::NewFrame();
+    const bool moves = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f;
+    pointer_rest_seconds_ = moves ? 0.0f : pointer_rest_seconds_ + io.DeltaTime;
     build();
     ImGui::Render();
 }

@@ -6,10 +6,14 @@
 namespace pl {
 namespace {
 
+// In multiples of the font's height. Panels give way to the picture, but only as far as their text fits.
 constexpr float kLeftEm = 18.0f;
 constexpr float kRightEm = 25.0f;
-constexpr float kBarEm = 1.75f;     ///< height of menu and status bar
-constexpr float kMinViewEm = 26.0f; ///< of the picture between the panels
+constexpr float kSmallestLeftEm = 16.0f;
+constexpr float kSmallestRightEm = 18.0f;
+constexpr float kGoodViewEm = 36.0f;
+constexpr float kSmallestViewEm = 18.0f;
+constexpr float kBarEm = 1.75f; ///< height of menu and status bar
 /// A picture that fills more of the view than this is not stretched to fill all of it: stretching blurs.
 constexpr float kNearlyFull = 0.95f;
 
@@ -19,19 +23,27 @@ Layout make_layout(float width, float height, float em, bool panels) {
     Layout layout;
     layout.panels = panels;
     layout.view = {0.0f, 0.0f, width, height};
+    layout.clear = layout.view;
     if (!panels)
         return layout;
 
     const float bar = std::round(kBarEm * em);
     const float middle = std::max(height - 2.0f * bar, 1.0f);
-    const float left = std::min(std::round(kLeftEm * em), 0.45f * width);
-    const float right = std::min(std::round(kRightEm * em), 0.45f * width);
+    const float spare = width - (kSmallestLeftEm + kSmallestRightEm + kGoodViewEm) * em;
+    const float right =
+        std::round(std::clamp(kSmallestRightEm * em + spare, kSmallestRightEm * em, kRightEm * em));
+    const float rest = spare - (right - kSmallestRightEm * em);
+    const float left =
+        std::round(std::clamp(kSmallestLeftEm * em + rest, kSmallestLeftEm * em, kLeftEm * em));
     layout.menu = {0.0f, 0.0f, width, bar};
     layout.status = {0.0f, height - bar, width, bar};
-    layout.left = {0.0f, bar, left, middle};
-    layout.right = {width - right, bar, right, middle};
-    const bool floating = width - left - right < kMinViewEm * em;
-    layout.view = floating ? Rect{0.0f, bar, width, middle} : Rect{left, bar, width - left - right, middle};
+    const float left_shown = std::min(left, 0.5f * width);
+    const float right_shown = std::min(right, 0.5f * width);
+    layout.left = {0.0f, bar, left_shown, middle};
+    layout.right = {width - right_shown, bar, right_shown, middle};
+    layout.clear = {left_shown, bar, width - left_shown - right_shown, middle};
+    const bool floating = layout.clear.width < kSmallestViewEm * em;
+    layout.view = floating ? Rect{0.0f, bar, width, middle} : layout.clear;
     return layout;
 }
 

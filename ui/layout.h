@@ -10,7 +10,8 @@ struct Layout {
     Rect left;  ///< settings
     Rect right; ///< what is known about the picture
     Rect status;
-    Rect view; ///< what the picture may use
+    Rect view;  ///< what the picture may use
+    Rect clear; ///< the part of it that no panel covers
     bool panels = true;
 };
 

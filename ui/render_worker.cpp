@@ -15,9 +15,11 @@ double now_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// The window comes first where cores are few. Threads that the back end starts inherit this.
+/// The window comes first where cores are few. On Linux this is about the calling thread, and threads that the back
+/// end starts from it inherit it.
 void yield_to_the_window() {
-    (void)setpriority(PRIO_PROCESS, 0, 5);
+    constexpr int kNice = 3;
+    (void)setpriority(PRIO_PROCESS, 0, kNice);
 }
 
 /// Seconds between two pictures: the longer it has rendered, the less a pass changes.
@@ -83,7 +85,6 @@ RenderWorker::~RenderWorker() {
 
 std::uint64_t RenderWorker::submit(SessionEdit edit) {
     const std::lock_guard lock(mutex_);
-    // A pass in motion is short and always finished: otherwise a hand that never rests would never see a picture.
     if (pass_may_be_cut_)
         stop_ = true;
     edits_.push(std::move(edit));
@@ -212,9 +213,13 @@ bool RenderWorker::take_wishes() {
         wishes_.pick.reset();
         wishes_.steps = 0;
         stop_ = false;
-        pass_may_be_cut_ = !now_.moving;
     }
     apply_edits(std::move(edits));
+    const std::lock_guard lock(mutex_);
+    // A pass in motion is short and always finished: otherwise a hand that never rests would never see a picture.
+    pass_may_be_cut_ = !coarse();
+    if (pass_may_be_cut_ && !edits_.empty())
+        stop_ = true; // came while nobody had decided
     return true;
 }
 
@@ -223,7 +228,7 @@ bool RenderWorker::has_work() const {
         return true;
     if (failed_)
         return false;
-    const bool size_is_stale = divider_ != 1 && !now_.moving;
+    const bool size_is_stale = divider_ != 1 && !coarse();
     return size_is_stale || wants_pass() || republish_ || inspection_stale_ ||
            now_.volume != (inspection_ ? inspection_->volume : kNoVolume) ||
            (now_.cells && cells_pose_ != pose_);
@@ -235,6 +240,7 @@ void RenderWorker::apply_edits(std::vector<SessionEdit> edits) {
         try {
             if (changes_pose(edit))
                 ++pose_;
+            pose_unseen_ = pose_unseen_ || std::holds_alternative<EditCamera>(edit);
             inspection_stale_ = true;
             republish_ = true;
             if (const auto* scene = std::get_if<EditScene>(&edit)) {
@@ -267,7 +273,7 @@ void RenderWorker::apply_size(int divider) {
 }
 
 void RenderWorker::work() {
-    apply_size(now_.moving && now_.low_resolution ? motion_.divider_for(full_width_, full_height_) : 1);
+    apply_size(coarse() ? motion_.divider_for(full_width_, full_height_) : 1);
     if (now_.pick)
         answer_pick(*now_.pick);
     if (wants_pass())
@@ -281,6 +287,11 @@ void RenderWorker::work() {
         publish();
 }
 
+/// While the camera moves, and until the last place it came to was seen at all.
+bool RenderWorker::coarse() const {
+    return now_.low_resolution && (now_.moving || pose_unseen_);
+}
+
 bool RenderWorker::wants_pass() const {
     if (failed_)
         return false;
@@ -291,7 +302,7 @@ bool RenderWorker::wants_pass() const {
 }
 
 bool RenderWorker::limit_reached() const {
-    if (now_.moving)
+    if (coarse())
         return false;
     const SampleLimits& limits = now_.limits;
     if (limits.spp > 0 && session_->passes() >= limits.spp)
@@ -305,8 +316,7 @@ void RenderWorker::render() {
     if (progress == Progress::Rendered) {
         if (session_->passes() == 1)
             republish_ = true;
-        if (!now_.moving || now_.low_resolution)
-            motion_.observe(divider_, now_seconds() - start);
+        motion_.observe(divider_, now_seconds() - start);
     }
     update_status();
     if (now_.steps > 0 || limit_reached() || now_.paused)
@@ -386,6 +396,7 @@ void RenderWorker::publish() {
     frame->cells = cells_pose_ == pose_ && now_.cells ? cells_ : nullptr;
     frame->volume = inspection_;
     republish_ = false;
+    pose_unseen_ = false;
     published_at_ = now_seconds();
     published_passes_ = frame->snapshot.passes;
     const std::lock_guard lock(mutex_);

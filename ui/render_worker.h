@@ -85,6 +85,7 @@ private:
     void publish();
     bool publish_is_due() const;
     bool limit_reached() const;
+    bool coarse() const;
     bool wants_pass() const;
     WorkerStatus make_status() const;
     void update_status();
@@ -121,7 +122,8 @@ private:
     ToneTable cell_table_{ToneCurve::Clamp};
     std::shared_ptr<const VolumeInspection> inspection_;
     bool inspection_stale_ = false;
-    bool republish_ = false; ///< the published frame lacks something that is there now
+    bool pose_unseen_ = false; ///< the camera went to a place that no frame shows yet
+    bool republish_ = false;   ///< the published frame lacks something that is there now
     bool failed_ = false;
     double inspected_at_ = 0.0;
     double published_at_ = 0.0;

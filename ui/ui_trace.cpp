@@ -48,13 +48,16 @@ void UiTrace::camera_moved(double seconds, std::uint64_t generation) {
     last_move_ = seconds;
 }
 
-void UiTrace::frame_shown(double seconds, double work, double interval, std::uint64_t generation) {
-    work_ms_.push_back(1000.0 * work);
-    if (interval >= 0.0)
-        interval_ms_.push_back(1000.0 * interval);
-    file_ << fmt::format(R"({{"event":"frame","frame":{},"t":{:.6f},"work_ms":{:.3f},"interval_ms":{:.3f})",
-                         frames_++, seconds, 1000.0 * work, 1000.0 * interval)
-          << "}\n";
+void UiTrace::frame_shown(double seconds, const FrameTimes& times, std::uint64_t generation) {
+    work_ms_.push_back(1000.0 * times.work);
+    cpu_ms_.push_back(1000.0 * times.cpu);
+    if (times.interval >= 0.0)
+        interval_ms_.push_back(1000.0 * times.interval);
+    file_
+        << fmt::format(
+               R"({{"event":"frame","frame":{},"t":{:.6f},"work_ms":{:.3f},"cpu_ms":{:.3f},"interval_ms":{:.3f})",
+               frames_++, seconds, 1000.0 * times.work, 1000.0 * times.cpu, 1000.0 * times.interval)
+        << "}\n";
     std::erase_if(waiting_, [&](const Move& move) {
         if (move.generation > generation)
             return false;
@@ -70,13 +73,15 @@ void UiTrace::frame_shown(double seconds, double work, double interval, std::uin
 }
 
 std::string UiTrace::finish() {
-    file_ << fmt::format(
-                 R"({{"event":"summary","work_ms":{},"interval_ms":{},"first_picture_ms":{},"picture_ms":{})",
-                 statistics(work_ms_), statistics(interval_ms_), statistics(first_picture_ms_),
-                 statistics(picture_ms_))
-          << "}\n";
+    file_
+        << fmt::format(
+               R"({{"event":"summary","work_ms":{},"cpu_ms":{},"interval_ms":{},"first_picture_ms":{},"picture_ms":{})",
+               statistics(work_ms_), statistics(cpu_ms_), statistics(interval_ms_),
+               statistics(first_picture_ms_), statistics(picture_ms_))
+        << "}\n";
     file_.flush();
-    return line_of("UI frame, work", work_ms_) + line_of("UI frame to frame", interval_ms_) +
+    return line_of("UI frame, work", work_ms_) + line_of("UI frame, computing", cpu_ms_) +
+           line_of("UI frame to frame", interval_ms_) +
            line_of("first picture after a rest", first_picture_ms_) +
            line_of("input to picture", picture_ms_);
 }

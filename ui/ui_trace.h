@@ -24,9 +24,14 @@ public:
     /// The camera was moved now; pictures of at least this generation show it.
     void camera_moved(double seconds, std::uint64_t generation);
 
-    /// A frame was shown. `work` is the time the window's thread spent on it, `interval` since the last one (negative
-    /// if it rested in between), `generation` that of the picture in it.
-    void frame_shown(double seconds, double work, double interval, std::uint64_t generation);
+    /// What one frame of the window took, in seconds.
+    struct FrameTimes {
+        double work;     ///< from its first event to its presentation, by the clock
+        double cpu;      ///< of that, what the window's thread computed
+        double interval; ///< since the frame before; negative if the window rested in between
+    };
+    /// A frame was shown; `generation` is that of the picture in it.
+    void frame_shown(double seconds, const FrameTimes& times, std::uint64_t generation);
 
     /// The percentiles, also as the last line of the file.
     std::string finish();
@@ -41,6 +46,7 @@ private:
     std::ofstream file_;
     std::vector<Move> waiting_;
     std::vector<double> work_ms_;
+    std::vector<double> cpu_ms_;
     std::vector<double> interval_ms_;
     std::vector<double> first_picture_ms_; ///< moves after a rest
     std::vector<double> picture_ms_;       ///< all moves

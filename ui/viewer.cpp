@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include <time.h>
+
 #include <SDL.h>
 
 #include "core/base/error.h"
@@ -21,11 +23,19 @@ namespace {
 constexpr double kFrameSeconds = 1.0 / 60.0;
 constexpr int kIdleWaitMs = 250;       ///< nothing changes: only look now and then
 constexpr double kStatusSeconds = 0.1; ///< while rendering: counters move although no new picture is there
-constexpr int kSettleFrames = 3;       ///< after an event the panels need a few frames to come to rest
+constexpr double kSettleSeconds = 0.6; ///< after an event: panels come to rest, tooltips appear
+constexpr double kIdleSeconds = 1.0;   ///< between two frames that show nothing new
 constexpr double kLongestDelta = 0.1;
 
 double steady_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Processor time of the calling thread.
+double thread_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1.0e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /// A window, its panels and the model behind them.
@@ -61,7 +71,8 @@ private:
     double last_shown_ = -1.0;
     std::uint64_t shown_frames_ = 0; ///< of the render thread
     std::uint64_t traced_camera_ = 0;
-    int settle_ = kSettleFrames;
+    double settle_until_ = 0.0; ///< until then every frame is drawn
+    bool idle_ = false;
     bool rested_ = true;
     bool hidden_ = false;
     std::string title_;
@@ -111,6 +122,7 @@ void Viewer::run() {
     while (!model_.window().quit_asked) {
         wait_for_events();
         const double now = steady_seconds();
+        const double cpu_start = thread_seconds();
         const double delta =
             script_ ? ScriptPlayer::kFrameSeconds : std::min(now - last_frame_, kLongestDelta);
         if (script_)
@@ -130,7 +142,8 @@ void Viewer::run() {
         show();
         const double end = steady_seconds();
         if (trace_)
-            trace_->frame_shown(end - start_, end - now, rested_ ? -1.0 : end - last_shown_,
+            trace_->frame_shown(end - start_,
+                                {end - now, thread_seconds() - cpu_start, rested_ ? -1.0 : end - last_shown_},
                                 model_.frame() != nullptr ? model_.frame()->generation : 0);
         last_shown_ = end;
         rested_ = false;
@@ -142,9 +155,9 @@ void Viewer::wait_for_events() {
     const WorkerState state = model_.status().state;
     const bool at_rest =
         (state == WorkerState::Paused || state == WorkerState::Done) && model_.toasts().empty();
-    const bool idle = !script_ && settle_ == 0 && !input_.active() && !model_.moving() && !model_.busy() &&
-                      (at_rest || hidden_);
-    if (idle) {
+    idle_ = !script_ && steady_seconds() > settle_until_ && !input_.active() && !model_.moving() &&
+            !model_.busy() && (at_rest || hidden_);
+    if (idle_) {
         rested_ = true;
         SDL_WaitEventTimeout(nullptr, kIdleWaitMs);
         return;
@@ -159,7 +172,7 @@ void Viewer::wait_for_events() {
 }
 
 void Viewer::dispatch(const SDL_Event& event) {
-    settle_ = kSettleFrames;
+    settle_until_ = steady_seconds() + kSettleSeconds;
     if (event.type == SDL_WINDOWEVENT) {
         if (event.window.event == SDL_WINDOWEVENT_MINIMIZED || event.window.event == SDL_WINDOWEVENT_HIDDEN)
             hidden_ = true;
@@ -167,8 +180,11 @@ void Viewer::dispatch(const SDL_Event& event) {
             event.window.event == SDL_WINDOWEVENT_EXPOSED)
             hidden_ = false;
     }
-    gui_.handle(event);
     const ImGuiIO& io = ImGui::GetIO();
+    // Tab goes from field to field only while one is being typed in; else it hides the panels.
+    const bool is_tab = event.type == SDL_KEYDOWN && event.key.keysym.scancode == SDL_SCANCODE_TAB;
+    if (!is_tab || io.WantTextInput)
+        gui_.handle(event);
     input_.handle(event, model_,
                   {image_, layout_.view, io.WantCaptureMouse, io.WantTextInput, steady_seconds() - start_});
 }
@@ -187,11 +203,9 @@ bool Viewer::needs_redraw(double now) {
     const std::uint64_t frames = model_.frame() != nullptr ? model_.frame()->serial : 0;
     const bool new_picture = frames != shown_frames_;
     shown_frames_ = frames;
-    const bool redraw = script_ || new_picture || settle_ > 0 || input_.active() ||
-                        !model_.toasts().empty() || now - last_shown_ >= kStatusSeconds;
-    if (settle_ > 0)
-        --settle_;
-    return redraw;
+    const double longest = idle_ ? kIdleSeconds : kStatusSeconds;
+    return script_ || new_picture || now < settle_until_ || input_.active() || !model_.toasts().empty() ||
+           now - last_shown_ >= longest;
 }
 
 void Viewer::build_panels() {

@@ -40,8 +40,8 @@ struct WindowState {
     bool low_resolution = true; ///< allowed while the camera moves
     float ui_scale = 1.0f;
     CellQuantity quantity = CellQuantity::Radiance;
-    ColorScale scale = ColorScale::Linear;
-    int hovered_cell = -1; ///< of the selected volume's disk
+    ColorScale scale = ColorScale::Logarithmic; ///< a lamp is brighter than all the rest together
+    int hovered_cell = -1;                      ///< of the selected volume's disk
     double speed_shown_until = 0.0;
     bool full_screen_asked = false;
     bool window_shot_asked = false;

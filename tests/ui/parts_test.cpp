@@ -84,13 +84,21 @@ TEST_CASE("Layout: panels, picture and bars fill the window without overlap") {
     CHECK(bare.left.width == 0.0f);
 }
 
-TEST_CASE("Layout: in a narrow window the panels float over the picture") {
-    const Layout layout = make_layout(1000.0f, 700.0f, 16.0f, true);
-    CHECK(layout.view.width == 1000.0f);
-    CHECK(layout.left.width + layout.right.width <= 1000.0f);
-    const Layout tiny = make_layout(100.0f, 20.0f, 16.0f, true);
-    CHECK(tiny.left.height >= 1.0f);
-    CHECK(tiny.left.width + tiny.right.width <= 100.0f);
+TEST_CASE("Layout: in a narrow window the panels shrink, then float over the picture") {
+    const Layout narrow = make_layout(1024.0f, 700.0f, 16.0f, true);
+    CHECK(narrow.left.width < 18.0f * 16.0f);
+    CHECK(narrow.right.width < 25.0f * 16.0f);
+    CHECK(narrow.view.width > 400.0f);
+    CHECK(narrow.view.width == narrow.clear.width);
+    const Layout floating = make_layout(800.0f, 600.0f, 16.0f, true);
+    CHECK(floating.view.width == 800.0f);
+    CHECK(floating.clear.width < 800.0f);
+    for (const float width : {1.0f, 100.0f, 400.0f, 640.0f}) {
+        const Layout tiny = make_layout(width, 20.0f, 16.0f, true);
+        CHECK(tiny.left.height >= 1.0f);
+        CHECK(tiny.left.width + tiny.right.width <= width);
+        CHECK(tiny.clear.width >= 0.0f);
+    }
 }
 
 TEST_CASE("Layout: the picture keeps its shape, and is shown pixel by pixel where it nearly fits") {
@@ -136,10 +144,10 @@ TEST_CASE("UI trace: percentiles interpolate, latencies run from a move to the p
     const std::filesystem::path path = std::filesystem::temp_directory_path() / "pathlight-trace-test.jsonl";
     UiTrace trace(path);
     trace.camera_moved(1.0, 5);
-    trace.camera_moved(1.1, 6);              // same motion
-    trace.frame_shown(1.02, 0.004, -1.0, 4); // does not show them yet
-    trace.frame_shown(1.05, 0.004, 0.016, 5);
-    trace.frame_shown(1.20, 0.006, 0.016, 7);
+    trace.camera_moved(1.1, 6);                       // same motion
+    trace.frame_shown(1.02, {0.004, 0.003, -1.0}, 4); // does not show them yet
+    trace.frame_shown(1.05, {0.004, 0.003, 0.016}, 5);
+    trace.frame_shown(1.20, {0.006, 0.003, 0.016}, 7);
     const std::string summary = trace.finish();
     CHECK_THAT(summary, test::contains("first picture after a rest   p50   50.00 ms"));
     CHECK_THAT(summary, test::contains("input to picture             p50   75.00 ms"));

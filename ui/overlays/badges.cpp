@@ -43,6 +43,8 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
         row.add(fmt::format("{}  {} spp", info_of(view).label, snapshot.passes), colors::kText);
     if (view == View::RadianceMap)
         row.add("radiance map: biased preview", colors::kWarning);
+    if (view == View::RadianceMap && !info_of(snapshot.slot.method).uses_field)
+        row.add("learned by Reinforcement: 3 learns on", colors::kWarning);
     if (view == View::Depth)
         row.add(fmt::format("black 0, white {:.4g}", frame.diagonal), colors::kText);
     if (frame.divider > 1)
@@ -50,12 +52,10 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
 }
 
 void draw_precompute_progress(ViewerModel& model, const Layout& layout, double share) {
-    const Vec2f center = layout.view.center();
-    const float width = std::min(em(24.0f), layout.view.width - em(2.0f));
-    begin_fixed_window(
-        "precompute",
-        {center.x - 0.5f * width, layout.view.y + layout.view.height - em(7.0f), width, em(5.2f)},
-        ImGuiWindowFlags_NoScrollbar);
+    const Vec2f center = layout.clear.center();
+    const float width = std::min(em(24.0f), layout.clear.width - em(1.0f));
+    // Height 0: as high as its content.
+    begin_fixed_window("precompute", {center.x - 0.5f * width, center.y - em(2.0f), width, 0.0f});
     ImGui::Text("Precomputing the radiance map");
     const float button = em(5.0f);
     ImGui::ProgressBar(static_cast<float>(share),
@@ -71,7 +71,7 @@ void draw_precompute_progress(ViewerModel& model, const Layout& layout, double s
 } // namespace
 
 void draw_badges(ViewerModel& model, const Layout& layout) {
-    const Rect& view = layout.view;
+    const Rect& view = layout.clear;
     BadgeRow row({view.x + em(0.6f), view.y + em(0.6f)}, view.x + view.width - em(0.6f));
     if (model.frame() != nullptr)
         add_picture_badges(row, *model.frame());

@@ -65,18 +65,6 @@ std::vector<CellFan> make_cell_fans(int side) {
     return fans;
 }
 
-const char* name_of(CellQuantity quantity) {
-    switch (quantity) {
-    case CellQuantity::Radiance:
-        return "radiance Q";
-    case CellQuantity::Probability:
-        return "probability P";
-    case CellQuantity::Visits:
-        return "visits";
-    }
-    return "";
-}
-
 CellValues cell_values(const VolumeInspection& volume, CellQuantity quantity, ColorScale scale) {
     CellValues result;
     const auto count = static_cast<std::size_t>(volume.side) * static_cast<std::size_t>(volume.side);

@@ -26,8 +26,6 @@ inline Vec3f lift_to_hemisphere(Vec2f disk) {
 enum class CellQuantity { Radiance, Probability, Visits };
 enum class ColorScale { Linear, Logarithmic };
 
-const char* name_of(CellQuantity quantity);
-
 /// Values of all cells and where they lie between the two ends of the legend.
 struct CellValues {
     std::vector<float> values;

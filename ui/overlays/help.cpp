@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "ui/actions.h"
 #include "ui/overlays/overlays.h"
 
@@ -6,7 +8,15 @@ namespace {
 
 constexpr float kKeysEm = 7.5f;
 
+/// A key as a cap, so that a comma can be seen.
 void draw_line(const char* keys, const char* text) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = std::max(ImGui::CalcTextSize(keys).x + em(0.6f), em(1.3f));
+    const float height = ImGui::GetTextLineHeight();
+    ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y - 1.0f},
+                                              {corner.x + width, corner.y + height + 1.0f},
+                                              IM_COL32(50, 57, 70, 255), em(0.2f));
+    ImGui::SetCursorScreenPos({corner.x + 0.5f * (width - ImGui::CalcTextSize(keys).x), corner.y});
     ImGui::TextColored(to_vec4(colors::kAccent), "%s", keys);
     ImGui::SameLine(em(kKeysEm));
     ImGui::TextUnformatted(text);

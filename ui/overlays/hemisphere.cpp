@@ -62,8 +62,15 @@ void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32
         list.PrimWriteIdx(static_cast<ImDrawIdx>(first + static_cast<unsigned int>(i)));
         list.PrimWriteIdx(static_cast<ImDrawIdx>(first + static_cast<unsigned int>(next)));
     }
-    for (const ImVec2& point : center_and_border)
-        list.PrimWriteVtx(point, uv, color);
+    // Half a pixel larger than asked for: software renderers leave pinholes where triangles meet.
+    constexpr float kOverlap = 0.5f;
+    const ImVec2 center = center_and_border[0];
+    for (const ImVec2& point : center_and_border) {
+        const Vec2f out{point.x - center.x, point.y - center.y};
+        const float length = glm::length(out);
+        const float scale = length > 0.0f ? 1.0f + kOverlap / length : 1.0f;
+        list.PrimWriteVtx({center.x + scale * out.x, center.y + scale * out.y}, uv, color);
+    }
 }
 
 void draw_hemisphere(const ViewerModel& model, const Rect& image) {

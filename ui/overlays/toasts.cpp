@@ -35,7 +35,7 @@ float draw_toast(ImDrawList& list, ImVec2 corner, float max_width, LogLevel leve
 } // namespace
 
 void draw_toasts(const ViewerModel& model, const Layout& layout) {
-    const Rect& view = layout.view;
+    const Rect& view = layout.clear;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImVec2 corner{view.x + em(0.6f), view.y + view.height - em(0.6f)};
     const float width = std::min(view.width - em(1.2f), em(34.0f));

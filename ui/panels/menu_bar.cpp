@@ -1,3 +1,5 @@
+#include <cctype>
+
 #include "ui/actions.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/widgets.h"
@@ -12,7 +14,9 @@ void draw_group(ViewerModel& model, ActionGroup group) {
     for (const Action& action : all_actions()) {
         if (action.group != group || action.is_held)
             continue;
-        if (ImGui::MenuItem(action.text, action.keys))
+        std::string label = action.text;
+        label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+        if (ImGui::MenuItem(label.c_str(), action.keys))
             perform(model, action.id);
     }
     ImGui::EndMenu();

@@ -43,11 +43,12 @@ void draw_back_end(const ViewerModel& model) {
 }
 
 void draw_size(ViewerModel& model) {
-    int size[2] = {model.settings().width, model.settings().height};
-    begin_row("Size", "Width and height of the picture in pixels. Resizing the window does not change them.");
-    ImGui::InputInt2("##Size", size);
-    if (ImGui::IsItemDeactivatedAfterEdit())
-        model.set_size(std::clamp(size[0], 16, 8192), std::clamp(size[1], 16, 8192));
+    int width = model.settings().width;
+    int height = model.settings().height;
+    if (size_row("Size",
+                 "Width and height of the picture in pixels. Resizing the window does not change them.",
+                 &width, &height))
+        model.set_size(std::clamp(width, 16, 8192), std::clamp(height, 16, 8192));
     if (wide_button("Fit size to window",
                     "As many pixels as the window has room for, in the shape of the picture."))
         model.window().fit_size_asked = true;
@@ -138,13 +139,9 @@ void draw_camera(ViewerModel& model) {
     if (!section("Camera", false))
         return;
     CameraDescription camera = model.controls().camera();
-    begin_row("Eye", "Position in scene units.");
-    ImGui::InputFloat3("##Eye", &camera.eye.x, "%.4g");
-    if (ImGui::IsItemDeactivatedAfterEdit())
+    if (point_row("Eye", "Position in scene units.", &camera.eye.x))
         model.set_camera(camera);
-    begin_row("Target", "Point that the camera looks at.");
-    ImGui::InputFloat3("##Target", &camera.target.x, "%.4g");
-    if (ImGui::IsItemDeactivatedAfterEdit())
+    if (point_row("Target", "Point that the camera looks at.", &camera.target.x))
         model.set_camera(camera);
     if (slider_row("View angle", "Vertical field of view in degrees.", &camera.fov_deg, 5.0f, 120.0f,
                    model.options().settings.camera.fov_deg, "%.1f\xc2\xb0"))

@@ -11,7 +11,7 @@
 namespace pl {
 namespace {
 
-constexpr float kLegendEm = 5.5f;
+constexpr float kLegendEm = 5.8f;
 
 /// The unit disk in the window: x to the right, y up.
 struct DiskPlace {
@@ -25,14 +25,16 @@ struct DiskPlace {
 };
 
 void draw_choices(WindowState& window) {
-    for (const CellQuantity quantity :
-         {CellQuantity::Radiance, CellQuantity::Probability, CellQuantity::Visits}) {
-        if (ImGui::RadioButton(name_of(quantity), window.quantity == quantity))
-            window.quantity = quantity;
-        ImGui::SameLine();
-    }
+    int quantity = static_cast<int>(window.quantity);
+    ImGui::SetNextItemWidth(em(8.5f));
+    if (ImGui::Combo("##quantity", &quantity, "radiance Q\0probability P\0visits\0"))
+        window.quantity = static_cast<CellQuantity>(quantity);
+    tooltip("Q: light learned to arrive from a direction. P: how often the table chooses it. Visits: how "
+            "often it was "
+            "recorded.");
+    ImGui::SameLine();
     bool logarithmic = window.scale == ColorScale::Logarithmic;
-    if (ImGui::Checkbox("log", &logarithmic))
+    if (ImGui::Checkbox("logarithmic", &logarithmic))
         window.scale = logarithmic ? ColorScale::Logarithmic : ColorScale::Linear;
     tooltip("Colors by the logarithm, over three decades below the largest value.");
 }
@@ -53,7 +55,7 @@ void draw_legend(ImDrawList& list, const DiskPlace& place, const CellValues& val
         const float t = static_cast<float>(tick) / 4.0f;
         const float y = top + height * (1.0f - t);
         list.AddLine({x + width, y}, {x + width + em(0.25f), y}, colors::kFaint);
-        const std::string text = fmt::format("{:.3g}", value_at(values, scale, t));
+        const std::string text = short_value(value_at(values, scale, t));
         const float text_y =
             std::clamp(y - 0.5f * ImGui::GetFontSize(), top, top + height - ImGui::GetFontSize());
         list.AddText({x + width + em(0.4f), text_y}, colors::kText, text.c_str());
@@ -70,10 +72,10 @@ void draw_cell_tooltip(const VolumeInspection& volume, int cell, Vec2f disk) {
     ImGui::Text("%.0f\xc2\xb0 from the normal, %.0f\xc2\xb0 around it", std::acos(direction.z) * kToDeg,
                 std::atan2(direction.y, direction.x) * kToDeg);
     ImGui::Separator();
-    ImGui::Text("radiance Q     %.4g", volume.radiance[index]);
-    ImGui::Text("probability P  %.4g  (%.2f x uniform)", volume.probability[index],
-                volume.probability[index] * cells);
-    ImGui::Text("visits         %u", volume.visits[index]);
+    text_row("radiance Q", fmt::format("{:.4g}", volume.radiance[index]));
+    text_row("probability P", fmt::format("{:.4g}", volume.probability[index]));
+    text_row("P / uniform", fmt::format("{:.3f}", volume.probability[index] * cells));
+    text_row("visits", fmt::format("{}", volume.visits[index]));
     ImGui::EndTooltip();
 }
 

@@ -1,5 +1,7 @@
 #include "ui/panels/widgets.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,40 +16,52 @@ std::string hidden_label(const char* label) {
 }
 
 /// Keeps what is typed aside until the field is left: half a number must not place volumes anew.
-class EditedNumber {
+template <std::size_t N>
+class EditedNumbers {
 public:
-    EditedNumber(const char* label, double value)
-        : storage_(*ImGui::GetStateStorage()), number_id_(ImGui::GetID(label)), flag_id_(number_id_ + 1),
-          value_(value) {}
+    EditedNumbers(const char* label, const std::array<float, N>& now)
+        : storage_(*ImGui::GetStateStorage()), flag_(ImGui::GetID(label)), now_(now) {}
 
-    double value() const { return pending() ? static_cast<double>(storage_.GetFloat(number_id_)) : value_; }
+    /// What the control shows.
+    std::array<float, N> shown() const {
+        if (!storage_.GetBool(flag_))
+            return now_;
+        std::array<float, N> values;
+        for (std::size_t i = 0; i < N; ++i)
+            values[i] = storage_.GetFloat(key(i));
+        return values;
+    }
 
-    /// After the control was drawn. True when `number` is complete and new.
-    bool finish(bool changed, double number) {
+    /// After the control was drawn. True when the numbers are complete and new.
+    bool finish(bool changed, const std::array<float, N>& values) {
         if (changed) {
-            storage_.SetFloat(number_id_, static_cast<float>(number));
-            storage_.SetBool(flag_id_, true);
+            for (std::size_t i = 0; i < N; ++i)
+                storage_.SetFloat(key(i), values[i]);
+            storage_.SetBool(flag_, true);
             return false;
         }
-        if (!pending() || ImGui::IsItemActive())
+        if (!storage_.GetBool(flag_) || ImGui::IsItemActive())
             return false;
-        storage_.SetBool(flag_id_, false);
-        return number != value_;
+        storage_.SetBool(flag_, false);
+        return values != now_;
     }
 
 private:
-    bool pending() const { return storage_.GetBool(flag_id_); }
+    ImGuiID key(std::size_t i) const { return flag_ + 1 + static_cast<ImGuiID>(i); }
 
     ImGuiStorage& storage_;
-    ImGuiID number_id_;
-    ImGuiID flag_id_;
-    double value_;
+    ImGuiID flag_;
+    std::array<float, N> now_;
 };
 
 } // namespace
 
 void tooltip(const char* text) {
-    if (text == nullptr || *text == '\0' || !ImGui::IsItemHovered())
+    constexpr float kRestSeconds =
+        0.4f; // a pointer on its way somewhere else should not be followed by boxes
+    const auto* rest = static_cast<const float*>(ImGui::GetIO().UserData);
+    if (*text == '\0' || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
+        *rest < kRestSeconds)
         return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(em(22.0f));
@@ -69,7 +83,12 @@ void text_row(const char* label, const std::string& value, const char* tip, ImU3
     tooltip(tip);
     ImGui::SameLine(em(kLabelEm));
     ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextWrapped("%s", value.c_str());
+    // A tooltip has no width of its own that text could wrap at.
+    const bool wraps = ImGui::GetContentRegionAvail().x > em(3.0f);
+    if (wraps)
+        ImGui::TextWrapped("%s", value.c_str());
+    else
+        ImGui::TextUnformatted(value.c_str());
     ImGui::PopStyleColor();
     tooltip(tip);
 }
@@ -102,11 +121,11 @@ bool toggle_row(const char* label, const char* tip, bool* value) {
 
 bool int_row(const char* label, const char* tip, int* value, int step) {
     begin_row(label, tip);
-    EditedNumber edited(label, static_cast<double>(*value));
-    int number = static_cast<int>(std::lround(edited.value()));
+    EditedNumbers<1> edited(label, {static_cast<float>(*value)});
+    int number = static_cast<int>(edited.shown()[0]);
     const bool changed = ImGui::InputInt(hidden_label(label).c_str(), &number, step, 10 * step);
     tooltip(tip);
-    if (!edited.finish(changed, static_cast<double>(number)))
+    if (!edited.finish(changed, {static_cast<float>(number)}))
         return false;
     *value = number;
     return true;
@@ -114,13 +133,39 @@ bool int_row(const char* label, const char* tip, int* value, int step) {
 
 bool double_row(const char* label, const char* tip, double* value, double step, const char* format) {
     begin_row(label, tip);
-    EditedNumber edited(label, *value);
-    double number = edited.value();
+    EditedNumbers<1> edited(label, {static_cast<float>(*value)});
+    auto number = static_cast<double>(edited.shown()[0]);
     const bool changed = ImGui::InputDouble(hidden_label(label).c_str(), &number, step, 10.0 * step, format);
     tooltip(tip);
-    if (!edited.finish(changed, number))
+    if (!edited.finish(changed, {static_cast<float>(number)}))
         return false;
     *value = number;
+    return true;
+}
+
+bool size_row(const char* label, const char* tip, int* width, int* height) {
+    begin_row(label, tip);
+    EditedNumbers<2> edited(label, {static_cast<float>(*width), static_cast<float>(*height)});
+    const std::array<float, 2> shown = edited.shown();
+    int numbers[2] = {static_cast<int>(shown[0]), static_cast<int>(shown[1])};
+    const bool changed = ImGui::InputInt2(hidden_label(label).c_str(), numbers);
+    tooltip(tip);
+    if (!edited.finish(changed, {static_cast<float>(numbers[0]), static_cast<float>(numbers[1])}))
+        return false;
+    *width = numbers[0];
+    *height = numbers[1];
+    return true;
+}
+
+bool point_row(const char* label, const char* tip, float* xyz) {
+    begin_row(label, tip);
+    EditedNumbers<3> edited(label, {xyz[0], xyz[1], xyz[2]});
+    std::array<float, 3> numbers = edited.shown();
+    const bool changed = ImGui::InputFloat3(hidden_label(label).c_str(), numbers.data(), "%.4g");
+    tooltip(tip);
+    if (!edited.finish(changed, numbers))
+        return false;
+    std::copy(numbers.begin(), numbers.end(), xyz);
     return true;
 }
 
@@ -159,6 +204,14 @@ std::string short_number(double value) {
     }
     return unit == 0 && value == std::floor(value) ? fmt::format("{:.0f}", value)
                                                    : fmt::format("{:.3g}{}", value, kUnits[unit]);
+}
+
+std::string short_value(double value) {
+    const double magnitude = std::fabs(value);
+    if (magnitude == 0.0 || (magnitude >= 0.01 && magnitude < 10000.0))
+        return fmt::format("{:.3g}", value);
+    const int exponent = static_cast<int>(std::floor(std::log10(magnitude)));
+    return fmt::format("{:.1f}e{}", value / std::pow(10.0, exponent), exponent);
 }
 
 std::string short_seconds(double seconds) {

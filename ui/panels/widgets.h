@@ -28,9 +28,11 @@ bool slider_row(const char* label,
 
 bool toggle_row(const char* label, const char* tip, bool* value);
 
-/// A whole number; the change counts when the field is left or Enter is pressed.
+/// Numbers to type; a change counts when the field is left or Enter is pressed. Exact up to 2^24.
 bool int_row(const char* label, const char* tip, int* value, int step);
 bool double_row(const char* label, const char* tip, double* value, double step, const char* format);
+bool size_row(const char* label, const char* tip, int* width, int* height);
+bool point_row(const char* label, const char* tip, float* xyz);
 
 /// One of several words; the labels are separated by '\0' and end with two.
 bool choice_row(const char* label, const char* tip, int* index, const char* labels);
@@ -46,6 +48,8 @@ void faint_text(const char* text);
 
 /// "12.3 M": three digits and a power of a thousand.
 std::string short_number(double value);
+/// At most six characters and a sign: "0.25", "2.7e-4".
+std::string short_value(double value);
 /// "1.25 s", "85 ms".
 std::string short_seconds(double seconds);
 
