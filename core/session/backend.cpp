@@ -17,4 +17,4 @@ PassCounters& PassCounters::operator+=(const PassCounters& other) {
     return *this;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -27,16 +27,16 @@ struct FilmSlot {
 };
 
 struct BackendInfo {
-    std::string name;        ///< "cpu"
-    std::string device;      ///< what it runs on
-    std::string intersector; ///< how rays find triangles in the uploaded scene
+    std::string name;         ///< "cpu"
+    std::string device;       ///< what it runs on
+    std::string intersector;  ///< how rays find triangles in the uploaded scene
     int threads = 0;
 };
 
 /// Events of one pass. Integer sums: equal for every thread count.
 struct PassCounters {
     PathCounters path;
-    std::uint64_t paths = 0; ///< started (and finished): pixels of a picture pass, probes of a precomputation
+    std::uint64_t paths = 0;  ///< started (and finished): pixels of a picture pass, probes of a precomputation
     std::uint64_t zero_contribution_paths = 0;
     std::uint64_t invalid_samples = 0;
 
@@ -51,11 +51,11 @@ using StopFlag = std::atomic<bool>;
 /// One sample for every pixel of a film from `first_pixel` on.
 struct PassRequest {
     FilmSlot slot;
-    FeatureSet features; ///< needed ones; the back end runs the smallest compiled superset
+    FeatureSet features;  ///< needed ones; the back end runs the smallest compiled superset
     PathSettings path;
     PinholeCamera camera;
     float bsdf_fraction = 0.5f;
-    std::uint32_t sample = 0; ///< number of the sample, the same for every pixel
+    std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel
     std::uint32_t first_pixel = 0;
     const StopFlag* stop = nullptr;
 };
@@ -65,16 +65,16 @@ struct PrecomputeRequest {
     MethodId method = MethodId::Precomputed;
     FeatureSet features;
     PathSettings path;
-    std::uint32_t sample = 0; ///< stratum, below strata_side^2
+    std::uint32_t sample = 0;  ///< stratum, below strata_side^2
     std::uint32_t strata_side = 4;
-    std::uint32_t first_probe = 0; ///< volume-major, then by cell
+    std::uint32_t first_probe = 0;  ///< volume-major, then by cell
     const StopFlag* stop = nullptr;
 };
 
 struct FilmReading {
     int width = 0;
     int height = 0;
-    std::vector<Vec3f> mean; ///< [row][column]; NaN where every sample was invalid
+    std::vector<Vec3f> mean;  ///< [row][column]; NaN where every sample was invalid
     std::uint64_t samples = 0;
     std::uint64_t invalid = 0;
 };
@@ -109,4 +109,4 @@ public:
     virtual std::string kernel_name(MethodId method, View view, FeatureSet needed) const = 0;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -11,9 +11,7 @@ struct Table {
     Invalidation operator()(const EditSeed&) const { return {.films = true, .tables = true}; }
     Invalidation operator()(const EditEstimator&) const { return {.films = true, .tables = true}; }
     Invalidation operator()(const EditMixture&) const { return {.films = true}; }
-    Invalidation operator()(const EditField&) const {
-        return {.films = true, .tables = true, .volumes = true};
-    }
+    Invalidation operator()(const EditField&) const { return {.films = true, .tables = true, .volumes = true}; }
     Invalidation operator()(const EditScene&) const {
         return {.films = true, .tables = true, .volumes = true, .scene = true};
     }
@@ -21,10 +19,10 @@ struct Table {
     Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }
 };
 
-} // namespace
+}  // namespace
 
 Invalidation invalidated_by(const SessionEdit& edit) {
     return std::visit(Table{}, edit);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -27,41 +27,32 @@ struct EditSeed {
 struct EditEstimator {
     int max_depth;
     bool next_event;
-}; ///< what paths may do
+};  ///< what paths may do
 struct EditMixture {
     float bsdf_fraction;
 };
 struct EditField {
     FieldSettings field;
-}; ///< number of volumes, bins, rates
+};  ///< number of volumes, bins, rates
 struct EditScene {
     std::shared_ptr<const SceneDescription> scene;
 };
-struct EditRestart {}; ///< clear the pictures, keep what was learned
-struct EditForget {};  ///< clear the pictures and what was learned
+struct EditRestart {};  ///< clear the pictures, keep what was learned
+struct EditForget {};   ///< clear the pictures and what was learned
 
-using SessionEdit = std::variant<EditCamera,
-                                 EditSize,
-                                 EditMethod,
-                                 EditView,
-                                 EditSeed,
-                                 EditEstimator,
-                                 EditMixture,
-                                 EditField,
-                                 EditScene,
-                                 EditRestart,
-                                 EditForget>;
+using SessionEdit = std::variant<EditCamera, EditSize, EditMethod, EditView, EditSeed, EditEstimator, EditMixture,
+                                 EditField, EditScene, EditRestart, EditForget>;
 
 /// What has to go when an edit is applied. Display settings are not here: they are no part of a session.
 struct Invalidation {
-    bool films = false;   ///< all accumulated pictures
-    bool tables = false;  ///< everything learned
-    bool volumes = false; ///< placement of the volumes
-    bool scene = false;   ///< packed scene and hierarchy
+    bool films = false;    ///< all accumulated pictures
+    bool tables = false;   ///< everything learned
+    bool volumes = false;  ///< placement of the volumes
+    bool scene = false;    ///< packed scene and hierarchy
 
     friend bool operator==(const Invalidation&, const Invalidation&) = default;
 };
 
 Invalidation invalidated_by(const SessionEdit& edit);
 
-} // namespace pl
+}  // namespace pl

@@ -7,8 +7,8 @@ namespace pl {
 namespace {
 
 constexpr std::array kMethods{
-    MethodInfo{MethodId::Default, "default", "Default", "Directions from the surface's reflectance alone.",
-               false, false},
+    MethodInfo{MethodId::Default, "default", "Default", "Directions from the surface's reflectance alone.", false,
+               false},
     MethodInfo{MethodId::Precomputed, "precomputed", "Precomputed",
                "Directions guided by a radiance map that is computed first and then frozen.", true, false},
     MethodInfo{MethodId::Reinforcement, "reinforcement", "Reinforcement",
@@ -20,15 +20,13 @@ constexpr std::array kViews{
     ViewInfo{View::Direct, "direct", "Direct light", "First surface, lit by shadow rays only.", false, false},
     ViewInfo{View::RadianceMap, "radiance-map", "Radiance map",
              "The learned irradiance shown directly: a biased preview.", true, true},
-    ViewInfo{View::Voronoi, "voronoi", "Voronoi cells", "Which radiance volume serves each point.", true,
-             false},
+    ViewInfo{View::Voronoi, "voronoi", "Voronoi cells", "Which radiance volume serves each point.", true, false},
     ViewInfo{View::Normal, "normal", "Normals", "Shading normals, as 0.5 (n + 1).", false, false},
     ViewInfo{View::Albedo, "albedo", "Albedo", "Diffuse reflectance.", false, false},
-    ViewInfo{View::Depth, "depth", "Depth", "Distance from the camera along the ray, in scene units.", false,
-             false},
+    ViewInfo{View::Depth, "depth", "Depth", "Distance from the camera along the ray, in scene units.", false, false},
 };
 
-} // namespace
+}  // namespace
 
 std::span<const MethodInfo> all_methods() {
     return kMethods;
@@ -46,16 +44,14 @@ const ViewInfo& info_of(View id) {
 
 std::optional<MethodId> method_by_name(std::string_view name) {
     const auto it = std::ranges::find(kMethods, name, &MethodInfo::name);
-    if (it == kMethods.end())
-        return std::nullopt;
+    if (it == kMethods.end()) return std::nullopt;
     return it->id;
 }
 
 std::optional<View> view_by_name(std::string_view name) {
     const auto it = std::ranges::find(kViews, name, &ViewInfo::name);
-    if (it == kViews.end())
-        return std::nullopt;
+    if (it == kViews.end()) return std::nullopt;
     return it->id;
 }
 
-} // namespace pl
+}  // namespace pl

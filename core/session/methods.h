@@ -14,11 +14,11 @@ inline constexpr int kMethodCount = 3;
 
 struct MethodInfo {
     MethodId id;
-    std::string_view name;    ///< on the command line
-    std::string_view label;   ///< on screen
-    std::string_view summary; ///< one sentence
-    bool uses_field;          ///< samples directions from learned tables
-    bool learns;              ///< records while it renders
+    std::string_view name;     ///< on the command line
+    std::string_view label;    ///< on screen
+    std::string_view summary;  ///< one sentence
+    bool uses_field;           ///< samples directions from learned tables
+    bool learns;               ///< records while it renders
 };
 
 struct ViewInfo {
@@ -26,8 +26,8 @@ struct ViewInfo {
     std::string_view name;
     std::string_view label;
     std::string_view summary;
-    bool needs_volumes; ///< needs the placement of the radiance volumes
-    bool needs_tables;  ///< needs something learned
+    bool needs_volumes;  ///< needs the placement of the radiance volumes
+    bool needs_tables;   ///< needs something learned
 };
 
 std::span<const MethodInfo> all_methods();
@@ -37,4 +37,4 @@ const ViewInfo& info_of(View id);
 std::optional<MethodId> method_by_name(std::string_view name);
 std::optional<View> view_by_name(std::string_view name);
 
-} // namespace pl
+}  // namespace pl

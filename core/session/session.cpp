@@ -35,6 +35,10 @@ struct Assign {
     void operator()(const EditForget&) const {}
 };
 
+/// Paths guided by what was learned know what they are still worth, and soon end at a light: they play roulette only
+/// when little is left, so that few of them end without having found any. Others play for every loss.
+constexpr float kGuidedRouletteThreshold = 0.01f;
+
 bool is_power_of_two(std::uint32_t n) {
     return n != 0 && (n & (n - 1)) == 0;
 }
@@ -44,14 +48,11 @@ MethodId table_owner(MethodId method) {
     return info_of(method).uses_field ? method : MethodId::Reinforcement;
 }
 
-} // namespace
+}  // namespace
 
-Session::Session(std::unique_ptr<RenderBackend> backend,
-                 std::shared_ptr<const SceneDescription> scene,
-                 const RenderSettings& settings,
-                 double load_seconds)
-    : backend_(std::move(backend)), scene_(std::move(scene)), settings_(settings),
-      load_seconds_(load_seconds) {
+Session::Session(std::unique_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
+                 const RenderSettings& settings, double load_seconds)
+    : backend_(std::move(backend)), scene_(std::move(scene)), settings_(settings), load_seconds_(load_seconds) {
     load_scene();
 }
 
@@ -65,16 +66,11 @@ void Session::load_scene() {
 void Session::apply(const SessionEdit& edit) {
     const Invalidation clear = invalidated_by(edit);
     std::visit(Assign{settings_}, edit);
-    if (const auto* change = std::get_if<EditScene>(&edit))
-        scene_ = change->scene;
-    if (clear.films)
-        clear_films();
-    if (clear.tables)
-        clear_tables();
-    if (clear.volumes)
-        volumes_.reset();
-    if (clear.scene)
-        load_scene();
+    if (const auto* change = std::get_if<EditScene>(&edit)) scene_ = change->scene;
+    if (clear.films) clear_films();
+    if (clear.tables) clear_tables();
+    if (clear.volumes) volumes_.reset();
+    if (clear.scene) load_scene();
 }
 
 void Session::clear_films() {
@@ -83,13 +79,11 @@ void Session::clear_films() {
 
 void Session::clear_tables() {
     fields_.fill(FieldState{});
-    if (volumes_)
-        backend_->upload_volumes(volumes_, shape_);
+    if (volumes_) backend_->upload_volumes(volumes_, shape_);
 }
 
 void Session::ensure_volumes() {
-    if (volumes_)
-        return;
+    if (volumes_) return;
     const Stopwatch watch;
     shape_ = make_field_shape(*packed_, settings_.field);
     volumes_ = std::make_shared<const HostVolumes>(place_volumes(*packed_, settings_.field));
@@ -100,14 +94,12 @@ void Session::ensure_volumes() {
 void Session::ensure_tables() {
     ensure_volumes();
     const MethodId owner = table_owner(settings_.method);
-    if (!backend_->has_tables(owner))
-        backend_->upload_tables(owner, make_tables(shape_, volumes_->normals.size()));
+    if (!backend_->has_tables(owner)) backend_->upload_tables(owner, make_tables(shape_, volumes_->normals.size()));
 }
 
 void Session::ensure_film(FilmSlot slot) {
     FilmState& state = films_[static_cast<std::size_t>(slot.index())];
-    if (state.allocated)
-        return;
+    if (state.allocated) return;
     backend_->reset_film(slot, settings_.width, settings_.height);
     state = FilmState{};
     state.allocated = true;
@@ -125,6 +117,7 @@ std::string Session::kernel_name() const {
 PathSettings Session::path_settings() const {
     return {.seed = settings_.seed,
             .max_depth = static_cast<std::uint32_t>(settings_.max_depth),
+            .roulette_threshold = info_of(settings_.method).uses_field ? kGuidedRouletteThreshold : 1.0f,
             .next_event = settings_.next_event ? 1u : 0u};
 }
 
@@ -139,6 +132,7 @@ Progress Session::precompute_slice(const StopFlag* stop) {
     FieldState& state = field();
     PathSettings path = path_settings();
     path.stream = Stream::Precompute;
+    path.roulette_threshold = 1.0f;  // probes follow the default method
     const auto slices = static_cast<std::uint32_t>(settings_.field.precompute_samples);
     const PassCounters counters =
         backend_->precompute({.method = settings_.method,
@@ -163,8 +157,7 @@ Progress Session::precompute_slice(const StopFlag* stop) {
 }
 
 std::uint32_t Session::probe_count() const {
-    return static_cast<std::uint32_t>(volumes_->normals.size()) *
-           static_cast<std::uint32_t>(shape_.cells.count());
+    return static_cast<std::uint32_t>(volumes_->normals.size()) * static_cast<std::uint32_t>(shape_.cells.count());
 }
 
 Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
@@ -191,12 +184,10 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
         field().records += counters.path.method.records;
         field().lookup_misses += counters.path.method.lookup_misses;
     }
-    if (state.next_pixel < pixel_count())
-        return Progress::Stopped;
+    if (state.next_pixel < pixel_count()) return Progress::Stopped;
     state.next_pixel = 0;
     ++state.passes;
-    if (target.view == View::Beauty && info_of(target.method).learns)
-        publish_pass(state);
+    if (target.view == View::Beauty && info_of(target.method).learns) publish_pass(state);
     return Progress::Rendered;
 }
 
@@ -209,23 +200,18 @@ void Session::publish_pass(FilmState& state) {
 
 Progress Session::advance(const StopFlag* stop) {
     const ViewInfo& view = info_of(settings_.view);
-    if (view.needs_volumes)
-        ensure_volumes();
-    if (info_of(settings_.method).uses_field || view.needs_tables)
-        ensure_tables();
-    if (needs_precompute())
-        return precompute_slice(stop);
+    if (view.needs_volumes) ensure_volumes();
+    if (info_of(settings_.method).uses_field || view.needs_tables) ensure_tables();
+    if (needs_precompute()) return precompute_slice(stop);
     if (view.needs_tables && info_of(settings_.method).learns && film().next_pixel == 0) {
         const Progress learned = render_slot({settings_.method, View::Beauty}, stop);
-        if (learned == Progress::Stopped)
-            return learned;
+        if (learned == Progress::Stopped) return learned;
     }
     return render_slot(slot(), stop);
 }
 
 std::optional<FieldStatus> Session::field_status() const {
-    if (!volumes_ || !info_of(settings_.method).uses_field)
-        return std::nullopt;
+    if (!volumes_ || !info_of(settings_.method).uses_field) return std::nullopt;
     const FieldState& state = field();
     FieldStatus status{.volumes = static_cast<int>(volumes_->normals.size()),
                        .bins = shape_.cells.count(),
@@ -235,8 +221,7 @@ std::optional<FieldStatus> Session::field_status() const {
                        .lookup_misses = state.lookup_misses,
                        .precomputed_share = 1.0};
     if (settings_.method == MethodId::Precomputed)
-        status.precomputed_share =
-            static_cast<double>(state.precomputed_slices) / settings_.field.precompute_samples;
+        status.precomputed_share = static_cast<double>(state.precomputed_slices) / settings_.field.precompute_samples;
     return status;
 }
 
@@ -264,8 +249,7 @@ Snapshot Session::snapshot() const {
     if (state.allocated)
         result.pixels = backend_->read_film(slot()).mean;
     else
-        result.pixels.assign(static_cast<std::size_t>(settings_.width) *
-                                 static_cast<std::size_t>(settings_.height),
+        result.pixels.assign(static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height),
                              Vec3f{0.0f});
     return result;
 }
@@ -273,9 +257,8 @@ Snapshot Session::snapshot() const {
 VolumeInspection Session::inspect_volume(std::int32_t volume) const {
     const MethodId owner = table_owner(settings_.method);
     if (!volumes_ || !backend_->has_tables(owner))
-        throw Error(ErrorKind::Usage,
-                    "nothing has been learned yet: render with a method that uses radiance volumes "
-                    "(precomputed, reinforcement) first");
+        throw Error(ErrorKind::Usage, "nothing has been learned yet: render with a method that uses radiance volumes "
+                                      "(precomputed, reinforcement) first");
     if (volume < 0 || static_cast<std::size_t>(volume) >= volumes_->normals.size())
         throw Error(ErrorKind::Usage, "radiance volume " + std::to_string(volume) +
                                           " does not exist: expected 0 to " +
@@ -310,11 +293,10 @@ std::int32_t Session::find_volume_at(Vec3f position, Vec3f normal) {
 std::optional<PickedPoint> Session::pick(Vec2f film_point) {
     const SceneView scene = packed_->view();
     const PinholeCamera camera = make_camera(settings_.camera, settings_.width, settings_.height);
-    const Ray ray = generate_ray(camera, film_point,
-                                 {static_cast<float>(settings_.width), static_cast<float>(settings_.height)});
+    const Ray ray =
+        generate_ray(camera, film_point, {static_cast<float>(settings_.width), static_cast<float>(settings_.height)});
     const Hit hit = BvhIntersector{scene}.closest_hit(ray);
-    if (!hit.found())
-        return std::nullopt;
+    if (!hit.found()) return std::nullopt;
     const auto surface = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
     return PickedPoint{.position = surface.position,
                        .normal = surface.geometric_normal,
@@ -324,4 +306,4 @@ std::optional<PickedPoint> Session::pick(Vec2f film_point) {
                        .volume = find_volume_at(surface.position, surface.geometric_normal)};
 }
 
-} // namespace pl
+}  // namespace pl

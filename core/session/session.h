@@ -13,18 +13,16 @@ namespace pl {
 
 /// What one call of Session::advance did.
 enum class Progress {
-    Precomputed, ///< a slice of the radiance map; the picture has not changed
-    Rendered,    ///< one more sample per pixel
-    Stopped,     ///< the stop flag was seen; the next call goes on where this one ended
+    Precomputed,  ///< a slice of the radiance map; the picture has not changed
+    Rendered,     ///< one more sample per pixel
+    Stopped,      ///< the stop flag was seen; the next call goes on where this one ended
 };
 
 class Session {
 public:
     /// The scene must be valid. `load_seconds` goes into the clocks.
-    Session(std::unique_ptr<RenderBackend> backend,
-            std::shared_ptr<const SceneDescription> scene,
-            const RenderSettings& settings,
-            double load_seconds = 0.0);
+    Session(std::unique_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
+            const RenderSettings& settings, double load_seconds = 0.0);
 
     /// Applies a change and clears what invalidated_by() says.
     void apply(const SessionEdit& edit);
@@ -59,8 +57,8 @@ public:
 private:
     struct FilmState {
         bool allocated = false;
-        std::uint32_t passes = 0;     ///< complete ones
-        std::uint32_t next_pixel = 0; ///< where the running pass goes on
+        std::uint32_t passes = 0;      ///< complete ones
+        std::uint32_t next_pixel = 0;  ///< where the running pass goes on
         PassCounters counters{};
         double render_seconds = 0.0;
         double learn_seconds = 0.0;
@@ -69,15 +67,13 @@ private:
         std::uint64_t passes = 0;
         std::uint64_t records = 0;
         std::uint64_t lookup_misses = 0;
-        std::uint32_t precomputed_slices = 0; ///< complete ones
-        std::uint32_t next_probe = 0;         ///< where the running slice goes on
+        std::uint32_t precomputed_slices = 0;  ///< complete ones
+        std::uint32_t next_probe = 0;          ///< where the running slice goes on
         double precompute_seconds = 0.0;
     };
 
     FilmSlot slot() const { return {settings_.method, settings_.view}; }
-    std::uint32_t pixel_count() const {
-        return static_cast<std::uint32_t>(settings_.width * settings_.height);
-    }
+    std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(settings_.width * settings_.height); }
     std::uint32_t probe_count() const;
     const FilmState& film() const { return films_[static_cast<std::size_t>(slot().index())]; }
     FilmState& film() { return films_[static_cast<std::size_t>(slot().index())]; }
@@ -109,4 +105,4 @@ private:
     double place_seconds_ = 0.0;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -12,12 +12,12 @@ namespace pl {
 
 /// Seconds by what they were spent on. Waiting, display and saving are in none of them.
 struct Clocks {
-    double load = 0.0;       ///< reading and checking files; set by whoever loads
-    double build = 0.0;      ///< packing the scene, building the hierarchy
-    double place = 0.0;      ///< placing volumes, building their tree
-    double precompute = 0.0; ///< filling the precomputed radiance map
-    double learn = 0.0;      ///< publishing learned tables
-    double render = 0.0;     ///< passes, including the records they make
+    double load = 0.0;        ///< reading and checking files; set by whoever loads
+    double build = 0.0;       ///< packing the scene, building the hierarchy
+    double place = 0.0;       ///< placing volumes, building their tree
+    double precompute = 0.0;  ///< filling the precomputed radiance map
+    double learn = 0.0;       ///< publishing learned tables
+    double render = 0.0;      ///< passes, including the records they make
 
     double total() const { return load + build + place + precompute + learn + render; }
 };
@@ -27,19 +27,19 @@ struct FieldStatus {
     int volumes = 0;
     int bins = 0;
     std::size_t bytes = 0;
-    std::uint64_t passes = 0; ///< publications
+    std::uint64_t passes = 0;  ///< publications
     std::uint64_t records = 0;
     std::uint64_t lookup_misses = 0;
-    double precomputed_share = 0.0; ///< of the radiance map, in [0, 1]; 1 for methods that need none
+    double precomputed_share = 0.0;  ///< of the radiance map, in [0, 1]; 1 for methods that need none
 };
 
 struct Snapshot {
     FilmSlot slot;
     int width = 0;
     int height = 0;
-    std::vector<Vec3f> pixels; ///< mean radiance or view values, linear; row 0 at the top
-    std::uint32_t passes = 0;  ///< samples per pixel
-    PassCounters counters;     ///< of this film
+    std::vector<Vec3f> pixels;  ///< mean radiance or view values, linear; row 0 at the top
+    std::uint32_t passes = 0;   ///< samples per pixel
+    PassCounters counters;      ///< of this film
     Clocks clocks;
     std::optional<FieldStatus> field;
     CameraDescription camera;
@@ -51,21 +51,21 @@ struct VolumeInspection {
     std::int32_t volume = kNoVolume;
     Vec3f position{0.0f};
     Vec3f normal{0.0f, 0.0f, 1.0f};
-    int side = 0;                   ///< cells are side x side, DirectionCells layout
-    std::vector<float> radiance;    ///< learned incident radiance Q, luminance
-    std::vector<float> probability; ///< of sampling the cell from the table
+    int side = 0;                    ///< cells are side x side, DirectionCells layout
+    std::vector<float> radiance;     ///< learned incident radiance Q, luminance
+    std::vector<float> probability;  ///< of sampling the cell from the table
     std::vector<std::uint32_t> visits;
-    float mean_radiance = 0.0f; ///< irradiance / pi
+    float mean_radiance = 0.0f;  ///< irradiance / pi
 };
 
 /// The first surface under a pixel.
 struct PickedPoint {
     Vec3f position{0.0f};
-    Vec3f normal{0.0f, 0.0f, 1.0f}; ///< geometric, towards the camera
+    Vec3f normal{0.0f, 0.0f, 1.0f};  ///< geometric, towards the camera
     std::uint32_t primitive = kNoPrimitive;
     std::uint32_t material = 0;
     float distance = 0.0f;
     std::int32_t volume = kNoVolume;
 };
 
-} // namespace pl
+}  // namespace pl

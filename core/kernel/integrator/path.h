@@ -15,20 +15,22 @@ struct PathSettings {
     Stream stream = Stream::Picture;
     std::uint32_t max_depth = 64;      ///< most surface vertices of a path; longer ones are cut and counted
     std::uint32_t roulette_start = 3;  ///< surface vertices after which Russian roulette may end a path
+    float roulette_threshold = 1.0f;   ///< worth, as a share of what it was at first, below which a path has to play
     std::uint32_t next_event = 0;      ///< 1: sample lights at every vertex, combined with the method's directions
 };
 
 template <class M>
 struct PathState {
-    Ray ray;                     ///< the segment to trace next
-    Vec3f throughput{1.0f};      ///< product of BSDF x cosine / pdf, and of roulette weights
-    Vec3f radiance{0.0f};        ///< what the path has brought so far
+    Ray ray;                        ///< the segment to trace next
+    Vec3f throughput{1.0f};         ///< product of BSDF x cosine / pdf, and of roulette weights
+    Vec3f radiance{0.0f};           ///< what the path has brought so far
     float direction_pdf_sa = 0.0f;  ///< density of ray.direction; 0 where no light was sampled at its origin
-    float survival = 1.0f;       ///< product of albedos over survived roulettes: what roulette is played on
-    std::uint32_t pixel = 0;     ///< or the probe's index
+    float survival = 1.0f;          ///< product of albedos divided by the chances of the roulettes survived
+    std::uint32_t pixel = 0;        ///< or the probe's index
     std::uint32_t sample = 0;
     std::uint32_t vertices = 0;  ///< surface points met so far
     [[no_unique_address]] typename M::Memory memory{};
+    [[no_unique_address]] typename M::Expectation expectation{};
 };
 
 /// A light sample that counts if nothing is in between.
@@ -42,10 +44,10 @@ enum class PathStatus : std::uint32_t { Continues, Finished };
 
 /// Sums of events; integers, so that adding them up in any order gives the same result.
 struct PathCounters {
-    std::uint64_t segments = 0;     ///< path rays traced, without shadow rays
+    std::uint64_t segments = 0;  ///< path rays traced, without shadow rays
     std::uint64_t shadow_rays = 0;
-    std::uint64_t escaped = 0;      ///< paths that left the scene
-    std::uint64_t truncated = 0;    ///< paths cut at max_depth
+    std::uint64_t escaped = 0;          ///< paths that left the scene
+    std::uint64_t truncated = 0;        ///< paths cut at max_depth
     std::uint64_t zero_directions = 0;  ///< sampled directions that the surface cannot reflect
     MethodCounters method;
 };

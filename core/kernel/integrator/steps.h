@@ -8,8 +8,8 @@
 
 namespace pl {
 
-/// Roulette never ends more than 19 of 20 paths at once, which bounds its weight.
-inline constexpr float kMinSurvival = 0.05f;
+/// Roulette never ends more than 9 of 10 paths at once, which bounds its weight.
+inline constexpr float kMinSurvival = 0.1f;
 
 PL_HD inline Rng path_rng(const PathSettings& settings, std::uint32_t pixel, std::uint32_t sample) {
     return {settings.seed, settings.stream, pixel, sample};
@@ -68,8 +68,8 @@ PL_HD inline void add_emission(const SceneView& scene, const PathSettings& setti
 /// Light sample at a vertex; `shadow.wanted` stays false if it cannot contribute.
 template <Method M>
 PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, const typename M::Vertex& vertex,
-                                     const SurfacePoint& surface, Vec3f albedo, Vec4f u,
-                                     const PathState<M>& state, ShadowRequest& shadow) {
+                                     const SurfacePoint& surface, Vec3f albedo, Vec4f u, const PathState<M>& state,
+                                     ShadowRequest& shadow) {
     const DirectLight sample = sample_direct_light(scene, surface, {u.x, u.y, u.z});
     if (!(sample.pdf_sa > 0.0f)) return;
     const float weight = balance_weight(sample.pdf_sa, method.pdf_sa(vertex, surface, sample.wi));
@@ -79,24 +79,26 @@ PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, co
     shadow.wanted = true;
 }
 
-/// Plays Russian roulette on the albedos alone: a path lives equally long under every method, and a direction that
-/// was guided towards light (and so weighs little) is not ended for it. Returns false if the path ends.
-template <class M>
-PL_HD inline bool survives_roulette(const PathSettings& settings, Vec3f albedo, float u, PathState<M>& state) {
+/// Plays Russian roulette with the method's opinion of what the path is still worth. Returns false if the path ends.
+template <Method M>
+PL_HD inline bool survives_roulette(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
+                                    Vec3f albedo, float u, PathState<M>& state) {
     state.survival *= max_component(albedo);
+    const float worth = method.roulette_worth(vertex, albedo, state.throughput, state.survival, state.expectation);
     if (state.vertices < settings.roulette_start) return true;
-    const float probability = clamp_to(state.survival, kMinSurvival, 1.0f);
+    const float probability = clamp_to(worth / settings.roulette_threshold, kMinSurvival, 1.0f);
     if (u >= probability) return false;
     state.throughput *= 1.0f / probability;
-    state.survival /= probability;
+    state.survival = min_of(state.survival / probability, 1.0f);
     return true;
 }
 
-/// Chooses the next direction and moves the path's ray there.
+/// Decides whether the path goes on, chooses the next direction and moves the path's ray there.
 template <Method M>
 PL_HD inline PathStatus scatter(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
                                 const SurfacePoint& surface, Vec3f albedo, Vec4f u, PathState<M>& state,
                                 PathCounters& counters) {
+    if (!survives_roulette(method, settings, vertex, albedo, u.w, state)) return PathStatus::Finished;
     const Rng rng = path_rng(settings, state.pixel, state.sample);
     const DirectionSample direction = method.sample_direction(vertex, surface, rng, state.vertices, u);
     const float cos_i = reflection_cosine(surface, direction.wi);
@@ -105,7 +107,6 @@ PL_HD inline PathStatus scatter(const M& method, const PathSettings& settings, c
         return PathStatus::Finished;
     }
     state.throughput *= lambert_eval(albedo, cos_i) * (1.0f / direction.pdf_sa);
-    if (!survives_roulette(settings, albedo, u.w, state)) return PathStatus::Finished;
     state.memory = method.remember(vertex, direction.wi);
     state.ray = spawn_ray(surface, direction.wi);
     state.direction_pdf_sa = direction.pdf_sa;

@@ -8,6 +8,7 @@ namespace pl {
 struct DefaultMethod {
     struct Vertex {};
     struct Memory {};
+    struct Expectation {};
 
     PL_HD Vertex arrive(const SurfacePoint&, MethodCounters&) const { return {}; }
 
@@ -20,6 +21,8 @@ struct DefaultMethod {
     PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, Vec3f wi) const {
         return lambert_pdf_sa(surface, wi);
     }
+
+    PL_HD float roulette_worth(const Vertex&, Vec3f, Vec3f, float survival, Expectation&) const { return survival; }
 
     PL_HD Memory remember(const Vertex&, Vec3f) const { return {}; }
     PL_HD void learn(Memory&, const Arrival&, const Vertex&, MethodCounters&) const {}

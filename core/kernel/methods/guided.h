@@ -10,6 +10,11 @@ struct GuidedVertex {
     std::int32_t volume = kNoVolume;
 };
 
+/// Radiance (luminance) that the first vertex was expected to reflect; 0 if nothing was known there.
+struct GuidedExpectation {
+    float first = 0.0f;
+};
+
 /// q = a p_bsdf + (1-a) p_table, with both densities evaluated whichever of the two chose the direction. A direction
 /// weighs at most 1/a times what it weighs under BSDF sampling.   [Veach 1997, 9.2.4; Mueller et al. 2017]
 struct GuidedSampling {
@@ -43,6 +48,19 @@ struct GuidedSampling {
             wi = field.frame(vertex.volume).to_world(square_to_cosine_hemisphere(square));
         }
         return {wi, pdf_sa(vertex, surface, wi)};
+    }
+
+    /// What the path can still bring, by what is learned, as a share of what its first vertex was expected to. A
+    /// direction guided towards light weighs little but leads where much is expected, so it is not ended for its low
+    /// throughput; one that strays into the dark is.   [after Vorba and Krivanek 2016, "Adjoint-Driven Russian
+    /// Roulette and Splitting in Light Transport Simulation"]
+    PL_HD float roulette_worth(const GuidedVertex& vertex, Vec3f albedo, Vec3f throughput, float survival,
+                               GuidedExpectation& expectation) const {
+        if (vertex.volume == kNoVolume) return survival;
+        const float expected =
+            luminance(throughput * albedo) * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
+        if (expectation.first == 0.0f) expectation.first = expected;
+        return expectation.first > 0.0f ? expected / expectation.first : survival;
     }
 };
 

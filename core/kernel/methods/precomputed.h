@@ -7,6 +7,7 @@ namespace pl {
 
 struct PrecomputedMethod : GuidedSampling {
     using Vertex = GuidedVertex;
+    using Expectation = GuidedExpectation;
     struct Memory {};
 
     PL_HD Memory remember(const Vertex&, Vec3f) const { return {}; }

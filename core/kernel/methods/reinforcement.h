@@ -8,6 +8,7 @@ namespace pl {
 
 struct ReinforcementMethod : GuidedSampling {
     using Vertex = GuidedVertex;
+    using Expectation = GuidedExpectation;
 
     /// The table entry that chose (or could have chosen) the last direction.
     struct Memory {
