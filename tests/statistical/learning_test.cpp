@@ -49,6 +49,6 @@ TEST_CASE("Guided methods have less noise than default path tracing on the door 
                                   << " times as large, paths without light " << guided.zero_share
                                   << " against " << plain.zero_share);
         CHECK(error < plain_error);
-        CHECK(guided.zero_share < plain.zero_share);
+        CHECK(guided.zero_share <= plain.zero_share / 3.0);
     }
 }
