@@ -41,8 +41,7 @@ constexpr std::array kActions{
            "+",
            "higher speed",
            {at(SDL_SCANCODE_EQUALS), at(SDL_SCANCODE_EQUALS, kShift), at(SDL_SCANCODE_KP_PLUS)}},
-    Action{
-        SpeedDown, ActionGroup::Fly, "-", "lower speed", {at(SDL_SCANCODE_MINUS), at(SDL_SCANCODE_KP_MINUS)}},
+    Action{SpeedDown, ActionGroup::Fly, "-", "lower speed", {at(SDL_SCANCODE_MINUS), at(SDL_SCANCODE_KP_MINUS)}},
     Action{CameraHome, ActionGroup::Fly, "Home", "the scene's own camera", {at(SDL_SCANCODE_HOME)}},
 
     Action{Pause, ActionGroup::Render, "Space", "pause or go on", {at(SDL_SCANCODE_SPACE)}},
@@ -71,11 +70,7 @@ constexpr std::array kActions{
 
     Action{HidePanels, ActionGroup::Window, "Tab", "hide or show the panels", {at(SDL_SCANCODE_TAB)}},
     Action{FullScreen, ActionGroup::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
-    Action{Help,
-           ActionGroup::Window,
-           "F1 or ?",
-           "this list",
-           {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
+    Action{Help, ActionGroup::Window, "F1 or ?", "this list", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
     Action{Cancel, ActionGroup::Window, "Esc", "close, cancel or deselect", {at(SDL_SCANCODE_ESCAPE)}},
 
     Action{Reload, ActionGroup::File, "F5", "reload the scene", {at(SDL_SCANCODE_F5)}},
@@ -101,12 +96,11 @@ constexpr std::array kMouseActions{
 std::string code(const std::string& keys) {
     // "F1 or ?" is two keys.
     const std::size_t split = keys.find(" or ");
-    if (split == std::string::npos)
-        return fmt::format("`{}`", keys);
+    if (split == std::string::npos) return fmt::format("`{}`", keys);
     return fmt::format("`{}` or `{}`", keys.substr(0, split), keys.substr(split + 4));
 }
 
-} // namespace
+}  // namespace
 
 std::span<const Action> all_actions() {
     return kActions;
@@ -117,27 +111,19 @@ std::span<const MouseAction> mouse_actions() {
 
 const Action& info_of(ActionId id) {
     for (const Action& action : kActions)
-        if (action.id == id)
-            return action;
+        if (action.id == id) return action;
     return kActions.front();
 }
 
 const char* name_of(ActionGroup group) {
     switch (group) {
-    case ActionGroup::Fly:
-        return "Fly";
-    case ActionGroup::Render:
-        return "Render";
-    case ActionGroup::Method:
-        return "Method";
-    case ActionGroup::View:
-        return "View";
-    case ActionGroup::Overlay:
-        return "Overlays";
-    case ActionGroup::Window:
-        return "Window";
-    case ActionGroup::File:
-        return "File";
+    case ActionGroup::Fly: return "Fly";
+    case ActionGroup::Render: return "Render";
+    case ActionGroup::Method: return "Method";
+    case ActionGroup::View: return "View";
+    case ActionGroup::Overlay: return "Overlays";
+    case ActionGroup::Window: return "Window";
+    case ActionGroup::File: return "File";
     }
     return "";
 }
@@ -146,16 +132,14 @@ bool matches(const Action& action, const KeyStroke& stroke) {
     for (const Chord& chord : action.chords) {
         const bool same_key = (chord.by == Chord::By::Place && chord.key == stroke.scancode) ||
                               (chord.by == Chord::By::Symbol && chord.key == stroke.symbol);
-        if (same_key && (action.is_held ? !stroke.modifiers.ctrl : chord.modifiers == stroke.modifiers))
-            return true;
+        if (same_key && (action.is_held ? !stroke.modifiers.ctrl : chord.modifiers == stroke.modifiers)) return true;
     }
     return false;
 }
 
 std::optional<ActionId> find_action(const KeyStroke& stroke) {
     for (const Action& action : kActions)
-        if (matches(action, stroke))
-            return action.id;
+        if (matches(action, stroke)) return action.id;
     return std::nullopt;
 }
 
@@ -173,4 +157,4 @@ std::string key_table_markdown() {
     return text;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -63,8 +63,8 @@ struct Modifiers {
 
 /// A key as the window reports it.
 struct KeyStroke {
-    int scancode = 0; ///< where the key is
-    int symbol = 0;   ///< what is printed on it
+    int scancode = 0;  ///< where the key is
+    int symbol = 0;    ///< what is printed on it
     Modifiers modifiers;
 };
 
@@ -73,17 +73,17 @@ struct KeyStroke {
 struct Chord {
     enum class By { None, Place, Symbol };
     By by = By::None;
-    int key = 0; ///< scancode or symbol
+    int key = 0;  ///< scancode or symbol
     Modifiers modifiers;
 };
 
 struct Action {
     ActionId id;
     ActionGroup group;
-    const char* keys; ///< as people read it
+    const char* keys;  ///< as people read it
     const char* text;
-    std::array<Chord, 3> chords; ///< any of them
-    bool is_held = false; ///< acts as long as the key is down, whatever Shift and Alt do; never with Ctrl
+    std::array<Chord, 3> chords;  ///< any of them
+    bool is_held = false;         ///< acts as long as the key is down, whatever Shift and Alt do; never with Ctrl
 };
 
 /// What the mouse does: told in the same places, dispatched by ui/pointer_gesture.h.
@@ -107,4 +107,4 @@ bool matches(const Action& action, const KeyStroke& stroke);
 /// The table in Markdown, for the README.
 std::string key_table_markdown();
 
-} // namespace pl
+}  // namespace pl

@@ -33,25 +33,22 @@ Vec3f horizontal_part(Vec3f direction, Vec3f axis) {
     return glm::normalize(flat);
 }
 
-} // namespace
+}  // namespace
 
 CameraControls::CameraControls(const CameraDescription& home, float scene_diagonal)
-    : home_(home), camera_(home), diagonal_(scene_diagonal > 0.0f ? scene_diagonal : 1.0f),
-      speed_(diagonal_ / 5.0f) {}
+    : home_(home), camera_(home), diagonal_(scene_diagonal > 0.0f ? scene_diagonal : 1.0f), speed_(diagonal_ / 5.0f) {
+}
 
 bool CameraControls::move(const MoveKeys& keys, double seconds) {
-    if (!keys.any() || !(seconds > 0.0))
-        return false;
+    if (!keys.any() || !(seconds > 0.0)) return false;
     const Vec3f up = up_axis(camera_);
     const Vec3f forward = view_direction(camera_);
     const Vec3f right = glm::cross(horizontal_part(forward, up), up);
     Vec3f direction = keys.forward * forward + keys.right * right + keys.up * up;
     const float length = glm::length(direction);
-    if (!(length > 0.0f))
-        return false;
+    if (!(length > 0.0f)) return false;
     direction /= std::max(length, 1.0f);
-    const double step =
-        std::min(seconds, kLongestStepSeconds) * static_cast<double>(speed_ * keys.speed_factor);
+    const double step = std::min(seconds, kLongestStepSeconds) * static_cast<double>(speed_ * keys.speed_factor);
     const Vec3f shift = direction * static_cast<float>(step);
     camera_.eye += shift;
     camera_.target += shift;
@@ -79,4 +76,4 @@ void CameraControls::change_speed(float notches) {
     speed_ = std::clamp(speed_ * std::pow(kSpeedPerNotch, notches), diagonal_ / 1000.0f, diagonal_ * 10.0f);
 }
 
-} // namespace pl
+}  // namespace pl

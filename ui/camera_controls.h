@@ -10,7 +10,7 @@ namespace pl {
 struct MoveKeys {
     float forward = 0.0f;
     float right = 0.0f;
-    float up = 0.0f; ///< along the camera's up axis, not the image's
+    float up = 0.0f;  ///< along the camera's up axis, not the image's
     float speed_factor = 1.0f;
 
     bool any() const { return forward != 0.0f || right != 0.0f || up != 0.0f; }
@@ -47,4 +47,4 @@ private:
     float speed_;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -26,8 +26,7 @@ class VideoLease {
 public:
     VideoLease() : ok_(SDL_InitSubSystem(SDL_INIT_VIDEO) == 0) {}
     ~VideoLease() {
-        if (ok_)
-            SDL_QuitSubSystem(SDL_INIT_VIDEO);
+        if (ok_) SDL_QuitSubSystem(SDL_INIT_VIDEO);
     }
     VideoLease(const VideoLease&) = delete;
     VideoLease& operator=(const VideoLease&) = delete;
@@ -38,8 +37,7 @@ private:
 };
 
 bool fail(std::string* why, const std::string& text) {
-    if (why != nullptr)
-        *why = text;
+    if (why != nullptr) *why = text;
     return false;
 }
 
@@ -47,39 +45,33 @@ bool fail(std::string* why, const std::string& text) {
 std::string opengl_device() {
     using GetString = const unsigned char*(SDLCALL*)(unsigned int);
     constexpr unsigned int kGlRenderer = 0x1F01;
-    if (SDL_GL_GetCurrentContext() == nullptr)
-        return "";
+    if (SDL_GL_GetCurrentContext() == nullptr) return "";
     auto get_string = reinterpret_cast<GetString>(SDL_GL_GetProcAddress("glGetString"));
-    if (get_string == nullptr)
-        return "";
+    if (get_string == nullptr) return "";
     const unsigned char* text = get_string(kGlRenderer);
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
 }
 
-} // namespace
+}  // namespace
 
 bool display_available(std::string* why) {
-    if (is_set("SDL_VIDEODRIVER"))
-        return true;
+    if (is_set("SDL_VIDEODRIVER")) return true;
     // Asked before SDL, which would silently draw where nobody can see it.
     if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
         return fail(why, "no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
     const VideoLease video;
-    if (!video.ok())
-        return fail(why, fmt::format("no display: {}", SDL_GetError()));
+    if (!video.ok()) return fail(why, fmt::format("no display: {}", SDL_GetError()));
     const char* driver = SDL_GetCurrentVideoDriver();
     if (driver == nullptr || shows_nothing(driver))
-        return fail(why,
-                    fmt::format("no display: '{}' cannot be opened",
-                                is_set("DISPLAY") ? std::getenv("DISPLAY") : std::getenv("WAYLAND_DISPLAY")));
+        return fail(why, fmt::format("no display: '{}' cannot be opened",
+                                     is_set("DISPLAY") ? std::getenv("DISPLAY") : std::getenv("WAYLAND_DISPLAY")));
     return true;
 }
 
 Display::Display(const std::string& title, int width, int height, bool software) {
     std::string why;
-    if (!display_available(&why))
-        throw Error(ErrorKind::Unavailable, why);
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); // Ctrl+C in the terminal ends the program
+    if (!display_available(&why)) throw Error(ErrorKind::Unavailable, why);
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl+C in the terminal ends the program
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
         throw Error(ErrorKind::Unavailable, fmt::format("cannot start the display: {}", SDL_GetError()));
 
@@ -89,8 +81,7 @@ Display::Display(const std::string& title, int width, int height, bool software)
     bool opened = false;
     if (probe || (!software && is_set("SDL_RENDER_DRIVER"))) {
         opened = open(title, width, height, false);
-        if (opened && probe && !runs_on_hardware())
-            opened = false;
+        if (opened && probe && !runs_on_hardware()) opened = false;
     }
     if (!opened) {
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
@@ -119,34 +110,28 @@ bool Display::open(const std::string& title, int width, int height, bool softwar
     close();
     constexpr int kAnywhere = static_cast<int>(SDL_WINDOWPOS_CENTERED_MASK);
     window_ = SDL_CreateWindow(title.c_str(), kAnywhere, kAnywhere, width, height, SDL_WINDOW_RESIZABLE);
-    if (window_ == nullptr)
-        return false;
-    const auto flags = static_cast<Uint32>(software ? SDL_RENDERER_SOFTWARE
-                                                    : SDL_RENDERER_ACCELERATED | SDL_RENDERER_PRESENTVSYNC);
+    if (window_ == nullptr) return false;
+    const auto flags =
+        static_cast<Uint32>(software ? SDL_RENDERER_SOFTWARE : SDL_RENDERER_ACCELERATED | SDL_RENDERER_PRESENTVSYNC);
     renderer_ = SDL_CreateRenderer(window_, -1, flags);
-    if (renderer_ == nullptr)
-        return false;
+    if (renderer_ == nullptr) return false;
     SDL_RendererInfo info{};
     SDL_GetRendererInfo(renderer_, &info);
     software_ = (info.flags & SDL_RENDERER_SOFTWARE) != 0;
     name_ = info.name != nullptr ? info.name : "";
-    if (const std::string device = software_ ? "" : opengl_device(); !device.empty())
-        name_ += " (" + device + ")";
+    if (const std::string device = software_ ? "" : opengl_device(); !device.empty()) name_ += " (" + device + ")";
     return true;
 }
 
 bool Display::runs_on_hardware() {
-    if (software_)
-        return false;
+    if (software_) return false;
     return name_.find("llvmpipe") == std::string::npos && name_.find("softpipe") == std::string::npos &&
            name_.find("SWR") == std::string::npos;
 }
 
 void Display::close() {
-    if (renderer_ != nullptr)
-        SDL_DestroyRenderer(renderer_);
-    if (window_ != nullptr)
-        SDL_DestroyWindow(window_);
+    if (renderer_ != nullptr) SDL_DestroyRenderer(renderer_);
+    if (window_ != nullptr) SDL_DestroyWindow(window_);
     renderer_ = nullptr;
     window_ = nullptr;
 }
@@ -164,10 +149,9 @@ ScreenPixels Display::read_pixels() const {
     ScreenPixels pixels;
     SDL_GetRendererOutputSize(renderer_, &pixels.width, &pixels.height);
     pixels.rgb.resize(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height) * 3);
-    if (SDL_RenderReadPixels(renderer_, nullptr, SDL_PIXELFORMAT_RGB24, pixels.rgb.data(),
-                             pixels.width * 3) != 0)
+    if (SDL_RenderReadPixels(renderer_, nullptr, SDL_PIXELFORMAT_RGB24, pixels.rgb.data(), pixels.width * 3) != 0)
         throw Error(ErrorKind::Runtime, fmt::format("cannot read the window's pixels: {}", SDL_GetError()));
     return pixels;
 }
 
-} // namespace pl
+}  // namespace pl

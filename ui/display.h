@@ -46,4 +46,4 @@ private:
     bool software_ = false;
 };
 
-} // namespace pl
+}  // namespace pl

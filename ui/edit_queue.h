@@ -27,4 +27,4 @@ private:
     std::vector<SessionEdit> edits_;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -12,7 +12,7 @@ Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr; // the layout follows from the window's size: nothing to remember
+    io.IniFilename = nullptr;  // the layout follows from the window's size: nothing to remember
     io.LogFilename = nullptr;
     io.UserData = &pointer_rest_seconds_;
     if (!init_imgui_platform(display.window(), display.renderer())) {
@@ -28,8 +28,7 @@ Gui::~Gui() {
 }
 
 void Gui::set_scale(float ui_scale) {
-    if (ui_scale == scale_)
-        return;
+    if (ui_scale == scale_) return;
     scale_ = ui_scale;
     apply_style(ui_scale);
     load_fonts(font_, ui_scale);
@@ -63,4 +62,4 @@ void Gui::draw() {
     draw_.draw(*ImGui::GetDrawData());
 }
 
-} // namespace pl
+}  // namespace pl

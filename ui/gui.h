@@ -30,7 +30,7 @@ private:
     float scale_ = 0.0f;
     ImGuiDraw draw_;
     MouseTracker mouse_;
-    float pointer_rest_seconds_ = 0.0f; ///< io.UserData points to it, for tooltips
+    float pointer_rest_seconds_ = 0.0f;  ///< io.UserData points to it, for tooltips
 };
 
-} // namespace pl
+}  // namespace pl

@@ -7,4 +7,4 @@ namespace pl {
 
 void set_window_icon(SDL_Window* window);
 
-} // namespace pl
+}  // namespace pl

@@ -11,8 +11,7 @@ namespace pl {
 ImageLayer::ImageLayer(SDL_Renderer* renderer) : renderer_(renderer) {}
 
 ImageLayer::~ImageLayer() {
-    if (texture_ != nullptr)
-        SDL_DestroyTexture(texture_);
+    if (texture_ != nullptr) SDL_DestroyTexture(texture_);
 }
 
 Rect ImageLayer::place(const ViewerModel& model, const Rect& view) const {
@@ -21,13 +20,10 @@ Rect ImageLayer::place(const ViewerModel& model, const Rect& view) const {
 }
 
 void ImageLayer::ensure_texture(int width, int height) {
-    if (texture_ != nullptr && width == width_ && height == height_)
-        return;
-    if (texture_ != nullptr)
-        SDL_DestroyTexture(texture_);
+    if (texture_ != nullptr && width == width_ && height == height_) return;
+    if (texture_ != nullptr) SDL_DestroyTexture(texture_);
     // The window's own format: anything else is converted pixel by pixel.
-    texture_ =
-        SDL_CreateTexture(renderer_, SDL_PIXELFORMAT_ARGB8888, SDL_TEXTUREACCESS_STREAMING, width, height);
+    texture_ = SDL_CreateTexture(renderer_, SDL_PIXELFORMAT_ARGB8888, SDL_TEXTUREACCESS_STREAMING, width, height);
     if (texture_ == nullptr)
         throw Error(ErrorKind::Runtime, std::string("cannot show the picture: ") + SDL_GetError());
     SDL_SetTextureBlendMode(texture_, SDL_BLENDMODE_NONE);
@@ -40,23 +36,18 @@ void ImageLayer::fill(const ViewerModel& model, const Key& key) {
     const PublishedFrame& frame = *model.frame();
     void* pixels = nullptr;
     int pitch_bytes = 0;
-    if (SDL_LockTexture(texture_, nullptr, &pixels, &pitch_bytes) != 0)
-        return;
-    if (table_.curve() != key.display.curve)
-        table_ = ToneTable(key.display.curve);
+    if (SDL_LockTexture(texture_, nullptr, &pixels, &pitch_bytes) != 0) return;
+    if (table_.curve() != key.display.curve) table_ = ToneTable(key.display.curve);
     CellOverlay overlay{frame.cells.get(), key.opacity, std::nullopt};
-    if (key.selected != kNoVolume)
-        overlay.outlined = cell_color(key.selected, cell_table_);
-    const float scale =
-        std::exp2(key.display.exposure_ev) * display_scale(frame.snapshot.slot.view, frame.diagonal);
+    if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_);
+    const float scale = std::exp2(key.display.exposure_ev) * frame.display_scale;
     write_picture(frame.snapshot, scale, table_, overlay, static_cast<std::uint32_t*>(pixels),
                   static_cast<std::size_t>(pitch_bytes) / sizeof(std::uint32_t));
     SDL_UnlockTexture(texture_);
 }
 
 void ImageLayer::draw(const ViewerModel& model, const Rect& image) {
-    if (model.frame() == nullptr)
-        return;
+    if (model.frame() == nullptr) return;
     const Snapshot& snapshot = model.frame()->snapshot;
     ensure_texture(snapshot.width, snapshot.height);
     const Key key{model.frame()->serial, display_of(snapshot.slot.view, model.display()),
@@ -73,4 +64,4 @@ void ImageLayer::draw(const ViewerModel& model, const Rect& image) {
     SDL_RenderCopy(renderer_, texture_, nullptr, &target);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -28,7 +28,7 @@ public:
 private:
     /// All that decides the texture's pixels.
     struct Key {
-        std::uint64_t serial = 0; ///< of the frame
+        std::uint64_t serial = 0;  ///< of the frame
         DisplaySettings display;
         float opacity = 0.0f;
         std::int32_t selected = kNoVolume;
@@ -51,4 +51,4 @@ private:
     ToneTable cell_table_{ToneCurve::Clamp};
 };
 
-} // namespace pl
+}  // namespace pl

@@ -29,10 +29,10 @@ inline bool init_imgui_platform(SDL_Window* window, [[maybe_unused]] SDL_Rendere
 
 /// ImTextureID is a pointer up to 1.91.3 and an integer from 1.91.4.
 inline ImTextureID to_texture_id(SDL_Texture* texture) {
-    return (ImTextureID)(std::intptr_t)texture; // a C cast does both
+    return (ImTextureID)(std::intptr_t)texture;  // a C cast does both
 }
 inline SDL_Texture* from_texture_id(ImTextureID id) {
     return (SDL_Texture*)(std::intptr_t)id;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -19,30 +19,24 @@ SDL_Rect clip_of(const ImDrawCmd& command, const ImDrawData& data) {
     return {x0, y0, x1 - x0, y1 - y0};
 }
 
-void draw_command(SDL_Renderer* renderer,
-                  const ImDrawList& list,
-                  const ImDrawCmd& command,
-                  const SDL_Rect& clip) {
+void draw_command(SDL_Renderer* renderer, const ImDrawList& list, const ImDrawCmd& command, const SDL_Rect& clip) {
     SDL_RenderSetClipRect(renderer, &clip);
     const ImDrawVert* vertices = list.VtxBuffer.Data + command.VtxOffset;
     const int vertex_count = list.VtxBuffer.Size - static_cast<int>(command.VtxOffset);
     SDL_RenderGeometryRaw(renderer, from_texture_id(command.GetTexID()), &vertices->pos.x, sizeof(ImDrawVert),
-                          reinterpret_cast<const SDL_Color*>(&vertices->col), sizeof(ImDrawVert),
-                          &vertices->uv.x, sizeof(ImDrawVert), vertex_count,
-                          list.IdxBuffer.Data + command.IdxOffset, static_cast<int>(command.ElemCount),
-                          sizeof(ImDrawIdx));
+                          reinterpret_cast<const SDL_Color*>(&vertices->col), sizeof(ImDrawVert), &vertices->uv.x,
+                          sizeof(ImDrawVert), vertex_count, list.IdxBuffer.Data + command.IdxOffset,
+                          static_cast<int>(command.ElemCount), sizeof(ImDrawIdx));
 }
 
-} // namespace
+}  // namespace
 
 ImGuiDraw::~ImGuiDraw() {
-    if (fonts_ != nullptr)
-        SDL_DestroyTexture(fonts_);
+    if (fonts_ != nullptr) SDL_DestroyTexture(fonts_);
 }
 
 void ImGuiDraw::upload_fonts() {
-    if (fonts_ != nullptr)
-        SDL_DestroyTexture(fonts_);
+    if (fonts_ != nullptr) SDL_DestroyTexture(fonts_);
     unsigned char* pixels = nullptr;
     int width = 0;
     int height = 0;
@@ -62,14 +56,12 @@ void ImGuiDraw::draw(const ImDrawData& data) {
     for (int n = 0; n < data.CmdListsCount; ++n) {
         const ImDrawList& list = *data.CmdLists[n];
         for (const ImDrawCmd& command : list.CmdBuffer) {
-            if (command.UserCallback != nullptr)
-                continue; // nothing here uses them
+            if (command.UserCallback != nullptr) continue;  // nothing here uses them
             const SDL_Rect clip = clip_of(command, data);
-            if (clip.w > 0 && clip.h > 0)
-                draw_command(renderer_, list, command, clip);
+            if (clip.w > 0 && clip.h > 0) draw_command(renderer_, list, command, clip);
         }
     }
     SDL_RenderSetClipRect(renderer_, nullptr);
 }
 
-} // namespace pl
+}  // namespace pl

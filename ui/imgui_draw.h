@@ -24,4 +24,4 @@ private:
     SDL_Texture* fonts_ = nullptr;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -26,30 +26,20 @@ bool repeats(ActionId action) {
     case ActionId::ExposureUp:
     case ActionId::CellsFainter:
     case ActionId::CellsStronger:
-    case ActionId::SinglePass:
-        return true;
-    default:
-        return false;
+    case ActionId::SinglePass: return true;
+    default: return false;
     }
 }
 
-} // namespace
+}  // namespace
 
 void InputRouter::handle(const SDL_Event& event, ViewerModel& model, const Context& context) {
     switch (event.type) {
-    case SDL_KEYDOWN:
-        key_down(event.key, model, context);
-        break;
-    case SDL_KEYUP:
-        key_up(event.key);
-        break;
+    case SDL_KEYDOWN: key_down(event.key, model, context); break;
+    case SDL_KEYUP: key_up(event.key); break;
     case SDL_MOUSEBUTTONDOWN:
-    case SDL_MOUSEBUTTONUP:
-        button(event.button, model, context);
-        break;
-    case SDL_MOUSEMOTION:
-        motion(event.motion, model);
-        break;
+    case SDL_MOUSEBUTTONUP: button(event.button, model, context); break;
+    case SDL_MOUSEMOTION: motion(event.motion, model); break;
     case SDL_MOUSEWHEEL:
         if (context.view.contains(pointer_) && !context.panels_want_pointer)
             model.change_speed(static_cast<float>(event.wheel.y));
@@ -59,27 +49,19 @@ void InputRouter::handle(const SDL_Event& event, ViewerModel& model, const Conte
         SDL_free(event.drop.file);
         break;
     case SDL_WINDOWEVENT:
-        if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST)
-            let_go();
-        if (event.window.event == SDL_WINDOWEVENT_FOCUS_GAINED)
-            skip_next_motion_ = true;
-        if (event.window.event == SDL_WINDOWEVENT_CLOSE)
-            model.window().quit_asked = true;
+        if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) let_go();
+        if (event.window.event == SDL_WINDOWEVENT_FOCUS_GAINED) skip_next_motion_ = true;
+        if (event.window.event == SDL_WINDOWEVENT_CLOSE) model.window().quit_asked = true;
         break;
-    case SDL_QUIT:
-        model.window().quit_asked = true;
-        break;
-    default:
-        break;
+    case SDL_QUIT: model.window().quit_asked = true; break;
+    default: break;
     }
 }
 
 void InputRouter::key_down(const SDL_KeyboardEvent& event, ViewerModel& model, const Context& context) {
-    if (context.panels_want_text)
-        return;
+    if (context.panels_want_text) return;
     const std::optional<ActionId> action = find_action(stroke_of(event));
-    if (!action)
-        return;
+    if (!action) return;
     if (info_of(*action).is_held) {
         held_.insert(*action);
     } else if (event.repeat == 0 || repeats(*action)) {
@@ -92,13 +74,11 @@ void InputRouter::key_up(const SDL_KeyboardEvent& event) {
     KeyStroke stroke = stroke_of(event);
     stroke.modifiers = {};
     for (const Action& action : all_actions())
-        if (action.is_held && matches(action, stroke))
-            held_.erase(action.id);
+        if (action.is_held && matches(action, stroke)) held_.erase(action.id);
 }
 
 void InputRouter::button(const SDL_MouseButtonEvent& event, ViewerModel& model, const Context& context) {
-    if (event.button != SDL_BUTTON_LEFT && event.button != SDL_BUTTON_RIGHT)
-        return;
+    if (event.button != SDL_BUTTON_LEFT && event.button != SDL_BUTTON_RIGHT) return;
     const PointerButton which = event.button == SDL_BUTTON_LEFT ? PointerButton::Left : PointerButton::Right;
     const Vec2f position{static_cast<float>(event.x), static_cast<float>(event.y)};
     const bool was_captured = gesture_.captured();
@@ -111,16 +91,13 @@ void InputRouter::button(const SDL_MouseButtonEvent& event, ViewerModel& model, 
         if (image.contains(*click))
             model.pick({(click->x - image.x) / image.width, (click->y - image.y) / image.height});
     }
-    if (gesture_.captured() != was_captured)
-        SDL_SetRelativeMouseMode(gesture_.captured() ? SDL_TRUE : SDL_FALSE);
+    if (gesture_.captured() != was_captured) SDL_SetRelativeMouseMode(gesture_.captured() ? SDL_TRUE : SDL_FALSE);
     // A drag goes on outside the window.
-    if (!gesture_.captured())
-        SDL_CaptureMouse(event.type == SDL_MOUSEBUTTONDOWN ? SDL_TRUE : SDL_FALSE);
+    if (!gesture_.captured()) SDL_CaptureMouse(event.type == SDL_MOUSEBUTTONDOWN ? SDL_TRUE : SDL_FALSE);
 }
 
 void InputRouter::motion(const SDL_MouseMotionEvent& event, ViewerModel& model) {
-    if (!gesture_.captured())
-        pointer_ = {static_cast<float>(event.x), static_cast<float>(event.y)};
+    if (!gesture_.captured()) pointer_ = {static_cast<float>(event.x), static_cast<float>(event.y)};
     if (skip_next_motion_) {
         skip_next_motion_ = false;
         return;
@@ -132,8 +109,7 @@ void InputRouter::motion(const SDL_MouseMotionEvent& event, ViewerModel& model) 
 
 void InputRouter::let_go() {
     held_.clear();
-    if (gesture_.captured())
-        SDL_SetRelativeMouseMode(SDL_FALSE);
+    if (gesture_.captured()) SDL_SetRelativeMouseMode(SDL_FALSE);
     gesture_.cancel();
 }
 
@@ -143,11 +119,9 @@ MoveKeys InputRouter::move_keys() const {
     keys.forward = held(ActionId::MoveForward) - held(ActionId::MoveBack);
     keys.right = held(ActionId::MoveRight) - held(ActionId::MoveLeft);
     keys.up = held(ActionId::MoveUp) - held(ActionId::MoveDown);
-    if (held_.count(ActionId::Fast) > 0)
-        keys.speed_factor *= kFastFactor;
-    if (held_.count(ActionId::Slow) > 0)
-        keys.speed_factor *= kSlowFactor;
+    if (held_.count(ActionId::Fast) > 0) keys.speed_factor *= kFastFactor;
+    if (held_.count(ActionId::Slow) > 0) keys.speed_factor *= kSlowFactor;
     return keys;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -46,7 +46,7 @@ private:
     PointerGesture gesture_;
     std::set<ActionId> held_;
     Vec2f pointer_{-1.0f};
-    bool skip_next_motion_ = false; ///< the first one after the focus came back is a jump
+    bool skip_next_motion_ = false;  ///< the first one after the focus came back is a jump
 };
 
-} // namespace pl
+}  // namespace pl

@@ -15,7 +15,7 @@ namespace pl {
 class JobThread {
 public:
     using Report = std::function<void()>;
-    using Job = std::function<Report()>; ///< must not throw
+    using Job = std::function<Report()>;  ///< must not throw
 
     JobThread() : thread_([this] { run(); }) {}
     /// Finishes the jobs that are queued: a picture asked for is written.
@@ -56,8 +56,7 @@ private:
         std::unique_lock lock(mutex_);
         while (true) {
             wake_.wait(lock, [&] { return quit_ || !jobs_.empty(); });
-            if (jobs_.empty())
-                return;
+            if (jobs_.empty()) return;
             const Job job = std::move(jobs_.front());
             jobs_.pop_front();
             lock.unlock();
@@ -74,7 +73,7 @@ private:
     std::vector<Report> reports_;
     int pending_ = 0;
     bool quit_ = false;
-    std::thread thread_; ///< last: starts when all else is there
+    std::thread thread_;  ///< last: starts when all else is there
 };
 
-} // namespace pl
+}  // namespace pl

@@ -13,28 +13,25 @@ constexpr float kSmallestLeftEm = 16.0f;
 constexpr float kSmallestRightEm = 18.0f;
 constexpr float kGoodViewEm = 36.0f;
 constexpr float kSmallestViewEm = 18.0f;
-constexpr float kBarEm = 1.75f; ///< height of menu and status bar
+constexpr float kBarEm = 1.75f;  ///< height of menu and status bar
 /// A picture that fills more of the view than this is not stretched to fill all of it: stretching blurs.
 constexpr float kNearlyFull = 0.95f;
 
-} // namespace
+}  // namespace
 
 Layout make_layout(float width, float height, float em, bool panels) {
     Layout layout;
     layout.panels = panels;
     layout.view = {0.0f, 0.0f, width, height};
     layout.clear = layout.view;
-    if (!panels)
-        return layout;
+    if (!panels) return layout;
 
     const float bar = std::round(kBarEm * em);
     const float middle = std::max(height - 2.0f * bar, 1.0f);
     const float spare = width - (kSmallestLeftEm + kSmallestRightEm + kGoodViewEm) * em;
-    const float right =
-        std::round(std::clamp(kSmallestRightEm * em + spare, kSmallestRightEm * em, kRightEm * em));
+    const float right = std::round(std::clamp(kSmallestRightEm * em + spare, kSmallestRightEm * em, kRightEm * em));
     const float rest = spare - (right - kSmallestRightEm * em);
-    const float left =
-        std::round(std::clamp(kSmallestLeftEm * em + rest, kSmallestLeftEm * em, kLeftEm * em));
+    const float left = std::round(std::clamp(kSmallestLeftEm * em + rest, kSmallestLeftEm * em, kLeftEm * em));
     layout.menu = {0.0f, 0.0f, width, bar};
     layout.status = {0.0f, height - bar, width, bar};
     const float left_shown = std::min(left, 0.5f * width);
@@ -48,17 +45,15 @@ Layout make_layout(float width, float height, float em, bool panels) {
 }
 
 Rect place_image(const Rect& view, int width, int height) {
-    if (width < 1 || height < 1)
-        return {};
+    if (width < 1 || height < 1) return {};
     const auto w = static_cast<float>(width);
     const auto h = static_cast<float>(height);
     float scale = std::min(view.width / w, view.height / h);
-    if (scale >= 1.0f && scale * kNearlyFull <= 1.0f)
-        scale = 1.0f;
+    if (scale >= 1.0f && scale * kNearlyFull <= 1.0f) scale = 1.0f;
     const float shown_w = std::max(std::round(w * scale), 1.0f);
     const float shown_h = std::max(std::round(h * scale), 1.0f);
-    return {std::floor(view.x + 0.5f * (view.width - shown_w)),
-            std::floor(view.y + 0.5f * (view.height - shown_h)), shown_w, shown_h};
+    return {std::floor(view.x + 0.5f * (view.width - shown_w)), std::floor(view.y + 0.5f * (view.height - shown_h)),
+            shown_w, shown_h};
 }
 
 ImageSize fit_image(const Rect& view, int width, int height) {
@@ -68,4 +63,4 @@ ImageSize fit_image(const Rect& view, int width, int height) {
     return {static_cast<int>(w), std::max(static_cast<int>(std::lround(w * shape)), 1)};
 }
 
-} // namespace pl
+}  // namespace pl

@@ -7,11 +7,11 @@ namespace pl {
 
 struct Layout {
     Rect menu;
-    Rect left;  ///< settings
-    Rect right; ///< what is known about the picture
+    Rect left;   ///< settings
+    Rect right;  ///< what is known about the picture
     Rect status;
-    Rect view;  ///< what the picture may use
-    Rect clear; ///< the part of it that no panel covers
+    Rect view;   ///< what the picture may use
+    Rect clear;  ///< the part of it that no panel covers
     bool panels = true;
 };
 
@@ -30,4 +30,4 @@ struct ImageSize {
 };
 ImageSize fit_image(const Rect& view, int width, int height);
 
-} // namespace pl
+}  // namespace pl

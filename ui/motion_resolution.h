@@ -32,4 +32,4 @@ constexpr int divided(int size, int divider) {
     return size / divider > 0 ? size / divider : 1;
 }
 
-} // namespace pl
+}  // namespace pl

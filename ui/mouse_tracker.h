@@ -20,8 +20,7 @@ public:
         } else if (event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP) {
             const bool down = event.type == SDL_MOUSEBUTTONDOWN;
             for (std::size_t i = 0; i < kButtons.size(); ++i) {
-                if (event.button.button != kButtons[i])
-                    continue;
+                if (event.button.button != kButtons[i]) continue;
                 down_[i] = down;
                 pressed_[i] = pressed_[i] || down;
             }
@@ -46,7 +45,7 @@ public:
     float y() const { return y_; }
 
 private:
-    static constexpr float kNowhere = -std::numeric_limits<float>::max(); // what ImGui takes for "no mouse"
+    static constexpr float kNowhere = -std::numeric_limits<float>::max();  // what ImGui takes for "no mouse"
     static constexpr std::array<Uint8, 3> kButtons{SDL_BUTTON_LEFT, SDL_BUTTON_RIGHT, SDL_BUTTON_MIDDLE};
 
     float x_ = kNowhere;
@@ -55,4 +54,4 @@ private:
     std::array<bool, 3> pressed_{};
 };
 
-} // namespace pl
+}  // namespace pl

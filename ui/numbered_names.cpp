@@ -7,8 +7,7 @@
 
 namespace pl {
 
-std::filesystem::path NumberedNames::next(const std::filesystem::path& dir,
-                                          const std::string& stem,
+std::filesystem::path NumberedNames::next(const std::filesystem::path& dir, const std::string& stem,
                                           std::initializer_list<const char*> suffixes) {
     while (true) {
         const std::string name = fmt::format("{}-{:04}", stem, ++last_);
@@ -16,8 +15,7 @@ std::filesystem::path NumberedNames::next(const std::filesystem::path& dir,
             std::error_code ignored;
             return std::filesystem::exists(dir / (name + suffix), ignored);
         });
-        if (!taken)
-            return dir / name;
+        if (!taken) return dir / name;
     }
 }
 
@@ -30,4 +28,4 @@ std::string file_name_part(const std::string& text) {
     return result.empty() ? "picture" : result;
 }
 
-} // namespace pl
+}  // namespace pl

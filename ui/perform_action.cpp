@@ -22,7 +22,7 @@ void step_opacity(ViewerModel& model, float step) {
     model.set_cells_opacity(model.window().cells_opacity + step);
 }
 
-} // namespace
+}  // namespace
 
 void perform(ViewerModel& model, ActionId action) {
     WindowState& window = model.window();
@@ -34,96 +34,37 @@ void perform(ViewerModel& model, ActionId action) {
     case ActionId::MoveUp:
     case ActionId::MoveDown:
     case ActionId::Fast:
-    case ActionId::Slow:
-        break; // held: InputRouter adds them up
-    case ActionId::SpeedUp:
-        model.change_speed(1.0f);
-        break;
-    case ActionId::SpeedDown:
-        model.change_speed(-1.0f);
-        break;
-    case ActionId::CameraHome:
-        model.camera_home();
-        break;
-    case ActionId::Restart:
-        model.restart();
-        break;
-    case ActionId::Forget:
-        model.forget();
-        break;
-    case ActionId::Pause:
-        model.set_paused(!model.paused());
-        break;
-    case ActionId::SinglePass:
-        model.single_pass();
-        break;
-    case ActionId::MethodDefault:
-        model.set_method(MethodId::Default);
-        break;
-    case ActionId::MethodPrecomputed:
-        model.set_method(MethodId::Precomputed);
-        break;
-    case ActionId::MethodReinforcement:
-        model.set_method(MethodId::Reinforcement);
-        break;
-    case ActionId::NextEvent:
-        model.set_next_event(!model.settings().next_event);
-        break;
-    case ActionId::PreviousView:
-        model.step_view(-1);
-        break;
-    case ActionId::NextView:
-        model.step_view(1);
-        break;
-    case ActionId::ExposureDown:
-        model.set_exposure(model.display().exposure_ev - kExposureStep);
-        break;
-    case ActionId::ExposureUp:
-        model.set_exposure(model.display().exposure_ev + kExposureStep);
-        break;
-    case ActionId::Cells:
-        model.set_cells(!window.cells);
-        break;
-    case ActionId::CellsFainter:
-        step_opacity(model, -kOpacityStep);
-        break;
-    case ActionId::CellsStronger:
-        step_opacity(model, kOpacityStep);
-        break;
-    case ActionId::Hemisphere:
-        window.hemisphere = !window.hemisphere;
-        break;
-    case ActionId::HidePanels:
-        window.panels = !window.panels;
-        break;
-    case ActionId::Help:
-        window.help = !window.help;
-        break;
-    case ActionId::FullScreen:
-        window.full_screen_asked = true;
-        break;
-    case ActionId::Reload:
-        model.reload();
-        break;
-    case ActionId::Screenshot:
-        model.save_screenshot();
-        break;
-    case ActionId::ScreenshotWithPanels:
-        window.window_shot_asked = true;
-        break;
-    case ActionId::Save:
-        model.save_picture();
-        break;
-    case ActionId::CopyCommand:
-        copy_command(model);
-        break;
-    case ActionId::Cancel:
-        model.cancel();
-        break;
-    case ActionId::Quit:
-        window.quit_asked = true;
-        break;
+    case ActionId::Slow: break;  // held: InputRouter adds them up
+    case ActionId::SpeedUp: model.change_speed(1.0f); break;
+    case ActionId::SpeedDown: model.change_speed(-1.0f); break;
+    case ActionId::CameraHome: model.camera_home(); break;
+    case ActionId::Restart: model.restart(); break;
+    case ActionId::Forget: model.forget(); break;
+    case ActionId::Pause: model.set_paused(!model.paused()); break;
+    case ActionId::SinglePass: model.single_pass(); break;
+    case ActionId::MethodDefault: model.set_method(MethodId::Default); break;
+    case ActionId::MethodPrecomputed: model.set_method(MethodId::Precomputed); break;
+    case ActionId::MethodReinforcement: model.set_method(MethodId::Reinforcement); break;
+    case ActionId::NextEvent: model.set_next_event(!model.settings().next_event); break;
+    case ActionId::PreviousView: model.step_view(-1); break;
+    case ActionId::NextView: model.step_view(1); break;
+    case ActionId::ExposureDown: model.set_exposure(model.display().exposure_ev - kExposureStep); break;
+    case ActionId::ExposureUp: model.set_exposure(model.display().exposure_ev + kExposureStep); break;
+    case ActionId::Cells: model.set_cells(!window.cells); break;
+    case ActionId::CellsFainter: step_opacity(model, -kOpacityStep); break;
+    case ActionId::CellsStronger: step_opacity(model, kOpacityStep); break;
+    case ActionId::Hemisphere: window.hemisphere = !window.hemisphere; break;
+    case ActionId::HidePanels: window.panels = !window.panels; break;
+    case ActionId::Help: window.help = !window.help; break;
+    case ActionId::FullScreen: window.full_screen_asked = true; break;
+    case ActionId::Reload: model.reload(); break;
+    case ActionId::Screenshot: model.save_screenshot(); break;
+    case ActionId::ScreenshotWithPanels: window.window_shot_asked = true; break;
+    case ActionId::Save: model.save_picture(); break;
+    case ActionId::CopyCommand: copy_command(model); break;
+    case ActionId::Cancel: model.cancel(); break;
+    case ActionId::Quit: window.quit_asked = true; break;
     }
 }
 
-} // namespace pl
+}  // namespace pl

@@ -44,8 +44,7 @@ void outline_cell(const CellImage& cells, std::uint32_t wanted, std::uint32_t* o
     const int width = cells.width;
     const int height = cells.height;
     const auto inside = [&](int x, int y) {
-        if (x < 0 || y < 0 || x >= width || y >= height)
-            return false;
+        if (x < 0 || y < 0 || x >= width || y >= height) return false;
         return cells.argb[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                           static_cast<std::size_t>(x)] == wanted;
     };
@@ -56,18 +55,16 @@ void outline_cell(const CellImage& cells, std::uint32_t wanted, std::uint32_t* o
     constexpr int kSteps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            if (!inside(x, y))
-                continue;
+            if (!inside(x, y)) continue;
             for (const auto& step : kSteps) {
-                if (inside(x + step[0], y + step[1]))
-                    continue;
+                if (inside(x + step[0], y + step[1])) continue;
                 put(x, y, kOutlinePixel);
                 put(x + step[0], y + step[1], kOutlineShade);
             }
         }
 }
 
-} // namespace
+}  // namespace
 
 ToneTable::ToneTable(ToneCurve curve) : curve_(curve), codes_{} {
     for (std::size_t i = 0; i < kSize; ++i) {
@@ -89,26 +86,27 @@ DisplaySettings display_of(View view, const DisplaySettings& asked) {
     switch (view) {
     case View::Beauty:
     case View::Direct:
-    case View::RadianceMap:
-        return asked;
+    case View::RadianceMap: return asked;
     case View::Voronoi:
     case View::Normal:
     case View::Albedo:
-    case View::Depth:
-        break;
+    case View::Depth: break;
     }
     return {};
 }
 
-float display_scale(View view, float scene_diagonal) {
-    return view == View::Depth && scene_diagonal > 0.0f ? 1.0f / scene_diagonal : 1.0f;
+float display_scale(const Snapshot& snapshot) {
+    if (snapshot.slot.view != View::Depth) return 1.0f;
+    float largest = 0.0f;
+    for (const Vec3f& pixel : snapshot.pixels)
+        if (pixel.x > largest && pixel.x < kInfinity) largest = pixel.x;
+    return largest > 0.0f ? 1.0f / largest : 1.0f;
 }
 
 CellImage make_cell_image(const Snapshot& colors, const ToneTable& table) {
     CellImage image{colors.width, colors.height, {}};
     image.argb.reserve(colors.pixels.size());
-    for (const Vec3f& color : colors.pixels)
-        image.argb.push_back(display_color(color, 1.0f, table));
+    for (const Vec3f& color : colors.pixels) image.argb.push_back(display_color(color, 1.0f, table));
     return image;
 }
 
@@ -116,27 +114,19 @@ std::uint32_t cell_color(std::int32_t volume, const ToneTable& table) {
     return display_color(color_of_id(static_cast<std::uint32_t>(volume)), 1.0f, table);
 }
 
-void write_picture(const Snapshot& snapshot,
-                   float scale,
-                   const ToneTable& table,
-                   const CellOverlay& overlay,
-                   std::uint32_t* out,
-                   std::size_t pitch) {
+void write_picture(const Snapshot& snapshot, float scale, const ToneTable& table, const CellOverlay& overlay,
+                   std::uint32_t* out, std::size_t pitch) {
     const auto width = static_cast<std::size_t>(snapshot.width);
     for (std::size_t y = 0; y < static_cast<std::size_t>(snapshot.height); ++y) {
         const Vec3f* row = snapshot.pixels.data() + y * width;
         std::uint32_t* target = out + y * pitch;
-        for (std::size_t x = 0; x < width; ++x)
-            target[x] = display_color(row[x], scale, table);
+        for (std::size_t x = 0; x < width; ++x) target[x] = display_color(row[x], scale, table);
     }
     const CellImage* cells = overlay.cells;
-    if (cells == nullptr || cells->width != snapshot.width || cells->height != snapshot.height)
-        return;
-    if (overlay.opacity > 0.0f)
-        blend_cells(*cells, overlay.opacity, out, pitch);
+    if (cells == nullptr || cells->width != snapshot.width || cells->height != snapshot.height) return;
+    if (overlay.opacity > 0.0f) blend_cells(*cells, overlay.opacity, out, pitch);
     // Pixels on the border of two cells may be mixtures of both: they count as outside.
-    if (overlay.outlined)
-        outline_cell(*cells, *overlay.outlined, out, pitch);
+    if (overlay.outlined) outline_cell(*cells, *overlay.outlined, out, pitch);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -15,7 +15,7 @@ namespace pl {
 /// from exact rounding only where the exact value is within kMaxError of a boundary between two codes.
 class ToneTable {
 public:
-    static constexpr float kMaxError = 0.13f; ///< in codes: half a table step where the curve is steepest
+    static constexpr float kMaxError = 0.13f;  ///< in codes: half a table step where the curve is steepest
 
     explicit ToneTable(ToneCurve curve);
 
@@ -32,8 +32,7 @@ private:
     static constexpr std::uint32_t kShift = 23 - kMantissaBits;
     static constexpr std::size_t kSize = static_cast<std::size_t>(kHighestExponent - kLowestExponent)
                                          << kMantissaBits;
-    static constexpr std::uint32_t kFirst = static_cast<std::uint32_t>(127 + kLowestExponent)
-                                            << kMantissaBits;
+    static constexpr std::uint32_t kFirst = static_cast<std::uint32_t>(127 + kLowestExponent) << kMantissaBits;
 
     ToneCurve curve_;
     std::array<std::uint8_t, kSize> codes_;
@@ -42,9 +41,8 @@ private:
 /// Exposure and curve as far as they apply to a view: data views such as normals are shown as they are.
 DisplaySettings display_of(View view, const DisplaySettings& asked);
 
-/// Factor that brings the values of a view into the range of the screen: white is as far as the scene's diagonal for
-/// depth; 1 for all others.
-float display_scale(View view, float scene_diagonal);
+/// Factor that brings a picture's values into the range of the screen: 1 / the largest finite one for depth, else 1.
+float display_scale(const Snapshot& snapshot);
 
 /// `colors` is a picture of View::Voronoi. Both functions expect the table of ToneCurve::Clamp.
 CellImage make_cell_image(const Snapshot& colors, const ToneTable& table);
@@ -52,17 +50,13 @@ std::uint32_t cell_color(std::int32_t volume, const ToneTable& table);
 
 /// What is laid over the picture.
 struct CellOverlay {
-    const CellImage* cells = nullptr;      ///< ignored if null or of another size than the picture
-    float opacity = 0.0f;                  ///< of the cells' colors
-    std::optional<std::uint32_t> outlined; ///< cell_color() of the cell that gets an outline
+    const CellImage* cells = nullptr;       ///< ignored if null or of another size than the picture
+    float opacity = 0.0f;                   ///< of the cells' colors
+    std::optional<std::uint32_t> outlined;  ///< cell_color() of the cell that gets an outline
 };
 
 /// Writes ARGB8888 rows, `pitch` pixels apart. `scale` multiplies linear values: exposure and display_scale().
-void write_picture(const Snapshot& snapshot,
-                   float scale,
-                   const ToneTable& table,
-                   const CellOverlay& overlay,
-                   std::uint32_t* out,
-                   std::size_t pitch);
+void write_picture(const Snapshot& snapshot, float scale, const ToneTable& table, const CellOverlay& overlay,
+                   std::uint32_t* out, std::size_t pitch);
 
-} // namespace pl
+}  // namespace pl

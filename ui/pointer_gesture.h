@@ -18,32 +18,26 @@ public:
 
     /// A button goes down over the image or over something else. A second button does not interrupt the first.
     void press(PointerButton button, Vec2f position, double seconds, bool over_image) {
-        if (active_ || !over_image)
-            return;
+        if (active_ || !over_image) return;
         active_ = Press{button, position, seconds, button == PointerButton::Right};
     }
 
     /// The pointer moves. Returns by how much to turn the camera.
     Vec2f move(Vec2f position, Vec2f delta) {
-        if (!active_)
-            return Vec2f{0.0f};
-        if (active_->turning)
-            return delta;
+        if (!active_) return Vec2f{0.0f};
+        if (active_->turning) return delta;
         const Vec2f from_press = position - active_->position;
-        if (std::fabs(from_press.x) < kClickPixels && std::fabs(from_press.y) < kClickPixels)
-            return Vec2f{0.0f};
+        if (std::fabs(from_press.x) < kClickPixels && std::fabs(from_press.y) < kClickPixels) return Vec2f{0.0f};
         active_->turning = true;
-        return from_press; // what the threshold held back comes with the first step
+        return from_press;  // what the threshold held back comes with the first step
     }
 
     /// The button goes up. Returns where it clicked if it was a short left press without movement.
     std::optional<Vec2f> release(PointerButton button, double seconds) {
-        if (!active_ || active_->button != button)
-            return std::nullopt;
+        if (!active_ || active_->button != button) return std::nullopt;
         const Press press = *active_;
         active_.reset();
-        if (press.turning || seconds - press.seconds > kClickSeconds)
-            return std::nullopt;
+        if (press.turning || seconds - press.seconds > kClickSeconds) return std::nullopt;
         return press.position;
     }
 
@@ -64,4 +58,4 @@ private:
     std::optional<Press> active_;
 };
 
-} // namespace pl
+}  // namespace pl

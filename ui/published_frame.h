@@ -21,17 +21,17 @@ struct CellImage {
 
 struct PublishedFrame {
     Snapshot snapshot;
-    RenderSettings settings;      ///< width and height are those of the full picture
-    std::uint64_t serial = 0;     ///< number of the frame, from 1
-    std::uint64_t generation = 0; ///< of the newest edit that this picture shows
-    int divider = 1;              ///< width and height of the snapshot are divided by this
+    RenderSettings settings;       ///< width and height are those of the full picture
+    std::uint64_t serial = 0;      ///< number of the frame, from 1
+    std::uint64_t generation = 0;  ///< of the newest edit that this picture shows
+    int divider = 1;               ///< width and height of the snapshot are divided by this
     BackendInfo backend;
     std::shared_ptr<const SceneDescription> description;
     std::shared_ptr<const HostScene> scene;
-    float diagonal = 0.0f;                  ///< of the scene's bounds
-    std::shared_ptr<const CellImage> cells; ///< null if not asked for, or of another camera pose
-    std::shared_ptr<const VolumeInspection>
-        volume; ///< of the selected volume; null if there is nothing to show
+    float diagonal = 0.0f;                           ///< of the scene's bounds
+    float display_scale = 1.0f;                      ///< see display_scale() in ui/picture.h
+    std::shared_ptr<const CellImage> cells;          ///< null if not asked for, or of another camera pose
+    std::shared_ptr<const VolumeInspection> volume;  ///< of the selected volume; null if there is nothing to show
 };
 
 enum class WorkerState { Starting, Rendering, Precomputing, Paused, Done, Failed };
@@ -42,7 +42,7 @@ struct WorkerStatus {
     WorkerState state = WorkerState::Starting;
     std::uint32_t passes = 0;
     int divider = 1;
-    double seconds = 0.0; ///< work_seconds()
+    double seconds = 0.0;  ///< work_seconds()
     std::uint64_t generation = 0;
     std::optional<FieldStatus> field;
 };
@@ -58,4 +58,4 @@ struct PickAnswer {
     std::optional<PickedPoint> point;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -38,30 +38,23 @@ VolumeInspection inspect(const Session& session, std::int32_t volume) {
     try {
         return session.inspect_volume(volume);
     } catch (const Error& error) {
-        if (error.kind() != ErrorKind::Usage)
-            throw;
+        if (error.kind() != ErrorKind::Usage) throw;
         VolumeInspection result;
         result.volume = volume;
         return result;
     }
 }
 
-} // namespace
+}  // namespace
 
 const char* name_of(WorkerState state) {
     switch (state) {
-    case WorkerState::Starting:
-        return "starting";
-    case WorkerState::Rendering:
-        return "rendering";
-    case WorkerState::Precomputing:
-        return "precomputing";
-    case WorkerState::Paused:
-        return "paused";
-    case WorkerState::Done:
-        return "done";
-    case WorkerState::Failed:
-        return "failed";
+    case WorkerState::Starting: return "starting";
+    case WorkerState::Rendering: return "rendering";
+    case WorkerState::Precomputing: return "precomputing";
+    case WorkerState::Paused: return "paused";
+    case WorkerState::Done: return "done";
+    case WorkerState::Failed: return "failed";
     }
     return "";
 }
@@ -85,8 +78,7 @@ RenderWorker::~RenderWorker() {
 
 std::uint64_t RenderWorker::submit(SessionEdit edit) {
     const std::lock_guard lock(mutex_);
-    if (pass_may_be_cut_)
-        stop_ = true;
+    if (pass_may_be_cut_) stop_ = true;
     edits_.push(std::move(edit));
     wake_.notify_all();
     return ++wishes_.generation;
@@ -130,8 +122,7 @@ void RenderWorker::set_cells_wanted(bool wanted) {
 void RenderWorker::request_pick(Vec2f image_point) {
     const std::lock_guard lock(mutex_);
     wishes_.pick = image_point;
-    if (pass_may_be_cut_)
-        stop_ = true;
+    if (pass_may_be_cut_) stop_ = true;
     wake_.notify_all();
 }
 
@@ -175,8 +166,8 @@ void RenderWorker::report(bool is_error, const std::string& text) {
 void RenderWorker::run() {
     yield_to_the_window();
     try {
-        session_ = std::make_unique<Session>(setup_.make_backend(), setup_.scene, setup_.settings,
-                                             setup_.load_seconds);
+        session_ =
+            std::make_unique<Session>(setup_.make_backend(), setup_.scene, setup_.settings, setup_.load_seconds);
     } catch (...) {
         const std::lock_guard lock(mutex_);
         failure_ = std::current_exception();
@@ -202,13 +193,11 @@ bool RenderWorker::take_wishes() {
         std::unique_lock lock(mutex_);
         while (!wishes_.quit) {
             now_ = wishes_;
-            if (!edits_.empty() || has_work())
-                break;
+            if (!edits_.empty() || has_work()) break;
             status_ = make_status();
             wake_.wait(lock);
         }
-        if (wishes_.quit)
-            return false;
+        if (wishes_.quit) return false;
         edits = edits_.take();
         wishes_.pick.reset();
         wishes_.steps = 0;
@@ -218,28 +207,23 @@ bool RenderWorker::take_wishes() {
     const std::lock_guard lock(mutex_);
     // A pass in motion is short and always finished: otherwise a hand that never rests would never see a picture.
     pass_may_be_cut_ = !coarse();
-    if (pass_may_be_cut_ && !edits_.empty())
-        stop_ = true; // came while nobody had decided
+    if (pass_may_be_cut_ && !edits_.empty()) stop_ = true;  // came while nobody had decided
     return true;
 }
 
 bool RenderWorker::has_work() const {
-    if (now_.pick)
-        return true;
-    if (failed_)
-        return false;
+    if (now_.pick) return true;
+    if (failed_) return false;
     const bool size_is_stale = divider_ != 1 && !coarse();
     return size_is_stale || wants_pass() || republish_ || inspection_stale_ ||
-           now_.volume != (inspection_ ? inspection_->volume : kNoVolume) ||
-           (now_.cells && cells_pose_ != pose_);
+           now_.volume != (inspection_ ? inspection_->volume : kNoVolume) || (now_.cells && cells_pose_ != pose_);
 }
 
 void RenderWorker::apply_edits(std::vector<SessionEdit> edits) {
     for (SessionEdit& edit : edits) {
         failed_ = false;
         try {
-            if (changes_pose(edit))
-                ++pose_;
+            if (changes_pose(edit)) ++pose_;
             pose_unseen_ = pose_unseen_ || std::holds_alternative<EditCamera>(edit);
             inspection_stale_ = true;
             republish_ = true;
@@ -250,7 +234,7 @@ void RenderWorker::apply_edits(std::vector<SessionEdit> edits) {
             if (const auto* size = std::get_if<EditSize>(&edit)) {
                 full_width_ = size->width;
                 full_height_ = size->height;
-                divider_ = 0; // no size is right any more: work() applies the new one
+                divider_ = 0;  // no size is right any more: work() applies the new one
             } else {
                 session_->apply(edit);
             }
@@ -261,30 +245,23 @@ void RenderWorker::apply_edits(std::vector<SessionEdit> edits) {
 }
 
 void RenderWorker::apply_size(int divider) {
-    if (divider == divider_)
-        return;
+    if (divider == divider_) return;
     divider_ = divider;
     const int width = divided(full_width_, divider);
     const int height = divided(full_height_, divider);
-    if (session_->settings().width == width && session_->settings().height == height)
-        return;
+    if (session_->settings().width == width && session_->settings().height == height) return;
     session_->apply(EditSize{width, height});
     ++pose_;
 }
 
 void RenderWorker::work() {
     apply_size(coarse() ? motion_.divider_for(full_width_, full_height_) : 1);
-    if (now_.pick)
-        answer_pick(*now_.pick);
-    if (wants_pass())
-        render();
-    if (stop_)
-        return;
-    if (now_.cells && cells_pose_ != pose_ && session_->passes() > 0)
-        render_cells();
+    if (now_.pick) answer_pick(*now_.pick);
+    if (wants_pass()) render();
+    if (stop_) return;
+    if (now_.cells && cells_pose_ != pose_ && session_->passes() > 0) render_cells();
     refresh_inspection();
-    if (republish_ || publish_is_due())
-        publish();
+    if (republish_ || publish_is_due()) publish();
 }
 
 /// While the camera moves, and until the last place it came to was seen at all.
@@ -293,20 +270,16 @@ bool RenderWorker::coarse() const {
 }
 
 bool RenderWorker::wants_pass() const {
-    if (failed_)
-        return false;
+    if (failed_) return false;
     // Also a paused picture follows the camera: one pass for every view of the scene.
-    if (session_->passes() == 0 || now_.steps > 0)
-        return true;
+    if (session_->passes() == 0 || now_.steps > 0) return true;
     return !now_.paused && !limit_reached();
 }
 
 bool RenderWorker::limit_reached() const {
-    if (coarse())
-        return false;
+    if (coarse()) return false;
     const SampleLimits& limits = now_.limits;
-    if (limits.spp > 0 && session_->passes() >= limits.spp)
-        return true;
+    if (limits.spp > 0 && session_->passes() >= limits.spp) return true;
     return limits.seconds > 0.0 && work_seconds(session_->clocks()) >= limits.seconds;
 }
 
@@ -314,13 +287,11 @@ void RenderWorker::render() {
     const double start = now_seconds();
     const Progress progress = session_->advance(&stop_);
     if (progress == Progress::Rendered) {
-        if (session_->passes() == 1)
-            republish_ = true;
+        if (session_->passes() == 1) republish_ = true;
         motion_.observe(divider_, now_seconds() - start);
     }
     update_status();
-    if (now_.steps > 0 || limit_reached() || now_.paused)
-        republish_ = true;
+    if (now_.steps > 0 || limit_reached() || now_.paused) republish_ = true;
 }
 
 void RenderWorker::render_cells() {
@@ -340,8 +311,8 @@ void RenderWorker::render_cells() {
 void RenderWorker::answer_pick(Vec2f image_point) {
     const RenderSettings& settings = session_->settings();
     PickAnswer answer;
-    answer.point = session_->pick(
-        image_point * Vec2f{static_cast<float>(settings.width), static_cast<float>(settings.height)});
+    answer.point =
+        session_->pick(image_point * Vec2f{static_cast<float>(settings.width), static_cast<float>(settings.height)});
     if (answer.point && answer.point->volume == kNoVolume)
         answer.point->volume = session_->find_volume_at(answer.point->position, answer.point->normal);
     const std::lock_guard lock(mutex_);
@@ -351,10 +322,8 @@ void RenderWorker::answer_pick(Vec2f image_point) {
 void RenderWorker::refresh_inspection() {
     const std::int32_t shown = inspection_ ? inspection_->volume : kNoVolume;
     const bool aged = now_seconds() - inspected_at_ > kInspectionSeconds;
-    if (now_.volume == shown && !inspection_stale_ && !(aged && now_.volume != kNoVolume))
-        return;
-    if (session_->passes() == 0)
-        return; // there may be no tables yet
+    if (now_.volume == shown && !inspection_stale_ && !(aged && now_.volume != kNoVolume)) return;
+    if (session_->passes() == 0) return;  // there may be no tables yet
     inspection_stale_ = false;
     inspected_at_ = now_seconds();
     if (now_.volume == kNoVolume) {
@@ -362,13 +331,11 @@ void RenderWorker::refresh_inspection() {
     } else {
         inspection_ = std::make_shared<VolumeInspection>(inspect(*session_, now_.volume));
     }
-    if (now_.volume != shown || !wants_pass())
-        republish_ = true;
+    if (now_.volume != shown || !wants_pass()) republish_ = true;
 }
 
 bool RenderWorker::publish_is_due() const {
-    if (session_->passes() == 0 || session_->passes() == published_passes_)
-        return false;
+    if (session_->passes() == 0 || session_->passes() == published_passes_) return false;
     bool taken = false;
     {
         const std::lock_guard lock(mutex_);
@@ -379,8 +346,7 @@ bool RenderWorker::publish_is_due() const {
 
 void RenderWorker::publish() {
     // Until the first pass is there the window keeps the picture it has.
-    if (session_->passes() == 0)
-        return;
+    if (session_->passes() == 0) return;
     auto frame = std::make_shared<PublishedFrame>();
     frame->snapshot = session_->snapshot();
     frame->settings = session_->settings();
@@ -393,6 +359,7 @@ void RenderWorker::publish() {
     frame->description = scene_;
     frame->scene = session_->packed_scene();
     frame->diagonal = diagonal_;
+    frame->display_scale = display_scale(frame->snapshot);
     frame->cells = cells_pose_ == pose_ && now_.cells ? cells_ : nullptr;
     frame->volume = inspection_;
     republish_ = false;
@@ -432,4 +399,4 @@ void RenderWorker::update_status() {
     status_ = status;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -102,34 +102,34 @@ private:
     std::optional<PickAnswer> pick_answer_;
     std::shared_ptr<const PublishedFrame> frame_;
     bool frame_taken_ = true;
-    bool pass_may_be_cut_ = false; ///< the pass under way is one at rest: a new camera stops it
+    bool pass_may_be_cut_ = false;  ///< the pass under way is one at rest: a new camera stops it
     std::exception_ptr failure_;
     std::atomic<std::uint64_t> frame_count_{0};
     StopFlag stop_{false};
 
     // Only the render thread touches what follows.
     std::unique_ptr<Session> session_;
-    Wishes now_; ///< wishes as of the last look
+    Wishes now_;  ///< wishes as of the last look
     std::shared_ptr<const SceneDescription> scene_;
     float diagonal_ = 0.0f;
     MotionResolution motion_;
     int full_width_ = 0;
     int full_height_ = 0;
     int divider_ = 1;
-    std::uint64_t pose_ = 1;       ///< grows with everything that changes which cell a pixel sees
-    std::uint64_t cells_pose_ = 0; ///< pose that cells_ shows
+    std::uint64_t pose_ = 1;        ///< grows with everything that changes which cell a pixel sees
+    std::uint64_t cells_pose_ = 0;  ///< pose that cells_ shows
     std::shared_ptr<const CellImage> cells_;
     ToneTable cell_table_{ToneCurve::Clamp};
     std::shared_ptr<const VolumeInspection> inspection_;
     bool inspection_stale_ = false;
-    bool pose_unseen_ = false; ///< the camera went to a place that no frame shows yet
-    bool republish_ = false;   ///< the published frame lacks something that is there now
+    bool pose_unseen_ = false;  ///< the camera went to a place that no frame shows yet
+    bool republish_ = false;    ///< the published frame lacks something that is there now
     bool failed_ = false;
     double inspected_at_ = 0.0;
     double published_at_ = 0.0;
     std::uint32_t published_passes_ = 0;
 
-    std::thread thread_; ///< last: starts when all else is there
+    std::thread thread_;  ///< last: starts when all else is there
 };
 
-} // namespace pl
+}  // namespace pl

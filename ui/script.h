@@ -28,12 +28,12 @@ struct ScriptCommand {
     enum class Kind { Move, Aim, Down, Up, Wheel, Key, KeyUp, Tap, Resize, Drop, Shot, Expect, Wait, Quit };
     Kind kind = Kind::Quit;
     int frame = 0;
-    std::string where; ///< file:line, for messages
-    double x = 0.0;    ///< also width, notches
-    double y = 0.0;    ///< also height
-    int button = 0;    ///< SDL's number
+    std::string where;  ///< file:line, for messages
+    double x = 0.0;     ///< also width, notches
+    double y = 0.0;     ///< also height
+    int button = 0;     ///< SDL's number
     KeyStroke key{};
-    std::string text; ///< file name
+    std::string text;  ///< file name
     ScriptCondition condition;
 };
 
@@ -41,4 +41,4 @@ struct ScriptCommand {
 std::vector<ScriptCommand> parse_script(std::string_view text, const std::string& file_name);
 std::vector<ScriptCommand> load_script(const std::filesystem::path& path);
 
-} // namespace pl
+}  // namespace pl

@@ -17,12 +17,9 @@ using Kind = ScriptCommand::Kind;
 
 Uint16 sdl_modifiers(const Modifiers& modifiers) {
     int mod = KMOD_NONE;
-    if (modifiers.shift)
-        mod |= KMOD_LSHIFT;
-    if (modifiers.ctrl)
-        mod |= KMOD_LCTRL;
-    if (modifiers.alt)
-        mod |= KMOD_LALT;
+    if (modifiers.shift) mod |= KMOD_LSHIFT;
+    if (modifiers.ctrl) mod |= KMOD_LCTRL;
+    if (modifiers.alt) mod |= KMOD_LALT;
     return static_cast<Uint16>(mod);
 }
 
@@ -30,26 +27,23 @@ void require(const ScriptCommand& command, const ViewerModel& model) {
     const ScriptCondition& condition = command.condition;
     const std::string actual = script_value(model, condition.name);
     if (!holds(condition, actual))
-        throw Error(ErrorKind::Runtime, fmt::format("{}: expected {} {} {}, got '{}'", command.where,
-                                                    condition.name, condition.op, condition.value, actual));
+        throw Error(ErrorKind::Runtime, fmt::format("{}: expected {} {} {}, got '{}'", command.where, condition.name,
+                                                    condition.op, condition.value, actual));
 }
 
-} // namespace
+}  // namespace
 
 ScriptPlayer::ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* window)
     : commands_(std::move(commands)), window_(window) {}
 
 void ScriptPlayer::step(ViewerModel& model, const Rect& image, double seconds) {
-    for (const KeyStroke& key : std::exchange(tapped_, {}))
-        push_key(key, false);
+    for (const KeyStroke& key : std::exchange(tapped_, {})) push_key(key, false);
     while (next_ < commands_.size() && commands_[next_].frame <= frame_) {
-        if (!run(commands_[next_], model, image, seconds))
-            return; // its time stands still
+        if (!run(commands_[next_], model, image, seconds)) return;  // its time stands still
         ++next_;
     }
     ++frame_;
-    if (next_ == commands_.size())
-        model.window().quit_asked = true;
+    if (next_ == commands_.size()) model.window().quit_asked = true;
 }
 
 std::optional<std::filesystem::path> ScriptPlayer::take_shot() {
@@ -61,10 +55,8 @@ bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, 
         waiting_since_.reset();
         return true;
     }
-    if (!waiting_since_)
-        waiting_since_ = seconds;
-    if (seconds - *waiting_since_ < kLongestWaitSeconds)
-        return false;
+    if (!waiting_since_) waiting_since_ = seconds;
+    if (seconds - *waiting_since_ < kLongestWaitSeconds) return false;
     throw Error(ErrorKind::Runtime,
                 fmt::format("{}: waited {:.0f} s for {} {} {}, got '{}'", command.where, kLongestWaitSeconds,
                             command.condition.name, command.condition.op, command.condition.value,
@@ -73,17 +65,13 @@ bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, 
 
 bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds) {
     switch (command.kind) {
-    case Kind::Move:
-        push_motion({static_cast<float>(command.x), static_cast<float>(command.y)});
-        break;
+    case Kind::Move: push_motion({static_cast<float>(command.x), static_cast<float>(command.y)}); break;
     case Kind::Aim:
         push_motion({image.x + static_cast<float>(command.x) * image.width,
                      image.y + static_cast<float>(command.y) * image.height});
         break;
     case Kind::Down:
-    case Kind::Up:
-        push_button(command.button, command.kind == Kind::Down);
-        break;
+    case Kind::Up: push_button(command.button, command.kind == Kind::Down); break;
     case Kind::Wheel: {
         SDL_Event event{};
         event.type = SDL_MOUSEWHEEL;
@@ -92,19 +80,13 @@ bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const R
         SDL_PushEvent(&event);
         break;
     }
-    case Kind::Key:
-        push_key(command.key, true);
-        break;
-    case Kind::KeyUp:
-        push_key(command.key, false);
-        break;
+    case Kind::Key: push_key(command.key, true); break;
+    case Kind::KeyUp: push_key(command.key, false); break;
     case Kind::Tap:
         push_key(command.key, true);
         tapped_.push_back(command.key);
         break;
-    case Kind::Resize:
-        SDL_SetWindowSize(window_, static_cast<int>(command.x), static_cast<int>(command.y));
-        break;
+    case Kind::Resize: SDL_SetWindowSize(window_, static_cast<int>(command.x), static_cast<int>(command.y)); break;
     case Kind::Drop: {
         SDL_Event event{};
         event.type = SDL_DROPFILE;
@@ -113,17 +95,10 @@ bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const R
         SDL_PushEvent(&event);
         break;
     }
-    case Kind::Shot:
-        shot_ = command.text;
-        break;
-    case Kind::Expect:
-        require(command, model);
-        break;
-    case Kind::Wait:
-        return wait(command, model, seconds);
-    case Kind::Quit:
-        model.window().quit_asked = true;
-        break;
+    case Kind::Shot: shot_ = command.text; break;
+    case Kind::Expect: require(command, model); break;
+    case Kind::Wait: return wait(command, model, seconds);
+    case Kind::Quit: model.window().quit_asked = true; break;
     }
     return true;
 }
@@ -166,4 +141,4 @@ void ScriptPlayer::push_key(const KeyStroke& key, bool down) {
     SDL_PushEvent(&event);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -41,10 +41,10 @@ private:
     std::size_t next_ = 0;
     int frame_ = 0;
     std::optional<double> waiting_since_;
-    std::vector<KeyStroke> tapped_; ///< keys that go up in the next frame
+    std::vector<KeyStroke> tapped_;  ///< keys that go up in the next frame
     std::optional<std::filesystem::path> shot_;
     Vec2f pointer_{0.0f};
     unsigned int buttons_ = 0;
 };
 
-} // namespace pl
+}  // namespace pl

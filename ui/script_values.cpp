@@ -58,21 +58,19 @@ constexpr std::array kValues{
     Value{"eye_z", [](const ViewerModel& m) { return fmt::format("{}", m.settings().camera.eye.z); }},
     Value{"target", [](const ViewerModel& m) { return vector_text(m.settings().camera.target); }},
     Value{"speed", [](const ViewerModel& m) { return fmt::format("{}", m.controls().speed()); }},
-    Value{"size",
-          [](const ViewerModel& m) { return fmt::format("{}x{}", m.settings().width, m.settings().height); }},
+    Value{"size", [](const ViewerModel& m) { return fmt::format("{}x{}", m.settings().width, m.settings().height); }},
     Value{"title", [](const ViewerModel& m) { return m.title(); }},
     Value{"message", last_message},
     Value{"toasts", [](const ViewerModel& m) { return fmt::format("{}", m.toasts().size()); }},
     Value{"shown_method",
           [](const ViewerModel& m) {
-              return shown(m, [](const PublishedFrame& f) {
-                  return std::string(info_of(f.snapshot.slot.method).name);
-              });
+              return shown(m,
+                           [](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.method).name); });
           }},
     Value{"shown_view",
           [](const ViewerModel& m) {
-              return shown(
-                  m, [](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.view).name); });
+              return shown(m,
+                           [](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.view).name); });
           }},
     Value{"shown_spp",
           [](const ViewerModel& m) {
@@ -88,13 +86,12 @@ constexpr std::array kValues{
           }},
     Value{"invalid",
           [](const ViewerModel& m) {
-              return shown(m, [](const PublishedFrame& f) {
-                  return fmt::format("{}", f.snapshot.counters.invalid_samples);
-              });
+              return shown(
+                  m, [](const PublishedFrame& f) { return fmt::format("{}", f.snapshot.counters.invalid_samples); });
           }},
 };
 
-} // namespace
+}  // namespace
 
 bool is_script_value(std::string_view name) {
     return std::ranges::find(kValues, name, &Value::name) != kValues.end();
@@ -102,8 +99,7 @@ bool is_script_value(std::string_view name) {
 
 std::string script_value_names() {
     std::string text;
-    for (const Value& value : kValues)
-        text += (text.empty() ? "" : ", ") + std::string(value.name);
+    for (const Value& value : kValues) text += (text.empty() ? "" : ", ") + std::string(value.name);
     return text;
 }
 
@@ -112,4 +108,4 @@ std::string script_value(const ViewerModel& model, std::string_view name) {
     return value != kValues.end() ? value->read(model) : "";
 }
 
-} // namespace pl
+}  // namespace pl

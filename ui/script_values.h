@@ -14,4 +14,4 @@ std::string script_value_names();
 /// The value now. The name must be one of the known ones.
 std::string script_value(const ViewerModel& model, std::string_view name);
 
-} // namespace pl
+}  // namespace pl

@@ -50,7 +50,7 @@ void apply_colors(ImVec4* c) {
     c[ImGuiCol_PlotHistogram] = rgb(0x5ca8ff);
 }
 
-} // namespace
+}  // namespace
 
 void apply_style(float ui_scale) {
     ImGuiStyle style;
@@ -86,12 +86,11 @@ void load_fonts(const std::filesystem::path& font, float ui_scale) {
         config.OversampleH = 1;
         config.OversampleV = 1;
         config.PixelSnapH = true;
-        if (atlas.AddFontFromFileTTF(font.string().c_str(), pixels, &config, kRanges) != nullptr)
-            return;
+        if (atlas.AddFontFromFileTTF(font.string().c_str(), pixels, &config, kRanges) != nullptr) return;
     }
     ImFontConfig config;
     config.SizePixels = pixels;
     atlas.AddFontDefault(&config);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -15,7 +15,7 @@ inline constexpr ImU32 kGood = IM_COL32(108, 204, 128, 255);
 inline constexpr ImU32 kWarning = IM_COL32(255, 184, 76, 255);
 inline constexpr ImU32 kError = IM_COL32(255, 112, 104, 255);
 inline constexpr ImU32 kBadge = IM_COL32(20, 22, 27, 215);
-} // namespace colors
+}  // namespace colors
 
 /// Height of the font in pixels, the unit of all sizes.
 inline constexpr float kFontPixels = 16.0f;
@@ -35,4 +35,4 @@ inline ImVec4 to_vec4(ImU32 color) {
     return ImGui::ColorConvertU32ToFloat4(color);
 }
 
-} // namespace pl
+}  // namespace pl

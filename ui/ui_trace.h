@@ -26,9 +26,9 @@ public:
 
     /// What one frame of the window took, in seconds.
     struct FrameTimes {
-        double work;     ///< from its first event to its presentation, by the clock
-        double cpu;      ///< of that, what the window's thread computed
-        double interval; ///< since the frame before; negative if the window rested in between
+        double work;      ///< from its first event to its presentation, by the clock
+        double cpu;       ///< of that, what the window's thread computed
+        double interval;  ///< since the frame before; negative if the window rested in between
     };
     /// A frame was shown; `generation` is that of the picture in it.
     void frame_shown(double seconds, const FrameTimes& times, std::uint64_t generation);
@@ -48,10 +48,10 @@ private:
     std::vector<double> work_ms_;
     std::vector<double> cpu_ms_;
     std::vector<double> interval_ms_;
-    std::vector<double> first_picture_ms_; ///< moves after a rest
-    std::vector<double> picture_ms_;       ///< all moves
+    std::vector<double> first_picture_ms_;  ///< moves after a rest
+    std::vector<double> picture_ms_;        ///< all moves
     double last_move_ = -1.0e9;
     std::uint64_t frames_ = 0;
 };
 
-} // namespace pl
+}  // namespace pl

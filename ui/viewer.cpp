@@ -21,10 +21,10 @@ namespace pl {
 namespace {
 
 constexpr double kFrameSeconds = 1.0 / 60.0;
-constexpr int kIdleWaitMs = 250;       ///< nothing changes: only look now and then
-constexpr double kStatusSeconds = 0.1; ///< while rendering: counters move although no new picture is there
-constexpr double kSettleSeconds = 0.6; ///< after an event: panels come to rest, tooltips appear
-constexpr double kIdleSeconds = 1.0;   ///< between two frames that show nothing new
+constexpr int kIdleWaitMs = 250;        ///< nothing changes: only look now and then
+constexpr double kStatusSeconds = 0.1;  ///< while rendering: counters move although no new picture is there
+constexpr double kSettleSeconds = 0.6;  ///< after an event: panels come to rest, tooltips appear
+constexpr double kIdleSeconds = 1.0;    ///< between two frames that show nothing new
 constexpr double kLongestDelta = 0.1;
 
 double steady_seconds() {
@@ -69,25 +69,21 @@ private:
     double start_ = steady_seconds();
     double last_frame_ = start_;
     double last_shown_ = -1.0;
-    std::uint64_t shown_frames_ = 0; ///< of the render thread
+    std::uint64_t shown_frames_ = 0;  ///< of the render thread
     std::uint64_t traced_camera_ = 0;
-    double settle_until_ = 0.0; ///< until then every frame is drawn
+    double settle_until_ = 0.0;  ///< until then every frame is drawn
     bool idle_ = false;
     bool rested_ = true;
     bool hidden_ = false;
     std::string title_;
 };
 
-Viewer::Viewer(const ViewerOptions& options,
-               std::shared_ptr<const SceneDescription> scene,
-               double load_seconds)
+Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene, double load_seconds)
     : options_(options), display_("pathlight", options.width, options.height, options.software),
       gui_(display_, options.font, 1.0f), image_layer_(display_.renderer()), input_(display_.window()),
       model_(options, scene, first_settings(*scene), load_seconds) {
-    if (options.script)
-        script_.emplace(load_script(*options.script), display_.window());
-    if (options.ui_trace)
-        trace_.emplace(*options.ui_trace);
+    if (options.script) script_.emplace(load_script(*options.script), display_.window());
+    if (options.ui_trace) trace_.emplace(*options.ui_trace);
     model_.note(LogLevel::Info, "window drawn by " + display_.renderer_name());
     layout_ = current_layout();
     image_ = image_layer_.place(model_, layout_.view);
@@ -97,20 +93,18 @@ Layout Viewer::current_layout() const {
     int width = 0;
     int height = 0;
     SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
-    return make_layout(static_cast<float>(width), static_cast<float>(height),
-                       kFontPixels * model_.window().ui_scale, model_.window().panels);
+    return make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels * model_.window().ui_scale,
+                       model_.window().panels);
 }
 
 RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
     RenderSettings settings = options_.settings;
-    if (options_.camera_from_scene)
-        settings.camera = scene.camera;
+    if (options_.camera_from_scene) settings.camera = scene.camera;
     if (options_.size_from_window) {
         int width = 0;
         int height = 0;
         SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
-        const Layout layout =
-            make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels, true);
+        const Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels, true);
         const ImageSize size = fit_image(layout.view, settings.width, settings.height);
         settings.width = size.width;
         settings.height = size.height;
@@ -123,18 +117,14 @@ void Viewer::run() {
         wait_for_events();
         const double now = steady_seconds();
         const double cpu_start = thread_seconds();
-        const double delta =
-            script_ ? ScriptPlayer::kFrameSeconds : std::min(now - last_frame_, kLongestDelta);
-        if (script_)
-            script_->step(model_, image_, now);
+        const double delta = script_ ? ScriptPlayer::kFrameSeconds : std::min(now - last_frame_, kLongestDelta);
+        if (script_) script_->step(model_, image_, now);
         SDL_Event event;
-        while (SDL_PollEvent(&event) != 0)
-            dispatch(event);
+        while (SDL_PollEvent(&event) != 0) dispatch(event);
         model_.update(now - start_);
         fly(delta);
         last_frame_ = now;
-        if (!needs_redraw(now))
-            continue;
+        if (!needs_redraw(now)) continue;
 
         gui_.set_scale(model_.window().ui_scale);
         gui_.frame(delta, [this] { build_panels(); });
@@ -153,18 +143,16 @@ void Viewer::run() {
 /// Sleeps until the next frame is due; while nothing happens, much longer.
 void Viewer::wait_for_events() {
     const WorkerState state = model_.status().state;
-    const bool at_rest =
-        (state == WorkerState::Paused || state == WorkerState::Done) && model_.toasts().empty();
-    idle_ = !script_ && steady_seconds() > settle_until_ && !input_.active() && !model_.moving() &&
-            !model_.busy() && (at_rest || hidden_);
+    const bool at_rest = (state == WorkerState::Paused || state == WorkerState::Done) && model_.toasts().empty();
+    idle_ = !script_ && steady_seconds() > settle_until_ && !input_.active() && !model_.moving() && !model_.busy() &&
+            (at_rest || hidden_);
     if (idle_) {
         rested_ = true;
         SDL_WaitEventTimeout(nullptr, kIdleWaitMs);
         return;
     }
     const double left = last_frame_ + kFrameSeconds - steady_seconds();
-    if (left <= 0.0)
-        return;
+    if (left <= 0.0) return;
     if (script_)
         SDL_Delay(static_cast<Uint32>(left * 1000.0));
     else
@@ -183,8 +171,7 @@ void Viewer::dispatch(const SDL_Event& event) {
     const ImGuiIO& io = ImGui::GetIO();
     // Tab goes from field to field only while one is being typed in; else it hides the panels.
     const bool is_tab = event.type == SDL_KEYDOWN && event.key.keysym.scancode == SDL_SCANCODE_TAB;
-    if (!is_tab || io.WantTextInput)
-        gui_.handle(event);
+    if (!is_tab || io.WantTextInput) gui_.handle(event);
     input_.handle(event, model_,
                   {image_, layout_.view, io.WantCaptureMouse, io.WantTextInput, steady_seconds() - start_});
 }
@@ -198,8 +185,7 @@ void Viewer::fly(double delta) {
 }
 
 bool Viewer::needs_redraw(double now) {
-    if (hidden_)
-        return false;
+    if (hidden_) return false;
     const std::uint64_t frames = model_.frame() != nullptr ? model_.frame()->serial : 0;
     const bool new_picture = frames != shown_frames_;
     shown_frames_ = frames;
@@ -228,16 +214,14 @@ void Viewer::build_panels() {
         draw_status_bar(model_, layout_);
     }
     draw_hemisphere(model_, image_);
-    if (layout_.panels)
-        draw_badges(model_, layout_);
+    if (layout_.panels) draw_badges(model_, layout_);
     draw_toasts(model_, layout_);
     draw_help(model_, layout_);
 }
 
 void Viewer::do_window_wishes() {
     WindowState& window = model_.window();
-    if (std::exchange(window.full_screen_asked, false))
-        display_.toggle_full_screen();
+    if (std::exchange(window.full_screen_asked, false)) display_.toggle_full_screen();
     if (std::exchange(window.fit_size_asked, false)) {
         const ImageSize size = fit_image(layout_.view, model_.settings().width, model_.settings().height);
         model_.set_size(size.width, size.height);
@@ -256,25 +240,21 @@ void Viewer::show() {
     if (std::exchange(model_.window().window_shot_asked, false))
         model_.save_window(display_.read_pixels(), model_.next_window_shot());
     if (script_) {
-        if (const auto path = script_->take_shot())
-            model_.save_window(display_.read_pixels(), *path);
+        if (const auto path = script_->take_shot()) model_.save_window(display_.read_pixels(), *path);
     }
     SDL_RenderPresent(display_.renderer());
 }
 
 void Viewer::print_trace() {
-    if (trace_)
-        std::fputs(trace_->finish().c_str(), stderr);
+    if (trace_) std::fputs(trace_->finish().c_str(), stderr);
 }
 
-} // namespace
+}  // namespace
 
 int run_viewer(const ViewerOptions& options) {
     // A script needs no screen; a driver that the environment names wins.
-    if (options.script && std::getenv("SDL_VIDEODRIVER") == nullptr)
-        SDL_setenv("SDL_VIDEODRIVER", "dummy", 1);
-    if (options.script)
-        (void)load_script(*options.script); // a mistake in it should not cost a window
+    if (options.script && std::getenv("SDL_VIDEODRIVER") == nullptr) SDL_setenv("SDL_VIDEODRIVER", "dummy", 1);
+    if (options.script) (void)load_script(*options.script);  // a mistake in it should not cost a window
 
     std::shared_ptr<const SceneDescription> scene = options.scene;
     double load_seconds = options.load_seconds;
@@ -289,4 +269,4 @@ int run_viewer(const ViewerOptions& options) {
     return 0;
 }
 
-} // namespace pl
+}  // namespace pl

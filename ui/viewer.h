@@ -20,7 +20,7 @@ namespace pl {
 /// Rendering rests when the first one is reached. 0: no such limit.
 struct SampleLimits {
     std::uint32_t spp = 0;
-    double seconds = 0.0; ///< placing, precomputing, learning and rendering; see work_seconds()
+    double seconds = 0.0;  ///< placing, precomputing, learning and rendering; see work_seconds()
 
     friend bool operator==(const SampleLimits&, const SampleLimits&) = default;
 };
@@ -32,7 +32,7 @@ inline double work_seconds(const Clocks& clocks) {
 
 /// What the viewer shows, as far as a saved file or a command line has to repeat it.
 struct ViewerPicture {
-    std::string scene; ///< name as load_scene takes it
+    std::string scene;  ///< name as load_scene takes it
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
@@ -49,20 +49,20 @@ struct ViewerOptions {
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
-    std::string scene_name; ///< what load_scene is called with at the start
+    std::string scene_name;  ///< what load_scene is called with at the start
     /// The scene if it is loaded already; else it is loaded before the window opens.
     std::shared_ptr<const SceneDescription> scene;
-    double load_seconds = 0.0;     ///< of `scene`
-    bool camera_from_scene = true; ///< start from the scene's camera instead of settings.camera
-    bool size_from_window = true;  ///< settings.width : height is a shape only; the window decides the size
+    double load_seconds = 0.0;      ///< of `scene`
+    bool camera_from_scene = true;  ///< start from the scene's camera instead of settings.camera
+    bool size_from_window = true;   ///< settings.width : height is a shape only; the window decides the size
 
-    int width = 1440; ///< of the window
+    int width = 1440;  ///< of the window
     int height = 900;
-    bool software = false;      ///< do not look for an accelerated renderer
-    std::filesystem::path font; ///< .ttf; the built-in font if it is missing
+    bool software = false;       ///< do not look for an accelerated renderer
+    std::filesystem::path font;  ///< .ttf; the built-in font if it is missing
     std::filesystem::path screenshot_dir = ".";
-    std::optional<std::filesystem::path> script;   ///< scripted input, see ui/script.h
-    std::optional<std::filesystem::path> ui_trace; ///< one JSON object per UI frame; percentiles on stderr
+    std::optional<std::filesystem::path> script;    ///< scripted input, see ui/script.h
+    std::optional<std::filesystem::path> ui_trace;  ///< one JSON object per UI frame; percentiles on stderr
 
     /// Called once, on the render thread. Should leave one hardware thread to the window where there are several.
     std::function<std::unique_ptr<RenderBackend>()> make_backend;
@@ -80,4 +80,4 @@ struct ViewerOptions {
 /// scene or script, Runtime if a scripted expectation fails.
 int run_viewer(const ViewerOptions& options);
 
-} // namespace pl
+}  // namespace pl

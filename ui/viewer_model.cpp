@@ -11,7 +11,7 @@
 namespace pl {
 namespace {
 
-constexpr double kRestSeconds = 0.1; ///< without input until the picture is whole again
+constexpr double kRestSeconds = 0.1;  ///< without input until the picture is whole again
 constexpr double kToastSeconds = 4.0;
 constexpr double kErrorToastSeconds = 10.0;
 constexpr std::size_t kMaxToasts = 4;
@@ -19,31 +19,26 @@ constexpr std::size_t kMaxLogLines = 1000;
 constexpr double kThroughputSeconds = 0.5;
 constexpr float kMaxExposureEv = 16.0f;
 
-} // namespace
+}  // namespace
 
 std::string back_end_label(const std::string& name) {
     std::string label = name;
-    for (char& c : label)
-        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    for (char& c : label) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     return label;
 }
 
-ViewerModel::ViewerModel(const ViewerOptions& options,
-                         std::shared_ptr<const SceneDescription> scene,
-                         const RenderSettings& settings,
-                         double load_seconds)
+ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene,
+                         const RenderSettings& settings, double load_seconds)
     : options_(options), scene_name_(options.scene_name), settings_(settings), display_(options.display),
       limits_(options.limits), controls_(settings.camera, bounds_of(*scene).diagonal()),
       worker_({options.make_backend, scene, settings, options.limits, load_seconds}) {
-    for (const std::string& warning : scene->warnings)
-        say(LogLevel::Warning, warning);
+    for (const std::string& warning : scene->warnings) say(LogLevel::Warning, warning);
     note(LogLevel::Info, fmt::format("opened {}: {} triangles", scene_name_, scene->triangles.size()));
 }
 
 void ViewerModel::update(double seconds) {
     now_ = seconds;
-    if (const std::exception_ptr failure = worker_.failure())
-        std::rethrow_exception(failure);
+    if (const std::exception_ptr failure = worker_.failure()) std::rethrow_exception(failure);
     if (moving_ && now_ >= moving_until_) {
         moving_ = false;
         worker_.set_moving(false);
@@ -57,8 +52,7 @@ void ViewerModel::update(double seconds) {
         say(message.is_error ? LogLevel::Error : LogLevel::Info, message.text);
     take_pick();
     for (const JobThread::Report& report : jobs_.take_reports())
-        if (report)
-            report();
+        if (report) report();
     std::erase_if(toasts_, [&](const Toast& toast) { return toast.until <= now_; });
 }
 
@@ -72,8 +66,7 @@ void ViewerModel::measure_throughput() {
         measured_seconds_ = 0.0;
     }
     const double elapsed = seconds - measured_seconds_;
-    if (elapsed <= 0.0 || (elapsed < kThroughputSeconds && measured_paths_ > 0))
-        return;
+    if (elapsed <= 0.0 || (elapsed < kThroughputSeconds && measured_paths_ > 0)) return;
     mpaths_per_second_ = 1.0e-6 * static_cast<double>(snapshot.counters.paths - measured_paths_) / elapsed;
     measured_paths_ = snapshot.counters.paths;
     measured_seconds_ = seconds;
@@ -87,12 +80,10 @@ const VolumeInspection* ViewerModel::inspection() const {
 
 std::string ViewerModel::title() const {
     const std::string back_end = frame_ ? back_end_label(frame_->backend.name) : "starting";
-    std::string text = fmt::format("{} spp - {} - {} - {}", status_.passes, info_of(settings_.method).label,
-                                   back_end, scene_name_);
-    if (status_.state == WorkerState::Done)
-        text = "done: " + text;
-    if (status_.state == WorkerState::Paused)
-        text = "paused: " + text;
+    std::string text =
+        fmt::format("{} spp - {} - {} - {}", status_.passes, info_of(settings_.method).label, back_end, scene_name_);
+    if (status_.state == WorkerState::Done) text = "done: " + text;
+    if (status_.state == WorkerState::Paused) text = "paused: " + text;
     return text;
 }
 
@@ -109,16 +100,14 @@ std::string ViewerModel::command_line() const {
 // --- edits -----------------------------------------------------------------------------------------------------
 
 void ViewerModel::set_method(MethodId method) {
-    if (method == settings_.method)
-        return;
+    if (method == settings_.method) return;
     previous_method_ = settings_.method;
     settings_.method = method;
     worker_.submit(EditMethod{method});
 }
 
 void ViewerModel::set_view(View view) {
-    if (view == settings_.view)
-        return;
+    if (view == settings_.view) return;
     settings_.view = view;
     worker_.submit(EditView{view});
 }
@@ -130,8 +119,7 @@ void ViewerModel::step_view(int steps) {
 }
 
 void ViewerModel::set_next_event(bool on) {
-    if (on == settings_.next_event)
-        return;
+    if (on == settings_.next_event) return;
     settings_.next_event = on;
     worker_.submit(EditEstimator{settings_.max_depth, on});
     note(LogLevel::Info, on ? "next-event estimation on: pictures and tables start over"
@@ -139,47 +127,41 @@ void ViewerModel::set_next_event(bool on) {
 }
 
 void ViewerModel::set_max_depth(int depth) {
-    if (depth == settings_.max_depth || depth < 1)
-        return;
+    if (depth == settings_.max_depth || depth < 1) return;
     settings_.max_depth = depth;
     worker_.submit(EditEstimator{depth, settings_.next_event});
 }
 
 void ViewerModel::set_seed(std::uint64_t seed) {
-    if (seed == settings_.seed)
-        return;
+    if (seed == settings_.seed) return;
     settings_.seed = seed;
     worker_.submit(EditSeed{seed});
 }
 
 void ViewerModel::set_mixture(float bsdf_fraction) {
     const float fraction = std::clamp(bsdf_fraction, 0.1f, 1.0f);
-    if (fraction == settings_.bsdf_fraction)
-        return;
+    if (fraction == settings_.bsdf_fraction) return;
     settings_.bsdf_fraction = fraction;
     touch_motion();
     worker_.submit(EditMixture{fraction});
 }
 
 void ViewerModel::set_field(const FieldSettings& field) {
-    if (field == settings_.field)
-        return;
+    if (field == settings_.field) return;
     settings_.field = field;
     deselect();
     worker_.submit(EditField{field});
 }
 
 void ViewerModel::set_size(int width, int height) {
-    if (width < 1 || height < 1 || (width == settings_.width && height == settings_.height))
-        return;
+    if (width < 1 || height < 1 || (width == settings_.width && height == settings_.height)) return;
     settings_.width = width;
     settings_.height = height;
     worker_.submit(EditSize{width, height});
 }
 
 void ViewerModel::set_limits(const SampleLimits& limits) {
-    if (limits == limits_)
-        return;
+    if (limits == limits_) return;
     limits_ = limits;
     worker_.set_limits(limits);
 }
@@ -218,8 +200,7 @@ void ViewerModel::cancel() {
 void ViewerModel::cancel_precomputation() {
     const bool back = previous_method_ != settings_.method;
     set_method(back ? previous_method_ : MethodId::Default);
-    say(LogLevel::Info,
-        fmt::format("precomputation interrupted, back to {}", info_of(settings_.method).name));
+    say(LogLevel::Info, fmt::format("precomputation interrupted, back to {}", info_of(settings_.method).name));
 }
 
 // --- display ---------------------------------------------------------------------------------------------------
@@ -250,8 +231,7 @@ void ViewerModel::set_low_resolution(bool allowed) {
 
 void ViewerModel::touch_motion() {
     moving_until_ = now_ + kRestSeconds;
-    if (moving_)
-        return;
+    if (moving_) return;
     moving_ = true;
     worker_.set_moving(true);
 }
@@ -263,13 +243,11 @@ void ViewerModel::submit_camera() {
 }
 
 void ViewerModel::fly(const MoveKeys& keys, double seconds) {
-    if (controls_.move(keys, seconds))
-        submit_camera();
+    if (controls_.move(keys, seconds)) submit_camera();
 }
 
 void ViewerModel::look(Vec2f pixels) {
-    if (pixels.x == 0.0f && pixels.y == 0.0f)
-        return;
+    if (pixels.x == 0.0f && pixels.y == 0.0f) return;
     controls_.look(pixels);
     submit_camera();
 }
@@ -298,8 +276,7 @@ void ViewerModel::pick(Vec2f image_point) {
 
 void ViewerModel::take_pick() {
     const std::optional<PickAnswer> answer = worker_.take_pick();
-    if (!answer)
-        return;
+    if (!answer) return;
     if (!answer->point) {
         say(LogLevel::Info, "nothing to select there: the ray leaves the scene");
         return;
@@ -347,8 +324,7 @@ void ViewerModel::start_loading(const std::string& name, bool keep_camera) {
     });
 }
 
-void ViewerModel::adopt_scene(std::shared_ptr<const SceneDescription> scene,
-                              const std::string& name,
+void ViewerModel::adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name,
                               bool keep_camera) {
     deselect();
     scene_name_ = name;
@@ -356,8 +332,7 @@ void ViewerModel::adopt_scene(std::shared_ptr<const SceneDescription> scene,
     controls_ = CameraControls(scene->camera, bounds_of(*scene).diagonal());
     controls_.set_camera(camera);
     settings_.camera = camera;
-    for (const std::string& warning : scene->warnings)
-        say(LogLevel::Warning, warning);
+    for (const std::string& warning : scene->warnings) say(LogLevel::Warning, warning);
     say(LogLevel::Info, fmt::format("opened {}: {} triangles", name, scene->triangles.size()));
     worker_.submit(EditScene{std::move(scene)});
     worker_.submit(EditCamera{camera});
@@ -378,9 +353,8 @@ void ViewerModel::save(std::initializer_list<const char*> suffixes) {
     }
     ViewerPicture shown = picture();
     shown.settings = frame_->settings;
-    const std::string stem =
-        fmt::format("{}-{}", file_name_part(std::filesystem::path(scene_name_).stem().string()),
-                    info_of(shown.settings.method).name);
+    const std::string stem = fmt::format("{}-{}", file_name_part(std::filesystem::path(scene_name_).stem().string()),
+                                         info_of(shown.settings.method).name);
     const std::filesystem::path name = names_.next(options_.screenshot_dir, stem, suffixes);
     for (const char* suffix : suffixes) {
         const std::filesystem::path path = name.string() + suffix;
@@ -405,30 +379,27 @@ void ViewerModel::save_window(ScreenPixels pixels, std::filesystem::path path) {
         say(LogLevel::Warning, "this build cannot save the window");
         return;
     }
-    jobs_.push(
-        [this, path, shared = std::make_shared<ScreenPixels>(std::move(pixels))]() -> JobThread::Report {
-            try {
-                options_.save_screen(path, *shared);
-                return [this, path] { say(LogLevel::Info, "saved " + path.string()); };
-            } catch (const std::exception& error) {
-                return [this, text = std::string(error.what())] { say(LogLevel::Error, text); };
-            }
-        });
+    jobs_.push([this, path, shared = std::make_shared<ScreenPixels>(std::move(pixels))]() -> JobThread::Report {
+        try {
+            options_.save_screen(path, *shared);
+            return [this, path] { say(LogLevel::Info, "saved " + path.string()); };
+        } catch (const std::exception& error) {
+            return [this, text = std::string(error.what())] { say(LogLevel::Error, text); };
+        }
+    });
 }
 
 // --- messages --------------------------------------------------------------------------------------------------
 
 void ViewerModel::note(LogLevel level, const std::string& text) {
-    if (log_.size() >= kMaxLogLines)
-        log_.erase(log_.begin());
+    if (log_.size() >= kMaxLogLines) log_.erase(log_.begin());
     log_.push_back({now_, level, text});
 }
 
 void ViewerModel::say(LogLevel level, const std::string& text) {
     note(level, text);
-    if (toasts_.size() >= kMaxToasts)
-        toasts_.erase(toasts_.begin());
+    if (toasts_.size() >= kMaxToasts) toasts_.erase(toasts_.begin());
     toasts_.push_back({level, text, now_ + (level == LogLevel::Info ? kToastSeconds : kErrorToastSeconds)});
 }
 
-} // namespace pl
+}  // namespace pl

@@ -18,7 +18,7 @@ namespace pl {
 enum class LogLevel { Info, Warning, Error };
 
 struct LogLine {
-    double seconds; ///< since the start
+    double seconds;  ///< since the start
     LogLevel level;
     std::string text;
 };
@@ -27,7 +27,7 @@ struct LogLine {
 struct Toast {
     LogLevel level;
     std::string text;
-    double until; ///< on the window's clock
+    double until;  ///< on the window's clock
 };
 
 /// Look of the window: nothing in it reaches the rendering.
@@ -37,17 +37,17 @@ struct WindowState {
     bool cells = false;
     float cells_opacity = 0.4f;
     bool hemisphere = true;
-    bool low_resolution = true; ///< allowed while the camera moves
+    bool low_resolution = true;  ///< allowed while the camera moves
     float ui_scale = 1.0f;
     CellQuantity quantity = CellQuantity::Radiance;
-    ColorScale scale = ColorScale::Logarithmic; ///< a lamp is brighter than all the rest together
-    int hovered_cell = -1;                      ///< of the selected volume's disk
+    ColorScale scale = ColorScale::Logarithmic;  ///< a lamp is brighter than all the rest together
+    int hovered_cell = -1;                       ///< of the selected volume's disk
     double speed_shown_until = 0.0;
     bool full_screen_asked = false;
     bool window_shot_asked = false;
     bool quit_asked = false;
-    bool fit_size_asked = false;   ///< make the picture as large as the window has room for
-    bool volume_tab_asked = false; ///< bring it to the front
+    bool fit_size_asked = false;    ///< make the picture as large as the window has room for
+    bool volume_tab_asked = false;  ///< bring it to the front
 };
 
 /// "cpu" as people read it: "CPU".
@@ -56,10 +56,8 @@ std::string back_end_label(const std::string& name);
 class ViewerModel {
 public:
     /// `settings` hold the final size and camera.
-    ViewerModel(const ViewerOptions& options,
-                std::shared_ptr<const SceneDescription> scene,
-                const RenderSettings& settings,
-                double load_seconds);
+    ViewerModel(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene,
+                const RenderSettings& settings, double load_seconds);
 
     /// Once per frame of the window: takes what the other threads have, ends motion, drops old messages.
     /// Throws what ended the render thread.
@@ -107,7 +105,7 @@ public:
     void single_pass();
     void restart();
     void forget();
-    void cancel(); ///< what Esc does
+    void cancel();  ///< what Esc does
     void cancel_precomputation();
 
     void set_exposure(float ev);
@@ -133,8 +131,8 @@ public:
     void save_window(ScreenPixels pixels, std::filesystem::path path);
     std::filesystem::path next_window_shot();
 
-    void say(LogLevel level, const std::string& text);  ///< toast and log
-    void note(LogLevel level, const std::string& text); ///< log only
+    void say(LogLevel level, const std::string& text);   ///< toast and log
+    void note(LogLevel level, const std::string& text);  ///< log only
 
 private:
     RenderSettings asked_settings() const;
@@ -142,8 +140,7 @@ private:
     void submit_camera();
     void take_pick();
     void measure_throughput();
-    void
-    adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name, bool keep_camera);
+    void adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name, bool keep_camera);
     void start_loading(const std::string& name, bool keep_camera);
     void save(std::initializer_list<const char*> suffixes);
     void select(std::int32_t volume);
@@ -174,7 +171,7 @@ private:
     double measured_seconds_ = 0.0;
 
     RenderWorker worker_;
-    JobThread jobs_; ///< last: its reports use what is above
+    JobThread jobs_;  ///< last: its reports use what is above
 };
 
-} // namespace pl
+}  // namespace pl

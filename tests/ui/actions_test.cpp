@@ -12,8 +12,7 @@ namespace {
 /// Every stroke that should trigger a chord, on the default keyboard layout.
 std::vector<KeyStroke> strokes_of(const Action& action, const Chord& chord) {
     std::vector<KeyStroke> strokes;
-    if (chord.by == Chord::By::None)
-        return strokes;
+    if (chord.by == Chord::By::None) return strokes;
     KeyStroke stroke;
     if (chord.by == Chord::By::Place) {
         stroke.scancode = chord.key;
@@ -24,8 +23,7 @@ std::vector<KeyStroke> strokes_of(const Action& action, const Chord& chord) {
     }
     stroke.modifiers = chord.modifiers;
     strokes.push_back(stroke);
-    if (!action.is_held)
-        return strokes;
+    if (!action.is_held) return strokes;
     // Held keys act with any combination of the speed modifiers.
     for (const Modifiers modifiers :
          {Modifiers{.shift = true}, Modifiers{.alt = true}, Modifiers{.shift = true, .alt = true}}) {
@@ -37,12 +35,11 @@ std::vector<KeyStroke> strokes_of(const Action& action, const Chord& chord) {
 
 int count_matches(const KeyStroke& stroke) {
     int count = 0;
-    for (const Action& action : all_actions())
-        count += matches(action, stroke) ? 1 : 0;
+    for (const Action& action : all_actions()) count += matches(action, stroke) ? 1 : 0;
     return count;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Actions: every key has exactly one meaning") {
     // The tables between places and symbols exist only while the video part runs.
@@ -87,11 +84,15 @@ TEST_CASE("Actions: flying keys work with Shift and Alt, and leave Ctrl to comma
 
 TEST_CASE("Actions: the table for the README lists all of them") {
     const std::string table = key_table_markdown();
-    for (const Action& action : all_actions())
-        CHECK_THAT(table, test::contains(action.text));
-    for (const MouseAction& action : mouse_actions())
-        CHECK_THAT(table, test::contains(action.text));
+    for (const Action& action : all_actions()) CHECK_THAT(table, test::contains(action.text));
+    for (const MouseAction& action : mouse_actions()) CHECK_THAT(table, test::contains(action.text));
     CHECK_THAT(table, test::contains("| `F1` or `?` | this list |"));
     const auto lines = static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n'));
     CHECK(lines == 2 + all_actions().size() + mouse_actions().size());
+}
+
+TEST_CASE("Actions: the README holds the table that the program makes") {
+    std::ifstream file(std::string(PL_SOURCE_DIR) + "/README.md");
+    const std::string readme{std::istreambuf_iterator<char>(file), {}};
+    CHECK_THAT(readme, test::contains(key_table_markdown()));
 }

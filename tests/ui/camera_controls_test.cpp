@@ -28,16 +28,14 @@ float pitch_deg(const CameraDescription& camera) {
     return std::asin(glm::dot(direction(camera), glm::normalize(camera.up))) * 180.0f / kPi;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Camera controls: the way flown in a second does not depend on the frame rate") {
     const MoveKeys keys{.forward = 1.0f, .right = -1.0f, .up = 1.0f, .speed_factor = 4.0f};
     CameraControls slow(home_camera(), 1000.0f);
     CameraControls fast(home_camera(), 1000.0f);
-    for (int i = 0; i < 12; ++i)
-        slow.move(keys, 1.0 / 12.0);
-    for (int i = 0; i < 240; ++i)
-        fast.move(keys, 1.0 / 240.0);
+    for (int i = 0; i < 12; ++i) slow.move(keys, 1.0 / 12.0);
+    for (int i = 0; i < 240; ++i) fast.move(keys, 1.0 / 240.0);
     // 240 additions to coordinates near 1000 round by half a float each: 240 * 1000 * 2^-24.
     check_close(slow.camera().eye, fast.camera().eye, 0.02f);
     // A fifth of the diagonal per second, times four, whatever the combination of keys.
@@ -70,7 +68,7 @@ TEST_CASE("Camera controls: keys go where they say, and eye and target move toge
 TEST_CASE("Camera controls: the mouse turns right and down, and keeps the distance to the target") {
     CameraControls controls(home_camera(), 1000.0f);
     controls.look({50.0f, 0.0f});
-    CHECK(direction(controls.camera()).x < 0.0f); // right is -x here
+    CHECK(direction(controls.camera()).x < 0.0f);  // right is -x here
     CHECK_THAT(glm::length(controls.camera().target - controls.camera().eye), WithinRel(800.0f, 1.0e-4f));
     controls.look({0.0f, 30.0f});
     CHECK(direction(controls.camera()).y < 0.0f);
@@ -79,8 +77,7 @@ TEST_CASE("Camera controls: the mouse turns right and down, and keeps the distan
     check_close(direction(controls.camera()), {0.0f, 0.0f, 1.0f}, 1.0e-4f);
     // Many small movements turn as far as one large one.
     CameraControls steps(home_camera(), 1000.0f);
-    for (int i = 0; i < 100; ++i)
-        steps.look({1.0f, -0.5f});
+    for (int i = 0; i < 100; ++i) steps.look({1.0f, -0.5f});
     CameraControls once(home_camera(), 1000.0f);
     once.look({100.0f, -50.0f});
     check_close(direction(steps.camera()), direction(once.camera()), 1.0e-4f);
@@ -88,11 +85,9 @@ TEST_CASE("Camera controls: the mouse turns right and down, and keeps the distan
 
 TEST_CASE("Camera controls: the pitch stops before the pole and a camera that looks straight down can turn") {
     CameraControls controls(home_camera(), 1000.0f);
-    for (int i = 0; i < 50; ++i)
-        controls.look({3.0f, -100.0f});
+    for (int i = 0; i < 50; ++i) controls.look({3.0f, -100.0f});
     CHECK_THAT(pitch_deg(controls.camera()), WithinAbs(89.0f, 0.05f));
-    for (int i = 0; i < 50; ++i)
-        controls.look({0.0f, 100.0f});
+    for (int i = 0; i < 50; ++i) controls.look({0.0f, 100.0f});
     CHECK_THAT(pitch_deg(controls.camera()), WithinAbs(-89.0f, 0.05f));
 
     CameraDescription down = home_camera();
@@ -124,8 +119,7 @@ TEST_CASE("Pointer gesture: a short press without movement is a click") {
     CHECK(*click == Vec2f{100.0f, 100.0f});
 }
 
-TEST_CASE(
-    "Pointer gesture: a long press or a drag is no click, and the drag loses nothing to the threshold") {
+TEST_CASE("Pointer gesture: a long press or a drag is no click, and the drag loses nothing to the threshold") {
     PointerGesture gesture;
     gesture.press(PointerButton::Left, {100.0f, 100.0f}, 1.0, true);
     CHECK_FALSE(gesture.release(PointerButton::Left, 1.3));

@@ -15,12 +15,12 @@ namespace pl::test {
 
 /// What a test and the back end on the render thread share.
 struct FakeControl {
-    std::atomic<bool> hold{false};         ///< passes stay inside until they are stopped or let go
-    std::atomic<bool> inside{false};       ///< a pass is held
-    std::atomic<bool> fail{false};         ///< the next pass throws
-    std::atomic<int> stopped{0};           ///< passes that saw the stop flag
-    std::atomic<int> passes{0};            ///< passes that were complete
-    std::atomic<int> pass_microseconds{0}; ///< of a picture of 64x64; others in proportion to their pixels
+    std::atomic<bool> hold{false};          ///< passes stay inside until they are stopped or let go
+    std::atomic<bool> inside{false};        ///< a pass is held
+    std::atomic<bool> fail{false};          ///< the next pass throws
+    std::atomic<int> stopped{0};            ///< passes that saw the stop flag
+    std::atomic<int> passes{0};             ///< passes that were complete
+    std::atomic<int> pass_microseconds{0};  ///< of a picture of 64x64; others in proportion to their pixels
 };
 
 class FakeBackend : public RenderBackend {
@@ -30,8 +30,8 @@ public:
     BackendInfo info() const override { return {"fake", "test double", "none", 1}; }
     void upload_scene(std::shared_ptr<const HostScene>) override {}
     void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
-        probes_ = static_cast<std::uint32_t>(volumes->normals.size()) *
-                  static_cast<std::uint32_t>(shape.cells.count());
+        probes_ =
+            static_cast<std::uint32_t>(volumes->normals.size()) * static_cast<std::uint32_t>(shape.cells.count());
         tables_.clear();
     }
     void upload_tables(MethodId method, HostTables tables) override { tables_[method] = std::move(tables); }
@@ -47,8 +47,7 @@ public:
     }
 
     PassCounters run_pass(const PassRequest& request) override {
-        if (control_->fail.exchange(false))
-            throw std::runtime_error("the device is gone");
+        if (control_->fail.exchange(false)) throw std::runtime_error("the device is gone");
         Film& film = films_.at(request.slot.index());
         const auto pixels = static_cast<std::uint32_t>(film.width * film.height);
         PassCounters counters;
@@ -58,8 +57,7 @@ public:
             return counters;
         }
         for (std::uint32_t i = request.first_pixel; i < pixels; ++i)
-            film.pixels[i] =
-                request.slot.view == View::Voronoi ? color_of_id(i % 7) : Vec3f{request.camera.eye.x};
+            film.pixels[i] = request.slot.view == View::Voronoi ? color_of_id(i % 7) : Vec3f{request.camera.eye.x};
         counters.paths = pixels - request.first_pixel;
         counters.path.method.records = counters.paths;
         ++control_->passes;
@@ -68,8 +66,7 @@ public:
     PassCounters precompute(const PrecomputeRequest& request) override {
         PassCounters counters;
         wait_in_pass(0, request.stop);
-        if (request.stop == nullptr || !*request.stop)
-            counters.paths = probes_ - request.first_probe;
+        if (request.stop == nullptr || !*request.stop) counters.paths = probes_ - request.first_probe;
         return counters;
     }
     void publish(MethodId) override {}
@@ -84,14 +81,12 @@ private:
 
     void wait_in_pass(std::uint32_t pixels, const StopFlag* stop) {
         using namespace std::chrono;
-        const auto cost =
-            microseconds(static_cast<std::int64_t>(control_->pass_microseconds) * pixels / 4096);
+        const auto cost = microseconds(static_cast<std::int64_t>(control_->pass_microseconds) * pixels / 4096);
         const auto end = steady_clock::now() + cost;
         while (steady_clock::now() < end && !(stop != nullptr && *stop))
             std::this_thread::sleep_for(microseconds(50));
         control_->inside = control_->hold.load();
-        while (control_->hold && !(stop != nullptr && *stop))
-            std::this_thread::sleep_for(microseconds(50));
+        while (control_->hold && !(stop != nullptr && *stop)) std::this_thread::sleep_for(microseconds(50));
         control_->inside = false;
     }
 
@@ -134,11 +129,10 @@ template <class Condition>
 bool eventually(Condition&& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (!condition()) {
-        if (std::chrono::steady_clock::now() > end)
-            return false;
+        if (std::chrono::steady_clock::now() > end) return false;
         std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
     return true;
 }
 
-} // namespace pl::test
+}  // namespace pl::test

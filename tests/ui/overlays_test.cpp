@@ -45,7 +45,7 @@ double fan_area(const CellFan& fan) {
     return area;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Projection: is the inverse of camera rays") {
     constexpr int kWidth = 320;
@@ -83,7 +83,7 @@ TEST_CASE("Draw list: far shapes come first, shapes behind the camera are left o
     list.add_fan(square(-9.0f), 9);
     list.add_fan(square(2.0f), 2);
     list.add_line({0, 0, -7}, {1, 0, -7}, 7, 1.0f);
-    list.add_line({0, 0, -7}, {0, 0, 1}, 1, 1.0f); // its end is behind the camera
+    list.add_line({0, 0, -7}, {0, 0, 1}, 1, 1.0f);  // its end is behind the camera
     const ProjectedShapes shapes = project(list, projection);
     REQUIRE(shapes.shapes.size() == 3);
     CHECK(shapes.shapes[0].color == 9);
@@ -108,15 +108,14 @@ TEST_CASE("Direction disk: cells have equal areas, share borders and know their 
             const double area = fan_area(fan);
             CHECK(area > 0.0);
             total += area;
-            if (side >= 8)
-                CHECK(area == Approx(static_cast<double>(kPi) / cells.count()).epsilon(0.03));
+            if (side >= 8) CHECK(area == Approx(static_cast<double>(kPi) / cells.count()).epsilon(0.03));
         }
         // Only the outer border is an arc cut short by chords: 8 side chords of angle a lose a share a^2/6.
         const double angle = 2.0 * static_cast<double>(kPi) / (8.0 * side);
         CHECK(total == Approx(static_cast<double>(kPi) * (1.0 - angle * angle / 6.0)).epsilon(1.0e-3));
     }
     const std::vector<CellFan> fans = make_cell_fans(4);
-    CHECK(fans[0][3] == fans[1][1]); // right lower corner of a cell is left lower corner of the next
+    CHECK(fans[0][3] == fans[1][1]);  // right lower corner of a cell is left lower corner of the next
     CHECK(fans[0][5] == fans[5][1]);
 }
 
@@ -136,7 +135,7 @@ TEST_CASE("Hemisphere: lies on its sphere above the surface, and a highlighted c
     CHECK(list.shapes().size() == 64 + kCellBorderPoints);
     list.clear();
     add_hemisphere(list, volume, make_cell_fans(4), values, 0.5f, 255, -1);
-    CHECK(list.shapes().empty()); // fans of another table
+    CHECK(list.shapes().empty());  // fans of another table
 }
 
 TEST_CASE("Hemisphere: directions and disk points are partners") {
@@ -198,8 +197,7 @@ TEST_CASE("Color map: ends are dark blue and yellow, brightness rises in between
     int last = -1;
     for (int i = 0; i <= 50; ++i) {
         const std::uint32_t c = map_color(static_cast<float>(i) / 50.0f);
-        const int brightness =
-            static_cast<int>(2126 * (c & 255) + 7152 * (c >> 8 & 255) + 722 * (c >> 16 & 255));
+        const int brightness = static_cast<int>(2126 * (c & 255) + 7152 * (c >> 8 & 255) + 722 * (c >> 16 & 255));
         CHECK(brightness > last);
         last = brightness;
     }

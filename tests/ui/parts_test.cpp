@@ -35,15 +35,15 @@ TEST_CASE("Motion resolution: takes the finest size that keeps the rate, and doe
     constexpr double kTarget = MotionResolution::kTargetSeconds;
     MotionResolution motion;
     motion.observe(1,
-                   8.0 * kTarget); // a quarter of the width costs half the target, half the width twice of it
+                   8.0 * kTarget);  // a quarter of the width costs half the target, half the width twice of it
     CHECK(motion.divider() == 4);
     motion.observe(4, 0.5 * kTarget);
     CHECK(motion.divider() == 4);
-    motion.observe(4, 1.1 * kTarget); // within the dead band
+    motion.observe(4, 1.1 * kTarget);  // within the dead band
     CHECK(motion.divider() == 4);
     motion.observe(4, 1.3 * kTarget);
     CHECK(motion.divider() == 8);
-    motion.observe(8, 0.325 * kTarget); // the finer size would miss the target again: stay
+    motion.observe(8, 0.325 * kTarget);  // the finer size would miss the target again: stay
     CHECK(motion.divider() == 8);
     motion.observe(8, 0.19 * kTarget);
     CHECK(motion.divider() == 4);
@@ -144,8 +144,8 @@ TEST_CASE("UI trace: percentiles interpolate, latencies run from a move to the p
     const std::filesystem::path path = std::filesystem::temp_directory_path() / "pathlight-trace-test.jsonl";
     UiTrace trace(path);
     trace.camera_moved(1.0, 5);
-    trace.camera_moved(1.1, 6);                       // same motion
-    trace.frame_shown(1.02, {0.004, 0.003, -1.0}, 4); // does not show them yet
+    trace.camera_moved(1.1, 6);                        // same motion
+    trace.frame_shown(1.02, {0.004, 0.003, -1.0}, 4);  // does not show them yet
     trace.frame_shown(1.05, {0.004, 0.003, 0.016}, 5);
     trace.frame_shown(1.20, {0.006, 0.003, 0.016}, 7);
     const std::string summary = trace.finish();

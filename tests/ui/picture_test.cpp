@@ -25,7 +25,7 @@ Snapshot snapshot_of(int width, int height, Vec3f value) {
     return snapshot;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Tone table: within its promised error of exact rounding, and monotone") {
     for (const ToneCurve curve : {ToneCurve::Clamp, ToneCurve::Reinhard, ToneCurve::Aces}) {
@@ -78,8 +78,7 @@ TEST_CASE("Picture: cells are blended by opacity and the selected one is outline
     const ToneTable table(ToneCurve::Clamp);
     Snapshot cells = snapshot_of(6, 5, color_of_id(1));
     for (int y = 1; y < 4; ++y)
-        for (int x = 1; x < 4; ++x)
-            cells.pixels[static_cast<std::size_t>(y * 6 + x)] = color_of_id(2);
+        for (int x = 1; x < 4; ++x) cells.pixels[static_cast<std::size_t>(y * 6 + x)] = color_of_id(2);
     const CellImage image = make_cell_image(cells, table);
     CHECK(image.argb[0] == cell_color(1, table));
     CHECK(cell_color(1, table) != cell_color(2, table));
@@ -94,10 +93,10 @@ TEST_CASE("Picture: cells are blended by opacity and the selected one is outline
     const Snapshot dim = snapshot_of(6, 5, Vec3f{0.25f});
     write_picture(dim, 1.0f, table, {&image, 0.0f, cell_color(2, table)}, out.data(), 6);
     const std::uint32_t plain = gray(table(0.25f));
-    CHECK(out[1 * 6 + 1] == 0xffffffffu); // border of the cell
-    CHECK(out[2 * 6 + 2] == plain);       // its inside
-    CHECK(out[0 * 6 + 1] == 0xff000000u); // around it
-    CHECK(out[0 * 6 + 5] == plain);       // elsewhere
+    CHECK(out[1 * 6 + 1] == 0xffffffffu);  // border of the cell
+    CHECK(out[2 * 6 + 2] == plain);        // its inside
+    CHECK(out[0 * 6 + 1] == 0xff000000u);  // around it
+    CHECK(out[0 * 6 + 5] == plain);        // elsewhere
 }
 
 TEST_CASE("Picture: cells of another size are not laid over") {
@@ -117,7 +116,11 @@ TEST_CASE("Picture: exposure and curve are for radiance only") {
         CHECK(display_of(view, asked).exposure_ev == 0.0f);
         CHECK(display_of(view, asked).curve == ToneCurve::Clamp);
     }
-    CHECK(display_scale(View::Depth, 4.0f) == 0.25f);
-    CHECK(display_scale(View::Depth, 0.0f) == 1.0f);
-    CHECK(display_scale(View::Normal, 4.0f) == 1.0f);
+    Snapshot depth = snapshot_of(2, 1, Vec3f{5.0f});
+    CHECK(display_scale(depth) == 1.0f);
+    depth.slot.view = View::Depth;
+    depth.pixels[1] = Vec3f{kInfinity};
+    CHECK(display_scale(depth) == 0.2f);
+    depth.pixels.assign(2, Vec3f{0.0f});
+    CHECK(display_scale(depth) == 1.0f);
 }

@@ -21,8 +21,8 @@ struct Bench {
         settings.camera = small_scene()->camera;
         settings.field.volumes = 16;
         settings.field.bins = 16;
-        return {[control = control] { return std::make_unique<FakeBackend>(control); }, small_scene(),
-                settings, limits, 0.0};
+        return {[control = control] { return std::make_unique<FakeBackend>(control); }, small_scene(), settings,
+                limits, 0.0};
     }
 };
 
@@ -42,7 +42,7 @@ std::shared_ptr<const PublishedFrame> frame_of(RenderWorker& worker, std::uint64
     return found ? frame : nullptr;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Render worker: publishes frames that belong together") {
     Bench bench;
@@ -87,8 +87,7 @@ TEST_CASE("Render worker: passes in motion are finished, or a hand that never re
     bench.control->hold = true;
     REQUIRE(eventually([&] { return bench.control->inside.load(); }));
     const int stopped = bench.control->stopped;
-    for (int i = 0; i < 20; ++i)
-        worker.submit(EditCamera{camera_at(static_cast<float>(i))});
+    for (int i = 0; i < 20; ++i) worker.submit(EditCamera{camera_at(static_cast<float>(i))});
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     CHECK(bench.control->inside);
     CHECK(bench.control->stopped == stopped);
@@ -102,7 +101,7 @@ TEST_CASE("Render worker: a new camera clears the picture and keeps what was lea
         const WorkerStatus status = worker.status();
         return status.field && status.field->passes >= 20;
     }));
-    bench.control->pass_microseconds = 20000; // so that the new picture cannot catch up
+    bench.control->pass_microseconds = 20000;  // so that the new picture cannot catch up
     const std::uint64_t generation = worker.submit(EditCamera{camera_at(1.0f)});
     const auto frame = frame_of(worker, generation);
     REQUIRE(frame);
@@ -119,7 +118,7 @@ TEST_CASE("Render worker: a new camera clears the picture and keeps what was lea
 
 TEST_CASE("Render worker: coarse in motion, and no coarse sample stays in the complete picture") {
     Bench bench;
-    bench.control->pass_microseconds = 4000; // of 64x64: 256 ms for the size below
+    bench.control->pass_microseconds = 4000;  // of 64x64: 256 ms for the size below
     WorkerSetup setup = bench.setup();
     setup.settings.width = 512;
     setup.settings.height = 512;
@@ -199,8 +198,7 @@ TEST_CASE("Render worker: limits are met exactly and can be raised") {
     CHECK(eventually([&] { return worker.status().state == WorkerState::Done; }));
     bench.control->pass_microseconds = 5000;
     worker.set_limits({.spp = 0, .seconds = 0.05});
-    CHECK(eventually(
-        [&] { return worker.status().state == WorkerState::Done && worker.status().seconds >= 0.05; }));
+    CHECK(eventually([&] { return worker.status().state == WorkerState::Done && worker.status().seconds >= 0.05; }));
 }
 
 TEST_CASE("Render worker: switching methods resumes the parked picture") {
@@ -222,8 +220,7 @@ TEST_CASE("Render worker: the old picture stays until the radiance map is comput
     REQUIRE(frame_of(worker, 0));
     bench.control->hold = true;
     worker.submit(EditMethod{MethodId::Precomputed});
-    REQUIRE(eventually(
-        [&] { return worker.status().state == WorkerState::Precomputing || bench.control->inside; }));
+    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Precomputing || bench.control->inside; }));
     CHECK(worker.latest()->snapshot.slot.method == MethodId::Default);
     bench.control->hold = false;
     CHECK(eventually([&] { return worker.latest()->snapshot.slot.method == MethodId::Precomputed; }));

@@ -20,25 +20,23 @@ std::string message_of(const std::string& text) {
     return "no error";
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Script: every command is understood") {
-    const auto commands =
-        parse_script("# a tour\n"
-                     "0 move 10 20\n"
-                     "  1 aim 0.5 .25   # the middle\r\n"
-                     "\n"
-                     "2 down left\n2 up right\n3 wheel -2\n4 key W shift alt\n5 keyup W\n"
-                     "6 tap F12 shift\n7 resize 1280 720\n8 drop a file.obj\n9 shot out dir/a.png\n"
-                     "10 expect method == default\n11 wait spp >= 16\n12 wait_spp 4\n13 quit",
-                     "tour.script");
+    const auto commands = parse_script("# a tour\n"
+                                       "0 move 10 20\n"
+                                       "  1 aim 0.5 .25   # the middle\r\n"
+                                       "\n"
+                                       "2 down left\n2 up right\n3 wheel -2\n4 key W shift alt\n5 keyup W\n"
+                                       "6 tap F12 shift\n7 resize 1280 720\n8 drop a file.obj\n9 shot out dir/a.png\n"
+                                       "10 expect method == default\n11 wait spp >= 16\n12 wait_spp 4\n13 quit",
+                                       "tour.script");
     using Kind = ScriptCommand::Kind;
     const std::vector<Kind> kinds{Kind::Move, Kind::Aim,    Kind::Down, Kind::Up,     Kind::Wheel,
                                   Kind::Key,  Kind::KeyUp,  Kind::Tap,  Kind::Resize, Kind::Drop,
                                   Kind::Shot, Kind::Expect, Kind::Wait, Kind::Wait,   Kind::Quit};
     REQUIRE(commands.size() == kinds.size());
-    for (std::size_t i = 0; i < kinds.size(); ++i)
-        CHECK(commands[i].kind == kinds[i]);
+    for (std::size_t i = 0; i < kinds.size(); ++i) CHECK(commands[i].kind == kinds[i]);
     CHECK(commands[0].where == "tour.script:2");
     CHECK(commands[1].frame == 1);
     CHECK(commands[1].y == 0.25);

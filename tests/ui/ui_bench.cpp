@@ -59,19 +59,18 @@ void run(const std::string& scene_name, const MethodInfo& method, int hops, int 
         return std::make_shared<const SceneDescription>(load_scene(name, find_assets_dir()));
     };
     std::fprintf(stderr, "\n%s, %s, %dx%d, %d render %s, trace in %s\n", scene_name.c_str(),
-                 std::string(method.name).c_str(), kWidth, kHeight, threads,
-                 threads == 1 ? "thread" : "threads", options.ui_trace->c_str());
+                 std::string(method.name).c_str(), kWidth, kHeight, threads, threads == 1 ? "thread" : "threads",
+                 options.ui_trace->c_str());
     run_viewer(options);
 }
 
-} // namespace
+}  // namespace
 
 int main(int argc, char** argv) {
     const std::string scene = argc > 1 ? argv[1] : "cornell";
     const int hops = argc > 2 ? std::atoi(argv[2]) : 20;
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     const int threads = argc > 3 ? std::atoi(argv[3]) : (cores > 1 ? cores - 1 : 1);
-    for (const MethodInfo& method : all_methods())
-        run(scene, method, hops, threads);
+    for (const MethodInfo& method : all_methods()) run(scene, method, hops, threads);
     return 0;
 }

@@ -31,20 +31,16 @@ struct Bench {
         options.screenshot_dir = std::filesystem::temp_directory_path() / "pathlight-model-test";
         options.make_backend = [control = control] { return std::make_unique<FakeBackend>(control); };
         options.load_scene = [](const std::string& name) -> std::shared_ptr<const SceneDescription> {
-            if (name == "broken.obj")
-                throw Error(ErrorKind::Input, "broken.obj:7: expected a number, got 'x'");
+            if (name == "broken.obj") throw Error(ErrorKind::Input, "broken.obj:7: expected a number, got 'x'");
             auto scene = std::make_shared<SceneDescription>(*small_scene());
             scene->camera.eye.y = 1.5f;
             return scene;
         };
-        options.save_image = [this](const std::filesystem::path& path, const Snapshot&,
-                                    const ViewerPicture&) {
+        options.save_image = [this](const std::filesystem::path& path, const Snapshot&, const ViewerPicture&) {
             const std::lock_guard lock(mutex);
             saved.push_back(path);
         };
-        options.command_line = [](const ViewerPicture& picture) {
-            return "pathlight render " + picture.scene;
-        };
+        options.command_line = [](const ViewerPicture& picture) { return "pathlight render " + picture.scene; };
     }
 
     /// Runs the model's frames until the condition holds.
@@ -61,7 +57,7 @@ bool has_frame(const ViewerModel& model) {
     return model.frame() != nullptr;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Viewer model: a scene that cannot be read leaves the old one and says why") {
     Bench bench;
@@ -134,8 +130,7 @@ TEST_CASE("Viewer model: views go round in both directions") {
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     model.step_view(-1);
     CHECK(model.settings().view == View::Depth);
-    for (std::size_t i = 0; i < all_views().size(); ++i)
-        model.step_view(1);
+    for (std::size_t i = 0; i < all_views().size(); ++i) model.step_view(1);
     CHECK(model.settings().view == View::Depth);
     model.step_view(1);
     CHECK(model.settings().view == View::Beauty);
@@ -148,11 +143,11 @@ TEST_CASE("Viewer model: saves both formats under one new number, without waitin
     {
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
         model.save_picture();
-        CHECK(model.toasts().back().level == LogLevel::Warning); // nothing to save yet
+        CHECK(model.toasts().back().level == LogLevel::Warning);  // nothing to save yet
         REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
         model.save_picture();
         model.save_screenshot();
-    } // what was asked for is written before the end
+    }  // what was asked for is written before the end
     std::filesystem::remove_all(bench.options.screenshot_dir);
     const auto name = [&](const char* file) { return bench.options.screenshot_dir / file; };
     REQUIRE(bench.saved.size() == 3);

@@ -18,8 +18,7 @@ public:
         const ImVec2 size = ImGui::CalcTextSize(text.c_str());
         const float width = size.x + 2.0f * pad.x;
         const float height = size.y + 2.0f * pad.y;
-        if (corner_.x + width > right_ && corner_.x > left_)
-            corner_ = {left_, corner_.y + height + em(0.3f)};
+        if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, corner_.y + height + em(0.3f)};
         list_.AddRectFilled(corner_, {corner_.x + width, corner_.y + height}, colors::kBadge, em(0.2f));
         list_.AddText({corner_.x + pad.x, corner_.y + pad.y}, color, text.c_str());
         corner_.x += width + em(0.35f);
@@ -41,14 +40,11 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
                 colors::kText);
     else
         row.add(fmt::format("{}  {} spp", info_of(view).label, snapshot.passes), colors::kText);
-    if (view == View::RadianceMap)
-        row.add("radiance map: biased preview", colors::kWarning);
+    if (view == View::RadianceMap) row.add("radiance map: biased preview", colors::kWarning);
     if (view == View::RadianceMap && !info_of(snapshot.slot.method).uses_field)
         row.add("learned by Reinforcement: 3 learns on", colors::kWarning);
-    if (view == View::Depth)
-        row.add(fmt::format("black 0, white {:.4g}", frame.diagonal), colors::kText);
-    if (frame.divider > 1)
-        row.add(fmt::format("1/{} res", frame.divider), colors::kWarning);
+    if (view == View::Depth) row.add(fmt::format("black 0, white {:.4g}", 1.0f / frame.display_scale), colors::kText);
+    if (frame.divider > 1) row.add(fmt::format("1/{} res", frame.divider), colors::kWarning);
 }
 
 void draw_precompute_progress(ViewerModel& model, const Layout& layout, double share) {
@@ -58,40 +54,32 @@ void draw_precompute_progress(ViewerModel& model, const Layout& layout, double s
     begin_fixed_window("precompute", {center.x - 0.5f * width, center.y - em(2.0f), width, 0.0f});
     ImGui::Text("Precomputing the radiance map");
     const float button = em(5.0f);
-    ImGui::ProgressBar(static_cast<float>(share),
-                       {ImGui::GetContentRegionAvail().x - button - em(0.5f), 0.0f},
+    ImGui::ProgressBar(static_cast<float>(share), {ImGui::GetContentRegionAvail().x - button - em(0.5f), 0.0f},
                        fmt::format("{:.0f} %", 100.0 * share).c_str());
     ImGui::SameLine();
-    if (ImGui::Button("Cancel", {button, 0.0f}))
-        model.cancel_precomputation();
+    if (ImGui::Button("Cancel", {button, 0.0f})) model.cancel_precomputation();
     tooltip("Esc: back to the method before. What is computed so far is kept.");
     ImGui::End();
 }
 
-} // namespace
+}  // namespace
 
 void draw_badges(ViewerModel& model, const Layout& layout) {
     const Rect& view = layout.clear;
     BadgeRow row({view.x + em(0.6f), view.y + em(0.6f)}, view.x + view.width - em(0.6f));
-    if (model.frame() != nullptr)
-        add_picture_badges(row, *model.frame());
+    if (model.frame() != nullptr) add_picture_badges(row, *model.frame());
     const WorkerStatus& status = model.status();
-    if (status.state == WorkerState::Starting)
-        row.add("starting", colors::kWarning);
-    if (model.paused())
-        row.add("paused", colors::kWarning);
-    if (status.state == WorkerState::Done)
-        row.add("done", colors::kGood);
-    if (status.state == WorkerState::Failed)
-        row.add("rendering failed, see the log", colors::kError);
+    if (status.state == WorkerState::Starting) row.add("starting", colors::kWarning);
+    if (model.paused()) row.add("paused", colors::kWarning);
+    if (status.state == WorkerState::Done) row.add("done", colors::kGood);
+    if (status.state == WorkerState::Failed) row.add("rendering failed, see the log", colors::kError);
     if (info_of(model.settings().method).learns && status.state == WorkerState::Rendering && status.field)
         row.add(fmt::format("learning  {}", status.field->passes), colors::kGood);
     if (model.window().cells)
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.window().cells_opacity), colors::kText);
-    if (model.busy())
-        row.add("working", colors::kFaint);
+    if (model.busy()) row.add("working", colors::kFaint);
     if (status.state == WorkerState::Precomputing && status.field)
         draw_precompute_progress(model, layout, status.field->precomputed_share);
 }
 
-} // namespace pl
+}  // namespace pl

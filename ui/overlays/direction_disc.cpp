@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/kernel/base/frame.h"
-#include "core/kernel/fields/direction_cells.h"
+#include "core/kernel/base/warp.h"
 
 namespace pl {
 namespace {
@@ -25,42 +25,39 @@ constexpr int kViridisCount = static_cast<int>(sizeof(kViridis) / sizeof(kViridi
 
 float value_of(const VolumeInspection& volume, CellQuantity quantity, std::size_t cell) {
     switch (quantity) {
-    case CellQuantity::Radiance:
-        return volume.radiance[cell];
-    case CellQuantity::Probability:
-        return volume.probability[cell];
-    case CellQuantity::Visits:
-        return static_cast<float>(volume.visits[cell]);
+    case CellQuantity::Radiance: return volume.radiance[cell];
+    case CellQuantity::Probability: return volume.probability[cell];
+    case CellQuantity::Visits: return static_cast<float>(volume.visits[cell]);
     }
     return 0.0f;
 }
 
 float position_of(float value, const CellValues& range, ColorScale scale) {
-    if (scale == ColorScale::Linear)
-        return std::clamp(value / range.high, 0.0f, 1.0f);
-    if (!(value > range.low))
-        return 0.0f;
+    if (scale == ColorScale::Linear) return std::clamp(value / range.high, 0.0f, 1.0f);
+    if (!(value > range.low)) return 0.0f;
     return std::clamp(std::log(value / range.low) / std::log(range.high / range.low), 0.0f, 1.0f);
 }
 
 std::uint32_t pack_abgr(Rgb c, std::uint8_t alpha) {
-    const auto code = [](float x) {
-        return static_cast<std::uint32_t>(std::lround(std::clamp(x, 0.0f, 255.0f)));
-    };
+    const auto code = [](float x) { return static_cast<std::uint32_t>(std::lround(std::clamp(x, 0.0f, 255.0f))); };
     return static_cast<std::uint32_t>(alpha) << 24 | code(c.b) << 16 | code(c.g) << 8 | code(c.r);
 }
 
-} // namespace
+}  // namespace
 
 std::vector<CellFan> make_cell_fans(int side) {
-    const DirectionCells cells{side};
-    std::vector<CellFan> fans(static_cast<std::size_t>(cells.count()));
-    for (int cell = 0; cell < cells.count(); ++cell) {
+    const auto sides = static_cast<float>(side);
+    // Not DirectionCells::point_in_cell, which keeps away from the borders: these have to meet.
+    const auto point = [&](int cell, float u, float v) {
+        return square_to_disk(
+            {(static_cast<float>(cell % side) + u) / sides, (static_cast<float>(cell / side) + v) / sides});
+    };
+    std::vector<CellFan> fans(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    for (int cell = 0; cell < side * side; ++cell) {
         CellFan& fan = fans[static_cast<std::size_t>(cell)];
-        fan[0] = square_to_disk(cells.point_in_cell(cell, {0.5f, 0.5f}));
+        fan[0] = point(cell, 0.5f, 0.5f);
         for (int i = 0; i < kCellBorderPoints; ++i)
-            fan[static_cast<std::size_t>(1 + i)] =
-                square_to_disk(cells.point_in_cell(cell, {kBorder[i][0], kBorder[i][1]}));
+            fan[static_cast<std::size_t>(1 + i)] = point(cell, kBorder[i][0], kBorder[i][1]);
     }
     return fans;
 }
@@ -69,20 +66,17 @@ CellValues cell_values(const VolumeInspection& volume, CellQuantity quantity, Co
     CellValues result;
     const auto count = static_cast<std::size_t>(volume.side) * static_cast<std::size_t>(volume.side);
     result.values.reserve(count);
-    for (std::size_t cell = 0; cell < count; ++cell)
-        result.values.push_back(value_of(volume, quantity, cell));
+    for (std::size_t cell = 0; cell < count; ++cell) result.values.push_back(value_of(volume, quantity, cell));
     const float largest = count > 0 ? *std::max_element(result.values.begin(), result.values.end()) : 0.0f;
     result.high = largest > 0.0f ? largest : 1.0f;
     result.low = scale == ColorScale::Linear ? 0.0f : result.high * kLogRange;
     result.positions.reserve(count);
-    for (const float value : result.values)
-        result.positions.push_back(position_of(value, result, scale));
+    for (const float value : result.values) result.positions.push_back(position_of(value, result, scale));
     return result;
 }
 
 float value_at(const CellValues& values, ColorScale scale, float position) {
-    if (scale == ColorScale::Linear)
-        return values.low + position * (values.high - values.low);
+    if (scale == ColorScale::Linear) return values.low + position * (values.high - values.low);
     return values.low * std::pow(values.high / values.low, position);
 }
 
@@ -99,8 +93,7 @@ TableSummary summarize(const VolumeInspection& volume) {
     TableSummary summary;
     double largest = 0.0;
     for (const float p : volume.probability) {
-        if (p > 0.0f)
-            summary.entropy_bits -= static_cast<double>(p) * std::log2(static_cast<double>(p));
+        if (p > 0.0f) summary.entropy_bits -= static_cast<double>(p) * std::log2(static_cast<double>(p));
         largest = std::max(largest, static_cast<double>(p));
     }
     for (const std::uint32_t visits : volume.visits) {
@@ -112,15 +105,9 @@ TableSummary summarize(const VolumeInspection& volume) {
     return summary;
 }
 
-void add_hemisphere(DrawList& list,
-                    const VolumeInspection& volume,
-                    const std::vector<CellFan>& fans,
-                    const CellValues& values,
-                    float radius,
-                    std::uint8_t alpha,
-                    int highlighted) {
-    if (fans.size() != values.positions.size())
-        return;
+void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::vector<CellFan>& fans,
+                    const CellValues& values, float radius, std::uint8_t alpha, int highlighted) {
+    if (fans.size() != values.positions.size()) return;
     const Frame frame = make_frame(volume.normal);
     std::array<Vec3f, std::tuple_size_v<CellFan>> points;
     const auto lift = [&](const CellFan& fan, float scale) {
@@ -131,8 +118,7 @@ void add_hemisphere(DrawList& list,
         lift(fans[cell], 1.0f);
         list.add_fan(points, map_color(values.positions[cell], alpha));
     }
-    if (highlighted < 0 || static_cast<std::size_t>(highlighted) >= fans.size())
-        return;
+    if (highlighted < 0 || static_cast<std::size_t>(highlighted) >= fans.size()) return;
     // Just outside, so that it is drawn after the cell itself.
     lift(fans[static_cast<std::size_t>(highlighted)], 1.01f);
     for (int i = 0; i < kCellBorderPoints; ++i)
@@ -142,8 +128,7 @@ void add_hemisphere(DrawList& list,
 
 std::optional<Vec2f> disk_point_of(const VolumeInspection& volume, Vec3f direction) {
     const Vec3f local = make_frame(volume.normal).to_local(direction);
-    if (local.z <= 0.0f)
-        return std::nullopt;
+    if (local.z <= 0.0f) return std::nullopt;
     return Vec2f{local.x, local.y};
 }
 
@@ -151,4 +136,4 @@ Vec3f direction_of(const VolumeInspection& volume, Vec2f disk) {
     return make_frame(volume.normal).to_world(lift_to_hemisphere(disk));
 }
 
-} // namespace pl
+}  // namespace pl

@@ -29,9 +29,9 @@ enum class ColorScale { Linear, Logarithmic };
 /// Values of all cells and where they lie between the two ends of the legend.
 struct CellValues {
     std::vector<float> values;
-    std::vector<float> positions; ///< in [0, 1]; zero values of a logarithmic scale are at 0
-    float low = 0.0f;             ///< value at position 0
-    float high = 1.0f;            ///< value at position 1
+    std::vector<float> positions;  ///< in [0, 1]; zero values of a logarithmic scale are at 0
+    float low = 0.0f;              ///< value at position 0
+    float high = 1.0f;             ///< value at position 1
 };
 CellValues cell_values(const VolumeInspection& volume, CellQuantity quantity, ColorScale scale);
 
@@ -44,25 +44,20 @@ std::uint32_t map_color(float position, std::uint8_t alpha = 255);
 /// What one can say about a sampling table in one line each.
 struct TableSummary {
     std::uint64_t visits = 0;
-    int empty_cells = 0; ///< never visited
+    int empty_cells = 0;  ///< never visited
     double entropy_bits = 0.0;
-    double effective_cells = 0.0; ///< 2^entropy
-    double peak = 0.0;            ///< largest probability over the mean one
+    double effective_cells = 0.0;  ///< 2^entropy
+    double peak = 0.0;             ///< largest probability over the mean one
 };
 TableSummary summarize(const VolumeInspection& volume);
 
 /// The hemisphere as shapes around its volume; `highlighted` cell or -1.
-void add_hemisphere(DrawList& list,
-                    const VolumeInspection& volume,
-                    const std::vector<CellFan>& fans,
-                    const CellValues& values,
-                    float radius,
-                    std::uint8_t alpha,
-                    int highlighted);
+void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::vector<CellFan>& fans,
+                    const CellValues& values, float radius, std::uint8_t alpha, int highlighted);
 
 /// Point of the unit disk for a direction in scene space; empty below the horizon of the volume.
 std::optional<Vec2f> disk_point_of(const VolumeInspection& volume, Vec3f direction);
 /// Direction in scene space over a point of the unit disk.
 Vec3f direction_of(const VolumeInspection& volume, Vec2f disk);
 
-} // namespace pl
+}  // namespace pl

@@ -10,7 +10,7 @@ namespace {
 /// Closer to the eye than this share of the distance to its target nothing is drawn.
 constexpr float kNearShare = 1.0e-4f;
 
-} // namespace
+}  // namespace
 
 Projection::Projection(const CameraDescription& camera, int width, int height, const Rect& image)
     : camera_(make_camera(camera, width, height)), image_(image),
@@ -19,12 +19,10 @@ Projection::Projection(const CameraDescription& camera, int width, int height, c
 std::optional<Projection::Point> Projection::operator()(Vec3f position) const {
     const Vec3f d = position - camera_.eye;
     const float depth = glm::dot(d, camera_.forward) / glm::dot(camera_.forward, camera_.forward);
-    if (!(depth > near_))
-        return std::nullopt;
+    if (!(depth > near_)) return std::nullopt;
     const float x = glm::dot(d, camera_.right) / (glm::dot(camera_.right, camera_.right) * depth);
     const float y = glm::dot(d, camera_.up) / (glm::dot(camera_.up, camera_.up) * depth);
-    return Point{{image_.x + 0.5f * (x + 1.0f) * image_.width, image_.y + 0.5f * (1.0f - y) * image_.height},
-                 depth};
+    return Point{{image_.x + 0.5f * (x + 1.0f) * image_.width, image_.y + 0.5f * (1.0f - y) * image_.height}, depth};
 }
 
 void DrawList::add_fan(std::span<const Vec3f> center_and_border, std::uint32_t color) {
@@ -58,8 +56,7 @@ ProjectedShapes project(const DrawList& list, const Projection& projection) {
         for (std::uint32_t i = 0; i < shape.count && visible; ++i) {
             const auto point = projection(list.points()[shape.first + i]);
             visible = point.has_value();
-            if (!visible)
-                break;
+            if (!visible) break;
             result.points.push_back(point->window);
             entry.depth += point->depth / static_cast<float>(shape.count);
         }
@@ -70,9 +67,8 @@ ProjectedShapes project(const DrawList& list, const Projection& projection) {
     }
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Entry& a, const Entry& b) { return a.depth > b.depth; });
-    for (const Entry& entry : entries)
-        result.shapes.push_back(entry.shape);
+    for (const Entry& entry : entries) result.shapes.push_back(entry.shape);
     return result;
 }
 
-} // namespace pl
+}  // namespace pl

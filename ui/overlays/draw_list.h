@@ -31,7 +31,7 @@ public:
 
     struct Point {
         Vec2f window;
-        float depth; ///< along the view direction, in scene units
+        float depth;  ///< along the view direction, in scene units
     };
     /// Empty for points that do not lie in front of the camera.
     std::optional<Point> operator()(Vec3f position) const;
@@ -50,10 +50,10 @@ public:
     struct Shape {
         enum class Kind { Fan, Line };
         Kind kind;
-        std::uint32_t first; ///< of points
+        std::uint32_t first;  ///< of points
         std::uint32_t count;
         std::uint32_t color;
-        float width_px; ///< of lines
+        float width_px;  ///< of lines
     };
 
     /// A polygon that is seen whole from its first point, which is not on the border.
@@ -76,4 +76,4 @@ struct ProjectedShapes {
 };
 ProjectedShapes project(const DrawList& list, const Projection& projection);
 
-} // namespace pl
+}  // namespace pl

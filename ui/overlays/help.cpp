@@ -14,8 +14,8 @@ void draw_line(const char* keys, const char* text) {
     const float width = std::max(ImGui::CalcTextSize(keys).x + em(0.6f), em(1.3f));
     const float height = ImGui::GetTextLineHeight();
     ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y - 1.0f},
-                                              {corner.x + width, corner.y + height + 1.0f},
-                                              IM_COL32(50, 57, 70, 255), em(0.2f));
+                                              {corner.x + width, corner.y + height + 1.0f}, IM_COL32(50, 57, 70, 255),
+                                              em(0.2f));
     ImGui::SetCursorScreenPos({corner.x + 0.5f * (width - ImGui::CalcTextSize(keys).x), corner.y});
     ImGui::TextColored(to_vec4(colors::kAccent), "%s", keys);
     ImGui::SameLine(em(kKeysEm));
@@ -30,16 +30,14 @@ void draw_heading(const char* text) {
 void draw_group(ActionGroup group) {
     draw_heading(name_of(group));
     for (const Action& action : all_actions())
-        if (action.group == group)
-            draw_line(action.keys, action.text);
+        if (action.group == group) draw_line(action.keys, action.text);
     ImGui::Dummy({0.0f, em(0.3f)});
 }
 
-} // namespace
+}  // namespace
 
 void draw_help(ViewerModel& model, const Layout& layout) {
-    if (!model.window().help)
-        return;
+    if (!model.window().help) return;
     const float screen_width = layout.panels ? layout.menu.width : layout.view.width;
     const float screen_height = layout.panels ? layout.status.y + layout.status.height : layout.view.height;
     ImGui::SetNextWindowPos({0.5f * screen_width, 0.5f * screen_height}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -52,8 +50,7 @@ void draw_help(ViewerModel& model, const Layout& layout) {
         ImGui::TableNextColumn();
         draw_group(ActionGroup::Fly);
         draw_heading("Mouse");
-        for (const MouseAction& action : mouse_actions())
-            draw_line(action.keys, action.text);
+        for (const MouseAction& action : mouse_actions()) draw_line(action.keys, action.text);
         ImGui::Dummy({0.0f, em(0.3f)});
         draw_group(ActionGroup::Window);
         ImGui::TableNextColumn();
@@ -67,4 +64,4 @@ void draw_help(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-} // namespace pl
+}  // namespace pl

@@ -6,28 +6,23 @@
 namespace pl {
 namespace {
 
-constexpr float kRadiusShare = 0.04f; ///< of the scene's diagonal
+constexpr float kRadiusShare = 0.04f;  ///< of the scene's diagonal
 constexpr std::uint8_t kAlpha = 255;
-constexpr std::uint8_t kHiddenAlpha = 80; ///< when something stands between it and the camera
+constexpr std::uint8_t kHiddenAlpha = 80;  ///< when something stands between it and the camera
 
 /// Does something stand between the camera and the top of the hemisphere?
 bool is_hidden(const PublishedFrame& frame, const VolumeInspection& volume, float radius) {
     const Vec3f top = volume.position + radius * volume.normal;
     const Vec3f eye = frame.snapshot.camera.eye;
-    return BvhIntersector{frame.scene->view()}.occluded(
-        {.origin = eye, .direction = top - eye, .t_max = 1.0f});
+    return BvhIntersector{frame.scene->view()}.occluded({.origin = eye, .direction = top - eye, .t_max = 1.0f});
 }
 
 /// The direction of the hovered cell, as far as the surface that it looks at.
-void add_ray(DrawList& list,
-             const PublishedFrame& frame,
-             const VolumeInspection& volume,
-             const CellFan& fan,
+void add_ray(DrawList& list, const PublishedFrame& frame, const VolumeInspection& volume, const CellFan& fan,
              float radius) {
     const Vec3f direction = direction_of(volume, fan[0]);
     const Vec3f start = volume.position + 0.01f * radius * volume.normal;
-    const Hit hit =
-        BvhIntersector{frame.scene->view()}.closest_hit({.origin = start, .direction = direction});
+    const Hit hit = BvhIntersector{frame.scene->view()}.closest_hit({.origin = start, .direction = direction});
     const float length = hit.found() ? hit.t : 10.0f * radius;
     list.add_line(start, start + length * direction, IM_COL32(255, 255, 255, 220), 2.0f);
 }
@@ -47,12 +42,11 @@ void draw_shapes(ImDrawList& out, const ProjectedShapes& projected) {
     }
 }
 
-} // namespace
+}  // namespace
 
 void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32 color) {
     const auto count = static_cast<int>(center_and_border.size());
-    if (count < 3)
-        return;
+    if (count < 3) return;
     const ImVec2 uv = ImGui::GetFontTexUvWhitePixel();
     list.PrimReserve(3 * (count - 1), count);
     const auto first = static_cast<unsigned int>(list._VtxCurrentIdx);
@@ -75,8 +69,7 @@ void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32
 
 void draw_hemisphere(const ViewerModel& model, const Rect& image) {
     const VolumeInspection* volume = model.inspection();
-    if (!model.window().hemisphere || volume == nullptr)
-        return;
+    if (!model.window().hemisphere || volume == nullptr) return;
     const PublishedFrame& frame = *model.frame();
     const float radius = kRadiusShare * frame.diagonal;
     const std::vector<CellFan> fans = make_cell_fans(volume->side);
@@ -85,8 +78,7 @@ void draw_hemisphere(const ViewerModel& model, const Rect& image) {
 
     DrawList shapes;
     add_hemisphere(shapes, *volume, fans, values, radius, alpha, model.window().hovered_cell);
-    if (model.window().hovered_cell >= 0 &&
-        static_cast<std::size_t>(model.window().hovered_cell) < fans.size())
+    if (model.window().hovered_cell >= 0 && static_cast<std::size_t>(model.window().hovered_cell) < fans.size())
         add_ray(shapes, frame, *volume, fans[static_cast<std::size_t>(model.window().hovered_cell)], radius);
 
     const Snapshot& snapshot = frame.snapshot;
@@ -96,4 +88,4 @@ void draw_hemisphere(const ViewerModel& model, const Rect& image) {
     out.PopClipRect();
 }
 
-} // namespace pl
+}  // namespace pl

@@ -24,4 +24,4 @@ void draw_toasts(const ViewerModel& model, const Layout& layout);
 /// All keys, from the table that dispatches them.
 void draw_help(ViewerModel& model, const Layout& layout);
 
-} // namespace pl
+}  // namespace pl

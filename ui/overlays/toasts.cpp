@@ -7,12 +7,9 @@ namespace {
 
 ImU32 stripe_of(LogLevel level) {
     switch (level) {
-    case LogLevel::Info:
-        return colors::kAccent;
-    case LogLevel::Warning:
-        return colors::kWarning;
-    case LogLevel::Error:
-        return colors::kError;
+    case LogLevel::Info: return colors::kAccent;
+    case LogLevel::Warning: return colors::kWarning;
+    case LogLevel::Error: return colors::kError;
     }
     return colors::kAccent;
 }
@@ -27,12 +24,12 @@ float draw_toast(ImDrawList& list, ImVec2 corner, float max_width, LogLevel leve
     const ImVec2 high{corner.x + size.x + 2.0f * pad.x, corner.y};
     list.AddRectFilled(low, high, IM_COL32(28, 31, 38, 240), em(0.2f));
     list.AddRectFilled(low, {low.x + em(0.25f), high.y}, stripe_of(level));
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y}, colors::kText,
-                 text.c_str(), nullptr, wrap);
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y}, colors::kText, text.c_str(),
+                 nullptr, wrap);
     return height;
 }
 
-} // namespace
+}  // namespace
 
 void draw_toasts(const ViewerModel& model, const Layout& layout) {
     const Rect& view = layout.clear;
@@ -42,12 +39,11 @@ void draw_toasts(const ViewerModel& model, const Layout& layout) {
     for (auto toast = model.toasts().rbegin(); toast != model.toasts().rend(); ++toast)
         corner.y -= draw_toast(list, corner, width, toast->level, toast->text) + em(0.35f);
 
-    if (model.now() >= model.window().speed_shown_until)
-        return;
+    if (model.now() >= model.window().speed_shown_until) return;
     const std::string text = fmt::format("speed {:.4g} units/s", model.controls().speed());
     const float text_width = ImGui::CalcTextSize(text.c_str()).x;
     draw_toast(list, {view.center().x - 0.5f * text_width - em(0.7f), view.y + 0.2f * view.height}, em(30.0f),
                LogLevel::Info, text);
 }
 
-} // namespace pl
+}  // namespace pl

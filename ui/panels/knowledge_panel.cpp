@@ -14,12 +14,9 @@ namespace {
 
 ImU32 color_of(LogLevel level) {
     switch (level) {
-    case LogLevel::Info:
-        return colors::kText;
-    case LogLevel::Warning:
-        return colors::kWarning;
-    case LogLevel::Error:
-        return colors::kError;
+    case LogLevel::Info: return colors::kText;
+    case LogLevel::Warning: return colors::kWarning;
+    case LogLevel::Error: return colors::kError;
     }
     return colors::kText;
 }
@@ -36,13 +33,11 @@ std::string radiance_text(Vec3f v) {
 std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const HoveredPixel& pixel) {
     const Snapshot& snapshot = frame.snapshot;
     const PinholeCamera camera = make_camera(snapshot.camera, snapshot.width, snapshot.height);
-    const Ray ray =
-        generate_ray(camera, {static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f},
-                     {static_cast<float>(snapshot.width), static_cast<float>(snapshot.height)});
+    const Ray ray = generate_ray(camera, {static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f},
+                                 {static_cast<float>(snapshot.width), static_cast<float>(snapshot.height)});
     const SceneView scene = frame.scene->view();
     const Hit hit = BvhIntersector{scene}.closest_hit(ray);
-    if (!hit.found())
-        return std::nullopt;
+    if (!hit.found()) return std::nullopt;
     const SurfacePoint surface = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
     PickedPoint point;
     point.position = surface.position;
@@ -59,8 +54,7 @@ void draw_pixel_values(const ViewerModel& model, const PublishedFrame& frame, co
                               static_cast<std::size_t>(pixel.x);
     const Vec3f value = snapshot.pixels[index];
     const DisplaySettings display = display_of(snapshot.slot.view, model.display());
-    const Vec3f shown = tone_map(value * display_scale(snapshot.slot.view, frame.diagonal),
-                                 std::exp2(display.exposure_ev), display.curve);
+    const Vec3f shown = tone_map(value * frame.display_scale, std::exp2(display.exposure_ev), display.curve);
     std::array<int, 3> code;
     for (int i = 0; i < 3; ++i)
         code[static_cast<std::size_t>(i)] = static_cast<int>(std::lround(255.0f * encode_srgb(shown[i])));
@@ -68,10 +62,9 @@ void draw_pixel_values(const ViewerModel& model, const PublishedFrame& frame, co
     text_row("Pixel", fmt::format("{}, {} of {}x{}", pixel.x, pixel.y, snapshot.width, snapshot.height));
     text_row("Linear RGB", radiance_text(value), "Mean of all samples before exposure and tone curve.");
     text_row("Luminance", fmt::format("{:.5g}", luminance(value)));
-    text_row(
-        "On screen",
-        fmt::format("{}  {}  {}   #{:02x}{:02x}{:02x}", code[0], code[1], code[2], code[0], code[1], code[2]),
-        "8-bit sRGB after exposure and tone curve.");
+    text_row("On screen",
+             fmt::format("{}  {}  {}   #{:02x}{:02x}{:02x}", code[0], code[1], code[2], code[0], code[1], code[2]),
+             "8-bit sRGB after exposure and tone curve.");
     ImGui::ColorButton("##swatch",
                        {static_cast<float>(code[0]) / 255.0f, static_cast<float>(code[1]) / 255.0f,
                         static_cast<float>(code[2]) / 255.0f, 1.0f},
@@ -90,16 +83,14 @@ void draw_surface(const PublishedFrame& frame, const HoveredPixel& pixel) {
     text_row("Distance", fmt::format("{:.5g}", point->distance));
     text_row("Triangle", fmt::format("{}", point->primitive));
     const auto& materials = frame.description->materials;
-    if (point->material >= materials.size())
-        return;
+    if (point->material >= materials.size()) return;
     const MaterialDescription& material = materials[point->material];
     text_row("Material", material.name.empty() ? "(no name)" : material.name);
     text_row("Albedo", vector_text(material.albedo));
-    if (!is_black(material.emission))
-        text_row("Emission", vector_text(material.emission));
+    if (!is_black(material.emission)) text_row("Emission", vector_text(material.emission));
 }
 
-} // namespace
+}  // namespace
 
 void draw_pixel_tab(const ViewerModel& model, const std::optional<HoveredPixel>& hovered) {
     const PublishedFrame* frame = model.frame();
@@ -115,8 +106,7 @@ void draw_pixel_tab(const ViewerModel& model, const std::optional<HoveredPixel>&
 void draw_log_tab(const ViewerModel& model) {
     if (ImGui::Button("Copy all")) {
         std::string text;
-        for (const LogLine& line : model.log())
-            text += fmt::format("{:9.2f}  {}\n", line.seconds, line.text);
+        for (const LogLine& line : model.log()) text += fmt::format("{:9.2f}  {}\n", line.seconds, line.text);
         ImGui::SetClipboardText(text.c_str());
     }
     ImGui::BeginChild("lines", {0.0f, 0.0f}, true);
@@ -127,15 +117,12 @@ void draw_log_tab(const ViewerModel& model) {
         ImGui::TextWrapped("%s", line.text.c_str());
         ImGui::PopStyleColor();
     }
-    if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY())
-        ImGui::SetScrollHereY(1.0f);
+    if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) ImGui::SetScrollHereY(1.0f);
     ImGui::EndChild();
 }
 
-void draw_knowledge_panel(ViewerModel& model,
-                          const Layout& layout,
-                          const std::optional<HoveredPixel>& hovered) {
-    model.window().hovered_cell = -1; // the volume tab sets it again if it is in front
+void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered) {
+    model.window().hovered_cell = -1;  // the volume tab sets it again if it is in front
     begin_fixed_window("knowledge", layout.right);
     if (ImGui::BeginTabBar("tabs")) {
         const ImGuiTabItemFlags front =
@@ -171,4 +158,4 @@ void begin_fixed_window(const char* name, const Rect& place, int extra_flags) {
                      ImGuiWindowFlags_NoBringToFrontOnFocus | extra_flags);
 }
 
-} // namespace pl
+}  // namespace pl

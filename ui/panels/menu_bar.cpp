@@ -9,20 +9,17 @@ namespace {
 
 /// One menu per group of the key table; keys that are held make no sense as menu items.
 void draw_group(ViewerModel& model, ActionGroup group) {
-    if (!ImGui::BeginMenu(name_of(group)))
-        return;
+    if (!ImGui::BeginMenu(name_of(group))) return;
     for (const Action& action : all_actions()) {
-        if (action.group != group || action.is_held)
-            continue;
+        if (action.group != group || action.is_held) continue;
         std::string label = action.text;
         label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-        if (ImGui::MenuItem(label.c_str(), action.keys))
-            perform(model, action.id);
+        if (ImGui::MenuItem(label.c_str(), action.keys)) perform(model, action.id);
     }
     ImGui::EndMenu();
 }
 
-} // namespace
+}  // namespace
 
 void draw_menu_bar(ViewerModel& model, const Layout& layout) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(0.4f), 0.0f});
@@ -44,4 +41,4 @@ void draw_menu_bar(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-} // namespace pl
+}  // namespace pl

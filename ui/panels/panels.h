@@ -11,15 +11,13 @@ namespace pl {
 
 /// What the pointer is over, for the pixel tab.
 struct HoveredPixel {
-    int x = 0; ///< of the picture that is shown
+    int x = 0;  ///< of the picture that is shown
     int y = 0;
 };
 
 void draw_menu_bar(ViewerModel& model, const Layout& layout);
 void draw_settings_panel(ViewerModel& model, const Layout& layout);
-void draw_knowledge_panel(ViewerModel& model,
-                          const Layout& layout,
-                          const std::optional<HoveredPixel>& hovered);
+void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered);
 void draw_status_bar(const ViewerModel& model, const Layout& layout);
 
 // Tabs of the right panel.
@@ -34,4 +32,4 @@ void perform(ViewerModel& model, ActionId action);
 /// Starts a window that fills `place` and cannot be moved. End it with ImGui::End().
 void begin_fixed_window(const char* name, const Rect& place, int extra_flags = 0);
 
-} // namespace pl
+}  // namespace pl

@@ -9,13 +9,11 @@ namespace pl {
 namespace {
 
 void draw_method(ViewerModel& model) {
-    if (!section("Method", true))
-        return;
+    if (!section("Method", true)) return;
     const MethodId current = model.settings().method;
     for (const MethodInfo& method : all_methods()) {
         const std::string label = fmt::format("{}  {}", static_cast<int>(method.id) + 1, method.label);
-        if (ImGui::RadioButton(label.c_str(), method.id == current))
-            model.set_method(method.id);
+        if (ImGui::RadioButton(label.c_str(), method.id == current)) model.set_method(method.id);
         tooltip(std::string(method.summary).c_str());
     }
     faint_text(std::string(info_of(model.settings().method).summary).c_str());
@@ -29,15 +27,13 @@ void draw_method(ViewerModel& model) {
 }
 
 void draw_back_end(const ViewerModel& model) {
-    if (!section("Back end", true))
-        return;
+    if (!section("Back end", true)) return;
     if (model.frame() == nullptr) {
         faint_text("starting");
         return;
     }
     const BackendInfo& info = model.frame()->backend;
-    text_row("Runs on",
-             fmt::format("{}, {} {}", info.name, info.threads, info.threads == 1 ? "thread" : "threads"),
+    text_row("Runs on", fmt::format("{}, {} {}", info.name, info.threads, info.threads == 1 ? "thread" : "threads"),
              info.device.c_str());
     text_row("Rays", info.intersector, "How rays find triangles in this scene.");
 }
@@ -45,18 +41,15 @@ void draw_back_end(const ViewerModel& model) {
 void draw_size(ViewerModel& model) {
     int width = model.settings().width;
     int height = model.settings().height;
-    if (size_row("Size",
-                 "Width and height of the picture in pixels. Resizing the window does not change them.",
+    if (size_row("Size", "Width and height of the picture in pixels. Resizing the window does not change them.",
                  &width, &height))
         model.set_size(std::clamp(width, 16, 8192), std::clamp(height, 16, 8192));
-    if (wide_button("Fit size to window",
-                    "As many pixels as the window has room for, in the shape of the picture."))
+    if (wide_button("Fit size to window", "As many pixels as the window has room for, in the shape of the picture."))
         model.window().fit_size_asked = true;
 }
 
 void draw_sampling(ViewerModel& model) {
-    if (!section("Sampling", true))
-        return;
+    if (!section("Sampling", true)) return;
     SampleLimits limits = model.limits();
     int spp = static_cast<int>(limits.spp);
     if (int_row("Samples", "Rest after this many samples per pixel. 0: no limit.", &spp, 64)) {
@@ -75,45 +68,40 @@ void draw_sampling(ViewerModel& model) {
     draw_size(model);
     int depth = model.settings().max_depth;
     if (int_row("Max depth",
-                "Longest path in surface points, a safety net: Russian roulette does the ending. Default 64.",
-                &depth, 1))
+                "Longest path in surface points, a safety net: Russian roulette does the ending. Default 64.", &depth,
+                1))
         model.set_max_depth(std::clamp(depth, 1, 1024));
     int seed = static_cast<int>(model.settings().seed);
-    if (int_row("Seed",
-                "Same seed, scene and settings: same picture to the bit, whatever the number of threads.",
+    if (int_row("Seed", "Same seed, scene and settings: same picture to the bit, whatever the number of threads.",
                 &seed, 1))
         model.set_seed(static_cast<std::uint64_t>(std::max(seed, 0)));
 }
 
 void draw_run_buttons(ViewerModel& model) {
     const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-    if (ImGui::Button(model.paused() ? "Go on" : "Pause", {width, 0.0f}))
-        model.set_paused(!model.paused());
+    if (ImGui::Button(model.paused() ? "Go on" : "Pause", {width, 0.0f})) model.set_paused(!model.paused());
     tooltip("Space");
     ImGui::SameLine();
-    if (ImGui::Button("Restart", {width, 0.0f}))
-        model.restart();
+    if (ImGui::Button("Restart", {width, 0.0f})) model.restart();
     tooltip("R: clears the picture, keeps what was learned.");
 }
 
 void draw_learning(ViewerModel& model) {
-    if (!section("Learning", true))
-        return;
+    if (!section("Learning", true)) return;
     const std::optional<FieldStatus>& field = model.status().field;
     if (field) {
-        text_row("Learned",
-                 fmt::format("{} passes, {} records", field->passes,
-                             short_number(static_cast<double>(field->records))),
-                 "Survives camera moves.");
+        text_row(
+            "Learned",
+            fmt::format("{} passes, {} records", field->passes, short_number(static_cast<double>(field->records))),
+            "Survives camera moves.");
     } else {
         faint_text(info_of(model.settings().method).uses_field ? "nothing yet"
                                                                : "The default method learns nothing.");
     }
     float fraction = model.settings().bsdf_fraction;
-    if (slider_row(
-            "BSDF share",
-            "Share of directions that come from the surface's reflectance instead of the learned table.",
-            &fraction, 0.1f, 1.0f, 0.5f, "%.2f"))
+    if (slider_row("BSDF share",
+                   "Share of directions that come from the surface's reflectance instead of the learned table.",
+                   &fraction, 0.1f, 1.0f, 0.5f, "%.2f"))
         model.set_mixture(fraction);
     FieldSettings settings = model.settings().field;
     int volumes = settings.volumes;
@@ -131,38 +119,29 @@ void draw_learning(ViewerModel& model) {
         settings.bins = (side + 2) * (side + 2);
         model.set_field(settings);
     }
-    if (wide_button("Forget what was learned", "Ctrl+Shift+R"))
-        model.forget();
+    if (wide_button("Forget what was learned", "Ctrl+Shift+R")) model.forget();
 }
 
 void draw_camera(ViewerModel& model) {
-    if (!section("Camera", false))
-        return;
+    if (!section("Camera", false)) return;
     CameraDescription camera = model.controls().camera();
-    if (point_row("Eye", "Position in scene units.", &camera.eye.x))
-        model.set_camera(camera);
-    if (point_row("Target", "Point that the camera looks at.", &camera.target.x))
-        model.set_camera(camera);
+    if (point_row("Eye", "Position in scene units.", &camera.eye.x)) model.set_camera(camera);
+    if (point_row("Target", "Point that the camera looks at.", &camera.target.x)) model.set_camera(camera);
     if (slider_row("View angle", "Vertical field of view in degrees.", &camera.fov_deg, 5.0f, 120.0f,
                    model.options().settings.camera.fov_deg, "%.1f\xc2\xb0"))
         model.set_camera(camera);
     text_row("Speed", fmt::format("{:.4g} units/s", model.controls().speed()), "Wheel, + and -.");
-    if (wide_button("Reset camera", "Home"))
-        model.camera_home();
-    if (wide_button("Copy as command line",
-                    "Ctrl+C: the command that renders this picture without a window."))
+    if (wide_button("Reset camera", "Home")) model.camera_home();
+    if (wide_button("Copy as command line", "Ctrl+C: the command that renders this picture without a window."))
         perform(model, ActionId::CopyCommand);
 }
 
 void draw_display(ViewerModel& model) {
-    if (!section("Display", true))
-        return;
+    if (!section("Display", true)) return;
     std::string labels;
-    for (const ViewInfo& view : all_views())
-        labels += std::string(view.label) + '\0';
+    for (const ViewInfo& view : all_views()) labels += std::string(view.label) + '\0';
     int view = static_cast<int>(model.settings().view);
-    if (choice_row("View", std::string(info_of(model.settings().view).summary).c_str(), &view,
-                   labels.c_str()))
+    if (choice_row("View", std::string(info_of(model.settings().view).summary).c_str(), &view, labels.c_str()))
         model.set_view(all_views()[static_cast<std::size_t>(view)].id);
     float exposure = model.display().exposure_ev;
     if (slider_row("Exposure", "In stops; display only.", &exposure, -8.0f, 8.0f, 0.0f, "%+.2f EV"))
@@ -175,8 +154,7 @@ void draw_display(ViewerModel& model) {
     if (toggle_row("Tint by radiance volume", "V: the Voronoi cells of the volumes, over any view.", &cells))
         model.set_cells(cells);
     float opacity = model.window().cells_opacity;
-    if (slider_row("Opacity", "Of the tint.", &opacity, 0.0f, 1.0f, 0.4f, "%.2f"))
-        model.set_cells_opacity(opacity);
+    if (slider_row("Opacity", "Of the tint.", &opacity, 0.0f, 1.0f, 0.4f, "%.2f")) model.set_cells_opacity(opacity);
     toggle_row("Hemisphere in the picture", "H: what the selected volume has learned, drawn where it stands.",
                &model.window().hemisphere);
     bool low = model.window().low_resolution;
@@ -188,7 +166,7 @@ void draw_display(ViewerModel& model) {
         model.window().ui_scale = 0.75f + 0.25f * static_cast<float>(scale);
 }
 
-} // namespace
+}  // namespace
 
 void draw_settings_panel(ViewerModel& model, const Layout& layout) {
     begin_fixed_window("settings", layout.left);
@@ -202,4 +180,4 @@ void draw_settings_panel(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-} // namespace pl
+}  // namespace pl

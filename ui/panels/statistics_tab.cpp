@@ -12,8 +12,7 @@ std::string count_text(std::uint64_t count) {
 }
 
 std::string share_text(std::uint64_t part, std::uint64_t whole) {
-    return whole > 0 ? fmt::format("{:.2f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole))
-                     : "-";
+    return whole > 0 ? fmt::format("{:.2f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole)) : "-";
 }
 
 void clock_row(const char* name, double seconds, double total, const char* tip) {
@@ -29,10 +28,8 @@ void clock_row(const char* name, double seconds, double total, const char* tip) 
 }
 
 void draw_clocks(const Clocks& clocks) {
-    if (!section("Time", true))
-        return;
-    if (!ImGui::BeginTable("clocks", 3, ImGuiTableFlags_SizingStretchProp))
-        return;
+    if (!section("Time", true)) return;
+    if (!ImGui::BeginTable("clocks", 3, ImGuiTableFlags_SizingStretchProp)) return;
     const double total = clocks.total();
     clock_row("Load", clocks.load, total, "Reading and checking the scene's files.");
     clock_row("Build", clocks.build, total, "Packing the scene, building the hierarchy.");
@@ -44,8 +41,7 @@ void draw_clocks(const Clocks& clocks) {
 }
 
 void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
-    if (!section("Paths of this picture", true))
-        return;
+    if (!section("Paths of this picture", true)) return;
     const PassCounters& c = snapshot.counters;
     const double per_path = c.paths > 0 ? 1.0 / static_cast<double>(c.paths) : 0.0;
     text_row("Speed", fmt::format("{:.3f} Mpaths/s", model.mpaths_per_second()));
@@ -58,16 +54,14 @@ void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
              "Paths that brought no light: what guiding makes fewer.");
     text_row("Escaped", count_text(c.path.escaped), "Paths that left the scene. 0 in a closed one.");
     text_row("Truncated", count_text(c.path.truncated), "Paths cut at the largest depth.");
-    text_row("Lost rays", count_text(c.path.zero_directions),
-             "Sampled directions that a surface cannot reflect.");
+    text_row("Lost rays", count_text(c.path.zero_directions), "Sampled directions that a surface cannot reflect.");
     text_row("Invalid", count_text(c.invalid_samples),
              "Samples that were NaN, infinite or negative: dropped and counted.",
              c.invalid_samples > 0 ? colors::kWarning : colors::kText);
 }
 
 void draw_field(const std::optional<FieldStatus>& field) {
-    if (!section("Learned field", true))
-        return;
+    if (!section("Learned field", true)) return;
     if (!field) {
         faint_text("This method has none.");
         return;
@@ -80,8 +74,7 @@ void draw_field(const std::optional<FieldStatus>& field) {
 }
 
 void draw_scene(const PublishedFrame& frame, const ViewerModel& model) {
-    if (!section("Scene and kernel", true))
-        return;
+    if (!section("Scene and kernel", true)) return;
     text_row("Scene", model.scene_name(), frame.description->source.string().c_str());
     text_row("Triangles", count_text(frame.description->triangles.size()));
     text_row("Lights", count_text(frame.scene->lights.size()), "Triangles that emit.");
@@ -94,7 +87,7 @@ void draw_scene(const PublishedFrame& frame, const ViewerModel& model) {
     text_row("Rays", frame.backend.intersector);
 }
 
-} // namespace
+}  // namespace
 
 void draw_statistics_tab(const ViewerModel& model) {
     const PublishedFrame* frame = model.frame();
@@ -108,4 +101,4 @@ void draw_statistics_tab(const ViewerModel& model) {
     draw_scene(*frame, model);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -28,16 +28,14 @@ private:
 
 void draw_counts(StatusLine& line, const ViewerModel& model) {
     const PublishedFrame* frame = model.frame();
-    if (frame == nullptr)
-        return;
+    if (frame == nullptr) return;
     const PassCounters& counters = frame->snapshot.counters;
     if (const auto& field = model.status().field) {
         line.add(fmt::format("{} learned", field->passes),
                  "Times that tables were published. Camera moves keep them.");
         if (field->lookup_misses > 0)
             line.add(fmt::format("{} misses", short_number(static_cast<double>(field->lookup_misses))),
-                     "Surface points that no radiance volume serves: sampled by reflectance alone.",
-                     colors::kFaint);
+                     "Surface points that no radiance volume serves: sampled by reflectance alone.", colors::kFaint);
     }
     line.add(fmt::format("{} invalid", counters.invalid_samples),
              "Samples that were NaN, infinite or negative. They are dropped.",
@@ -55,7 +53,7 @@ std::string samples_text(const ViewerModel& model) {
     return text;
 }
 
-} // namespace
+}  // namespace
 
 void draw_status_bar(const ViewerModel& model, const Layout& layout) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(0.6f), em(0.35f)});
@@ -64,19 +62,17 @@ void draw_status_bar(const ViewerModel& model, const Layout& layout) {
     StatusLine line;
     const WorkerState state = model.status().state;
     line.add(name_of(state), "What the render thread does.",
-             state == WorkerState::Failed
-                 ? colors::kError
-                 : (state == WorkerState::Rendering ? colors::kGood : colors::kWarning));
+             state == WorkerState::Failed ? colors::kError
+                                          : (state == WorkerState::Rendering ? colors::kGood : colors::kWarning));
     line.add(std::string(info_of(model.settings().method).label), "The method; keys 1, 2, 3.");
     if (model.frame() != nullptr)
         line.add(back_end_label(model.frame()->backend.name), model.frame()->backend.device.c_str());
     line.add(fmt::format("{}x{}", model.settings().width, model.settings().height), "Size of the picture.");
     line.add(samples_text(model),
              "Samples per pixel, and the time they took: placing, precomputing, learning and rendering.");
-    line.add(fmt::format("{:.2f} Mpaths/s", model.mpaths_per_second()),
-             "Camera paths per second of rendering.");
+    line.add(fmt::format("{:.2f} Mpaths/s", model.mpaths_per_second()), "Camera paths per second of rendering.");
     draw_counts(line, model);
     ImGui::End();
 }
 
-} // namespace pl
+}  // namespace pl

@@ -19,9 +19,7 @@ struct DiskPlace {
     float radius;
 
     ImVec2 operator()(Vec2f disk) const { return {center.x + radius * disk.x, center.y - radius * disk.y}; }
-    Vec2f inverse(ImVec2 window) const {
-        return {(window.x - center.x) / radius, (center.y - window.y) / radius};
-    }
+    Vec2f inverse(ImVec2 window) const { return {(window.x - center.x) / radius, (center.y - window.y) / radius}; }
 };
 
 void draw_choices(WindowState& window) {
@@ -56,8 +54,7 @@ void draw_legend(ImDrawList& list, const DiskPlace& place, const CellValues& val
         const float y = top + height * (1.0f - t);
         list.AddLine({x + width, y}, {x + width + em(0.25f), y}, colors::kFaint);
         const std::string text = short_value(value_at(values, scale, t));
-        const float text_y =
-            std::clamp(y - 0.5f * ImGui::GetFontSize(), top, top + height - ImGui::GetFontSize());
+        const float text_y = std::clamp(y - 0.5f * ImGui::GetFontSize(), top, top + height - ImGui::GetFontSize());
         list.AddText({x + width + em(0.4f), text_y}, colors::kText, text.c_str());
     }
 }
@@ -85,8 +82,7 @@ void draw_marks(ImDrawList& list, const DiskPlace& place, const VolumeInspection
     list.AddLine(place({1.0f, 0.0f}), place({1.05f, 0.0f}), colors::kText, 2.0f);
     list.AddText({place({1.05f, 0.0f}).x - em(0.1f), place.center.y - em(1.3f)}, colors::kFaint, "x");
     const std::optional<Vec2f> camera = disk_point_of(volume, glm::normalize(eye - volume.position));
-    if (!camera)
-        return;
+    if (!camera) return;
     list.AddCircle(place(*camera), em(0.45f), IM_COL32(0, 0, 0, 255), 24, 3.0f);
     list.AddCircle(place(*camera), em(0.45f), IM_COL32(255, 255, 255, 255), 24, 1.5f);
 }
@@ -96,34 +92,28 @@ void draw_disk(ViewerModel& model, const VolumeInspection& volume) {
     const float available = ImGui::GetContentRegionAvail().x;
     const float side = std::min(available - em(kLegendEm), em(19.0f));
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const DiskPlace place{{corner.x + 0.5f * side + em(0.2f), corner.y + 0.5f * side + em(0.4f)},
-                          0.5f * side};
+    const DiskPlace place{{corner.x + 0.5f * side + em(0.2f), corner.y + 0.5f * side + em(0.4f)}, 0.5f * side};
     ImGui::InvisibleButton("disk", {available, side + em(0.8f)});
 
     const CellValues values = cell_values(volume, window.quantity, window.scale);
     const std::vector<CellFan> fans = make_cell_fans(volume.side);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     std::vector<ImVec2> points(std::tuple_size_v<CellFan>);
-    const auto place_fan = [&](const CellFan& fan) {
-        std::transform(fan.begin(), fan.end(), points.begin(), place);
-    };
+    const auto place_fan = [&](const CellFan& fan) { std::transform(fan.begin(), fan.end(), points.begin(), place); };
     for (std::size_t cell = 0; cell < fans.size(); ++cell) {
         place_fan(fans[cell]);
         fill_fan(list, points, map_color(values.positions[cell]));
     }
-    if (model.frame() != nullptr)
-        draw_marks(list, place, volume, model.frame()->snapshot.camera.eye);
+    if (model.frame() != nullptr) draw_marks(list, place, volume, model.frame()->snapshot.camera.eye);
     draw_legend(list, place, values, window.scale);
 
     window.hovered_cell = -1;
     const Vec2f disk = place.inverse(ImGui::GetMousePos());
-    if (!ImGui::IsItemHovered() || glm::dot(disk, disk) >= 1.0f)
-        return;
+    if (!ImGui::IsItemHovered() || glm::dot(disk, disk) >= 1.0f) return;
     const int cell = DirectionCells{volume.side}.cell_of(disk_to_square(disk));
     window.hovered_cell = cell;
     place_fan(fans[static_cast<std::size_t>(cell)]);
-    list.AddPolyline(points.data() + 1, kCellBorderPoints, IM_COL32(255, 255, 255, 255), ImDrawFlags_Closed,
-                     2.0f);
+    list.AddPolyline(points.data() + 1, kCellBorderPoints, IM_COL32(255, 255, 255, 255), ImDrawFlags_Closed, 2.0f);
     draw_cell_tooltip(volume, cell, disk);
 }
 
@@ -132,20 +122,18 @@ void draw_summary(const VolumeInspection& volume) {
     const auto cells = static_cast<double>(volume.probability.size());
     text_row("Position",
              fmt::format("{:.4g}  {:.4g}  {:.4g}", volume.position.x, volume.position.y, volume.position.z));
-    text_row("Normal",
-             fmt::format("{:.3f}  {:.3f}  {:.3f}", volume.normal.x, volume.normal.y, volume.normal.z));
+    text_row("Normal", fmt::format("{:.3f}  {:.3f}  {:.3f}", volume.normal.x, volume.normal.y, volume.normal.z));
     text_row("Visits", short_number(static_cast<double>(summary.visits)), "Records over all directions.");
     text_row("Unseen", fmt::format("{} of {:.0f} cells", summary.empty_cells, cells),
              "Directions that nothing was recorded for.");
     text_row("Entropy", fmt::format("{:.2f} of {:.2f} bits", summary.entropy_bits, std::log2(cells)),
              "Of the sampling table. All bits: uniform, which is cosine sampling.");
-    text_row("Effective",
-             fmt::format("{:.1f} cells, peak {:.1f} x mean", summary.effective_cells, summary.peak),
+    text_row("Effective", fmt::format("{:.1f} cells, peak {:.1f} x mean", summary.effective_cells, summary.peak),
              "2 to the entropy; largest probability over the mean one.");
     text_row("Irradiance", fmt::format("{:.4g}", volume.mean_radiance * kPi), "Learned, as luminance.");
 }
 
-} // namespace
+}  // namespace
 
 void draw_volume_tab(ViewerModel& model) {
     if (model.selected_volume() == kNoVolume) {
@@ -173,4 +161,4 @@ void draw_volume_tab(ViewerModel& model) {
     draw_summary(*volume);
 }
 
-} // namespace pl
+}  // namespace pl

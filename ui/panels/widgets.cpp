@@ -24,24 +24,20 @@ public:
 
     /// What the control shows.
     std::array<float, N> shown() const {
-        if (!storage_.GetBool(flag_))
-            return now_;
+        if (!storage_.GetBool(flag_)) return now_;
         std::array<float, N> values;
-        for (std::size_t i = 0; i < N; ++i)
-            values[i] = storage_.GetFloat(key(i));
+        for (std::size_t i = 0; i < N; ++i) values[i] = storage_.GetFloat(key(i));
         return values;
     }
 
     /// After the control was drawn. True when the numbers are complete and new.
     bool finish(bool changed, const std::array<float, N>& values) {
         if (changed) {
-            for (std::size_t i = 0; i < N; ++i)
-                storage_.SetFloat(key(i), values[i]);
+            for (std::size_t i = 0; i < N; ++i) storage_.SetFloat(key(i), values[i]);
             storage_.SetBool(flag_, true);
             return false;
         }
-        if (!storage_.GetBool(flag_) || ImGui::IsItemActive())
-            return false;
+        if (!storage_.GetBool(flag_) || ImGui::IsItemActive()) return false;
         storage_.SetBool(flag_, false);
         return values != now_;
     }
@@ -54,14 +50,12 @@ private:
     std::array<float, N> now_;
 };
 
-} // namespace
+}  // namespace
 
 void tooltip(const char* text) {
-    constexpr float kRestSeconds =
-        0.4f; // a pointer on its way somewhere else should not be followed by boxes
+    constexpr float kRestSeconds = 0.4f;  // a pointer on its way somewhere else should not be followed by boxes
     const auto* rest = static_cast<const float*>(ImGui::GetIO().UserData);
-    if (*text == '\0' || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
-        *rest < kRestSeconds)
+    if (*text == '\0' || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) || *rest < kRestSeconds)
         return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(em(22.0f));
@@ -93,19 +87,12 @@ void text_row(const char* label, const std::string& value, const char* tip, ImU3
     tooltip(tip);
 }
 
-bool slider_row(const char* label,
-                const char* tip,
-                float* value,
-                float low,
-                float high,
-                float standard,
-                const char* format,
-                ImGuiSliderFlags flags) {
+bool slider_row(const char* label, const char* tip, float* value, float low, float high, float standard,
+                const char* format, ImGuiSliderFlags flags) {
     begin_row(label, tip);
     bool changed = ImGui::SliderFloat(hidden_label(label).c_str(), value, low, high, format,
                                       flags | ImGuiSliderFlags_AlwaysClamp);
-    tooltip(
-        fmt::format("{}\nCtrl+click to type, right click for the default ({:.4g}).", tip, standard).c_str());
+    tooltip(fmt::format("{}\nCtrl+click to type, right click for the default ({:.4g}).", tip, standard).c_str());
     if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) {
         *value = standard;
         changed = true;
@@ -125,8 +112,7 @@ bool int_row(const char* label, const char* tip, int* value, int step) {
     int number = static_cast<int>(edited.shown()[0]);
     const bool changed = ImGui::InputInt(hidden_label(label).c_str(), &number, step, 10 * step);
     tooltip(tip);
-    if (!edited.finish(changed, {static_cast<float>(number)}))
-        return false;
+    if (!edited.finish(changed, {static_cast<float>(number)})) return false;
     *value = number;
     return true;
 }
@@ -137,8 +123,7 @@ bool double_row(const char* label, const char* tip, double* value, double step, 
     auto number = static_cast<double>(edited.shown()[0]);
     const bool changed = ImGui::InputDouble(hidden_label(label).c_str(), &number, step, 10.0 * step, format);
     tooltip(tip);
-    if (!edited.finish(changed, {static_cast<float>(number)}))
-        return false;
+    if (!edited.finish(changed, {static_cast<float>(number)})) return false;
     *value = number;
     return true;
 }
@@ -150,8 +135,7 @@ bool size_row(const char* label, const char* tip, int* width, int* height) {
     int numbers[2] = {static_cast<int>(shown[0]), static_cast<int>(shown[1])};
     const bool changed = ImGui::InputInt2(hidden_label(label).c_str(), numbers);
     tooltip(tip);
-    if (!edited.finish(changed, {static_cast<float>(numbers[0]), static_cast<float>(numbers[1])}))
-        return false;
+    if (!edited.finish(changed, {static_cast<float>(numbers[0]), static_cast<float>(numbers[1])})) return false;
     *width = numbers[0];
     *height = numbers[1];
     return true;
@@ -163,8 +147,7 @@ bool point_row(const char* label, const char* tip, float* xyz) {
     std::array<float, 3> numbers = edited.shown();
     const bool changed = ImGui::InputFloat3(hidden_label(label).c_str(), numbers.data(), "%.4g");
     tooltip(tip);
-    if (!edited.finish(changed, numbers))
-        return false;
+    if (!edited.finish(changed, numbers)) return false;
     std::copy(numbers.begin(), numbers.end(), xyz);
     return true;
 }
@@ -208,18 +191,15 @@ std::string short_number(double value) {
 
 std::string short_value(double value) {
     const double magnitude = std::fabs(value);
-    if (magnitude == 0.0 || (magnitude >= 0.01 && magnitude < 10000.0))
-        return fmt::format("{:.3g}", value);
+    if (magnitude == 0.0 || (magnitude >= 0.01 && magnitude < 10000.0)) return fmt::format("{:.3g}", value);
     const int exponent = static_cast<int>(std::floor(std::log10(magnitude)));
     return fmt::format("{:.1f}e{}", value / std::pow(10.0, exponent), exponent);
 }
 
 std::string short_seconds(double seconds) {
-    if (seconds < 1.0)
-        return fmt::format("{:.3g} ms", 1000.0 * seconds);
-    if (seconds < 100.0)
-        return fmt::format("{:.2f} s", seconds);
+    if (seconds < 1.0) return fmt::format("{:.3g} ms", 1000.0 * seconds);
+    if (seconds < 100.0) return fmt::format("{:.2f} s", seconds);
     return fmt::format("{:.0f} s", seconds);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -17,14 +17,8 @@ void begin_row(const char* label, const char* tip);
 void text_row(const char* label, const std::string& value, const char* tip = "", ImU32 color = colors::kText);
 
 /// Ctrl+click to type, right click for the default. True if the value changed.
-bool slider_row(const char* label,
-                const char* tip,
-                float* value,
-                float low,
-                float high,
-                float standard,
-                const char* format,
-                ImGuiSliderFlags flags = 0);
+bool slider_row(const char* label, const char* tip, float* value, float low, float high, float standard,
+                const char* format, ImGuiSliderFlags flags = 0);
 
 bool toggle_row(const char* label, const char* tip, bool* value);
 
@@ -53,4 +47,4 @@ std::string short_value(double value);
 /// "1.25 s", "85 ms".
 std::string short_seconds(double seconds);
 
-} // namespace pl
+}  // namespace pl
