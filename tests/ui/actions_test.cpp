@@ -1,4 +1,7 @@
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <string>
 
 #include <SDL.h>
 
