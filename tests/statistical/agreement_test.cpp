@@ -94,7 +94,7 @@ TEST_CASE("The first passes of learning agree on the Cornell box") {
     check_first_passes("cornell", 128, 0.04);
 }
 TEST_CASE("The first passes of learning agree on the door ajar") {
-    check_first_passes("door", 128, 0.04);
+    check_first_passes("door", 256, 0.04);
 }
 
 // The same with four times the samples.
@@ -108,7 +108,7 @@ TEST_CASE("The first passes of learning agree on the Cornell box within 2 %", "[
     check_first_passes("cornell", 512, 0.02);
 }
 TEST_CASE("The first passes of learning agree on the door ajar within 2 %", "[merge]") {
-    check_first_passes("door", 512, 0.02);
+    check_first_passes("door", 1024, 0.02);
 }
 
 // And with 64 times.
@@ -122,5 +122,5 @@ TEST_CASE("The first passes of learning agree on the Cornell box within 0.5 %", 
     check_first_passes("cornell", 8192, 0.005);
 }
 TEST_CASE("The first passes of learning agree on the door ajar within 0.5 %", "[nightly]") {
-    check_first_passes("door", 8192, 0.005);
+    check_first_passes("door", 16384, 0.005);
 }
