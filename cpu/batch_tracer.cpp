@@ -10,9 +10,7 @@ namespace {
 
 struct NameOf {
     std::string operator()(const BvhBatch&) const { return "bvh"; }
-    std::string operator()(const DenseIntersector& dense) const {
-        return fmt::format("dense ({})", dense.isa());
-    }
+    std::string operator()(const DenseIntersector& dense) const { return fmt::format("dense ({})", dense.isa()); }
 #if PL_EMBREE_MAJOR > 0
     std::string operator()(const EmbreeIntersector&) const {
         return "embree " + EmbreeIntersector::version();
@@ -21,20 +19,18 @@ struct NameOf {
 };
 
 IntersectorChoice best_for(const SceneView& scene) {
-    if (scene.triangles.count <= kMaxDenseTriangles)
-        return IntersectorChoice::Dense;
+    if (scene.triangles.count <= kMaxDenseTriangles) return IntersectorChoice::Dense;
     return PL_EMBREE_MAJOR > 0 ? IntersectorChoice::Embree : IntersectorChoice::Bvh;
 }
 
-} // namespace
+}  // namespace
 
 BatchTracer::BatchTracer(const SceneView& scene, IntersectorChoice choice, int threads)
     : intersector_(choose(scene, choice == IntersectorChoice::Auto ? best_for(scene) : choice, threads)) {}
 
-BatchTracer::AnyIntersector
-BatchTracer::choose(const SceneView& scene, IntersectorChoice choice, [[maybe_unused]] int threads) {
-    if (choice == IntersectorChoice::Dense)
-        return DenseIntersector(scene);
+BatchTracer::AnyIntersector BatchTracer::choose(const SceneView& scene, IntersectorChoice choice,
+                                                [[maybe_unused]] int threads) {
+    if (choice == IntersectorChoice::Dense) return DenseIntersector(scene);
     if (choice == IntersectorChoice::Embree) {
 #if PL_EMBREE_MAJOR > 0
         return EmbreeIntersector(scene, threads);
@@ -49,4 +45,4 @@ std::string BatchTracer::name() const {
     return std::visit(NameOf{}, intersector_);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -42,4 +42,4 @@ private:
 };
 static_assert(BatchIntersector<BatchTracer>);
 
-} // namespace pl
+}  // namespace pl

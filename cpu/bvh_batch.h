@@ -12,12 +12,10 @@ public:
     explicit BvhBatch(const SceneView& scene) : intersector_{scene} {}
 
     void find_closest(RayBatch& batch, std::uint32_t count) const {
-        for (std::uint32_t i = 0; i < count; ++i)
-            batch.set_hit(i, intersector_.closest_hit(batch.ray(i)));
+        for (std::uint32_t i = 0; i < count; ++i) batch.set_hit(i, intersector_.closest_hit(batch.ray(i)));
     }
     void find_occluded(RayBatch& batch, std::uint32_t count) const {
-        for (std::uint32_t i = 0; i < count; ++i)
-            batch.set_occluded(i, intersector_.occluded(batch.ray(i)));
+        for (std::uint32_t i = 0; i < count; ++i) batch.set_occluded(i, intersector_.occluded(batch.ray(i)));
     }
 
 private:
@@ -25,4 +23,4 @@ private:
 };
 static_assert(BatchIntersector<BvhBatch>);
 
-} // namespace pl
+}  // namespace pl

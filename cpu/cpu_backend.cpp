@@ -20,12 +20,9 @@ namespace {
 
 const KernelRow<PicturePass>& picture_kernels(MethodId method) {
     switch (method) {
-    case MethodId::Default:
-        return kDefaultKernels;
-    case MethodId::Precomputed:
-        return kPrecomputedKernels;
-    case MethodId::Reinforcement:
-        return kReinforcementKernels;
+    case MethodId::Default: return kDefaultKernels;
+    case MethodId::Precomputed: return kPrecomputedKernels;
+    case MethodId::Reinforcement: return kReinforcementKernels;
     }
     throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
 }
@@ -54,8 +51,7 @@ public:
     }
 
     void upload_tables(MethodId method, HostTables tables) override {
-        if (!volumes_)
-            throw Error(ErrorKind::Runtime, "CPU back end: expected volumes before tables, got none");
+        if (!volumes_) throw Error(ErrorKind::Runtime, "CPU back end: expected volumes before tables, got none");
         tables_[index_of(method)] = std::move(tables);
     }
     HostTables download_tables(MethodId method) const override {
@@ -70,8 +66,7 @@ public:
 
     PassCounters run_pass(const PassRequest& request) override {
         const PassSetup setup = make_setup(request.path, request.first_pixel, request.stop);
-        if (request.slot.view != View::Beauty)
-            return run_view(setup, request);
+        if (request.slot.view != View::Beauty) return run_view(setup, request);
         const MethodId method = request.slot.method;
         const FieldView field = info_of(method).uses_field ? learned_field(method) : FieldView{};
         return launch(picture_kernels(method), request.features,
@@ -98,8 +93,7 @@ public:
         const FieldPublicationView field = publication_view(shape_, existing_tables(method));
         ChunkQueue queue(0, field.mean_radiance.count, kVolumeChunk);
         parallel_for(settings_.threads, queue, [&](IndexRange range) {
-            for (std::uint32_t volume = range.begin; volume < range.end; ++volume)
-                publish_volume(field, volume);
+            for (std::uint32_t volume = range.begin; volume < range.end; ++volume) publish_volume(field, volume);
         });
     }
 
@@ -113,8 +107,7 @@ private:
     static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }
 
     PassSetup make_setup(const PathSettings& path, std::uint32_t first_path, const StopFlag* stop) const {
-        if (!tracer_)
-            throw Error(ErrorKind::Runtime, "CPU back end: expected a scene, got none");
+        if (!tracer_) throw Error(ErrorKind::Runtime, "CPU back end: expected a scene, got none");
         return {.scene = scene_->view(),
                 .path = path,
                 .first_path = first_path,
@@ -130,19 +123,15 @@ private:
                         fmt::format("CPU back end: expected tables of '{}', got none", info_of(method).name));
         return *tables;
     }
-    FieldView learned_field(MethodId method) {
-        return field_view(shape_, *volumes_, existing_tables(method));
-    }
+    FieldView learned_field(MethodId method) { return field_view(shape_, *volumes_, existing_tables(method)); }
 
     /// What the views of a field show. Default path tracing learns nothing: it shows what Reinforcement learned.
     FieldView shown_field(const FilmSlot& slot) {
         const ViewInfo& view = info_of(slot.view);
         if (view.needs_tables)
             return learned_field(info_of(slot.method).uses_field ? slot.method : MethodId::Reinforcement);
-        if (!view.needs_volumes)
-            return {};
-        if (!volumes_)
-            throw Error(ErrorKind::Runtime, "CPU back end: expected volumes, got none");
+        if (!view.needs_volumes) return {};
+        if (!volumes_) throw Error(ErrorKind::Runtime, "CPU back end: expected volumes, got none");
         HostTables none;
         return field_view(shape_, *volumes_, none);
     }
@@ -166,21 +155,20 @@ private:
     FilmStore films_;
 };
 
-} // namespace
+}  // namespace
 
 std::unique_ptr<RenderBackend> make_cpu_backend(const CpuSettings& settings) {
     constexpr int kMostThreads = 4096;
     constexpr std::uint32_t kMostPaths = 1u << 20;
     if (settings.threads < 0 || settings.threads > kMostThreads)
-        throw Error(ErrorKind::Usage, fmt::format("number of threads: expected 0 to {}, got {}", kMostThreads,
-                                                  settings.threads));
+        throw Error(ErrorKind::Usage,
+                    fmt::format("number of threads: expected 0 to {}, got {}", kMostThreads, settings.threads));
     if (settings.batch_paths == 0 || settings.batch_paths > kMostPaths)
-        throw Error(ErrorKind::Usage, fmt::format("paths per batch: expected 1 to {}, got {}", kMostPaths,
-                                                  settings.batch_paths));
+        throw Error(ErrorKind::Usage,
+                    fmt::format("paths per batch: expected 1 to {}, got {}", kMostPaths, settings.batch_paths));
     CpuSettings resolved = settings;
-    if (resolved.threads == 0)
-        resolved.threads = hardware_threads();
+    if (resolved.threads == 0) resolved.threads = hardware_threads();
     return std::make_unique<CpuBackend>(resolved);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -16,21 +16,18 @@ bool same_bits(Vec3f a, Vec3f b) {
     return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-} // namespace
+}  // namespace
 
 DenseIntersector::DenseIntersector(const SceneView& scene, const LaneKernels& kernels) : kernels_(kernels) {
     if (scene.triangles.count > kMaxDenseTriangles)
-        throw Error(ErrorKind::Runtime,
-                    fmt::format("dense intersector: expected at most {} triangles, got {}",
-                                kMaxDenseTriangles, scene.triangles.count));
+        throw Error(ErrorKind::Runtime, fmt::format("dense intersector: expected at most {} triangles, got {}",
+                                                    kMaxDenseTriangles, scene.triangles.count));
     for (std::uint32_t i = 0; i < scene.triangles.count; ++i) {
         const Triangle& triangle = scene.triangles[i];
-        const DenseTriangle dense{number_of(scene.positions[triangle.v0]),
-                                  number_of(scene.positions[triangle.v1]),
+        const DenseTriangle dense{number_of(scene.positions[triangle.v0]), number_of(scene.positions[triangle.v1]),
                                   number_of(scene.positions[triangle.v2]), i};
         // The edge functions of equal corners are exactly opposite or zero: no ray passes the test.
-        if (dense.a != dense.b && dense.b != dense.c && dense.c != dense.a)
-            triangles_.push_back(dense);
+        if (dense.a != dense.b && dense.b != dense.c && dense.c != dense.a) triangles_.push_back(dense);
     }
 }
 
@@ -43,10 +40,9 @@ DenseView DenseIntersector::view() const {
 
 std::uint32_t DenseIntersector::number_of(Vec3f position) {
     for (std::uint32_t i = 0; i < positions_.size(); ++i)
-        if (same_bits(positions_[i], position))
-            return i;
+        if (same_bits(positions_[i], position)) return i;
     positions_.push_back(position);
     return static_cast<std::uint32_t>(positions_.size() - 1);
 }
 
-} // namespace pl
+}  // namespace pl

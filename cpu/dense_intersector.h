@@ -35,4 +35,4 @@ private:
 };
 static_assert(BatchIntersector<DenseIntersector>);
 
-} // namespace pl
+}  // namespace pl

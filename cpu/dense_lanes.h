@@ -18,8 +18,8 @@ PL_INLINE LaneRaySpace load_ray_space(const RayGroup& rays, std::uint32_t first)
     const auto dz = load_lanes<LaneFloat>(rays.direction_z + first);
     return make_ray_space<LaneFloat, LaneInt>(load_lanes<LaneFloat>(rays.origin_x + first),
                                               load_lanes<LaneFloat>(rays.origin_y + first),
-                                              load_lanes<LaneFloat>(rays.origin_z + first), dx, dy, dz,
-                                              magnitude(dx), magnitude(dy), magnitude(dz), broadcast(1.0f));
+                                              load_lanes<LaneFloat>(rays.origin_z + first), dx, dy, dz, magnitude(dx),
+                                              magnitude(dy), magnitude(dz), broadcast(1.0f));
 }
 
 PL_INLINE RayCorner<float> lane_of(const LaneCorner& corner, std::uint32_t lane) {
@@ -33,11 +33,10 @@ PL_INLINE LaneInt same_sign(LaneFloat x, LaneFloat y) {
 
 /// Repeats the edge functions exactly in the lanes where one of them is zero, as intersect_triangle does, and returns
 /// where they do not contradict each other. Rare, so it is kept out of the way.
-[[gnu::noinline, gnu::cold]] LaneInt repeat_exactly(
-    const LaneCorner& a, const LaneCorner& b, const LaneCorner& c, std::uint32_t lanes, LaneEdges& e) {
+[[gnu::noinline, gnu::cold]] LaneInt repeat_exactly(const LaneCorner& a, const LaneCorner& b, const LaneCorner& c,
+                                                    std::uint32_t lanes, LaneEdges& e) {
     for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {
-        if (((lanes >> lane) & 1u) == 0)
-            continue;
+        if (((lanes >> lane) & 1u) == 0) continue;
         const auto pa = lane_of(a, lane);
         const auto pb = lane_of(b, lane);
         const auto pc = lane_of(c, lane);
@@ -55,8 +54,7 @@ class DenseLanes {
 public:
     PL_INLINE DenseLanes(const DenseView& scene, const RayGroup& rays, std::uint32_t first)
         : scene_(scene), source_(load_lanes<LaneUint>(rays.source + first)),
-          target_(load_lanes<LaneUint>(rays.target + first)),
-          t_max_(load_lanes<LaneFloat>(rays.t_max + first)) {
+          target_(load_lanes<LaneUint>(rays.target + first)), t_max_(load_lanes<LaneFloat>(rays.t_max + first)) {
         const LaneRaySpace space = load_ray_space(rays, first);
         for (std::uint32_t i = 0; i < scene.position_count; ++i) {
             const Vec3f& p = scene.positions[i];
@@ -72,8 +70,7 @@ public:
         for (std::uint32_t i = 0; i < scene_.triangle_count; ++i) {
             const Crossing crossing = cross(scene_.triangles[i]);
             const LaneUint primitive = broadcast(scene_.triangles[i].primitive);
-            const LaneInt closer =
-                (crossing.t < best_t) | ((crossing.t == best_t) & (primitive < best_primitive));
+            const LaneInt closer = (crossing.t < best_t) | ((crossing.t == best_t) & (primitive < best_primitive));
             const LaneInt take = crossing.hit & closer;
             best_t = take ? crossing.t : best_t;
             best_primitive = take ? primitive : best_primitive;
@@ -94,8 +91,7 @@ public:
         for (std::uint32_t i = 0; i < scene_.triangle_count; ++i) {
             const Crossing crossing = cross(scene_.triangles[i]);
             occluded |= crossing.hit & (crossing.t <= t_max_);
-            if (mask_bits(occluded) == kAllLanes)
-                break;
+            if (mask_bits(occluded) == kAllLanes) break;
         }
         return mask_bits(occluded);
     }
@@ -105,7 +101,7 @@ private:
         LaneEdges edges;
         LaneFloat determinant;
         LaneFloat t;
-        LaneInt hit; ///< the triangle is met at t > 0 and is neither source nor target
+        LaneInt hit;  ///< the triangle is met at t > 0 and is neither source nor target
     };
 
     PL_INLINE Crossing cross(const DenseTriangle& triangle) const {
@@ -132,16 +128,13 @@ private:
     LaneCorner corners_[kMaxDensePositions];
 };
 
-PL_INLINE void
-closest_of_groups(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups) {
+PL_INLINE void closest_of_groups(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
             DenseLanes(scene, rays[group], first).find_closest(hits[group], first);
 }
 
-PL_INLINE void occlusion_of_groups(const DenseView& scene,
-                                   const RayGroup* rays,
-                                   OcclusionMask* masks,
+PL_INLINE void occlusion_of_groups(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks,
                                    std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group) {
         std::uint32_t bits = 0;
@@ -151,5 +144,5 @@ PL_INLINE void occlusion_of_groups(const DenseView& scene,
     }
 }
 
-} // namespace
-} // namespace pl
+}  // namespace
+}  // namespace pl

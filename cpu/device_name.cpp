@@ -7,13 +7,11 @@ namespace pl {
 std::string cpu_name() {
     std::ifstream info("/proc/cpuinfo");
     for (std::string line; std::getline(info, line);) {
-        if (!line.starts_with("model name"))
-            continue;
+        if (!line.starts_with("model name")) continue;
         const std::size_t start = line.find_first_not_of(" \t", line.find(':') + 1);
-        if (start != std::string::npos)
-            return line.substr(start);
+        if (start != std::string::npos) return line.substr(start);
     }
     return "CPU";
 }
 
-} // namespace pl
+}  // namespace pl

@@ -8,4 +8,4 @@ namespace pl {
 /// "AMD EPYC 9654"; "CPU" where the system does not tell.
 std::string cpu_name();
 
-} // namespace pl
+}  // namespace pl

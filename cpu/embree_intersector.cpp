@@ -25,12 +25,12 @@ using QueryContext = RTCIntersectContext;
 
 /// One ray on its way through Embree, together with what our own test has found so far.
 struct Query {
-    QueryContext context; ///< first, because Embree hands back its address
+    QueryContext context;  ///< first, because Embree hands back its address
     const SceneView* scene;
     Ray ray;
     ScalarRaySpace space;
     Hit best;
-    bool disagreed = false; ///< Embree met a triangle that our test refused
+    bool disagreed = false;  ///< Embree met a triangle that our test refused
 
     Query(const SceneView& scene_view, const Ray& traced)
         : scene(&scene_view), ray(traced), space(make_ray_space(traced)), best{.t = traced.t_max} {
@@ -43,8 +43,7 @@ struct Query {
 
     /// Whether our test takes this triangle as the new best hit.
     bool consider(std::uint32_t primitive) {
-        if (primitive == ray.source || primitive == ray.target)
-            return false;
+        if (primitive == ray.source || primitive == ray.target) return false;
         const Triangle& triangle = scene->triangles[primitive];
         intersect_triangle(space, scene->positions[triangle.v0], scene->positions[triangle.v1],
                            scene->positions[triangle.v2], primitive, best);
@@ -69,8 +68,7 @@ static_assert(std::is_standard_layout_v<Query>);
 void filter_hit(const RTCFilterFunctionNArguments* arguments) {
     auto* query = reinterpret_cast<Query*>(arguments->context);
     const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
-    if (!query->consider(hit->primID))
-        arguments->valid[0] = 0;
+    if (!query->consider(hit->primID)) arguments->valid[0] = 0;
 }
 
 RTCRay to_embree(const Ray& ray) {
@@ -105,17 +103,14 @@ void fill_geometry(RTCGeometry geometry, const SceneView& scene) {
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), scene.positions.count));
     for (const Vec3f& position : scene.positions)
-        for (int axis = 0; axis < 3; ++axis)
-            *vertices++ = position[axis];
-    auto* corners = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), scene.triangles.count));
+        for (int axis = 0; axis < 3; ++axis) *vertices++ = position[axis];
+    auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), scene.triangles.count));
     for (const Triangle& triangle : scene.triangles)
-        for (const std::uint32_t vertex : {triangle.v0, triangle.v1, triangle.v2})
-            *corners++ = vertex;
+        for (const std::uint32_t vertex : {triangle.v0, triangle.v1, triangle.v2}) *corners++ = vertex;
 }
 
-} // namespace
+}  // namespace
 
 struct EmbreeIntersector::Handles {
     RTCDevice device = nullptr;
@@ -125,10 +120,8 @@ struct EmbreeIntersector::Handles {
     Handles(const Handles&) = delete;
     Handles& operator=(const Handles&) = delete;
     ~Handles() {
-        if (scene != nullptr)
-            rtcReleaseScene(scene);
-        if (device != nullptr)
-            rtcReleaseDevice(device);
+        if (scene != nullptr) rtcReleaseScene(scene);
+        if (device != nullptr) rtcReleaseDevice(device);
     }
 
     void check(const char* step) const {
@@ -198,4 +191,4 @@ std::string EmbreeIntersector::version() {
     return RTC_VERSION_STRING;
 }
 
-} // namespace pl
+}  // namespace pl

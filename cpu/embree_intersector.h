@@ -35,4 +35,4 @@ private:
 };
 static_assert(BatchIntersector<EmbreeIntersector>);
 
-} // namespace pl
+}  // namespace pl

@@ -23,13 +23,12 @@ Vec3f mean_or_nan(const FilmPixel& pixel) {
     return all_invalid ? Vec3f{std::nanf("")} : mean_radiance(pixel);
 }
 
-} // namespace
+}  // namespace
 
 void FilmStore::reset(FilmSlot slot, int width, int height, int threads) {
     constexpr std::int64_t kMostPixels = 0xffffffff;
     if (width <= 0 || height <= 0 || std::int64_t{width} * height > kMostPixels)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("picture size {}x{}: expected 1x1 to 2^32 pixels", width, height));
+        throw Error(ErrorKind::Usage, fmt::format("picture size {}x{}: expected 1x1 to 2^32 pixels", width, height));
     Film& film = films_[index_of(slot)];
     film.width = width;
     film.height = height;
@@ -43,8 +42,7 @@ void FilmStore::reset(FilmSlot slot, int width, int height, int threads) {
 FilmView FilmStore::view(FilmSlot slot) {
     existing(slot);
     Film& film = films_[index_of(slot)];
-    return {view_of(film.pixels), static_cast<std::uint32_t>(film.width),
-            static_cast<std::uint32_t>(film.height)};
+    return {view_of(film.pixels), static_cast<std::uint32_t>(film.width), static_cast<std::uint32_t>(film.height)};
 }
 
 FilmReading FilmStore::read(FilmSlot slot, int threads) const {
@@ -77,4 +75,4 @@ const FilmStore::Film& FilmStore::existing(FilmSlot slot) const {
     return film;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -28,4 +28,4 @@ private:
     std::array<Film, FilmSlot::kCount> films_;
 };
 
-} // namespace pl
+}  // namespace pl

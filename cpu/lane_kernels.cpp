@@ -8,8 +8,7 @@ namespace {
 std::vector<LaneKernels> find_usable_kernels() {
     std::vector<LaneKernels> usable{kLaneKernelsBaseline};
 #ifdef PL_LANE_CLONES
-    if (__builtin_cpu_supports("avx2"))
-        usable.push_back(kLaneKernelsAvx2);
+    if (__builtin_cpu_supports("avx2")) usable.push_back(kLaneKernelsAvx2);
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
         usable.push_back(kLaneKernelsAvx512);
@@ -17,11 +16,11 @@ std::vector<LaneKernels> find_usable_kernels() {
     return usable;
 }
 
-} // namespace
+}  // namespace
 
 std::span<const LaneKernels> usable_lane_kernels() {
     static const std::vector<LaneKernels> usable = find_usable_kernels();
     return usable;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -15,16 +15,16 @@ inline constexpr std::uint32_t kMaxDenseTriangles = 64;
 inline constexpr std::uint32_t kMaxDensePositions = 3 * kMaxDenseTriangles;
 
 struct DenseTriangle {
-    std::uint32_t a, b, c;   ///< indices into DenseView::positions
-    std::uint32_t primitive; ///< number in the scene
+    std::uint32_t a, b, c;    ///< indices into DenseView::positions
+    std::uint32_t primitive;  ///< number in the scene
 };
 
 /// A small scene as plain pointers: the files that are compiled for wide vectors must not share the inline functions
 /// of a container.
 struct DenseView {
-    const Vec3f* positions; ///< each once, however many triangles share it
+    const Vec3f* positions;  ///< each once, however many triangles share it
     std::uint32_t position_count;
-    const DenseTriangle* triangles; ///< in ascending order of their numbers
+    const DenseTriangle* triangles;  ///< in ascending order of their numbers
     std::uint32_t triangle_count;
 };
 
@@ -44,29 +44,21 @@ struct alignas(64) CounterGroup {
 struct alignas(64) NumberGroup {
     float rows[4][kGroupSize] = {};
 
-    Vec4f get(std::uint32_t lane) const {
-        return {rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]};
-    }
+    Vec4f get(std::uint32_t lane) const { return {rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]}; }
 };
 
 struct LaneKernels {
     const char* isa;
     /// All rays of `groups` groups against all triangles.
     void (*find_closest)(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups);
-    void (*find_occluded)(const DenseView& scene,
-                          const RayGroup* rays,
-                          OcclusionMask* masks,
-                          std::uint32_t groups);
+    void (*find_occluded)(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t groups);
     /// What Rng::draw gives for every counter.
-    void (*draw)(const DrawKey& key,
-                 const CounterGroup* counters,
-                 NumberGroup* numbers,
-                 std::uint32_t groups);
+    void (*draw)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups);
 };
 
 extern const LaneKernels kLaneKernelsBaseline;
-extern const LaneKernels kLaneKernelsAvx2;   ///< only in builds with PL_LANE_CLONES
-extern const LaneKernels kLaneKernelsAvx512; ///< only in builds with PL_LANE_CLONES
+extern const LaneKernels kLaneKernelsAvx2;    ///< only in builds with PL_LANE_CLONES
+extern const LaneKernels kLaneKernelsAvx512;  ///< only in builds with PL_LANE_CLONES
 
 /// Those that this build has and this machine can run, widest vectors last.
 std::span<const LaneKernels> usable_lane_kernels();
@@ -75,4 +67,4 @@ inline const LaneKernels& best_lane_kernels() {
     return usable_lane_kernels().back();
 }
 
-} // namespace pl
+}  // namespace pl

@@ -89,11 +89,10 @@ PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
     return static_cast<std::uint32_t>(_mm_movemask_ps(std::bit_cast<__m128>(mask)));
 #else
     std::uint32_t bits = 0;
-    for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane)
-        bits |= (mask[lane] != 0 ? 1u : 0u) << lane;
+    for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) bits |= (mask[lane] != 0 ? 1u : 0u) << lane;
     return bits;
 #endif
 }
 
-} // namespace
-} // namespace pl
+}  // namespace
+}  // namespace pl

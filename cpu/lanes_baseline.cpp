@@ -16,8 +16,8 @@ void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers
     draw_groups(key, counters, numbers, groups);
 }
 
-} // namespace
+}  // namespace
 
 const LaneKernels kLaneKernelsBaseline{"baseline", find_closest, find_occluded, draw};
 
-} // namespace pl
+}  // namespace pl

@@ -83,4 +83,4 @@ PassCounters launch(const KernelRow<Pass>& row, FeatureSet needed, const Pass& p
     return row[covering_set(needed)](pass);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -12,8 +12,7 @@ namespace pl {
 class NumberBatch {
 public:
     NumberBatch(std::uint32_t capacity, bool with_light)
-        : counters_(group_count(capacity)), scatter_(counters_.size()),
-          light_(with_light ? counters_.size() : 0) {}
+        : counters_(group_count(capacity)), scatter_(counters_.size()), light_(with_light ? counters_.size() : 0) {}
 
     template <class M>
     void set_path(std::uint32_t index, const PathState<M>& state) {
@@ -27,14 +26,12 @@ public:
     /// Draws for the first `count` paths.
     void draw(const PathSettings& settings, std::uint32_t count) {
         draw_rows({settings.seed, settings.stream, Purpose::Scatter}, scatter_, count);
-        if (!light_.empty())
-            draw_rows({settings.seed, settings.stream, Purpose::Light}, light_, count);
+        if (!light_.empty()) draw_rows({settings.seed, settings.stream, Purpose::Light}, light_, count);
     }
 
     VertexNumbers numbers(std::uint32_t index) const {
         VertexNumbers numbers{.scatter = scatter_[index / kGroupSize].get(index % kGroupSize)};
-        if (!light_.empty())
-            numbers.light = light_[index / kGroupSize].get(index % kGroupSize);
+        if (!light_.empty()) numbers.light = light_[index / kGroupSize].get(index % kGroupSize);
         return numbers;
     }
 
@@ -46,7 +43,7 @@ private:
     LaneKernels kernels_ = best_lane_kernels();
     std::vector<CounterGroup> counters_;
     std::vector<NumberGroup> scatter_;
-    std::vector<NumberGroup> light_; ///< empty where no lights are sampled
+    std::vector<NumberGroup> light_;  ///< empty where no lights are sampled
 };
 
-} // namespace pl
+}  // namespace pl

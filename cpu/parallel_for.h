@@ -25,13 +25,11 @@ public:
             body();
         } catch (...) {
             const std::lock_guard lock(mutex_);
-            if (!first_)
-                first_ = std::current_exception();
+            if (!first_) first_ = std::current_exception();
         }
     }
     void rethrow() const {
-        if (first_)
-            std::rethrow_exception(first_);
+        if (first_) std::rethrow_exception(first_);
     }
 
 private:
@@ -49,8 +47,7 @@ void run_on_threads(int threads, Body&& body) {
     for (int thread = 1; thread < threads; ++thread)
         others.emplace_back([&, thread] { exception.guard([&] { body(thread); }); });
     exception.guard([&] { body(0); });
-    for (std::thread& other : others)
-        other.join();
+    for (std::thread& other : others) other.join();
 #else
 #pragma omp parallel num_threads(threads)
     exception.guard([&] { body(omp_get_thread_num()); });
@@ -79,19 +76,14 @@ struct IndexRange {
 /// `stop` is set nothing more is handed out, so if claimed chunks are always done, what is done is a prefix.
 class ChunkQueue {
 public:
-    ChunkQueue(std::uint32_t first,
-               std::uint32_t end,
-               std::uint32_t chunk,
-               const std::atomic<bool>* stop = nullptr)
+    ChunkQueue(std::uint32_t first, std::uint32_t end, std::uint32_t chunk, const std::atomic<bool>* stop = nullptr)
         : next_(first), end_(end), chunk_(chunk), stop_(stop) {}
 
     /// The next chunk; empty when there is none.
     IndexRange claim() {
-        if (stop_ != nullptr && stop_->load(std::memory_order_relaxed))
-            return {};
+        if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) return {};
         const std::uint64_t begin = next_.fetch_add(chunk_, std::memory_order_relaxed);
-        if (begin >= end_)
-            return {};
+        if (begin >= end_) return {};
         const std::uint64_t end = std::min(begin + chunk_, end_);
         return {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
     }
@@ -107,9 +99,8 @@ private:
 template <class Body>
 void parallel_for(int threads, ChunkQueue& queue, Body&& body) {
     run_on_threads(threads, [&](int) {
-        for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
-            body(range);
+        for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim()) body(range);
     });
 }
 
-} // namespace pl
+}  // namespace pl

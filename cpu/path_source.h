@@ -24,8 +24,7 @@ public:
 
     /// Number of the next path and what Rng::draw gives for its vertex 0. Returns false if there is no more.
     bool next(std::uint32_t& number, Vec4f& u) {
-        if (chunk_.empty() && !claim())
-            return false;
+        if (chunk_.empty() && !claim()) return false;
         const std::uint32_t index = chunk_.begin - first_;
         u = numbers_[index / kGroupSize].get(index % kGroupSize);
         number = chunk_.begin++;
@@ -37,8 +36,7 @@ private:
 
     bool claim() {
         chunk_ = queue_.claim();
-        if (chunk_.empty())
-            return false;
+        if (chunk_.empty()) return false;
         first_ = chunk_.begin;
         for (std::uint32_t i = 0; i < kPathChunk; ++i) {
             counters_[i / kGroupSize].pixel[i % kGroupSize] = first_ + i;
@@ -57,4 +55,4 @@ private:
     NumberGroup numbers_[kGroups];
 };
 
-} // namespace pl
+}  // namespace pl

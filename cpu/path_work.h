@@ -18,7 +18,7 @@ struct PictureWork {
 
     std::uint32_t count() const { return film.pixels.count; }
     PathState<M> begin(std::uint32_t pixel, Vec4f u) const {
-        __builtin_prefetch(&film.pixels[pixel], 1); // the film does not stay in the cache, the batch does
+        __builtin_prefetch(&film.pixels[pixel], 1);  // the film does not stay in the cache, the batch does
         return begin_path<M>(camera, film.width, film.height, pixel, sample, u);
     }
     bool finish(const PathState<M>& state) const { return accumulate(film, state.pixel, state.radiance); }
@@ -32,9 +32,7 @@ struct ProbeWork {
     std::uint32_t sample = 0;
     std::uint32_t strata_side = 1;
 
-    std::uint32_t count() const {
-        return field.normals.count * static_cast<std::uint32_t>(field.cells.count());
-    }
+    std::uint32_t count() const { return field.normals.count * static_cast<std::uint32_t>(field.cells.count()); }
     PathState<DefaultMethod> begin(std::uint32_t probe, Vec4f u) const {
         return begin_probe(field, probe, sample, strata_side, u);
     }
@@ -44,4 +42,4 @@ struct ProbeWork {
     }
 };
 
-} // namespace pl
+}  // namespace pl

@@ -24,8 +24,7 @@ struct alignas(64) RayGroup {
     std::uint32_t source[kGroupSize] = {}, target[kGroupSize] = {};
 
     RayGroup() {
-        for (std::uint32_t lane = 0; lane < kGroupSize; ++lane)
-            set(lane, Ray{});
+        for (std::uint32_t lane = 0; lane < kGroupSize; ++lane) set(lane, Ray{});
     }
     void set(std::uint32_t lane, const Ray& ray) {
         origin_x[lane] = ray.origin.x;
@@ -71,13 +70,9 @@ public:
     explicit RayBatch(std::uint32_t capacity)
         : rays_(group_count(capacity)), hits_(group_count(capacity)), occluded_(group_count(capacity)) {}
 
-    void set_ray(std::uint32_t index, const Ray& ray) {
-        rays_[index / kGroupSize].set(index % kGroupSize, ray);
-    }
+    void set_ray(std::uint32_t index, const Ray& ray) { rays_[index / kGroupSize].set(index % kGroupSize, ray); }
     Ray ray(std::uint32_t index) const { return rays_[index / kGroupSize].get(index % kGroupSize); }
-    void set_hit(std::uint32_t index, const Hit& hit) {
-        hits_[index / kGroupSize].set(index % kGroupSize, hit);
-    }
+    void set_hit(std::uint32_t index, const Hit& hit) { hits_[index / kGroupSize].set(index % kGroupSize, hit); }
     Hit hit(std::uint32_t index) const { return hits_[index / kGroupSize].get(index % kGroupSize); }
     void set_occluded(std::uint32_t index, bool occluded) {
         const auto bit = static_cast<OcclusionMask>(1u << (index % kGroupSize));
@@ -105,4 +100,4 @@ concept BatchIntersector = requires(const T& intersector, RayBatch& batch, std::
     { intersector.find_occluded(batch, count) } -> std::same_as<void>;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -19,7 +19,7 @@ namespace pl {
 struct PassSetup {
     SceneView scene;
     PathSettings path;
-    std::uint32_t first_path = 0; ///< those before it were done by an earlier pass that was stopped
+    std::uint32_t first_path = 0;  ///< those before it were done by an earlier pass that was stopped
     const StopFlag* stop = nullptr;
     int threads = 1;
     std::uint32_t batch_paths = 1024;
@@ -39,21 +39,18 @@ class PathBatch {
 public:
     PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work)
         : setup_(setup), intersector_(intersector), method_(method), work_(work), states_(setup.batch_paths),
-          statuses_(setup.batch_paths),
-          numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0), rays_(setup.batch_paths),
-          shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
+          statuses_(setup.batch_paths), numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0),
+          rays_(setup.batch_paths), shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())) {}
 
     /// Traces paths until the source has no more, and finishes those under way.
     PassCounters run(PathSource& source) {
-        while (active_ < setup_.batch_paths && start(source, active_))
-            ++active_;
+        while (active_ < setup_.batch_paths && start(source, active_)) ++active_;
         while (active_ > 0) {
             intersector_.find_closest(rays_, active_);
             numbers_.draw(setup_.path, active_);
             extend();
-            if constexpr (kSamplesLights)
-                connect();
+            if constexpr (kSamplesLights) connect();
             retire(source);
         }
         return counters_;
@@ -66,8 +63,7 @@ private:
     bool start(PathSource& source, std::uint32_t i) {
         std::uint32_t number = 0;
         Vec4f u;
-        if (!source.next(number, u))
-            return false;
+        if (!source.next(number, u)) return false;
         // Made in its place: copying what was just written in smaller pieces would wait for the writes.
         ::new (static_cast<void*>(&states_[i])) PathState<M>(work_.begin(number, u));
         prepare(i);
@@ -85,11 +81,10 @@ private:
         shadow_count_ = 0;
         for (std::uint32_t i = 0; i < active_; ++i) {
             ShadowRequest shadow;
-            statuses_[i] = extend_path<F>(setup_.scene, method_, setup_.path, rays_.hit(i),
-                                          numbers_.numbers(i), states_[i], shadow, counters_.path);
+            statuses_[i] = extend_path<F>(setup_.scene, method_, setup_.path, rays_.hit(i), numbers_.numbers(i),
+                                          states_[i], shadow, counters_.path);
             if constexpr (kSamplesLights) {
-                if (!shadow.wanted)
-                    continue;
+                if (!shadow.wanted) continue;
                 shadow_rays_.set_ray(shadow_count_, shadow.ray);
                 shadow_paths_[shadow_count_] = i;
                 shadows_[shadow_count_++] = shadow;
@@ -100,8 +95,7 @@ private:
     void connect() {
         intersector_.find_occluded(shadow_rays_, shadow_count_);
         for (std::uint32_t i = 0; i < shadow_count_; ++i)
-            if (!shadow_rays_.occluded(i))
-                connect_light(shadows_[i], states_[shadow_paths_[i]]);
+            if (!shadow_rays_.occluded(i)) connect_light(shadows_[i], states_[shadow_paths_[i]]);
         counters_.path.shadow_rays += shadow_count_;
     }
 
@@ -156,9 +150,8 @@ PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& me
         counters[static_cast<std::size_t>(thread)] = batch.run(source);
     });
     PassCounters total;
-    for (const PassCounters& one : counters)
-        total += one;
+    for (const PassCounters& one : counters) total += one;
     return total;
 }
 
-} // namespace pl
+}  // namespace pl

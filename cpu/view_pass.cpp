@@ -13,11 +13,9 @@ PassCounters run_view_pass(const ViewPass& pass) {
     parallel_for(setup.threads, queue, [&](IndexRange range) {
         pixels.fetch_add(range.end - range.begin, std::memory_order_relaxed);
         for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) {
-            const Vec3f value =
-                sample_view<F>(pass.view, setup.scene, intersector, pass.field, pass.camera, setup.path,
-                               pass.film.width, pass.film.height, pixel, pass.sample);
-            if (!accumulate(pass.film, pixel, value))
-                invalid.fetch_add(1, std::memory_order_relaxed);
+            const Vec3f value = sample_view<F>(pass.view, setup.scene, intersector, pass.field, pass.camera,
+                                               setup.path, pass.film.width, pass.film.height, pixel, pass.sample);
+            if (!accumulate(pass.film, pixel, value)) invalid.fetch_add(1, std::memory_order_relaxed);
         }
     });
     PassCounters counters;
@@ -27,9 +25,9 @@ PassCounters run_view_pass(const ViewPass& pass) {
     return counters;
 }
 
-} // namespace
+}  // namespace
 
 constinit const KernelRow<ViewPass> kViewKernels =
     make_kernel_row<ViewPass>([]<FeatureSet F>() { return run_view_pass<F>; });
 
-} // namespace pl
+}  // namespace pl

@@ -18,4 +18,4 @@ struct ViewPass {
 
 extern const KernelRow<ViewPass> kViewKernels;
 
-} // namespace pl
+}  // namespace pl

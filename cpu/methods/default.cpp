@@ -9,10 +9,10 @@ PassCounters run_probe_pass(const ProbePass& pass) {
     return run_paths<F>(pass.setup, pass.tracer, DefaultMethod{}, work);
 }
 
-} // namespace
+}  // namespace
 
 constinit const KernelRow<PicturePass> kDefaultKernels = make_picture_kernels<DefaultMethod>();
 constinit const KernelRow<ProbePass> kProbeKernels =
     make_kernel_row<ProbePass>([]<FeatureSet F>() { return run_probe_pass<F>; });
 
-} // namespace pl
+}  // namespace pl

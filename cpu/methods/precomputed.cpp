@@ -4,4 +4,4 @@ namespace pl {
 
 constinit const KernelRow<PicturePass> kPrecomputedKernels = make_picture_kernels<PrecomputedMethod>();
 
-} // namespace pl
+}  // namespace pl

@@ -4,4 +4,4 @@ namespace pl {
 
 constinit const KernelRow<PicturePass> kReinforcementKernels = make_picture_kernels<ReinforcementMethod>();
 
-} // namespace pl
+}  // namespace pl

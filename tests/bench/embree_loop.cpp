@@ -43,8 +43,7 @@ struct SingleRayQueries {
         rtcInitIntersectContext(&context);
         rtcIntersect1(scene, &context, &query);
 #endif
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-            return {};
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
         return {query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v};
     }
     bool occluded(const Ray& ray) const {
@@ -62,13 +61,8 @@ struct SingleRayQueries {
 static_assert(Intersector<SingleRayQueries>);
 
 template <FeatureSet F>
-void trace_pixels(const SceneView& scene,
-                  const SingleRayQueries& queries,
-                  const PinholeCamera& camera,
-                  const PathSettings& settings,
-                  std::uint32_t sample,
-                  const FilmView& film,
-                  IndexRange range,
+void trace_pixels(const SceneView& scene, const SingleRayQueries& queries, const PinholeCamera& camera,
+                  const PathSettings& settings, std::uint32_t sample, const FilmView& film, IndexRange range,
                   PassCounters& counters) {
     for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) {
         auto state = begin_path<DefaultMethod>(camera, settings, film.width, film.height, pixel, sample);
@@ -78,7 +72,7 @@ void trace_pixels(const SceneView& scene,
     }
 }
 
-} // namespace
+}  // namespace
 
 struct EmbreeLoop::Handles {
     RTCDevice device;
@@ -96,20 +90,16 @@ struct EmbreeLoop::Handles {
 EmbreeLoop::EmbreeLoop(const HostScene& scene, int width, int height, int threads)
     : handles_(std::make_unique<Handles>()), scene_(scene.view()),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
-      width_(static_cast<std::uint32_t>(width)), height_(static_cast<std::uint32_t>(height)),
-      threads_(threads) {
+      width_(static_cast<std::uint32_t>(width)), height_(static_cast<std::uint32_t>(height)), threads_(threads) {
     RTCGeometry geometry = rtcNewGeometry(handles_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), scene.positions.size()));
     for (const Vec3f& position : scene.positions)
-        for (int axis = 0; axis < 3; ++axis)
-            *vertices++ = position[axis];
-    auto* corners = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), scene.triangles.size()));
+        for (int axis = 0; axis < 3; ++axis) *vertices++ = position[axis];
+    auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), scene.triangles.size()));
     for (const Triangle& triangle : scene.triangles)
-        for (const std::uint32_t vertex : {triangle.v0, triangle.v1, triangle.v2})
-            *corners++ = vertex;
+        for (const std::uint32_t vertex : {triangle.v0, triangle.v1, triangle.v2}) *corners++ = vertex;
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(handles_->scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -118,8 +108,7 @@ EmbreeLoop::EmbreeLoop(const HostScene& scene, int width, int height, int thread
 
 EmbreeLoop::~EmbreeLoop() = default;
 
-PassCounters
-EmbreeLoop::run_pass(const PinholeCamera& camera, const PathSettings& settings, std::uint32_t sample) {
+PassCounters EmbreeLoop::run_pass(const PinholeCamera& camera, const PathSettings& settings, std::uint32_t sample) {
     constexpr std::uint32_t kChunk = 256;
     constexpr FeatureSet kPlain{};
     constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);
@@ -136,8 +125,7 @@ EmbreeLoop::run_pass(const PinholeCamera& camera, const PathSettings& settings, 
         counters[static_cast<std::size_t>(thread)] = own;
     });
     PassCounters total;
-    for (const PassCounters& one : counters)
-        total += one;
+    for (const PassCounters& one : counters) total += one;
     return total;
 }
 
@@ -150,4 +138,4 @@ double EmbreeLoop::mean() const {
     return sum / static_cast<double>(pixels_.size());
 }
 
-} // namespace pl::bench
+}  // namespace pl::bench

@@ -29,4 +29,4 @@ private:
     int threads_;
 };
 
-} // namespace pl::bench
+}  // namespace pl::bench

@@ -14,6 +14,7 @@
 #include "core/scene/pack_scene.h"
 #include "cpu/cpu_backend.h"
 #include "tests/bench/embree_loop.h"
+#include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
 
 namespace pl::bench {
@@ -37,8 +38,7 @@ template <class Pass>
 Slice time_passes(std::uint32_t& sample, Pass&& pass) {
     const Stopwatch watch;
     Slice slice;
-    for (int i = 0; i < kPassesPerSlice; ++i)
-        slice.counters += pass(sample++);
+    for (int i = 0; i < kPassesPerSlice; ++i) slice.counters += pass(sample++);
     slice.seconds = watch.seconds();
     return slice;
 }
@@ -47,12 +47,10 @@ class Bench {
 public:
     Bench(const SceneDescription& description, int threads, bool next_event)
         : scene_(std::make_shared<const HostScene>(pack_scene(description))),
-          camera_(make_camera(description.camera, kSize, kSize)),
-          backend_(make_cpu_backend({.threads = threads})), peer_(*scene_, kSize, kSize, threads),
-          features_(needed_effects(*scene_)) {
+          camera_(make_camera(description.camera, kSize, kSize)), backend_(make_cpu_backend({.threads = threads})),
+          peer_(*scene_, kSize, kSize, threads), features_(needed_effects(*scene_)) {
         settings_.next_event = next_event ? 1 : 0;
-        if (next_event)
-            features_ = features_.with(Feature::NextEventEstimation);
+        if (next_event) features_ = features_.with(Feature::NextEventEstimation);
         backend_->upload_scene(scene_);
         const FieldSettings field;
         const FieldShape shape = make_field_shape(*scene_, field);
@@ -68,8 +66,7 @@ public:
         return time_passes(ours_sample_, [&](std::uint32_t s) { return pass(kDefaultFilm, s); });
     }
     Slice run_peer() {
-        return time_passes(peer_sample_,
-                           [&](std::uint32_t s) { return peer_.run_pass(camera_, settings_, s); });
+        return time_passes(peer_sample_, [&](std::uint32_t s) { return peer_.run_pass(camera_, settings_, s); });
     }
     Slice run_learning() {
         return time_passes(learning_sample_, [&](std::uint32_t s) {
@@ -81,8 +78,7 @@ public:
     double mean_of_ours() const {
         double sum = 0.0;
         const FilmReading film = backend_->read_film(kDefaultFilm);
-        for (const Vec3f& mean : film.mean)
-            sum += (static_cast<double>(mean.x) + mean.y + mean.z) / 3.0;
+        for (const Vec3f& mean : film.mean) sum += (static_cast<double>(mean.x) + mean.y + mean.z) / 3.0;
         return sum / static_cast<double>(film.mean.size());
     }
     double mean_of_peer() const { return peer_.mean(); }
@@ -120,8 +116,8 @@ void compare(const SceneDescription& description, int threads, bool next_event, 
     std::vector<double> ours, peer, ratio, ours_ns, peer_ns, learning_ns, learning_ratio;
     bench.run_ours();
     bench.run_peer();
-    for (int i = 0; i < 4; ++i)
-        bench.run_learning();
+    for (int i = 0; i < 4; ++i) bench.run_learning();
+    const MachineLoad load;
     double ours_length = 0.0;
     double peer_length = 0.0;
     for (int i = 0; i < pairs; ++i) {
@@ -147,12 +143,15 @@ void compare(const SceneDescription& description, int threads, bool next_event, 
     print_line("Embree loop, thread ns/segment", "%.1f", peer_ns);
     print_line("learning, thread ns/segment", "%.1f", learning_ns);
     print_line("learning / default", "%.3f", learning_ratio);
+    const MachineLoad::Shares shares = load.shares();
+    std::printf("  processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
+                shares.stolen);
     std::printf("  same work: segments per path %.4f and %.4f, mean radiance %.5f and %.5f\n\n", ours_length,
                 peer_length, bench.mean_of_ours(), bench.mean_of_peer());
 }
 
-} // namespace
-} // namespace pl::bench
+}  // namespace
+}  // namespace pl::bench
 
 int main(int count, char** arguments) try {
     const std::string name = count > 1 ? arguments[1] : "cornell";
@@ -160,8 +159,7 @@ int main(int count, char** arguments) try {
     const pl::SceneDescription scene = pl::load_scene(name, PL_SOURCE_DIR "/assets");
     std::printf("%s, %d x %d\n", scene.name.c_str(), pl::bench::kSize, pl::bench::kSize);
     for (const bool next_event : {false, true})
-        for (const int threads : {1, 2})
-            pl::bench::compare(scene, threads, next_event, pairs);
+        for (const int threads : {1, 2}) pl::bench::compare(scene, threads, next_event, pairs);
     return 0;
 } catch (const pl::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

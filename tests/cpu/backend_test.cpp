@@ -16,8 +16,7 @@ namespace {
 constexpr FilmSlot kBeauty{MethodId::Default, View::Beauty};
 
 PassRequest pass_of(const Room& room, FilmSlot slot) {
-    return {
-        .slot = slot, .features = needed_effects(*room.scene), .path = {.seed = 3}, .camera = room.camera};
+    return {.slot = slot, .features = needed_effects(*room.scene), .path = {.seed = 3}, .camera = room.camera};
 }
 
 template <class T>
@@ -25,7 +24,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Views in parallel equal views pixel by pixel") {
     const Room room;
@@ -39,9 +38,8 @@ TEST_CASE("Views in parallel equal views pixel by pixel") {
         INFO(info_of(view).name);
         std::vector<Vec3f> expected;
         for (std::uint32_t pixel = 0; pixel < kWidth * kHeight; ++pixel)
-            expected.push_back(sample_view<FeatureSet{}>(view, scene, BvhIntersector{scene}, field,
-                                                         room.camera, {.seed = 3}, kWidth, kHeight, pixel,
-                                                         0));
+            expected.push_back(sample_view<FeatureSet{}>(view, scene, BvhIntersector{scene}, field, room.camera,
+                                                         {.seed = 3}, kWidth, kHeight, pixel, 0));
         for (const int threads : {1, 7}) {
             const auto backend = make_backend(room, {.threads = threads});
             backend->upload_tables(MethodId::Reinforcement, tables);
@@ -117,8 +115,7 @@ TEST_CASE("Invalid samples are counted, not painted over") {
     const PassCounters counters = backend->run_pass(pass_of(room, kBeauty));
     const FilmReading film = backend->read_film(kBeauty);
     std::uint64_t marked = 0;
-    for (const Vec3f& mean : film.mean)
-        marked += std::isnan(mean.x) ? 1 : 0;
+    for (const Vec3f& mean : film.mean) marked += std::isnan(mean.x) ? 1 : 0;
     CHECK(counters.invalid_samples > 0);
     CHECK(film.invalid == counters.invalid_samples);
     CHECK(marked == counters.invalid_samples);

@@ -36,8 +36,7 @@ bool same(const Outcome& a, const Outcome& b) {
     return same_bits(a.film, b.film) && same_counters(a.counters, b.counters) &&
            same_bits(a.tables.pending_sum, b.tables.pending_sum) &&
            same_bits(a.tables.pending_count, b.tables.pending_count) &&
-           same_bits(a.tables.radiance, b.tables.radiance) &&
-           same_bits(a.tables.column_cdf, b.tables.column_cdf) &&
+           same_bits(a.tables.radiance, b.tables.radiance) && same_bits(a.tables.column_cdf, b.tables.column_cdf) &&
            same_bits(a.tables.row_cdf, b.tables.row_cdf);
 }
 
@@ -75,8 +74,7 @@ Outcome loop_over_paths(const Room& room) {
             for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)
                 publish_volume(publication_view(room.shape, outcome.tables), volume);
     }
-    for (const FilmPixel& pixel : pixels)
-        outcome.film.push_back(mean_radiance(pixel));
+    for (const FilmPixel& pixel : pixels) outcome.film.push_back(mean_radiance(pixel));
     return outcome;
 }
 
@@ -93,8 +91,7 @@ Outcome batches(const Room& room, MethodId method, bool next_event, const CpuSet
                                                .camera = room.camera,
                                                .bsdf_fraction = GuidedSampling{}.bsdf_fraction,
                                                .sample = sample});
-        if (method == MethodId::Reinforcement)
-            backend->publish(method);
+        if (method == MethodId::Reinforcement) backend->publish(method);
     }
     outcome.film = backend->read_film(slot).mean;
     outcome.tables = backend->download_tables(method);
@@ -121,15 +118,14 @@ void check_method(MethodId method) {
         REQUIRE((expected.counters.path.shadow_rays > 0) == next_event);
         REQUIRE((expected.counters.path.method.records > 0) == (method == MethodId::Reinforcement));
         for (const CpuSettings& settings : kSettings) {
-            INFO("next event " << next_event << ", batch " << settings.batch_paths << ", threads "
-                               << settings.threads << ", intersector "
-                               << static_cast<int>(settings.intersector));
+            INFO("next event " << next_event << ", batch " << settings.batch_paths << ", threads " << settings.threads
+                               << ", intersector " << static_cast<int>(settings.intersector));
             CHECK(same(expected, batches(room, method, next_event, settings)));
         }
     }
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Batches of default paths equal single paths") {
     check_method<DefaultMethod>(MethodId::Default);
@@ -170,15 +166,13 @@ TEST_CASE("Batches of probes equal single probes") {
 
 // Embree may choose another triangle where two meet, so pictures may differ there, but not in any mean.
 TEST_CASE("Through Embree nearly every pixel has the same bits") {
-    if (PL_EMBREE_MAJOR == 0)
-        return;
+    if (PL_EMBREE_MAJOR == 0) return;
     const Room room;
     const Outcome expected = loop_over_paths<kLights, DefaultMethod>(room);
     const Outcome embree =
         batches(room, MethodId::Default, true, {.threads = 2, .intersector = IntersectorChoice::Embree});
     std::size_t different = 0;
-    for (std::size_t i = 0; i < expected.film.size(); ++i)
-        different += expected.film[i] != embree.film[i] ? 1 : 0;
+    for (std::size_t i = 0; i < expected.film.size(); ++i) different += expected.film[i] != embree.film[i] ? 1 : 0;
     CHECK(different <= 2);
     CHECK(embree.counters.path.escaped == 0);
 }

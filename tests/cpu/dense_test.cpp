@@ -81,8 +81,7 @@ template <BatchIntersector I>
 Seen check_all_rays(const HostScene& scene, const I& intersector) {
     const std::vector<Ray> rays = random_rays(scene.view(), kRays, 21);
     RayBatch batch(kRays);
-    for (std::uint32_t i = 0; i < kRays; ++i)
-        batch.set_ray(i, rays[i]);
+    for (std::uint32_t i = 0; i < kRays; ++i) batch.set_ray(i, rays[i]);
     intersector.find_closest(batch, kRays);
     intersector.find_occluded(batch, kRays);
     Seen seen;
@@ -97,7 +96,7 @@ Seen check_all_rays(const HostScene& scene, const I& intersector) {
     return seen;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Every instruction set finds the hits of the scalar test, bit for bit") {
     for (const NamedScene& named : small_scenes())

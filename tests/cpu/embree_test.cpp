@@ -21,8 +21,7 @@ HostScene soup() {
     Uniforms random(31);
     for (int i = 0; i < 300; ++i) {
         const Vec3f a = random.cube(-1.0f, 1.0f);
-        add_triangle(description, a, a + 0.5f * random.cube(-1.0f, 1.0f),
-                     a + 0.5f * random.cube(-1.0f, 1.0f));
+        add_triangle(description, a, a + 0.5f * random.cube(-1.0f, 1.0f), a + 0.5f * random.cube(-1.0f, 1.0f));
     }
     return pack_scene(description);
 }
@@ -38,8 +37,7 @@ HostScene closed_mesh() {
 std::vector<Ray> generic_rays(std::uint64_t seed) {
     Uniforms random(seed);
     std::vector<Ray> rays(kRays);
-    for (Ray& ray : rays)
-        ray = {.origin = random.cube(-0.5f, 0.5f), .direction = random.direction()};
+    for (Ray& ray : rays) ray = {.origin = random.cube(-0.5f, 0.5f), .direction = random.direction()};
     return rays;
 }
 
@@ -62,29 +60,27 @@ double relative_distance(const Ray& ray, Vec3f p, Vec3f q) {
 bool is_delicate(const SceneView& scene, const Ray& ray, const Hit& hit) {
     constexpr double kRounding = 1e-5;
     for (std::uint32_t i = 0; i < 3; ++i)
-        if (relative_distance(ray, corner(scene, hit.primitive, i),
-                              corner(scene, hit.primitive, (i + 1) % 3)) < kRounding)
+        if (relative_distance(ray, corner(scene, hit.primitive, i), corner(scene, hit.primitive, (i + 1) % 3)) <
+            kRounding)
             return true;
     const double length = static_cast<double>(hit.t) * glm::length(Vec3d{ray.direction});
-    return length < kRounding ||
-           static_cast<double>(ray.t_max - hit.t) < kRounding * static_cast<double>(ray.t_max);
+    return length < kRounding || static_cast<double>(ray.t_max - hit.t) < kRounding * static_cast<double>(ray.t_max);
 }
 
 struct Comparison {
     int hits = 0;
-    int different = 0;       ///< another triangle, or only one of the two hits
-    int indelicate = 0;      ///< of those, rays that another triangle is not excused for
-    int other_bits = 0;      ///< same triangle, but other distance or weights
-    int unseen = 0;          ///< shadow rays that find nothing where our test finds something
-    int wrong_occlusion = 0; ///< and those that find something where there is nothing, or are not excused
+    int different = 0;        ///< another triangle, or only one of the two hits
+    int indelicate = 0;       ///< of those, rays that another triangle is not excused for
+    int other_bits = 0;       ///< same triangle, but other distance or weights
+    int unseen = 0;           ///< shadow rays that find nothing where our test finds something
+    int wrong_occlusion = 0;  ///< and those that find something where there is nothing, or are not excused
 };
 
 Comparison compare(const HostScene& scene, const std::vector<Ray>& rays) {
     const EmbreeIntersector embree(scene.view(), 1);
     const auto count = static_cast<std::uint32_t>(rays.size());
     RayBatch batch(count);
-    for (std::uint32_t i = 0; i < count; ++i)
-        batch.set_ray(i, rays[i]);
+    for (std::uint32_t i = 0; i < count; ++i) batch.set_ray(i, rays[i]);
     embree.find_closest(batch, count);
     embree.find_occluded(batch, count);
     Comparison result;
@@ -94,11 +90,9 @@ Comparison compare(const HostScene& scene, const std::vector<Ray>& rays) {
         result.hits += expected.found() ? 1 : 0;
         if (batch.occluded(i) != expected.found()) {
             ++result.unseen;
-            result.wrong_occlusion +=
-                expected.found() && is_delicate(scene.view(), rays[i], expected) ? 0 : 1;
+            result.wrong_occlusion += expected.found() && is_delicate(scene.view(), rays[i], expected) ? 0 : 1;
         }
-        if (same_bits(hit, expected))
-            continue;
+        if (same_bits(hit, expected)) continue;
         if (hit.primitive == expected.primitive) {
             ++result.other_bits;
             continue;
@@ -110,7 +104,7 @@ Comparison compare(const HostScene& scene, const std::vector<Ray>& rays) {
     return result;
 }
 
-} // namespace
+}  // namespace
 
 // 2 in 1e5 bounds the share of generic rays that differ by 1.1e-4 (99.9 %); none was seen.
 TEST_CASE("Embree finds our hits for rays in general position") {
@@ -148,14 +142,13 @@ TEST_CASE("Embree loses no ray in a closed mesh, edges and corners included") {
         for (std::uint32_t i = 0; i < kRays; ++i) {
             const Vec3f origin = random.cube(-0.3f, 0.3f);
             batch.set_ray(
-                i, {.origin = origin,
-                    .direction =
-                        point_on(scene.view(), random.below(scene.view().triangles.count), random) - origin});
+                i,
+                {.origin = origin,
+                 .direction = point_on(scene.view(), random.below(scene.view().triangles.count), random) - origin});
         }
         embree.find_closest(batch, kRays);
         int lost = 0;
-        for (std::uint32_t i = 0; i < kRays; ++i)
-            lost += batch.hit(i).found() ? 0 : 1;
+        for (std::uint32_t i = 0; i < kRays; ++i) lost += batch.hit(i).found() ? 0 : 1;
         CHECK(lost == 0);
     }
 }

@@ -15,13 +15,12 @@ bool same_bits(Vec4f a, Vec4f b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("The baseline kernels are there and every usable set is named") {
     REQUIRE_FALSE(usable_lane_kernels().empty());
     CHECK(std::string(usable_lane_kernels().front().isa) == "baseline");
-    for (const LaneKernels& kernels : usable_lane_kernels())
-        UNSCOPED_INFO(kernels.isa);
+    for (const LaneKernels& kernels : usable_lane_kernels()) UNSCOPED_INFO(kernels.isa);
     SUCCEED();
 }
 
@@ -44,8 +43,7 @@ TEST_CASE("Every instruction set draws the bits of Rng") {
                 const CounterGroup& group = counters[i / kGroupSize];
                 const std::uint32_t lane = i % kGroupSize;
                 const Rng rng{key.seed, key.stream, group.pixel[lane], group.sample[lane]};
-                REQUIRE(
-                    same_bits(numbers[i / kGroupSize].get(lane), rng.draw(group.vertex[lane], key.purpose)));
+                REQUIRE(same_bits(numbers[i / kGroupSize].get(lane), rng.draw(group.vertex[lane], key.purpose)));
             }
         }
     }

@@ -26,8 +26,7 @@ TEST_CASE("A queue that reaches the last 32-bit number ends") {
     const IndexRange last = queue.claim();
     CHECK(last.begin == 0xfffffff0u);
     CHECK(last.end == 0xffffffffu);
-    for (int i = 0; i < 8; ++i)
-        CHECK(queue.claim().empty());
+    for (int i = 0; i < 8; ++i) CHECK(queue.claim().empty());
 }
 
 TEST_CASE("A queue of nothing hands out nothing") {
@@ -49,11 +48,9 @@ TEST_CASE("Threads together see every index once") {
         std::vector<std::atomic<int>> seen(10007);
         ChunkQueue queue(0, 10007, 16);
         parallel_for(threads, queue, [&](IndexRange range) {
-            for (std::uint32_t i = range.begin; i < range.end; ++i)
-                seen[i].fetch_add(1, std::memory_order_relaxed);
+            for (std::uint32_t i = range.begin; i < range.end; ++i) seen[i].fetch_add(1, std::memory_order_relaxed);
         });
-        for (const std::atomic<int>& count : seen)
-            REQUIRE(count == 1);
+        for (const std::atomic<int>& count : seen) REQUIRE(count == 1);
     }
 }
 

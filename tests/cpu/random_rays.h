@@ -22,10 +22,8 @@ inline Vec3f point_on(const SceneView& scene, std::uint32_t primitive, Uniforms&
     const Vec3f b = corner(scene, primitive, (first + 1) % 3);
     const Vec3f c = corner(scene, primitive, (first + 2) % 3);
     switch (random.below(3)) {
-    case 0:
-        return a;
-    case 1:
-        return glm::mix(a, b, random.next());
+    case 0: return a;
+    case 1: return glm::mix(a, b, random.next());
     default: {
         const Vec2f weights = square_to_triangle(random.square());
         return a + weights.x * (b - a) + weights.y * (c - a);
@@ -34,8 +32,7 @@ inline Vec3f point_on(const SceneView& scene, std::uint32_t primitive, Uniforms&
 }
 
 inline Vec3f random_direction(Uniforms& random) {
-    if (random.below(8) != 0)
-        return random.direction();
+    if (random.below(8) != 0) return random.direction();
     Vec3f axis{0.0f};
     axis[static_cast<int>(random.below(3))] = random.below(2) == 0 ? 1.0f : -1.0f;
     return axis;
@@ -45,8 +42,7 @@ inline Vec3f random_direction(Uniforms& random) {
 inline Ray random_ray(const SceneView& scene, Uniforms& random) {
     Ray ray{.origin = random.cube(-2.0f, 2.0f), .direction = random_direction(random)};
     const std::uint32_t triangles = scene.triangles.count;
-    if (triangles == 0)
-        return ray;
+    if (triangles == 0) return ray;
     if (random.below(2) == 0) {
         ray.source = random.below(triangles);
         ray.origin = point_on(scene, ray.source, random);
@@ -54,11 +50,9 @@ inline Ray random_ray(const SceneView& scene, Uniforms& random) {
     if (random.below(2) == 0) {
         const std::uint32_t aim = random.below(triangles);
         const Vec3f end = point_on(scene, aim, random);
-        if (end != ray.origin)
-            ray.direction = end - ray.origin;
+        if (end != ray.origin) ray.direction = end - ray.origin;
         ray.t_max = random.below(2) == 0 ? 1.0f : random.between(0.5f, 2.0f);
-        if (random.below(2) == 0)
-            ray.target = aim;
+        if (random.below(2) == 0) ray.target = aim;
     }
     return ray;
 }
@@ -66,9 +60,8 @@ inline Ray random_ray(const SceneView& scene, Uniforms& random) {
 inline std::vector<Ray> random_rays(const SceneView& scene, std::size_t count, std::uint64_t seed) {
     Uniforms random(seed);
     std::vector<Ray> rays;
-    for (std::size_t i = 0; i < count; ++i)
-        rays.push_back(random_ray(scene, random));
+    for (std::size_t i = 0; i < count; ++i) rays.push_back(random_ray(scene, random));
     return rays;
 }
 
-} // namespace pl::test
+}  // namespace pl::test

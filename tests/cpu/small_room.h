@@ -17,8 +17,8 @@ inline SceneDescription small_room() {
     add_box(scene, Vec3f{-1.0f}, Vec3f{1.0f}, true);
     add_box(scene, {-0.6f, -1.0f, -0.5f}, {0.1f, -0.2f, 0.2f}, false, 1);
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
-    for (const Vec3f corner : {Vec3f{-0.3f, 0.99f, -0.3f}, Vec3f{0.3f, 0.99f, -0.3f},
-                               Vec3f{0.3f, 0.99f, 0.3f}, Vec3f{-0.3f, 0.99f, 0.3f}})
+    for (const Vec3f corner :
+         {Vec3f{-0.3f, 0.99f, -0.3f}, Vec3f{0.3f, 0.99f, -0.3f}, Vec3f{0.3f, 0.99f, 0.3f}, Vec3f{-0.3f, 0.99f, 0.3f}})
         add_vertex(scene, corner);
     add_quad(scene, first, first + 1, first + 2, first + 3, 2);
     scene.camera.eye = {0.0f, 0.1f, 0.95f};
@@ -48,8 +48,7 @@ struct Room {
     explicit Room(const SceneDescription& description = small_room())
         : scene(std::make_shared<const HostScene>(pack_scene(description))),
           volumes(std::make_shared<const HostVolumes>(place_volumes(*scene, small_field()))),
-          shape(make_field_shape(*scene, small_field())),
-          camera(make_camera(description.camera, kWidth, kHeight)) {}
+          shape(make_field_shape(*scene, small_field())), camera(make_camera(description.camera, kWidth, kHeight)) {}
 
     HostTables empty_tables() const { return make_tables(shape, volumes->normals.size()); }
 };
@@ -61,4 +60,4 @@ inline std::unique_ptr<RenderBackend> make_backend(const Room& room, const CpuSe
     return backend;
 }
 
-} // namespace pl::test
+}  // namespace pl::test
