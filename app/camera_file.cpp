@@ -17,4 +17,4 @@ CameraChoice load_camera_file(const std::filesystem::path& path) {
     return camera;
 }
 
-} // namespace pl
+}  // namespace pl

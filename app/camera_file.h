@@ -11,4 +11,4 @@ namespace pl {
 /// Error(Input) with file and line.
 CameraChoice load_camera_file(const std::filesystem::path& path);
 
-} // namespace pl
+}  // namespace pl

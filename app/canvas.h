@@ -21,8 +21,8 @@ public:
     /// (x, y) is the upper left corner. Lower case is drawn as upper case; what the font lacks as a box.
     void text(int x, int y, std::string_view words, Rgb color, int scale = 2);
 
-    static constexpr int kAdvance = 6;    ///< width of a character, in units of the scale
-    static constexpr int kLineHeight = 9; ///< of a line of text, in units of the scale
+    static constexpr int kAdvance = 6;     ///< width of a character, in units of the scale
+    static constexpr int kLineHeight = 9;  ///< of a line of text, in units of the scale
 
     const ByteImage& image() const { return image_; }
 
@@ -32,4 +32,4 @@ private:
     ByteImage image_;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -23,16 +23,14 @@ glm::dvec3 closest_on_triangle(const glm::dvec3& p, const Corners& t, const glm:
     const auto inside = [&](const glm::dvec3& from, const glm::dvec3& to) {
         return glm::dot(glm::cross(to - from, foot - from), normal) >= 0.0;
     };
-    if (inside(t.a, t.b) && inside(t.b, t.c) && inside(t.c, t.a))
-        return foot;
+    if (inside(t.a, t.b) && inside(t.b, t.c) && inside(t.c, t.a)) return foot;
     const glm::dvec3 candidates[] = {closest_on_segment(p, t.a, t.b), closest_on_segment(p, t.b, t.c),
                                      closest_on_segment(p, t.c, t.a)};
-    return *std::min_element(std::begin(candidates), std::end(candidates), [&](const auto& x, const auto& y) {
-        return glm::distance(p, x) < glm::distance(p, y);
-    });
+    return *std::min_element(std::begin(candidates), std::end(candidates),
+                             [&](const auto& x, const auto& y) { return glm::distance(p, x) < glm::distance(p, y); });
 }
 
-} // namespace
+}  // namespace
 
 ClosestSurface closest_surface(const SceneDescription& scene, const glm::vec3& point) {
     const glm::dvec3 p(point);
@@ -53,4 +51,4 @@ ClosestSurface closest_surface(const SceneDescription& scene, const glm::vec3& p
     return result;
 }
 
-} // namespace pl
+}  // namespace pl

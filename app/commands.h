@@ -12,4 +12,4 @@ int run_info(const CommandLine& line, Console& console);
 int run_devices(const CommandLine& line, Console& console);
 int run_inspect(const CommandLine& line, Console& console);
 
-} // namespace pl
+}  // namespace pl

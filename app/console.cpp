@@ -15,23 +15,19 @@ void Console::configure(const Options& options) {
         log_.set_level(LogLevel::Error);
     else if (options.verbosity > 0)
         log_.set_level(LogLevel::Detail);
-    if (!options.log_file.empty())
-        log_.open_file(options.log_file);
+    if (!options.log_file.empty()) log_.open_file(options.log_file);
 }
 
 void Console::result(const std::string& text) {
-    if (!json_)
-        write(text);
+    if (!json_) write(text);
 }
 
 void Console::remark(const std::string& text) {
-    if (!quiet_)
-        result(text);
+    if (!quiet_) result(text);
 }
 
 void Console::event(std::string_view kind, const Json& members) {
-    if (json_)
-        write(event_line(kind, members));
+    if (json_) write(event_line(kind, members));
 }
 
 void Console::warn_about(const SceneDescription& scene) {
@@ -43,8 +39,7 @@ void Console::warn_about(const SceneDescription& scene) {
 
 void Console::write(const std::string& text) {
     log_.clear_status();
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-        failure_ = errno;
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) failure_ = errno;
 }
 
 void Console::finish() {
@@ -53,4 +48,4 @@ void Console::finish() {
                     std::string("standard output: cannot be written: ") + std::strerror(failure_));
 }
 
-} // namespace pl
+}  // namespace pl

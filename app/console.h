@@ -37,4 +37,4 @@ private:
     int failure_ = 0;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -18,12 +18,10 @@ int run_devices(const CommandLine&, Console& console) {
 
     const std::string reason = cuda_unavailable_reason();
     console.result(fmt::format("{:<6} unavailable  {}\n", "cuda", reason));
-    console.event("device", {{"backend", "cuda"},
-                             {"available", false},
-                             {"device", nullptr},
-                             {"threads", nullptr},
-                             {"reason", reason}});
+    console.event(
+        "device",
+        {{"backend", "cuda"}, {"available", false}, {"device", nullptr}, {"threads", nullptr}, {"reason", reason}});
     return 0;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -27,14 +27,12 @@ struct Layer {
 
 /// Where a disc goes.
 struct Place {
-    int x; ///< left edge
-    int y; ///< top edge
+    int x;  ///< left edge
+    int y;  ///< top edge
     int diameter;
 };
 
-std::string short_number(double value) {
-    return fmt::format("{:.4g}", value);
-}
+std::string short_number(double value) { return fmt::format("{:.4g}", value); }
 
 std::string short_vector(const Vec3f& v) {
     const Vec3f positive_zeros = v + 0.0f;
@@ -46,15 +44,13 @@ Rgb value_color(float value, float largest) {
     return share_color(largest > 0.0f ? std::sqrt(std::max(value, 0.0f) / largest) : 0.0f);
 }
 
-void draw_disc(
-    Canvas& canvas, const Place& place, const DirectionCells& cells, const Layer& layer, float largest) {
+void draw_disc(Canvas& canvas, const Place& place, const DirectionCells& cells, const Layer& layer, float largest) {
     const float radius = 0.5f * static_cast<float>(place.diameter);
     for (int row = 0; row < place.diameter; ++row)
         for (int column = 0; column < place.diameter; ++column) {
             const Vec2f point{(static_cast<float>(column) + 0.5f) / radius - 1.0f,
                               1.0f - (static_cast<float>(row) + 0.5f) / radius};
-            if (glm::dot(point, point) > 1.0f)
-                continue;
+            if (glm::dot(point, point) > 1.0f) continue;
             const int cell = cells.cell_of(disk_to_square(point));
             canvas.put(place.x + column, place.y + row,
                        value_color(layer.values[static_cast<std::size_t>(cell)], largest));
@@ -87,7 +83,7 @@ void draw_layer(Canvas& canvas, const Place& place, const DirectionCells& cells,
     draw_legend(canvas, place, largest);
 }
 
-} // namespace
+}  // namespace
 
 Rgb share_color(float share) {
     // Anchors of the viridis map: brightness rises evenly, also in gray.
@@ -133,4 +129,4 @@ ByteImage draw_hemisphere(const VolumeInspection& volume, const std::string& tit
     return canvas.image();
 }
 
-} // namespace pl
+}  // namespace pl

@@ -17,4 +17,4 @@ ByteImage draw_hemisphere(const VolumeInspection& volume, const std::string& tit
 /// Color of a share in [0, 1]: dark blue, green, yellow.
 Rgb share_color(float share);
 
-} // namespace pl
+}  // namespace pl

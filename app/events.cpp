@@ -8,9 +8,8 @@ std::string json_line(const Json& object) {
 
 std::string event_line(std::string_view kind, const Json& members) {
     Json object{{"schema", "pathlight.event/1"}, {"event", kind}};
-    for (const auto& [name, value] : members.items())
-        object[name] = value;
+    for (const auto& [name, value] : members.items()) object[name] = value;
     return json_line(object);
 }
 
-} // namespace pl
+}  // namespace pl

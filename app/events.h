@@ -17,4 +17,4 @@ std::string event_line(std::string_view kind, const Json& members);
 /// One line of any object.
 std::string json_line(const Json& object);
 
-} // namespace pl
+}  // namespace pl

@@ -37,17 +37,13 @@ constexpr std::string_view kExitCodes =
 constexpr std::size_t kHelpColumn = 32;
 constexpr std::size_t kLineWidth = 110;
 
-const CommandInfo& info_of_command(Command command) {
-    return kCommands[static_cast<std::size_t>(command)];
-}
+const CommandInfo& info_of_command(Command command) { return kCommands[static_cast<std::size_t>(command)]; }
 
 /// "-t,--threads" as "-t, --threads N".
 std::string option_head(const OptionSpec& spec) {
     std::string head = "  ";
-    for (const char c : spec.flags)
-        head += c == ',' ? std::string(", ") : std::string(1, c);
-    if (!spec.value.empty())
-        head += fmt::format(" {}", spec.value);
+    for (const char c : spec.flags) head += c == ',' ? std::string(", ") : std::string(1, c);
+    if (!spec.value.empty()) head += fmt::format(" {}", spec.value);
     return head;
 }
 
@@ -68,8 +64,7 @@ std::string in_columns(const std::string& head, std::string_view text) {
     while (!text.empty()) {
         const std::string_view word = text.substr(0, text.find(' '));
         text.remove_prefix(std::min(text.size(), word.size() + 1));
-        if (column > kHelpColumn && column + 1 + word.size() > kLineWidth)
-            new_line();
+        if (column > kHelpColumn && column + 1 + word.size() > kLineWidth) new_line();
         if (column > kHelpColumn) {
             result += ' ';
             ++column;
@@ -89,27 +84,20 @@ std::string options_help(Command command) {
     for (const std::string_view group : groups) {
         std::string lines;
         for (const OptionSpec& spec : option_table())
-            if (spec.group == group && spec.commands.has(command))
-                lines += in_columns(option_head(spec), spec.help);
-        if (!lines.empty())
-            text += fmt::format("\n{}:\n{}", group, lines);
+            if (spec.group == group && spec.commands.has(command)) lines += in_columns(option_head(spec), spec.help);
+        if (!lines.empty()) text += fmt::format("\n{}:\n{}", group, lines);
     }
     return text;
 }
 
-} // namespace
+}  // namespace
 
-std::span<const CommandInfo> all_commands() {
-    return kCommands;
-}
+std::span<const CommandInfo> all_commands() { return kCommands; }
 
-std::string_view command_name(Command command) {
-    return info_of_command(command).name;
-}
+std::string_view command_name(Command command) { return info_of_command(command).name; }
 
 std::string program_help() {
-    std::string text =
-        "Pathlight, an interactive path tracer that learns where light comes from.\n\nUsage:\n";
+    std::string text = "Pathlight, an interactive path tracer that learns where light comes from.\n\nUsage:\n";
     for (const CommandInfo& info : kCommands) {
         const std::string name = info.id == Command::View ? "[view]" : std::string(info.name);
         text += fmt::format("  pathlight {}{}{}\n", name, info.arguments.empty() ? "" : " ", info.arguments);
@@ -118,21 +106,19 @@ std::string program_help() {
     for (const CommandInfo& info : kCommands)
         text += in_columns(fmt::format("  {}", info.name), info.summary.substr(0, info.summary.find('\n')));
     text += fmt::format(
-        "\n{}\nOptions: pathlight SUBCOMMAND --help. Also: --list-methods, --list-views, --version.\n\n{}",
-        kScene, kExitCodes);
+        "\n{}\nOptions: pathlight SUBCOMMAND --help. Also: --list-methods, --list-views, --version.\n\n{}", kScene,
+        kExitCodes);
     return text;
 }
 
 std::string command_help(Command command) {
     const CommandInfo& info = info_of_command(command);
     const std::string scene = command == Command::Devices ? "" : fmt::format("\n{}", kScene);
-    return fmt::format("{}\n\nUsage: pathlight {} {} [OPTIONS]\n{}{}\n{}", info.summary, info.name,
-                       info.arguments, scene, options_help(command), kExitCodes);
+    return fmt::format("{}\n\nUsage: pathlight {} {} [OPTIONS]\n{}{}\n{}", info.summary, info.name, info.arguments,
+                       scene, options_help(command), kExitCodes);
 }
 
-std::string version_text() {
-    return "pathlight " PL_VERSION "\n";
-}
+std::string version_text() { return "pathlight " PL_VERSION "\n"; }
 
 std::string method_list(bool json) {
     std::string text;
@@ -163,4 +149,4 @@ std::string view_list(bool json) {
     return text;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -26,4 +26,4 @@ std::string version_text();
 std::string method_list(bool json);
 std::string view_list(bool json);
 
-} // namespace pl
+}  // namespace pl

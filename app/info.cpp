@@ -12,24 +12,20 @@
 namespace pl {
 namespace {
 
-Json vector_json(const glm::vec3& v) {
-    return Json::array({v.x, v.y, v.z});
-}
+Json vector_json(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 /// Why an effect is needed, in words.
 std::string reason_of(Feature feature, const SceneDescription& scene) {
     switch (feature) {
     case Feature::SmoothNormals: {
-        const auto smooth =
-            std::count_if(scene.triangles.begin(), scene.triangles.end(), [](const auto& triangle) {
-                return triangle.normal.x != TriangleDescription::kNoNormal;
-            });
+        const auto smooth = std::count_if(scene.triangles.begin(), scene.triangles.end(), [](const auto& triangle) {
+            return triangle.normal.x != TriangleDescription::kNoNormal;
+        });
         return fmt::format("{} triangles have normals of their own", smooth);
     }
     case Feature::Environment:
         return fmt::format("the environment shines with radiance {}", print_vector(scene.environment));
-    case Feature::NextEventEstimation:
-        return "asked for by --nee on";
+    case Feature::NextEventEstimation: return "asked for by --nee on";
     }
     return "";
 }
@@ -60,24 +56,21 @@ struct SceneReport {
 std::string text_of(const SceneReport& report) {
     const SceneDescription& scene = report.scene;
     const CameraDescription& camera = scene.camera;
-    std::string text = fmt::format("name       {}\nfile       {}\nhash       {}\n", scene.name,
-                                   scene.source.string(), scene_hash(scene));
+    std::string text = fmt::format("name       {}\nfile       {}\nhash       {}\n", scene.name, scene.source.string(),
+                                   scene_hash(scene));
     text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", scene.triangles.size(),
                         report.packed.lights.size(), scene.materials.size());
     for (const MaterialDescription& material : scene.materials)
-        text += fmt::format("           {}: reflects {}, emits {}{}\n", material.name,
-                            print_vector(material.albedo), print_vector(material.emission),
-                            material.two_sided_emission ? " on both sides" : "");
-    text += fmt::format("bounds     {} to {}\n", print_vector(report.bounds.low),
-                        print_vector(report.bounds.high));
+        text += fmt::format("           {}: reflects {}, emits {}{}\n", material.name, print_vector(material.albedo),
+                            print_vector(material.emission), material.two_sided_emission ? " on both sides" : "");
+    text += fmt::format("bounds     {} to {}\n", print_vector(report.bounds.low), print_vector(report.bounds.high));
     text += fmt::format("camera     eye {}, target {}, up {}, fov {} degrees\n", print_vector(camera.eye),
                         print_vector(camera.target), print_vector(camera.up), print_float(camera.fov_deg));
     text += fmt::format("effects    {}\n", report.effects.empty() ? "none needed" : "");
     for (const Effect& effect : report.effects)
         text += fmt::format("           {}: {}\n", effect.name, effect.reason);
     text += fmt::format("kernel     {} (compiled for: {})\n", report.kernel,
-                        report.compiled.empty() ? "no effects"
-                                                : fmt::format("{}", fmt::join(report.compiled, ", ")));
+                        report.compiled.empty() ? "no effects" : fmt::format("{}", fmt::join(report.compiled, ", ")));
     return text;
 }
 
@@ -90,8 +83,7 @@ Json json_of(const SceneReport& report) {
                              {"emission", vector_json(material.emission)},
                              {"two_sided_emission", material.two_sided_emission}});
     Json effects = Json::array();
-    for (const Effect& effect : report.effects)
-        effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
+    for (const Effect& effect : report.effects) effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
     return {{"name", scene.name},
             {"file", scene.source.string()},
             {"scene_hash", scene_hash(scene)},
@@ -109,26 +101,24 @@ Json json_of(const SceneReport& report) {
             {"kernel", report.kernel}};
 }
 
-} // namespace
+}  // namespace
 
 int run_info(const CommandLine& line, Console& console) {
     const LoadedScene loaded = open_scene(line.options.scene, console);
     const Options options = resolve_options(line, *loaded.scene);
     const HostScene packed = pack_scene(*loaded.scene);
     FeatureSet needed = needed_effects(packed);
-    if (options.render.next_event)
-        needed = needed.with(Feature::NextEventEstimation);
+    if (options.render.next_event) needed = needed.with(Feature::NextEventEstimation);
     const auto backend = make_backend(options.backend, options.threads);
     const SceneReport report{.scene = *loaded.scene,
                              .packed = packed,
                              .bounds = bounds_of(*loaded.scene),
                              .effects = effects_of(needed, *loaded.scene),
                              .compiled = effect_names(kCompiledSets[smallest_superset(needed)]),
-                             .kernel =
-                                 backend->kernel_name(options.render.method, options.render.view, needed)};
+                             .kernel = backend->kernel_name(options.render.method, options.render.view, needed)};
     console.result(text_of(report));
     console.event("info", json_of(report));
     return 0;
 }
 
-} // namespace pl
+}  // namespace pl

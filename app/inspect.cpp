@@ -21,8 +21,7 @@ namespace {
 void require_outputs(const Options& options) {
     inspection_kind(options.output);
     require_writable(options.output);
-    if (!options.stats_file.empty())
-        require_writable(options.stats_file);
+    if (!options.stats_file.empty()) require_writable(options.stats_file);
 }
 
 [[noreturn]] void fail_nothing(const std::string& where) {
@@ -40,36 +39,30 @@ std::int32_t volume_at(Session& session, const ScenePoint& point) {
     }
     const ClosestSurface surface = closest_surface(session.scene(), point.position);
     std::int32_t volume = session.find_volume_at(surface.position, surface.normal);
-    if (volume == kNoVolume)
-        volume = session.find_volume_at(surface.position, -surface.normal);
-    if (volume == kNoVolume)
-        fail_nothing(fmt::format("the surface closest to {}", print_vector(point.position)));
+    if (volume == kNoVolume) volume = session.find_volume_at(surface.position, -surface.normal);
+    if (volume == kNoVolume) fail_nothing(fmt::format("the surface closest to {}", print_vector(point.position)));
     return volume;
 }
 
 std::int32_t volume_under(Session& session, const glm::ivec2& pixel) {
     const std::optional<PickedPoint> picked = session.pick(Vec2f(pixel) + 0.5f);
     if (!picked)
-        throw Error(ErrorKind::Runtime,
-                    fmt::format("--pixel {},{}: nothing is seen there", pixel.x, pixel.y));
-    if (picked->volume == kNoVolume)
-        fail_nothing(fmt::format("what pixel {},{} shows", pixel.x, pixel.y));
+        throw Error(ErrorKind::Runtime, fmt::format("--pixel {},{}: nothing is seen there", pixel.x, pixel.y));
+    if (picked->volume == kNoVolume) fail_nothing(fmt::format("what pixel {},{} shows", pixel.x, pixel.y));
     return picked->volume;
 }
 
 void require_inside(const Options& options) {
-    if (!options.pixel)
-        return;
+    if (!options.pixel) return;
     const glm::ivec2 pixel = *options.pixel;
     if (pixel.x >= options.render.width || pixel.y >= options.render.height)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--pixel: expected a pixel of {}x{}, got {},{}", options.render.width,
-                                options.render.height, pixel.x, pixel.y));
+        throw Error(ErrorKind::Usage, fmt::format("--pixel: expected a pixel of {}x{}, got {},{}",
+                                                  options.render.width, options.render.height, pixel.x, pixel.y));
 }
 
 void report(const VolumeInspection& volume, const Options& options, bool interrupted, Console& console) {
-    console.remark(fmt::format("{}: volume {} at {}, normal {}, mean radiance {}{}\n", options.output,
-                               volume.volume, print_vector(volume.position), print_vector(volume.normal),
+    console.remark(fmt::format("{}: volume {} at {}, normal {}, mean radiance {}{}\n", options.output, volume.volume,
+                               print_vector(volume.position), print_vector(volume.normal),
                                print_float(volume.mean_radiance), interrupted ? ", partial" : ""));
     console.event("done", {{"output", options.output},
                            {"volume", volume.volume},
@@ -77,7 +70,7 @@ void report(const VolumeInspection& volume, const Options& options, bool interru
                            {"interrupted", interrupted}});
 }
 
-} // namespace
+}  // namespace
 
 int run_inspect(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
@@ -88,8 +81,7 @@ int run_inspect(const CommandLine& line, Console& console) {
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds);
     // Before training: a place without a volume should not cost a minute.
-    const std::int32_t index =
-        options.at ? volume_at(session, *options.at) : volume_under(session, *options.pixel);
+    const std::int32_t index = options.at ? volume_at(session, *options.at) : volume_under(session, *options.pixel);
 
     const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Learned);
     const VolumeInspection volume = session.inspect_volume(index);
@@ -101,10 +93,9 @@ int run_inspect(const CommandLine& line, Console& console) {
                      .seed = options.render.seed,
                      .partial = outcome.interrupted});
     if (!options.stats_file.empty())
-        write_text_file_atomic(options.stats_file,
-                               stats_json(session, session.snapshot(), options).dump(2) + "\n");
+        write_text_file_atomic(options.stats_file, stats_json(session, session.snapshot(), options).dump(2) + "\n");
     report(volume, options, outcome.interrupted, console);
     return outcome.interrupted ? kExitInterrupted : 0;
 }
 
-} // namespace pl
+}  // namespace pl

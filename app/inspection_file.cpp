@@ -17,35 +17,28 @@ std::vector<Vec3f> world_directions(const VolumeInspection& volume) {
     const Frame frame = make_frame(volume.normal);
     std::vector<Vec3f> directions;
     for (int cell = 0; cell < cells.count(); ++cell)
-        directions.push_back(
-            frame.to_world(square_to_cosine_hemisphere(cells.point_in_cell(cell, {0.5f, 0.5f}))));
+        directions.push_back(frame.to_world(square_to_cosine_hemisphere(cells.point_in_cell(cell, {0.5f, 0.5f}))));
     return directions;
 }
 
-Json vector_json(const Vec3f& v) {
-    return Json::array({v.x, v.y, v.z});
-}
+Json vector_json(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
 
 ImageMetadata metadata_of(const VolumeInspection& volume, const InspectionSource& source) {
     ImageMetadata metadata{{"Software", "pathlight " PL_VERSION},    {"scene", source.scene},
                            {"scene_hash", source.scene_hash},        {"method", source.method},
                            {"spp", std::to_string(source.spp)},      {"seed", std::to_string(source.seed)},
                            {"volume", std::to_string(volume.volume)}};
-    if (source.partial)
-        metadata.emplace_back("partial", "true");
+    if (source.partial) metadata.emplace_back("partial", "true");
     return metadata;
 }
 
-} // namespace
+}  // namespace
 
 InspectionKind inspection_kind(const std::filesystem::path& path) {
     const std::string suffix = path.extension().string();
-    if (suffix == ".json")
-        return InspectionKind::AsJson;
-    if (suffix == ".csv")
-        return InspectionKind::AsCsv;
-    if (suffix == ".png")
-        return InspectionKind::AsPng;
+    if (suffix == ".json") return InspectionKind::AsJson;
+    if (suffix == ".csv") return InspectionKind::AsCsv;
+    if (suffix == ".png") return InspectionKind::AsPng;
     throw Error(ErrorKind::Usage,
                 fmt::format("{}: the suffix decides what is written: expected .json, .csv or .png, got {}",
                             path.string(), suffix.empty() ? "none" : suffix));
@@ -53,8 +46,7 @@ InspectionKind inspection_kind(const std::filesystem::path& path) {
 
 Json inspection_json(const VolumeInspection& volume, const InspectionSource& source) {
     Json directions = Json::array();
-    for (const Vec3f& direction : world_directions(volume))
-        directions.push_back(vector_json(direction));
+    for (const Vec3f& direction : world_directions(volume)) directions.push_back(vector_json(direction));
     return {{"schema", "pathlight.inspection/1"},
             {"scene", source.scene},
             {"scene_hash", source.scene_hash},
@@ -79,29 +71,23 @@ std::string inspection_csv(const VolumeInspection& volume) {
     std::string text = "cell,row,column,dx,dy,dz,radiance,probability,visits\n";
     const auto side = static_cast<std::size_t>(volume.side);
     for (std::size_t cell = 0; cell < directions.size(); ++cell)
-        text += fmt::format("{},{},{},{},{},{},{}\n", cell, cell / side, cell % side,
-                            print_vector(directions[cell]), print_float(volume.radiance[cell]),
-                            print_float(volume.probability[cell]), volume.visits[cell]);
+        text += fmt::format("{},{},{},{},{},{},{}\n", cell, cell / side, cell % side, print_vector(directions[cell]),
+                            print_float(volume.radiance[cell]), print_float(volume.probability[cell]),
+                            volume.visits[cell]);
     return text;
 }
 
-void save_inspection(const std::filesystem::path& path,
-                     const VolumeInspection& volume,
+void save_inspection(const std::filesystem::path& path, const VolumeInspection& volume,
                      const InspectionSource& source) {
     switch (inspection_kind(path)) {
-    case InspectionKind::AsJson:
-        write_text_file_atomic(path, json_line(inspection_json(volume, source)));
-        return;
-    case InspectionKind::AsCsv:
-        write_text_file_atomic(path, inspection_csv(volume));
-        return;
+    case InspectionKind::AsJson: write_text_file_atomic(path, json_line(inspection_json(volume, source))); return;
+    case InspectionKind::AsCsv: write_text_file_atomic(path, inspection_csv(volume)); return;
     case InspectionKind::AsPng:
-        write_png8(
-            path,
-            draw_hemisphere(volume, fmt::format("{}, {}, {} spp", source.scene, source.method, source.spp)),
-            metadata_of(volume, source));
+        write_png8(path,
+                   draw_hemisphere(volume, fmt::format("{}, {}, {} spp", source.scene, source.method, source.spp)),
+                   metadata_of(volume, source));
         return;
     }
 }
 
-} // namespace pl
+}  // namespace pl

@@ -22,7 +22,7 @@ struct InspectionSource {
     std::string method;
     std::uint32_t spp = 0;
     std::uint64_t seed = 0;
-    bool partial = false; ///< training was interrupted
+    bool partial = false;  ///< training was interrupted
 };
 
 /// Members position, normal, volume, bins, side, mean_radiance, and per cell direction, radiance, probability, visits.
@@ -33,8 +33,7 @@ Json inspection_json(const VolumeInspection& volume, const InspectionSource& sou
 std::string inspection_csv(const VolumeInspection& volume);
 
 /// Writes the file whole or not at all. Throws Error: Usage for another suffix, Runtime.
-void save_inspection(const std::filesystem::path& path,
-                     const VolumeInspection& volume,
+void save_inspection(const std::filesystem::path& path, const VolumeInspection& volume,
                      const InspectionSource& source);
 
-} // namespace pl
+}  // namespace pl

@@ -20,4 +20,4 @@ public:
 
 inline constexpr int kExitInterrupted = 130;
 
-} // namespace pl
+}  // namespace pl

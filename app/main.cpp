@@ -20,16 +20,11 @@ int run(const std::vector<std::string>& arguments, Console& console) {
     }
     console.configure(line.options);
     switch (line.command) {
-    case Command::View:
-        return run_view(line, console);
-    case Command::Render:
-        return run_render(line, console);
-    case Command::Info:
-        return run_info(line, console);
-    case Command::Devices:
-        return run_devices(line, console);
-    case Command::Inspect:
-        return run_inspect(line, console);
+    case Command::View: return run_view(line, console);
+    case Command::Render: return run_render(line, console);
+    case Command::Info: return run_info(line, console);
+    case Command::Devices: return run_devices(line, console);
+    case Command::Inspect: return run_inspect(line, console);
     }
     return static_cast<int>(ErrorKind::Usage);
 }
@@ -40,7 +35,7 @@ int tell(const std::string& message, ErrorKind kind, Console& console) {
     return static_cast<int>(kind);
 }
 
-} // namespace
+}  // namespace
 
 int main(int argc, char** argv) {
     Console console;

@@ -8,9 +8,9 @@ namespace pl {
 
 std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads) {
     if (name == "cuda")
-        throw Error(ErrorKind::Unavailable, "--backend cuda: " + cuda_unavailable_reason() +
-                                                "; 'pathlight devices' lists what there is");
+        throw Error(ErrorKind::Unavailable,
+                    "--backend cuda: " + cuda_unavailable_reason() + "; 'pathlight devices' lists what there is");
     return make_cpu_backend({.threads = threads});
 }
 
-} // namespace pl
+}  // namespace pl

@@ -12,4 +12,4 @@ namespace pl {
 /// reason.
 std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads);
 
-} // namespace pl
+}  // namespace pl

@@ -14,4 +14,4 @@ LoadedScene open_scene(const std::string& name_or_path, Console& console) {
     return loaded;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -17,4 +17,4 @@ struct LoadedScene {
 /// A scene by name or path; its warnings go to the log. Throws Error(Input).
 LoadedScene open_scene(const std::string& name_or_path, Console& console);
 
-} // namespace pl
+}  // namespace pl

@@ -33,21 +33,20 @@ std::string one_of(const std::vector<std::string>& names) {
 template <class Range, class Name>
 std::vector<std::string> names_in(const Range& range, Name name) {
     std::vector<std::string> names;
-    for (const auto& item : range)
-        names.emplace_back(name(item));
+    for (const auto& item : range) names.emplace_back(name(item));
     return names;
 }
 
 [[noreturn]] void fail_choice(const std::vector<std::string>& names, const std::string& got) {
-    throw Error(ErrorKind::Usage, fmt::format("expected {}, got '{}' (nearest: '{}')", one_of(names), got,
-                                              nearest_name(got, names)));
+    throw Error(ErrorKind::Usage,
+                fmt::format("expected {}, got '{}' (nearest: '{}')", one_of(names), got, nearest_name(got, names)));
 }
 
 std::vector<std::string> method_names() {
     return names_in(all_methods(), [](const MethodInfo& info) { return info.name; });
 }
 
-} // namespace
+}  // namespace
 
 void fail_not_yet(std::string_view what) {
     throw Error(ErrorKind::Usage, fmt::format("this version does not have it: {}", what));
@@ -55,15 +54,13 @@ void fail_not_yet(std::string_view what) {
 
 void parse_method(Options& options, const std::string& text) {
     const auto id = method_by_name(text);
-    if (!id)
-        fail_choice(method_names(), text);
+    if (!id) fail_choice(method_names(), text);
     options.render.method = *id;
 }
 
 void parse_view(Options& options, const std::string& text) {
     const auto id = view_by_name(text);
-    if (!id)
-        fail_choice(names_in(all_views(), [](const ViewInfo& info) { return info.name; }), text);
+    if (!id) fail_choice(names_in(all_views(), [](const ViewInfo& info) { return info.name; }), text);
     options.render.view = *id;
 }
 
@@ -86,42 +83,35 @@ void parse_tone_curve(Options& options, const std::string& text) {
 void parse_bins(Options& options, const std::string& text) {
     const int bins = static_cast<int>(parse_whole(text, 4, 1024));
     const int side = static_cast<int>(std::lround(std::sqrt(bins)));
-    if (side * side != bins)
-        fail_value("a square number from 4 to 1024, such as 64, 256 or 1024", text);
+    if (side * side != bins) fail_value("a square number from 4 to 1024, such as 64, 256 or 1024", text);
     options.render.field.bins = bins;
 }
 
 void parse_bsdf_fraction(Options& options, const std::string& text) {
-    if (text == "learned")
-        fail_not_yet("the share is fixed at 0.5 unless a number from 0.1 to 1 is given");
+    if (text == "learned") fail_not_yet("the share is fixed at 0.5 unless a number from 0.1 to 1 is given");
     const float share = static_cast<float>(parse_real(text, 0.1, 1.0));
     options.render.bsdf_fraction = share < 0.1f ? 0.1f : share;
 }
 
 void parse_fov(Options& options, const std::string& text) {
     const float degrees = parse_float(text);
-    if (!(degrees > 0.0f && degrees < 180.0f))
-        fail_value("an angle between 0 and 180 degrees", text);
+    if (!(degrees > 0.0f && degrees < 180.0f)) fail_value("an angle between 0 and 180 degrees", text);
     options.camera.fov_deg = degrees;
 }
 
 void parse_field_budget(Options& options, const std::string& text) {
     const double megabytes = parse_real(text, 0.0, 65536.0);
-    if (!(megabytes > 0.0))
-        fail_value("a number of megabytes above 0", text);
+    if (!(megabytes > 0.0)) fail_value("a number of megabytes above 0", text);
     options.render.field.budget_megabytes = megabytes;
 }
 
 void parse_time_limit(Options& options, const std::string& text) {
     const double seconds = parse_real(text, 0.0, 1.0e9);
-    if (!(seconds > 0.0))
-        fail_value("a number of seconds above 0", text);
+    if (!(seconds > 0.0)) fail_value("a number of seconds above 0", text);
     options.time_limit_seconds = seconds;
 }
 
-void parse_window(Options& options, const std::string& text) {
-    options.window = parse_size(text);
-}
+void parse_window(Options& options, const std::string& text) { options.window = parse_size(text); }
 
 void parse_picture_size(Options& options, const std::string& text) {
     const glm::ivec2 size = parse_size(text);
@@ -135,8 +125,7 @@ void parse_at(Options& options, const std::string& text) {
     if (v.size() == 6) {
         const glm::vec3 normal(v[3], v[4], v[5]);
         const float length = glm::length(normal);
-        if (!(length > 0.0f) || !std::isfinite(length))
-            fail_value("a normal of finite length above 0", text);
+        if (!(length > 0.0f) || !std::isfinite(length)) fail_value("a normal of finite length above 0", text);
         point.normal = normal / length;
     }
     options.at = point;
@@ -144,8 +133,7 @@ void parse_at(Options& options, const std::string& text) {
 
 void parse_pixel(Options& options, const std::string& text) {
     const std::size_t comma = text.find(',');
-    if (comma == std::string::npos)
-        fail_value("two whole numbers X,Y", text);
+    if (comma == std::string::npos) fail_value("two whole numbers X,Y", text);
     const auto side = static_cast<std::uint64_t>(kMaxImageSide - 1);
     options.pixel = glm::ivec2(static_cast<int>(parse_whole(text.substr(0, comma), 0, side)),
                                static_cast<int>(parse_whole(text.substr(comma + 1), 0, side)));
@@ -154,13 +142,10 @@ void parse_pixel(Options& options, const std::string& text) {
 std::string field_method_choices() {
     std::vector<std::string> names;
     for (const MethodInfo& info : all_methods())
-        if (info.uses_field)
-            names.emplace_back(info.name);
+        if (info.uses_field) names.emplace_back(info.name);
     return one_of(names);
 }
 
-std::string_view tone_curve_name(ToneCurve curve) {
-    return kCurves[static_cast<std::size_t>(curve)].name;
-}
+std::string_view tone_curve_name(ToneCurve curve) { return kCurves[static_cast<std::size_t>(curve)].name; }
 
-} // namespace pl
+}  // namespace pl

@@ -30,4 +30,4 @@ std::string field_method_choices();
 
 std::string_view tone_curve_name(ToneCurve curve);
 
-} // namespace pl
+}  // namespace pl

@@ -12,8 +12,7 @@
 namespace pl {
 namespace {
 
-constexpr CommandSet
-    kEverywhere(Command::View, Command::Render, Command::Info, Command::Devices, Command::Inspect);
+constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Info, Command::Devices, Command::Inspect);
 constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Info, Command::Inspect);
 constexpr CommandSet kSampling(Command::View, Command::Render, Command::Inspect);
 constexpr CommandSet kPictures(Command::View, Command::Render);
@@ -212,20 +211,17 @@ const auto kTable = std::to_array<OptionSpec>({
 });
 // clang-format on
 
-} // namespace
+}  // namespace
 
-std::span<const OptionSpec> option_table() {
-    return kTable;
-}
+std::span<const OptionSpec> option_table() { return kTable; }
 
 void apply_option(const OptionSpec& spec, Options& options, const std::string& text) {
     try {
         spec.parse(options, text);
     } catch (const Error& error) {
-        if (error.kind() != ErrorKind::Usage)
-            throw;
+        if (error.kind() != ErrorKind::Usage) throw;
         throw Error(ErrorKind::Usage, fmt::format("--{}: {}", spec.name, error.what()));
     }
 }
 
-} // namespace pl
+}  // namespace pl

@@ -23,13 +23,13 @@ private:
 };
 
 struct OptionSpec {
-    std::string_view name;  ///< the word: "spp"
-    std::string_view flags; ///< all spellings, shortest first, aliases last: "-t,--threads"
-    std::string_view value; ///< what stands for the value in the help; empty: a switch
-    std::string_view group; ///< heading in the help; empty: not shown
+    std::string_view name;   ///< the word: "spp"
+    std::string_view flags;  ///< all spellings, shortest first, aliases last: "-t,--threads"
+    std::string_view value;  ///< what stands for the value in the help; empty: a switch
+    std::string_view group;  ///< heading in the help; empty: not shown
     std::string_view help;
-    CommandSet commands;         ///< where it may be given
-    bool in_scene_files = false; ///< may be a scene's setting
+    CommandSet commands;          ///< where it may be given
+    bool in_scene_files = false;  ///< may be a scene's setting
     /// Throws Error(Usage) "expected ..., got ..." for a value that is wrong.
     void (*parse)(Options&, const std::string& text) = nullptr;
     /// Text that parses to what the options have, empty if there is none; null: no part of a picture.
@@ -42,4 +42,4 @@ std::span<const OptionSpec> option_table();
 /// Parses one option's value, with its name in front of complaints.
 void apply_option(const OptionSpec& spec, Options& options, const std::string& text);
 
-} // namespace pl
+}  // namespace pl

@@ -29,17 +29,17 @@ struct ScenePoint {
 };
 
 struct Options {
-    std::string scene; ///< name or path; empty if none was given
+    std::string scene;  ///< name or path; empty if none was given
     std::string output;
 
-    RenderSettings render; ///< final only after resolve_options(): camera and size depend on the scene
+    RenderSettings render;  ///< final only after resolve_options(): camera and size depend on the scene
     DisplaySettings display;
     std::string backend = "auto";
-    int threads = 0; ///< 0: all
+    int threads = 0;  ///< 0: all
     std::optional<std::uint32_t> spp;
     std::optional<double> time_limit_seconds;
-    int width = 0;  ///< 0: not given
-    int height = 0; ///< 0: not given
+    int width = 0;   ///< 0: not given
+    int height = 0;  ///< 0: not given
     CameraChoice camera;
 
     std::optional<ScenePoint> at;
@@ -52,9 +52,9 @@ struct Options {
     int verbosity = 0;
     bool no_progress = false;
 
-    std::string script;    ///< viewer: file of scripted input
-    std::string ui_trace;  ///< viewer: file of frame times
-    bool software = false; ///< viewer: no graphics card
+    std::string script;     ///< viewer: file of scripted input
+    std::string ui_trace;   ///< viewer: file of frame times
+    bool software = false;  ///< viewer: no graphics card
     std::optional<glm::ivec2> window;
 
     /// Samples per pixel after which to stop. 64 unless something else ends the rendering.
@@ -65,4 +65,4 @@ struct Options {
     }
 };
 
-} // namespace pl
+}  // namespace pl

@@ -23,25 +23,19 @@ struct Found {
     bool list_views = false;
 };
 
-[[noreturn]] void fail(const std::string& message) {
-    throw Error(ErrorKind::Usage, message);
-}
+[[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::Usage, message); }
 
-bool is_option(const std::string& argument) {
-    return argument.size() > 1 && argument.front() == '-';
-}
+bool is_option(const std::string& argument) { return argument.size() > 1 && argument.front() == '-'; }
 
 bool is_scene(const std::string& word) {
-    if (word.find_first_of("./") != std::string::npos)
-        return true;
+    if (word.find_first_of("./") != std::string::npos) return true;
     const std::vector<std::string> known = list_scenes(find_assets_dir());
     return std::find(known.begin(), known.end(), word) != known.end();
 }
 
 /// The subcommand, taken off the front of the arguments; `view` if they start with an option or a scene.
 Command take_command(std::vector<std::string>& arguments) {
-    if (arguments.empty() || is_option(arguments.front()))
-        return Command::View;
+    if (arguments.empty() || is_option(arguments.front())) return Command::View;
     const std::string word = arguments.front();
     std::vector<std::string> names;
     for (const CommandInfo& info : all_commands()) {
@@ -51,8 +45,7 @@ Command take_command(std::vector<std::string>& arguments) {
         }
         names.emplace_back(info.name);
     }
-    if (is_scene(word))
-        return Command::View;
+    if (is_scene(word)) return Command::View;
     fail(fmt::format("unknown subcommand '{}' (nearest: '{}'; known: {}), and no scene of that name", word,
                      nearest_name(word, names), fmt::join(names, ", ")));
 }
@@ -62,8 +55,7 @@ void add_option(CLI::App& app, const OptionSpec& spec, Found& found) {
     const auto note = [&spec, &found](const std::string& text) { found.given.push_back({&spec, text}); };
     if (spec.value.empty()) {
         app.add_flag_function(flags, [note](std::int64_t times) {
-            for (std::int64_t i = 0; i < times; ++i)
-                note("");
+            for (std::int64_t i = 0; i < times; ++i) note("");
         });
     } else {
         app.add_option_function<std::string>(flags, note)->take_last();
@@ -74,14 +66,12 @@ void add_options(CLI::App& app, Command command, Found& found) {
     app.set_help_flag();
     app.allow_extras();
     for (const OptionSpec& spec : option_table())
-        if (spec.commands.has(command))
-            add_option(app, spec, found);
+        if (spec.commands.has(command)) add_option(app, spec, found);
     app.add_flag("-h,--help", found.help);
     app.add_flag("--version", found.version);
     app.add_flag("--list-methods", found.list_methods);
     app.add_flag("--list-views", found.list_views);
-    if (command != Command::Devices)
-        app.add_option("SCENE,--scene", found.scene)->take_last();
+    if (command != Command::Devices) app.add_option("SCENE,--scene", found.scene)->take_last();
 }
 
 /// Fails for what the parser could not place.
@@ -89,30 +79,26 @@ void refuse(const CLI::App& app, Command command, const std::vector<std::string>
     const auto unknown = std::find_if(extras.begin(), extras.end(), is_option);
     const std::string command_word(command_name(command));
     if (unknown == extras.end())
-        fail(fmt::format("unexpected argument '{}': '{}' takes {}; a subcommand has to come first",
-                         extras.front(), command_word,
-                         command == Command::Devices ? "options only" : "one SCENE"));
+        fail(fmt::format("unexpected argument '{}': '{}' takes {}; a subcommand has to come first", extras.front(),
+                         command_word, command == Command::Devices ? "options only" : "one SCENE"));
     const std::string word = unknown->substr(0, unknown->find('='));
     std::vector<std::string> known;
     for (const CLI::Option* option : app.get_options())
-        for (const std::string& name : option->get_lnames())
-            known.push_back("--" + name);
-    fail(fmt::format("unknown option '{}' of '{}' (nearest: '{}')", word, command_word,
-                     nearest_name(word, known)));
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    fail(fmt::format("unknown option '{}' of '{}' (nearest: '{}')", word, command_word, nearest_name(word, known)));
 }
 
 Found parse(Command command, std::vector<std::string> arguments) {
     Found found;
     CLI::App app;
     add_options(app, command, found);
-    std::reverse(arguments.begin(), arguments.end()); // the order that the library wants
+    std::reverse(arguments.begin(), arguments.end());  // the order that the library wants
     try {
         app.parse(arguments);
     } catch (const CLI::ParseError& error) {
         fail(error.what());
     }
-    if (const std::vector<std::string> extras = app.remaining(); !extras.empty())
-        refuse(app, command, extras);
+    if (const std::vector<std::string> extras = app.remaining(); !extras.empty()) refuse(app, command, extras);
     // Specifications lie in one array, so their addresses are in the table's order.
     std::stable_sort(found.given.begin(), found.given.end(),
                      [](const GivenOption& a, const GivenOption& b) { return a.spec < b.spec; });
@@ -120,29 +106,25 @@ Found parse(Command command, std::vector<std::string> arguments) {
 }
 
 std::optional<std::string> answer_to(Command command, const Found& found, bool json) {
-    if (found.help)
-        return command_help(command);
-    if (found.version)
-        return version_text();
-    if (found.list_methods)
-        return method_list(json);
-    if (found.list_views)
-        return view_list(json);
+    if (found.help) return command_help(command);
+    if (found.version) return version_text();
+    if (found.list_methods) return method_list(json);
+    if (found.list_views) return view_list(json);
     return std::nullopt;
 }
 
 void require_complete(Command command, const Options& options) {
     const bool needs_file = command == Command::Render || command == Command::Inspect;
     if (options.scene.empty() && (needs_file || command == Command::Info))
-        fail(fmt::format("'{}' needs a SCENE: a name ({}), an .obj file or a scene .json file",
-                         command_name(command), fmt::join(list_scenes(find_assets_dir()), ", ")));
+        fail(fmt::format("'{}' needs a SCENE: a name ({}), an .obj file or a scene .json file", command_name(command),
+                         fmt::join(list_scenes(find_assets_dir()), ", ")));
     if (options.output.empty() && needs_file)
         fail(fmt::format("'{}' needs a file to write: -o FILE", command_name(command)));
     if (command == Command::Inspect && options.at.has_value() == options.pixel.has_value())
         fail("'inspect' needs a place: either --at X,Y,Z[,NX,NY,NZ] or --pixel X,Y");
 }
 
-} // namespace
+}  // namespace
 
 CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     CommandLine line;
@@ -154,13 +136,11 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     const bool json = std::any_of(line.given.begin(), line.given.end(),
                                   [](const GivenOption& given) { return given.spec->name == "json"; });
     line.answer = bare && found.help ? program_help() : answer_to(line.command, found, json);
-    if (line.answer)
-        return line;
-    for (const GivenOption& given : line.given)
-        apply_option(*given.spec, line.options, given.text);
+    if (line.answer) return line;
+    for (const GivenOption& given : line.given) apply_option(*given.spec, line.options, given.text);
     line.options.scene = found.scene.empty() && line.command == Command::View ? "cornell" : found.scene;
     require_complete(line.command, line.options);
     return line;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -18,9 +18,9 @@ struct GivenOption {
 
 struct CommandLine {
     Command command = Command::View;
-    std::vector<GivenOption> given; ///< in the order of option_table()
-    Options options;                ///< what was given, over the defaults; final only after resolve_options()
-    std::optional<std::string> answer; ///< help, version or a list: print this and do nothing else
+    std::vector<GivenOption> given;     ///< in the order of option_table()
+    Options options;                    ///< what was given, over the defaults; final only after resolve_options()
+    std::optional<std::string> answer;  ///< help, version or a list: print this and do nothing else
 };
 
 /// `arguments` are without the program's name. Throws Error(Usage): unknown subcommand or option (the nearest one is
@@ -40,4 +40,4 @@ std::string command_text(const Options& options, const Options& defaults);
 
 std::string_view command_name(Command command);
 
-} // namespace pl
+}  // namespace pl

@@ -16,13 +16,11 @@ namespace {
 /// The whole text as a number; a leading '+' is allowed.
 template <class T>
 std::optional<T> read(std::string_view text) {
-    if (text.size() > 1 && text.front() == '+' && text[1] != '-')
-        text.remove_prefix(1);
+    if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
     T value{};
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || stop != end)
-        return std::nullopt;
+    if (error != std::errc{} || stop != end) return std::nullopt;
     return value;
 }
 
@@ -38,13 +36,12 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     for (;;) {
         const std::size_t at = text.find(separator);
         parts.push_back(text.substr(0, at));
-        if (at == std::string_view::npos)
-            return parts;
+        if (at == std::string_view::npos) return parts;
         text.remove_prefix(at + 1);
     }
 }
 
-} // namespace
+}  // namespace
 
 void fail_value(std::string_view expected, std::string_view got) {
     throw Error(ErrorKind::Usage, fmt::format("expected {}, got '{}'", expected, got));
@@ -52,8 +49,7 @@ void fail_value(std::string_view expected, std::string_view got) {
 
 std::uint64_t parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high) {
     const auto value = read<std::uint64_t>(text);
-    if (value && *value >= low && *value <= high)
-        return *value;
+    if (value && *value >= low && *value <= high) return *value;
     if (high == std::numeric_limits<std::uint64_t>::max())
         fail_value(fmt::format("a whole number of at least {}", low), text);
     fail_value(fmt::format("a whole number from {} to {}", low, high), text);
@@ -68,22 +64,19 @@ double parse_real(std::string_view text, double low, double high) {
 
 float parse_float(std::string_view text) {
     const auto value = read<float>(text);
-    if (!value || !std::isfinite(*value))
-        fail_value("a number", text);
+    if (!value || !std::isfinite(*value)) fail_value("a number", text);
     return *value;
 }
 
-std::vector<float>
-parse_floats(std::string_view text, std::initializer_list<std::size_t> counts, std::string_view expected) {
+std::vector<float> parse_floats(std::string_view text, std::initializer_list<std::size_t> counts,
+                                std::string_view expected) {
     std::vector<float> values;
     for (const std::string_view part : split(text, ',')) {
         const auto value = read<float>(part);
-        if (!value || !std::isfinite(*value))
-            fail_value(expected, text);
+        if (!value || !std::isfinite(*value)) fail_value(expected, text);
         values.push_back(*value);
     }
-    if (std::find(counts.begin(), counts.end(), values.size()) == counts.end())
-        fail_value(expected, text);
+    if (std::find(counts.begin(), counts.end(), values.size()) == counts.end()) fail_value(expected, text);
     return values;
 }
 
@@ -93,8 +86,7 @@ glm::vec3 parse_vector(std::string_view text) {
 }
 
 bool parse_switch(std::string_view text) {
-    if (text != "on" && text != "off")
-        fail_value("on or off", text);
+    if (text != "on" && text != "off") fail_value("on or off", text);
     return text == "on";
 }
 
@@ -109,16 +101,12 @@ glm::ivec2 parse_size(std::string_view text) {
     return size;
 }
 
-std::string print_real(double value) {
-    return print(value);
-}
+std::string print_real(double value) { return print(value); }
 
-std::string print_float(float value) {
-    return print(value);
-}
+std::string print_float(float value) { return print(value); }
 
 std::string print_vector(const glm::vec3& v) {
     return fmt::format("{},{},{}", print_float(v.x), print_float(v.y), print_float(v.z));
 }
 
-} // namespace pl
+}  // namespace pl

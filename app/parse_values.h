@@ -20,8 +20,8 @@ double parse_real(std::string_view text, double low, double high);
 /// Finite number that fits a float.
 float parse_float(std::string_view text);
 /// Numbers between commas; `counts` are the lengths that are right.
-std::vector<float>
-parse_floats(std::string_view text, std::initializer_list<std::size_t> counts, std::string_view expected);
+std::vector<float> parse_floats(std::string_view text, std::initializer_list<std::size_t> counts,
+                                std::string_view expected);
 glm::vec3 parse_vector(std::string_view text);
 /// "on" or "off".
 bool parse_switch(std::string_view text);
@@ -35,4 +35,4 @@ std::string print_real(double value);
 std::string print_float(float value);
 std::string print_vector(const glm::vec3& v);
 
-} // namespace pl
+}  // namespace pl

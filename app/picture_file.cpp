@@ -17,26 +17,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::uint8_t to_byte(float linear) {
-    return static_cast<std::uint8_t>(std::lround(255.0f * encode_srgb(linear)));
-}
+std::uint8_t to_byte(float linear) { return static_cast<std::uint8_t>(std::lround(255.0f * encode_srgb(linear))); }
 
-bool shows_radiance(View view) {
-    return view == View::Beauty || view == View::Direct || view == View::RadianceMap;
-}
+bool shows_radiance(View view) { return view == View::Beauty || view == View::Direct || view == View::RadianceMap; }
 
 [[noreturn]] void fail_write(const fs::path& path, const std::string& why) {
     throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
 }
 
-} // namespace
+}  // namespace
 
 float shown_scale(const Snapshot& snapshot) {
-    if (snapshot.slot.view != View::Depth)
-        return 1.0f;
+    if (snapshot.slot.view != View::Depth) return 1.0f;
     float largest = 0.0f;
-    for (const Vec3f& pixel : snapshot.pixels)
-        largest = std::max(largest, pixel.x);
+    for (const Vec3f& pixel : snapshot.pixels) largest = std::max(largest, pixel.x);
     return largest > 0.0f ? 1.0f / largest : 1.0f;
 }
 
@@ -48,15 +42,12 @@ ByteImage display_image(const Snapshot& snapshot, const DisplaySettings& display
     const ToneCurve curve = radiance ? display.curve : ToneCurve::Clamp;
     for (const Vec3f& pixel : snapshot.pixels) {
         const Vec3f shown = tone_map(pixel, factor, curve);
-        for (int channel = 0; channel < 3; ++channel)
-            image.rgb.push_back(to_byte(shown[channel]));
+        for (int channel = 0; channel < 3; ++channel) image.rgb.push_back(to_byte(shown[channel]));
     }
     return image;
 }
 
-void save_picture(const fs::path& path,
-                  const Snapshot& snapshot,
-                  const DisplaySettings& display,
+void save_picture(const fs::path& path, const Snapshot& snapshot, const DisplaySettings& display,
                   const ImageMetadata& metadata) {
     const ImageKind kind = image_kind(path);
     if (kind == ImageKind::Png) {
@@ -74,22 +65,18 @@ void require_writable(const fs::path& path) {
     std::error_code ignored;
     const fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
     const fs::file_status status = fs::status(target, ignored);
-    if (fs::is_directory(status))
-        fail_write(path, "it is a directory");
+    if (fs::is_directory(status)) fail_write(path, "it is a directory");
     if (fs::exists(status)) {
-        if (access(target.c_str(), W_OK) != 0)
-            fail_write(path, std::strerror(errno));
-        if (!fs::is_regular_file(status))
-            return;
+        if (access(target.c_str(), W_OK) != 0) fail_write(path, std::strerror(errno));
+        if (!fs::is_regular_file(status)) return;
     }
     // Only making a file tells whether one can be made: permissions say nothing about read-only disks.
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     std::string probe = (folder / ".pathlight-probe-XXXXXX").string();
     const int file = mkstemp(probe.data());
-    if (file < 0)
-        fail_write(path, std::strerror(errno));
+    if (file < 0) fail_write(path, std::strerror(errno));
     close(file);
     unlink(probe.c_str());
 }
 
-} // namespace pl
+}  // namespace pl

@@ -17,12 +17,10 @@ float shown_scale(const Snapshot& snapshot);
 ByteImage display_image(const Snapshot& snapshot, const DisplaySettings& display);
 
 /// Writes .exr or .pfm linear, .png as display_image(). Throws Error: Usage for another suffix, Runtime.
-void save_picture(const std::filesystem::path& path,
-                  const Snapshot& snapshot,
-                  const DisplaySettings& display,
+void save_picture(const std::filesystem::path& path, const Snapshot& snapshot, const DisplaySettings& display,
                   const ImageMetadata& metadata);
 
 /// Throws Error(Runtime) unless a file of this name can be made or replaced. Leaves no trace.
 void require_writable(const std::filesystem::path& path);
 
-} // namespace pl
+}  // namespace pl

@@ -39,13 +39,12 @@ constexpr auto kGlyphs = std::to_array<NamedGlyph>({
     {'%', "##..# ##..# ...#. ..#.. .#... #..## #..##"}, {'_', "..... ..... ..... ..... ..... ..... #####"},
 });
 
-} // namespace
+}  // namespace
 
 PixelGlyph pixel_glyph(char c) {
     for (const NamedGlyph& glyph : kGlyphs)
-        if (glyph.name == c)
-            return {glyph.rows};
+        if (glyph.name == c) return {glyph.rows};
     return {kBox};
 }
 
-} // namespace pl
+}  // namespace pl

@@ -19,4 +19,4 @@ struct PixelGlyph {
 /// Digits, upper case letters and the punctuation of numbers; anything else is a box.
 PixelGlyph pixel_glyph(char c);
 
-} // namespace pl
+}  // namespace pl

@@ -14,30 +14,25 @@ constexpr double kLineSeconds = 5.0;
 
 /// Time left at the pace so far; empty while that says nothing.
 std::string time_left(double share, double elapsed) {
-    if (share < 0.01 || elapsed < 1.0 || share >= 1.0)
-        return "";
+    if (share < 0.01 || elapsed < 1.0 || share >= 1.0) return "";
     return fmt::format(", {} left", duration_text(elapsed * (1.0 - share) / share));
 }
 
-} // namespace
+}  // namespace
 
 ProgressDisplay::ProgressDisplay(Console& console, bool enabled)
     : console_(console), enabled_(enabled), next_seconds_(interval_seconds()) {}
 
-ProgressDisplay::~ProgressDisplay() {
-    console_.log().clear_status();
-}
+ProgressDisplay::~ProgressDisplay() { console_.log().clear_status(); }
 
 double ProgressDisplay::interval_seconds() const {
-    if (console_.json())
-        return kEventSeconds;
+    if (console_.json()) return kEventSeconds;
     return console_.log().is_terminal() ? kBarSeconds : kLineSeconds;
 }
 
 void ProgressDisplay::show(const ProgressState& state) {
     const double elapsed = watch_.seconds();
-    if (!enabled_ || elapsed < next_seconds_)
-        return;
+    if (!enabled_ || elapsed < next_seconds_) return;
     next_seconds_ = elapsed + interval_seconds();
     if (console_.json()) {
         console_.event("progress", {{"run", 1},
@@ -48,9 +43,8 @@ void ProgressDisplay::show(const ProgressState& state) {
                                     {"error", nullptr}});
         return;
     }
-    const std::string text =
-        fmt::format("{} {:3.0f} %, {}{}", state.activity, std::floor(100.0 * state.share), state.detail,
-                    time_left(state.share, elapsed));
+    const std::string text = fmt::format("{} {:3.0f} %, {}{}", state.activity, std::floor(100.0 * state.share),
+                                         state.detail, time_left(state.share, elapsed));
     if (console_.log().is_terminal())
         console_.log().show_status(progress_bar(state.share, text, console_.log().terminal_width() - 1));
     else
@@ -59,7 +53,7 @@ void ProgressDisplay::show(const ProgressState& state) {
 
 std::string progress_bar(double share, const std::string& text, int width) {
     const auto room = static_cast<std::size_t>(std::max(width, 0));
-    if (room < text.size() + 13) // a bar of less than ten characters shows nothing
+    if (room < text.size() + 13)  // a bar of less than ten characters shows nothing
         return text.substr(0, room);
     const std::size_t length = std::min<std::size_t>(room - text.size() - 3, 40);
     const double filled = std::clamp(share, 0.0, 1.0) * static_cast<double>(length);
@@ -70,11 +64,9 @@ std::string progress_bar(double share, const std::string& text, int width) {
 
 std::string duration_text(double seconds) {
     const auto whole = static_cast<long long>(std::ceil(std::clamp(seconds, 0.0, 1.0e9)));
-    if (whole < 60)
-        return fmt::format("{} s", whole);
-    if (whole < 3600)
-        return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
     return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
-} // namespace pl
+}  // namespace pl

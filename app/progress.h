@@ -10,10 +10,10 @@ namespace pl {
 
 /// A moment of a rendering.
 struct ProgressState {
-    std::string activity;  ///< "rendering", "precomputing"
-    double share = 0.0;    ///< of the whole, in [0, 1]
-    std::uint32_t spp = 0; ///< samples per pixel so far
-    std::string detail;    ///< "12/64 spp, 3.1 M segments/s"
+    std::string activity;   ///< "rendering", "precomputing"
+    double share = 0.0;     ///< of the whole, in [0, 1]
+    std::uint32_t spp = 0;  ///< samples per pixel so far
+    std::string detail;     ///< "12/64 spp, 3.1 M segments/s"
 };
 
 /// Shows what it is given as often as its medium can take it.
@@ -41,4 +41,4 @@ std::string progress_bar(double share, const std::string& text, int width);
 /// "12 s", "3:05 min", "2:10 h".
 std::string duration_text(double seconds);
 
-} // namespace pl
+}  // namespace pl

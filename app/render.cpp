@@ -17,8 +17,7 @@ namespace {
 void require_outputs(const Options& options) {
     image_kind(options.output);
     require_writable(options.output);
-    if (!options.stats_file.empty())
-        require_writable(options.stats_file);
+    if (!options.stats_file.empty()) require_writable(options.stats_file);
 }
 
 void announce(const Session& session, Console& console) {
@@ -37,10 +36,9 @@ void announce(const Session& session, Console& console) {
 
 ImageMetadata metadata_of(const Json& stats, const std::string& command, bool interrupted) {
     ImageMetadata metadata{{"Software", "pathlight " PL_VERSION}, {"command", command}};
-    if (interrupted)
-        metadata.emplace_back("partial", "true");
-    for (const char* key : {"scene", "scene_hash", "method", "view", "backend", "width", "height", "spp",
-                            "seed", "max_depth", "nee", "kernel"}) {
+    if (interrupted) metadata.emplace_back("partial", "true");
+    for (const char* key : {"scene", "scene_hash", "method", "view", "backend", "width", "height", "spp", "seed",
+                            "max_depth", "nee", "kernel"}) {
         const Json& value = stats.at(key);
         metadata.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
     }
@@ -48,13 +46,11 @@ ImageMetadata metadata_of(const Json& stats, const std::string& command, bool in
     return metadata;
 }
 
-void report(
-    const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted, Console& console) {
+void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted, Console& console) {
     const double seconds = snapshot.clocks.total();
     console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}\n", options.output, snapshot.width,
-                               snapshot.height, info_of(snapshot.slot.method).name,
-                               info_of(snapshot.slot.view).name, snapshot.passes, seconds,
-                               interrupted ? ", partial" : ""));
+                               snapshot.height, info_of(snapshot.slot.method).name, info_of(snapshot.slot.view).name,
+                               snapshot.passes, seconds, interrupted ? ", partial" : ""));
     console.event("done", {{"output", options.output},
                            {"run", 1},
                            {"spp", snapshot.passes},
@@ -66,11 +62,11 @@ void report(
                                   ? "interrupted: the picture is partial, and a .pfm file cannot be marked so"
                                   : "interrupted: the picture is partial and marked so");
     if (snapshot.counters.invalid_samples > 0)
-        console.log().warning(fmt::format("{} samples were NaN, infinite or negative and left out",
-                                          snapshot.counters.invalid_samples));
+        console.log().warning(
+            fmt::format("{} samples were NaN, infinite or negative and left out", snapshot.counters.invalid_samples));
 }
 
-} // namespace
+}  // namespace
 
 int run_render(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
@@ -86,10 +82,9 @@ int run_render(const CommandLine& line, Console& console) {
     const Json stats = stats_json(session, snapshot, options);
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
     save_picture(options.output, snapshot, options.display, metadata_of(stats, command, outcome.interrupted));
-    if (!options.stats_file.empty())
-        write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
+    if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     report(snapshot, options, stats, outcome.interrupted, console);
     return outcome.interrupted ? kExitInterrupted : 0;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -23,14 +23,10 @@ void settle_size(Options& options) {
     RenderSettings& render = options.render;
     const int width = options.width;
     const int height = options.height;
-    if (width > 0 && height == 0)
-        render.height = scaled_side(render.height, width, render.width);
-    if (height > 0 && width == 0)
-        render.width = scaled_side(render.width, height, render.height);
-    if (width > 0)
-        render.width = width;
-    if (height > 0)
-        render.height = height;
+    if (width > 0 && height == 0) render.height = scaled_side(render.height, width, render.width);
+    if (height > 0 && width == 0) render.width = scaled_side(render.width, height, render.height);
+    if (width > 0) render.width = width;
+    if (height > 0) render.height = height;
     options.width = 0;
     options.height = 0;
 }
@@ -42,18 +38,13 @@ void settle_camera(Options& options) {
     camera.up = options.camera.up.value_or(camera.up);
     camera.fov_deg = options.camera.fov_deg.value_or(camera.fov_deg);
     if (camera.eye == camera.target)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--eye, --target: expected two different points, got {} for both",
-                                print_vector(camera.eye)));
-    if (camera.up == glm::vec3(0.0f))
-        throw Error(ErrorKind::Usage, "--up: expected a direction, got 0,0,0");
+        throw Error(ErrorKind::Usage, fmt::format("--eye, --target: expected two different points, got {} for both",
+                                                  print_vector(camera.eye)));
+    if (camera.up == glm::vec3(0.0f)) throw Error(ErrorKind::Usage, "--up: expected a direction, got 0,0,0");
 }
 
 /// Applies one setting of a scene file; complaints name the file and the line.
-void apply_setting(const OptionSpec& spec,
-                   Options& options,
-                   const std::string& text,
-                   const SceneDescription& scene) {
+void apply_setting(const OptionSpec& spec, Options& options, const std::string& text, const SceneDescription& scene) {
     try {
         spec.parse(options, text);
     } catch (const Error& error) {
@@ -66,8 +57,7 @@ void apply_scene(Options& options, const SceneDescription& scene) {
     options.render.camera = scene.camera;
     for (const OptionSpec& spec : option_table())
         for (const auto& [name, text] : scene.settings)
-            if (name == spec.name && spec.in_scene_files)
-                apply_setting(spec, options, text, scene);
+            if (name == spec.name && spec.in_scene_files) apply_setting(spec, options, text, scene);
     settle_size(options);
 }
 
@@ -77,48 +67,40 @@ void check_combinations(Command command, Options& options) {
     if (needs_field && !method.uses_field)
         throw Error(
             ErrorKind::Usage,
-            fmt::format(
-                "--view {}: shows what was learned, and --method {} learns nothing: expected --method {}",
-                info_of(options.render.view).name, method.name, field_method_choices()));
+            fmt::format("--view {}: shows what was learned, and --method {} learns nothing: expected --method {}",
+                        info_of(options.render.view).name, method.name, field_method_choices()));
 }
 
 /// Inspection is about what was learned, so it does not inherit a method that learns nothing.
 void settle_inspection(const CommandLine& line, Options& options) {
     options.render.view = View::Beauty;
-    if (info_of(options.render.method).uses_field)
-        return;
+    if (info_of(options.render.method).uses_field) return;
     const bool given = std::any_of(line.given.begin(), line.given.end(),
                                    [](const GivenOption& option) { return option.spec->name == "method"; });
     if (given)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--method {}: learns nothing that could be inspected: expected {}",
-                                info_of(options.render.method).name, field_method_choices()));
+        throw Error(ErrorKind::Usage, fmt::format("--method {}: learns nothing that could be inspected: expected {}",
+                                                  info_of(options.render.method).name, field_method_choices()));
     options.render.method = MethodId::Reinforcement;
 }
 
 std::string shell_word(const std::string& text) {
-    constexpr std::string_view kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,+:@%=";
-    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos)
-        return text;
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,+:@%=";
+    if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
     std::string quoted = "'";
-    for (const char c : text)
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return quoted + "'";
 }
 
-} // namespace
+}  // namespace
 
 Options resolve_options(const CommandLine& line, const SceneDescription& scene) {
     Options options;
     apply_scene(options, scene);
-    for (const GivenOption& given : line.given)
-        apply_option(*given.spec, options, given.text);
+    for (const GivenOption& given : line.given) apply_option(*given.spec, options, given.text);
     options.scene = line.options.scene;
     settle_size(options);
     settle_camera(options);
-    if (line.command == Command::Inspect)
-        settle_inspection(line, options);
+    if (line.command == Command::Inspect) settle_inspection(line, options);
     check_combinations(line.command, options);
     return options;
 }
@@ -133,15 +115,13 @@ Options scene_defaults(const std::string& scene_name, const SceneDescription& sc
 std::string command_text(const Options& options, const Options& defaults) {
     std::string text = "pathlight render " + shell_word(options.scene);
     for (const OptionSpec& spec : option_table()) {
-        if (spec.print == nullptr)
-            continue;
+        if (spec.print == nullptr) continue;
         const std::string value = spec.print(options);
-        if (value.empty() || value == spec.print(defaults))
-            continue;
+        if (value.empty() || value == spec.print(defaults)) continue;
         const std::string name = spec.name == "output" ? "-o" : "--" + std::string(spec.name);
         text += fmt::format(" {} {}", name, shell_word(value));
     }
     return text;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -13,8 +13,7 @@ namespace {
 /// The larger one of the shares of both limits.
 double share_done(const Session& session, const Options& options, double seconds) {
     double share = static_cast<double>(session.passes()) / options.spp_limit();
-    if (options.time_limit_seconds)
-        share = std::max(share, seconds / *options.time_limit_seconds);
+    if (options.time_limit_seconds) share = std::max(share, seconds / *options.time_limit_seconds);
     return std::min(share, 1.0);
 }
 
@@ -41,18 +40,14 @@ ProgressState progress_of(const Session& session, const Options& options, double
 bool is_done(const Session& session, const Options& options, double seconds, Until until) {
     if (until == Until::Learned && session.settings().method == MethodId::Precomputed)
         return session.field_status() && session.field_status()->precomputed_share >= 1.0;
-    if (session.passes() == 0)
-        return false;
+    if (session.passes() == 0) return false;
     return session.passes() >= options.spp_limit() ||
            (options.time_limit_seconds && seconds >= *options.time_limit_seconds);
 }
 
-} // namespace
+}  // namespace
 
-RunOutcome run_passes(Session& session,
-                      const Options& options,
-                      const InterruptGuard& interrupt,
-                      Console& console,
+RunOutcome run_passes(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
                       Until until) {
     ProgressDisplay progress(console, !options.no_progress && !options.quiet);
     const Stopwatch watch;
@@ -66,4 +61,4 @@ RunOutcome run_passes(Session& session,
     return {.interrupted = false, .seconds = watch.seconds()};
 }
 
-} // namespace pl
+}  // namespace pl

@@ -13,13 +13,11 @@ Json mean_radiance(const Snapshot& snapshot) {
     glm::dvec3 sum(0.0);
     std::size_t count = 0;
     for (const Vec3f& pixel : snapshot.pixels) {
-        if (!std::isfinite(pixel.x + pixel.y + pixel.z))
-            continue;
+        if (!std::isfinite(pixel.x + pixel.y + pixel.z)) continue;
         sum += glm::dvec3(pixel);
         ++count;
     }
-    if (count > 0)
-        sum /= static_cast<double>(count);
+    if (count > 0) sum /= static_cast<double>(count);
     return Json::array({sum.x, sum.y, sum.z});
 }
 
@@ -31,11 +29,9 @@ Json clocks_json(const Clocks& clocks) {
 }
 
 Json field_json(const std::optional<FieldStatus>& field) {
-    if (!field)
-        return nullptr;
-    return {{"volumes", field->volumes}, {"bins", field->bins},
-            {"bytes", field->bytes},     {"passes", field->passes},
-            {"records", field->records}, {"lookup_misses", field->lookup_misses}};
+    if (!field) return nullptr;
+    return {{"volumes", field->volumes}, {"bins", field->bins},       {"bytes", field->bytes},
+            {"passes", field->passes},   {"records", field->records}, {"lookup_misses", field->lookup_misses}};
 }
 
 void add_counters(Json& stats, const PassCounters& counters) {
@@ -44,13 +40,12 @@ void add_counters(Json& stats, const PassCounters& counters) {
     stats["segments"] = counters.path.segments;
     stats["shadow_rays"] = counters.path.shadow_rays;
     stats["zero_contribution_paths"] = counters.zero_contribution_paths;
-    stats["mean_path_length"] =
-        counters.paths == 0 ? 0.0 : static_cast<double>(counters.path.segments) / paths;
+    stats["mean_path_length"] = counters.paths == 0 ? 0.0 : static_cast<double>(counters.path.segments) / paths;
     stats["invalid_samples"] = counters.invalid_samples;
     stats["escaped_paths"] = counters.path.escaped;
 }
 
-} // namespace
+}  // namespace
 
 Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options) {
     const RenderSettings& settings = session.settings();
@@ -81,4 +76,4 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
     return stats;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -12,4 +12,4 @@ namespace pl {
 /// Everything that `--stats` promises, in its order.
 Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options);
 
-} // namespace pl
+}  // namespace pl

@@ -50,15 +50,12 @@ std::string command_of(const ViewerPicture& picture, const SceneDescription& sce
     shown.display = picture.display;
     shown.backend = opened.backend;
     shown.threads = opened.threads;
-    if (picture.limits.spp > 0)
-        shown.spp = picture.limits.spp;
-    if (picture.limits.seconds > 0.0)
-        shown.time_limit_seconds = picture.limits.seconds;
+    if (picture.limits.spp > 0) shown.spp = picture.limits.spp;
+    if (picture.limits.seconds > 0.0) shown.time_limit_seconds = picture.limits.seconds;
     return command_text(shown, defaults);
 }
 
-ImageMetadata
-metadata_of(const ViewerPicture& picture, const Snapshot& snapshot, const std::string& command) {
+ImageMetadata metadata_of(const ViewerPicture& picture, const Snapshot& snapshot, const std::string& command) {
     return {{"Software", "pathlight " PL_VERSION},
             {"scene", picture.scene},
             {"method", std::string(info_of(snapshot.slot.method).name)},
@@ -82,7 +79,7 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
     viewer.scene_name = options.scene;
     viewer.scene = loaded.scene;
     viewer.load_seconds = loaded.load_seconds;
-    viewer.camera_from_scene = false; // resolved already
+    viewer.camera_from_scene = false;  // resolved already
     viewer.size_from_window = !has_size(line);
     if (options.window) {
         viewer.width = options.window->x;
@@ -90,10 +87,8 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
     }
     viewer.software = options.software;
     viewer.font = find_assets_dir() / "fonts" / "roboto-medium-latin.ttf";
-    if (!options.script.empty())
-        viewer.script = options.script;
-    if (!options.ui_trace.empty())
-        viewer.ui_trace = options.ui_trace;
+    if (!options.script.empty()) viewer.script = options.script;
+    if (!options.ui_trace.empty()) viewer.ui_trace = options.ui_trace;
     return viewer;
 }
 
@@ -117,7 +112,7 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
     };
 }
 
-} // namespace
+}  // namespace
 
 int run_view(const CommandLine& line, Console& console) {
     const LoadedScene loaded = open_scene(line.options.scene, console);
@@ -134,15 +129,14 @@ int run_view(const CommandLine& line, Console& console) {
     try {
         return run_viewer(viewer);
     } catch (const Error& error) {
-        if (error.kind() != ErrorKind::Unavailable)
-            throw;
+        if (error.kind() != ErrorKind::Unavailable) throw;
         throw Error(ErrorKind::Unavailable,
-                    fmt::format("{}; without a display: pathlight render {} -o {}.png", error.what(),
-                                options.scene, loaded.scene->source.stem().string()));
+                    fmt::format("{}; without a display: pathlight render {} -o {}.png", error.what(), options.scene,
+                                loaded.scene->source.stem().string()));
     }
 }
 
-} // namespace pl
+}  // namespace pl
 
 #else
 
@@ -154,6 +148,6 @@ int run_view(const CommandLine& line, Console&) {
                     line.options.scene + " -o picture.png");
 }
 
-} // namespace pl
+}  // namespace pl
 
 #endif

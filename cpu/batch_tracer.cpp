@@ -12,9 +12,7 @@ struct NameOf {
     std::string operator()(const BvhBatch&) const { return "bvh"; }
     std::string operator()(const DenseIntersector& dense) const { return fmt::format("dense ({})", dense.isa()); }
 #if PL_EMBREE_MAJOR > 0
-    std::string operator()(const EmbreeIntersector&) const {
-        return "embree " + EmbreeIntersector::version();
-    }
+    std::string operator()(const EmbreeIntersector&) const { return "embree " + EmbreeIntersector::version(); }
 #endif
 };
 
@@ -41,8 +39,6 @@ BatchTracer::AnyIntersector BatchTracer::choose(const SceneView& scene, Intersec
     return BvhBatch(scene);
 }
 
-std::string BatchTracer::name() const {
-    return std::visit(NameOf{}, intersector_);
-}
+std::string BatchTracer::name() const { return std::visit(NameOf{}, intersector_); }
 
 }  // namespace pl

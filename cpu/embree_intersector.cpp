@@ -54,13 +54,9 @@ struct Query {
     /// Where the tests disagree about one triangle, Embree may not offer the one that ours would have taken instead:
     /// its neighbor at an edge. And even in its robust mode a ray through a corner of a closed mesh may get out, which
     /// ours never lets happen. Both go through our own hierarchy: the first is rare, the second ends a path.
-    Hit closest() const {
-        return disagreed || !best.found() ? BvhIntersector{*scene}.closest_hit(ray) : best;
-    }
+    Hit closest() const { return disagreed || !best.found() ? BvhIntersector{*scene}.closest_hit(ray) : best; }
     /// Misses are not looked at again: they are what most shadow rays are for, and one in millions matters to none.
-    bool occluded() const {
-        return best.found() || (disagreed && BvhIntersector{*scene}.occluded(ray));
-    }
+    bool occluded() const { return best.found() || (disagreed && BvhIntersector{*scene}.occluded(ray)); }
 };
 static_assert(std::is_standard_layout_v<Query>);
 
@@ -187,8 +183,6 @@ void EmbreeIntersector::find_occluded(RayBatch& batch, std::uint32_t count) cons
     }
 }
 
-std::string EmbreeIntersector::version() {
-    return RTC_VERSION_STRING;
-}
+std::string EmbreeIntersector::version() { return RTC_VERSION_STRING; }
 
 }  // namespace pl

@@ -14,9 +14,7 @@ namespace {
 /// Pixels that a thread empties or reads at once.
 constexpr std::uint32_t kPixelChunk = 1u << 14;
 
-std::size_t index_of(FilmSlot slot) {
-    return static_cast<std::size_t>(slot.index());
-}
+std::size_t index_of(FilmSlot slot) { return static_cast<std::size_t>(slot.index()); }
 
 Vec3f mean_or_nan(const FilmPixel& pixel) {
     const bool all_invalid = pixel.samples == 0 && pixel.invalid > 0;

@@ -63,8 +63,6 @@ extern const LaneKernels kLaneKernelsAvx512;  ///< only in builds with PL_LANE_C
 /// Those that this build has and this machine can run, widest vectors last.
 std::span<const LaneKernels> usable_lane_kernels();
 
-inline const LaneKernels& best_lane_kernels() {
-    return usable_lane_kernels().back();
-}
+inline const LaneKernels& best_lane_kernels() { return usable_lane_kernels().back(); }
 
 }  // namespace pl

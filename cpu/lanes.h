@@ -41,12 +41,8 @@ PL_INLINE void store_lanes(const Lanes& lanes, T* row) {
     std::memcpy(row, &lanes, sizeof(lanes));
 }
 
-PL_INLINE LaneFloat broadcast(float x) {
-    return x - LaneFloat{};
-}
-PL_INLINE LaneUint broadcast(std::uint32_t x) {
-    return x - LaneUint{};
-}
+PL_INLINE LaneFloat broadcast(float x) { return x - LaneFloat{}; }
+PL_INLINE LaneUint broadcast(std::uint32_t x) { return x - LaneUint{}; }
 
 /// |x|, bit for bit as std::fabs.
 PL_INLINE LaneFloat magnitude(LaneFloat x) {

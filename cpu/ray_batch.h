@@ -12,9 +12,7 @@ namespace pl {
 /// Rays that are stored together: 16 floats are a cache line and one vector of the widest instruction set.
 inline constexpr std::uint32_t kGroupSize = 16;
 
-constexpr std::uint32_t group_count(std::uint32_t count) {
-    return (count + kGroupSize - 1) / kGroupSize;
-}
+constexpr std::uint32_t group_count(std::uint32_t count) { return (count + kGroupSize - 1) / kGroupSize; }
 
 /// 16 rays. Lanes that were never set hold the default ray.
 struct alignas(64) RayGroup {

@@ -15,12 +15,8 @@ constexpr Modifiers kShift{.shift = true};
 constexpr Modifiers kCtrl{.ctrl = true};
 constexpr Modifiers kCtrlShift{.shift = true, .ctrl = true};
 
-constexpr Chord at(int scancode, Modifiers modifiers = {}) {
-    return {Chord::By::Place, scancode, modifiers};
-}
-constexpr Chord sign(int symbol, Modifiers modifiers = {}) {
-    return {Chord::By::Symbol, symbol, modifiers};
-}
+constexpr Chord at(int scancode, Modifiers modifiers = {}) { return {Chord::By::Place, scancode, modifiers}; }
+constexpr Chord sign(int symbol, Modifiers modifiers = {}) { return {Chord::By::Symbol, symbol, modifiers}; }
 
 constexpr std::array kActions{
     Action{MoveForward, ActionGroup::Fly, "W", "fly forward", {at(SDL_SCANCODE_W)}, true},
@@ -102,12 +98,8 @@ std::string code(const std::string& keys) {
 
 }  // namespace
 
-std::span<const Action> all_actions() {
-    return kActions;
-}
-std::span<const MouseAction> mouse_actions() {
-    return kMouseActions;
-}
+std::span<const Action> all_actions() { return kActions; }
+std::span<const MouseAction> mouse_actions() { return kMouseActions; }
 
 const Action& info_of(ActionId id) {
     for (const Action& action : kActions)

@@ -7,9 +7,7 @@ namespace {
 
 constexpr float kSpeedPerNotch = 1.25f;
 
-float radians(float deg) {
-    return deg * (kPi / 180.0f);
-}
+float radians(float deg) { return deg * (kPi / 180.0f); }
 
 /// Unit up axis; a zero one becomes +y.
 Vec3f up_axis(const CameraDescription& camera) {

@@ -136,9 +136,7 @@ void Display::close() {
     window_ = nullptr;
 }
 
-void Display::set_title(const std::string& title) {
-    SDL_SetWindowTitle(window_, title.c_str());
-}
+void Display::set_title(const std::string& title) { SDL_SetWindowTitle(window_, title.c_str()); }
 
 void Display::toggle_full_screen() {
     const bool is_full = (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;

@@ -58,8 +58,6 @@ void Gui::frame(double delta_seconds, const std::function<void()>& build) {
     ImGui::Render();
 }
 
-void Gui::draw() {
-    draw_.draw(*ImGui::GetDrawData());
-}
+void Gui::draw() { draw_.draw(*ImGui::GetDrawData()); }
 
 }  // namespace pl

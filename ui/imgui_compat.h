@@ -31,8 +31,6 @@ inline bool init_imgui_platform(SDL_Window* window, [[maybe_unused]] SDL_Rendere
 inline ImTextureID to_texture_id(SDL_Texture* texture) {
     return (ImTextureID)(std::intptr_t)texture;  // a C cast does both
 }
-inline SDL_Texture* from_texture_id(ImTextureID id) {
-    return (SDL_Texture*)(std::intptr_t)id;
-}
+inline SDL_Texture* from_texture_id(ImTextureID id) { return (SDL_Texture*)(std::intptr_t)id; }
 
 }  // namespace pl

@@ -28,8 +28,6 @@ private:
 };
 
 /// Width or height after division; at least 1.
-constexpr int divided(int size, int divider) {
-    return size / divider > 0 ? size / divider : 1;
-}
+constexpr int divided(int size, int divider) { return size / divider > 0 ? size / divider : 1; }
 
 }  // namespace pl

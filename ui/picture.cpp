@@ -12,13 +12,9 @@ constexpr std::uint32_t kInvalidPixel = 0xffff00ffu;
 constexpr std::uint32_t kOutlinePixel = 0xffffffffu;
 constexpr std::uint32_t kOutlineShade = 0xff000000u;
 
-std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
-    return kOpaque | r << 16 | g << 8 | b;
-}
+std::uint32_t pack(std::uint32_t r, std::uint32_t g, std::uint32_t b) { return kOpaque | r << 16 | g << 8 | b; }
 
-bool is_nan(Vec3f v) {
-    return v.x != v.x || v.y != v.y || v.z != v.z;
-}
+bool is_nan(Vec3f v) { return v.x != v.x || v.y != v.y || v.z != v.z; }
 
 /// a + (b - a) * weight / 256, per channel.
 std::uint32_t blend(std::uint32_t a, std::uint32_t b, std::uint32_t weight) {

@@ -23,9 +23,7 @@ void yield_to_the_window() {
 }
 
 /// Seconds between two pictures: the longer it has rendered, the less a pass changes.
-double display_interval(double seconds) {
-    return seconds < 2.0 ? 1.0 / 30.0 : (seconds < 10.0 ? 0.1 : 0.25);
-}
+double display_interval(double seconds) { return seconds < 2.0 ? 1.0 / 30.0 : (seconds < 10.0 ? 0.1 : 0.25); }
 
 /// Does the edit change which volume a pixel shows?
 bool changes_pose(const SessionEdit& edit) {
@@ -265,9 +263,7 @@ void RenderWorker::work() {
 }
 
 /// While the camera moves, and until the last place it came to was seen at all.
-bool RenderWorker::coarse() const {
-    return now_.low_resolution && (now_.moving || pose_unseen_);
-}
+bool RenderWorker::coarse() const { return now_.low_resolution && (now_.moving || pose_unseen_); }
 
 bool RenderWorker::wants_pass() const {
     if (failed_) return false;

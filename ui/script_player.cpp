@@ -46,9 +46,7 @@ void ScriptPlayer::step(ViewerModel& model, const Rect& image, double seconds) {
     if (next_ == commands_.size()) model.window().quit_asked = true;
 }
 
-std::optional<std::filesystem::path> ScriptPlayer::take_shot() {
-    return std::exchange(shot_, std::nullopt);
-}
+std::optional<std::filesystem::path> ScriptPlayer::take_shot() { return std::exchange(shot_, std::nullopt); }
 
 bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, double seconds) {
     if (holds(command.condition, script_value(model, command.condition.name))) {

@@ -15,17 +15,11 @@ struct Value {
     std::string (*read)(const ViewerModel& model);
 };
 
-std::string word(bool value) {
-    return value ? "yes" : "no";
-}
+std::string word(bool value) { return value ? "yes" : "no"; }
 
-std::string vector_text(Vec3f v) {
-    return fmt::format("{:.3f},{:.3f},{:.3f}", v.x, v.y, v.z);
-}
+std::string vector_text(Vec3f v) { return fmt::format("{:.3f},{:.3f},{:.3f}", v.x, v.y, v.z); }
 
-std::string last_message(const ViewerModel& model) {
-    return model.log().empty() ? "" : model.log().back().text;
-}
+std::string last_message(const ViewerModel& model) { return model.log().empty() ? "" : model.log().back().text; }
 
 std::string learned_passes(const ViewerModel& model) {
     return fmt::format("{}", model.status().field ? model.status().field->passes : 0);

@@ -27,12 +27,8 @@ void apply_style(float ui_scale);
 void load_fonts(const std::filesystem::path& font, float ui_scale);
 
 /// n times the height of the font.
-inline float em(float n) {
-    return n * ImGui::GetFontSize();
-}
+inline float em(float n) { return n * ImGui::GetFontSize(); }
 
-inline ImVec4 to_vec4(ImU32 color) {
-    return ImGui::ColorConvertU32ToFloat4(color);
-}
+inline ImVec4 to_vec4(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
 
 }  // namespace pl

@@ -179,9 +179,7 @@ void ViewerModel::single_pass() {
     worker_.step();
 }
 
-void ViewerModel::restart() {
-    worker_.submit(EditRestart{});
-}
+void ViewerModel::restart() { worker_.submit(EditRestart{}); }
 
 void ViewerModel::forget() {
     worker_.submit(EditForget{});
@@ -205,22 +203,16 @@ void ViewerModel::cancel_precomputation() {
 
 // --- display ---------------------------------------------------------------------------------------------------
 
-void ViewerModel::set_exposure(float ev) {
-    display_.exposure_ev = std::clamp(ev, -kMaxExposureEv, kMaxExposureEv);
-}
+void ViewerModel::set_exposure(float ev) { display_.exposure_ev = std::clamp(ev, -kMaxExposureEv, kMaxExposureEv); }
 
-void ViewerModel::set_curve(ToneCurve curve) {
-    display_.curve = curve;
-}
+void ViewerModel::set_curve(ToneCurve curve) { display_.curve = curve; }
 
 void ViewerModel::set_cells(bool on) {
     window_.cells = on;
     worker_.set_cells_wanted(on || selected_volume_ != kNoVolume);
 }
 
-void ViewerModel::set_cells_opacity(float opacity) {
-    window_.cells_opacity = std::clamp(opacity, 0.0f, 1.0f);
-}
+void ViewerModel::set_cells_opacity(float opacity) { window_.cells_opacity = std::clamp(opacity, 0.0f, 1.0f); }
 
 void ViewerModel::set_low_resolution(bool allowed) {
     window_.low_resolution = allowed;
@@ -270,9 +262,7 @@ void ViewerModel::set_camera(const CameraDescription& camera) {
 
 // --- selection -------------------------------------------------------------------------------------------------
 
-void ViewerModel::pick(Vec2f image_point) {
-    worker_.request_pick(image_point);
-}
+void ViewerModel::pick(Vec2f image_point) { worker_.request_pick(image_point); }
 
 void ViewerModel::take_pick() {
     const std::optional<PickAnswer> answer = worker_.take_pick();
@@ -304,13 +294,9 @@ void ViewerModel::deselect() {
 
 // --- files -----------------------------------------------------------------------------------------------------
 
-void ViewerModel::reload() {
-    start_loading(scene_name_, true);
-}
+void ViewerModel::reload() { start_loading(scene_name_, true); }
 
-void ViewerModel::open(const std::string& scene) {
-    start_loading(scene, false);
-}
+void ViewerModel::open(const std::string& scene) { start_loading(scene, false); }
 
 void ViewerModel::start_loading(const std::string& name, bool keep_camera) {
     note(LogLevel::Info, "loading " + name);
@@ -338,13 +324,9 @@ void ViewerModel::adopt_scene(std::shared_ptr<const SceneDescription> scene, con
     worker_.submit(EditCamera{camera});
 }
 
-void ViewerModel::save_screenshot() {
-    save({".png"});
-}
+void ViewerModel::save_screenshot() { save({".png"}); }
 
-void ViewerModel::save_picture() {
-    save({".exr", ".png"});
-}
+void ViewerModel::save_picture() { save({".exr", ".png"}); }
 
 void ViewerModel::save(std::initializer_list<const char*> suffixes) {
     if (!frame_ || !options_.save_image) {

@@ -8,11 +8,11 @@ namespace pl {
 
 /// Exit codes of the program (see README, "Exit codes").
 enum class ErrorKind {
-    Runtime = 1,     ///< something failed while working (disk full, ...)
-    Usage = 2,       ///< the command line is wrong
-    Input = 3,       ///< a file is missing or invalid
-    Unavailable = 4, ///< back end, device or display is not there
-    Threshold = 5,   ///< a threshold asked for was missed
+    Runtime = 1,      ///< something failed while working (disk full, ...)
+    Usage = 2,        ///< the command line is wrong
+    Input = 3,        ///< a file is missing or invalid
+    Unavailable = 4,  ///< back end, device or display is not there
+    Threshold = 5,    ///< a threshold asked for was missed
 };
 
 class Error : public std::runtime_error {
@@ -24,4 +24,4 @@ private:
     ErrorKind kind_;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -11,15 +11,13 @@ namespace pl {
 class Fnv1a {
 public:
     void add(std::uint64_t value) {
-        for (int byte = 0; byte < 8; ++byte)
-            add_byte(static_cast<std::uint8_t>(value >> (8 * byte)));
+        for (int byte = 0; byte < 8; ++byte) add_byte(static_cast<std::uint8_t>(value >> (8 * byte)));
     }
     /// The bits of the number; -0 counts as 0, because no picture tells them apart.
     void add(float value) { add(std::uint64_t{std::bit_cast<std::uint32_t>(value == 0.0f ? 0.0f : value)}); }
     void add(std::string_view text) {
         add(std::uint64_t{text.size()});
-        for (const char c : text)
-            add_byte(static_cast<std::uint8_t>(c));
+        for (const char c : text) add_byte(static_cast<std::uint8_t>(c));
     }
 
     std::uint64_t value() const { return state_; }
@@ -30,4 +28,4 @@ private:
     std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -20,4 +20,4 @@ Span<T> view_of(HostArray<T>& array) {
     return {array.data(), static_cast<std::uint32_t>(array.size())};
 }
 
-} // namespace pl
+}  // namespace pl

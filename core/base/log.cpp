@@ -26,13 +26,10 @@ bool can_redraw() {
 
 std::string_view word_of(LogLevel level) {
     switch (level) {
-    case LogLevel::Error:
-        return "error: ";
-    case LogLevel::Warning:
-        return "warning: ";
+    case LogLevel::Error: return "error: ";
+    case LogLevel::Warning: return "warning: ";
     case LogLevel::Notice:
-    case LogLevel::Detail:
-        return "";
+    case LogLevel::Detail: return "";
     }
     return "";
 }
@@ -40,13 +37,10 @@ std::string_view word_of(LogLevel level) {
 /// Red for errors, yellow for warnings.
 std::string_view color_of(LogLevel level) {
     switch (level) {
-    case LogLevel::Error:
-        return "\033[1;31m";
-    case LogLevel::Warning:
-        return "\033[1;33m";
+    case LogLevel::Error: return "\033[1;31m";
+    case LogLevel::Warning: return "\033[1;33m";
     case LogLevel::Notice:
-    case LogLevel::Detail:
-        return "";
+    case LogLevel::Detail: return "";
     }
     return "";
 }
@@ -56,13 +50,11 @@ void put(std::string_view text, std::FILE* file) {
     (void)std::fwrite(text.data(), 1, text.size(), file);
 }
 
-} // namespace
+}  // namespace
 
 Log::Log() : terminal_(can_redraw()), color_(terminal_ && !is_set("NO_COLOR")) {}
 
-Log::~Log() {
-    clear_status();
-}
+Log::~Log() { clear_status(); }
 
 void Log::open_file(const std::filesystem::path& path) {
     file_.reset(std::fopen(path.c_str(), "a"));
@@ -73,8 +65,7 @@ void Log::open_file(const std::filesystem::path& path) {
 
 void Log::show_status(std::string_view line) {
     const std::lock_guard lock(mutex_);
-    if (!terminal_)
-        return;
+    if (!terminal_) return;
     put("\r\033[K", stderr);
     put(line, stderr);
     std::fflush(stderr);
@@ -87,8 +78,7 @@ void Log::clear_status() {
 }
 
 void Log::erase_status() {
-    if (!status_shown_)
-        return;
+    if (!status_shown_) return;
     put("\r\033[K", stderr);
     std::fflush(stderr);
     status_shown_ = false;
@@ -96,16 +86,14 @@ void Log::erase_status() {
 
 int Log::terminal_width() const {
     winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
-        return 80;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
     return size.ws_col;
 }
 
 void Log::write(LogLevel level, std::string_view message) {
     const std::lock_guard lock(mutex_);
     write_to_file(level, message);
-    if (level > level_)
-        return;
+    if (level > level_) return;
     erase_status();
     const std::string_view word = word_of(level);
     const std::string head =
@@ -115,8 +103,7 @@ void Log::write(LogLevel level, std::string_view message) {
 }
 
 void Log::write_to_file(LogLevel level, std::string_view message) {
-    if (!file_)
-        return;
+    if (!file_) return;
     const std::time_t now = std::time(nullptr);
     std::tm local{};
     localtime_r(&now, &local);
@@ -127,4 +114,4 @@ void Log::write_to_file(LogLevel level, std::string_view message) {
     std::fflush(file_.get());
 }
 
-} // namespace pl
+}  // namespace pl

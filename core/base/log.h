@@ -56,4 +56,4 @@ private:
     std::unique_ptr<std::FILE, CloseFile> file_;
 };
 
-} // namespace pl
+}  // namespace pl

@@ -16,4 +16,4 @@ private:
     std::chrono::steady_clock::time_point start_;
 };
 
-} // namespace pl
+}  // namespace pl

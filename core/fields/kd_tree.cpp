@@ -7,9 +7,7 @@
 namespace pl {
 namespace {
 
-bool is_finite(Vec3f v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 using NodeIterator = std::vector<KdNode>::iterator;
 
@@ -28,8 +26,7 @@ std::uint32_t longest_axis(NodeIterator begin, NodeIterator end) {
 /// Puts the median of the longest axis in the middle and its lesser and greater ones around it. Equal coordinates
 /// are ordered by number, so that the order is total. Ranges halve, so the recursion is at most 32 deep.
 void arrange(NodeIterator begin, NodeIterator end) {
-    if (begin == end)
-        return;
+    if (begin == end) return;
     const std::uint32_t axis = longest_axis(begin, end);
     const auto middle = begin + (end - begin) / 2;
     std::nth_element(begin, middle, end, [axis](const KdNode& a, const KdNode& b) {
@@ -42,16 +39,15 @@ void arrange(NodeIterator begin, NodeIterator end) {
     arrange(middle + 1, end);
 }
 
-} // namespace
+}  // namespace
 
 std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites) {
     std::vector<KdNode> nodes;
     nodes.reserve(sites.count);
     for (std::uint32_t i = 0; i < sites.count; ++i)
-        if (is_finite(sites[i].position))
-            nodes.push_back({sites[i].position, i, sites[i].geometric_normal, 0});
+        if (is_finite(sites[i].position)) nodes.push_back({sites[i].position, i, sites[i].geometric_normal, 0});
     arrange(nodes.begin(), nodes.end());
     return nodes;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -28,8 +28,7 @@ struct BoundingSphere {
 };
 
 BoundingSphere bounding_sphere(const HostScene& scene) {
-    if (scene.bvh_nodes.empty())
-        return {};
+    if (scene.bvh_nodes.empty()) return {};
     const BvhNode& root = scene.bvh_nodes.front();
     return {0.5f * root.low + 0.5f * root.high, 0.5f * glm::length(root.high - root.low)};
 }
@@ -39,8 +38,7 @@ Ray leave_light(const HostScene& scene, const SceneView& view, Vec4f u, Vec4f v)
     SurfacePoint point = sample_light(view, Vec3f{0.0f}, {u.x, u.y, u.z});
     const Material& material = scene.materials[point.material];
     const bool want_front = material.two_sided_emission == 0 || v.x < 0.5f;
-    if (point.front != want_front)
-        point.geometric_normal = -point.geometric_normal;
+    if (point.front != want_front) point.geometric_normal = -point.geometric_normal;
     point.shading_normal = point.geometric_normal;
     return spawn_ray(point, lambert_sample(point, {v.y, v.z}));
 }
@@ -55,8 +53,7 @@ Ray enter_from_environment(const BoundingSphere& sphere, Vec4f u, Vec4f v) {
     const Vec3f direction = glm::normalize(Vec3f{circle.x * stretch, circle.y * stretch, cos_theta});
     const Vec2f disk = sphere.radius * square_to_disk({v.x, v.y});
     const Frame frame = make_frame(direction);
-    const Vec3f origin =
-        sphere.center + disk.x * frame.x + disk.y * frame.y - 2.0f * sphere.radius * direction;
+    const Vec3f origin = sphere.center + disk.x * frame.x + disk.y * frame.y - 2.0f * sphere.radius * direction;
     return {.origin = origin, .direction = direction};
 }
 
@@ -69,8 +66,7 @@ public:
     std::vector<Arrivals> walk_all() {
         const bool sky = !is_black(scene_.environment);
         const bool lights = !scene_.lights.empty();
-        if (!sky && !lights)
-            return arrivals_;
+        if (!sky && !lights) return arrivals_;
         for (std::uint32_t i = 0; i < kWalks; ++i) {
             const Rng rng{kSeed, Stream::Placement, i, 0};
             const Vec4f u = rng.draw(0, Purpose::Placement);
@@ -85,11 +81,9 @@ private:
     void walk(Ray ray, const Rng& rng) {
         for (std::uint32_t vertex = 0; vertex < kMaxVertices; ++vertex) {
             const Hit hit = intersector_.closest_hit(ray);
-            if (!hit.found())
-                return;
+            if (!hit.found()) return;
             const std::uint32_t surface = surfaces_.of_triangle[hit.primitive];
-            if (surface == kNoSurface)
-                return;
+            if (surface == kNoSurface) return;
             const SurfacePoint point = make_surface_point<FeatureSet{}>(view_, hit, -ray.direction);
             ++(point.front ? arrivals_[surface].front : arrivals_[surface].back);
             const Vec4f u = rng.draw(vertex + 2, Purpose::Placement);
@@ -105,7 +99,7 @@ private:
     std::vector<Arrivals> arrivals_;
 };
 
-} // namespace
+}  // namespace
 
 std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& surfaces) {
     std::vector<LitSides> sides;
@@ -117,4 +111,4 @@ std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& sur
     return sides;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -8,20 +8,16 @@ namespace {
 
 constexpr double kBytesPerMegabyte = 1.0e6;
 
-int side_of(int bins) {
-    return static_cast<int>(std::lround(std::sqrt(static_cast<double>(bins))));
-}
+int side_of(int bins) { return static_cast<int>(std::lround(std::sqrt(static_cast<double>(bins)))); }
 
 /// Smallest power of two not below `value`, kept where neither dividing by it nor kMaxRecordedUnits times it can
 /// leave the range of float.
 float power_of_two_above(float value) {
     constexpr int kMaxExponent = 100;
-    if (!(value > 0.0f))
-        return 1.0f;
+    if (!(value > 0.0f)) return 1.0f;
     int exponent = 0;
-    const float mantissa = std::frexp(value, &exponent); // in [0.5, 1)
-    if (mantissa == 0.5f)
-        --exponent;
+    const float mantissa = std::frexp(value, &exponent);  // in [0.5, 1)
+    if (mantissa == 0.5f) --exponent;
     return std::ldexp(1.0f, std::clamp(exponent, -kMaxExponent, kMaxExponent));
 }
 
@@ -30,7 +26,7 @@ std::size_t bytes_of(const HostArray<T>& array) {
     return array.size() * sizeof(T);
 }
 
-} // namespace
+}  // namespace
 
 std::size_t bytes_per_volume(int bins) {
     const std::size_t per_cell = 2 * sizeof(float) + 2 * sizeof(std::uint32_t) + sizeof(std::int64_t);
@@ -40,8 +36,7 @@ std::size_t bytes_per_volume(int bins) {
 }
 
 int volume_count(const FieldSettings& settings) {
-    if (settings.volumes > 0)
-        return settings.volumes;
+    if (settings.volumes > 0) return settings.volumes;
     const double budget = settings.budget_megabytes * kBytesPerMegabyte;
     const double affordable = budget / static_cast<double>(bytes_per_volume(settings.bins));
     return std::max(1, static_cast<int>(std::min(affordable, static_cast<double>(kDefaultVolumes))));
@@ -73,10 +68,8 @@ HostTables make_tables(const FieldShape& shape, std::size_t volumes) {
     const auto uniform = [side](std::size_t i) {
         return static_cast<float>(i % side + 1) / static_cast<float>(side);
     };
-    for (std::size_t i = 0; i < tables.row_cdf.size(); ++i)
-        tables.row_cdf[i] = uniform(i);
-    for (std::size_t i = 0; i < tables.column_cdf.size(); ++i)
-        tables.column_cdf[i] = uniform(i);
+    for (std::size_t i = 0; i < tables.row_cdf.size(); ++i) tables.row_cdf[i] = uniform(i);
+    for (std::size_t i = 0; i < tables.column_cdf.size(); ++i) tables.column_cdf[i] = uniform(i);
     return tables;
 }
 
@@ -87,4 +80,4 @@ std::size_t field_bytes(const HostVolumes& volumes, const HostTables& tables) {
            bytes_of(tables.mean_radiance);
 }
 
-} // namespace pl
+}  // namespace pl

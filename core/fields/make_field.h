@@ -9,12 +9,12 @@
 namespace pl {
 
 struct FieldSettings {
-    int volumes = 0;                       ///< 0: as many as the budget holds, at most kDefaultVolumes
-    double budget_megabytes = 16.0;        ///< of 10^6 bytes, all tables of one method
-    int bins = 256;                        ///< directions per volume, a square number from 4 to 1024
+    int volumes = 0;                 ///< 0: as many as the budget holds, at most kDefaultVolumes
+    double budget_megabytes = 16.0;  ///< of 10^6 bytes, all tables of one method
+    int bins = 256;                  ///< directions per volume, a square number from 4 to 1024
     LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = 0.05f;
-    int precompute_samples = 16;           ///< paths per cell and volume, a square number
+    int precompute_samples = 16;  ///< paths per cell and volume, a square number
 
     friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };

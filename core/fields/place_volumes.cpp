@@ -22,8 +22,7 @@ std::vector<Side> lit_sides_of(const HostScene& scene, const Surfaces& surfaces)
     std::vector<Side> sides;
     for (std::uint32_t i = 0; i < surfaces.list.size(); ++i)
         for (const bool front : {true, false})
-            if (lit[i][front ? 0 : 1])
-                sides.push_back({i, front, surfaces.list[i].area});
+            if (lit[i][front ? 0 : 1]) sides.push_back({i, front, surfaces.list[i].area});
     return sides;
 }
 
@@ -31,14 +30,12 @@ std::vector<Side> lit_sides_of(const HostScene& scene, const Surfaces& surfaces)
 void share_out(std::vector<Side>& sides, std::uint32_t volumes) {
     const bool one_each = sides.size() <= volumes;
     double area = 0.0;
-    for (const Side& side : sides)
-        area += side.area;
+    for (const Side& side : sides) area += side.area;
     // Sides too small for their share take one; that shrinks the share of the others, so look again.
     for (bool changed = one_each; changed;) {
         changed = false;
         for (Side& side : sides) {
-            if (side.volumes > 0 || side.area * volumes >= area)
-                continue;
+            if (side.volumes > 0 || side.area * volumes >= area) continue;
             side.volumes = 1;
             --volumes;
             area -= side.area;
@@ -49,8 +46,7 @@ void share_out(std::vector<Side>& sides, std::uint32_t volumes) {
     double running = 0.0;
     std::uint32_t given = 0;
     for (Side& side : sides) {
-        if (side.volumes > 0)
-            continue;
+        if (side.volumes > 0) continue;
         running += side.area;
         const auto due = static_cast<std::uint32_t>(
             std::min(std::floor(running / area * volumes + 0.5), static_cast<double>(volumes)));
@@ -62,8 +58,7 @@ void share_out(std::vector<Side>& sides, std::uint32_t volumes) {
 /// Bits of `index` mirrored behind the binary point, in [0, 1).   [van der Corput 1935]
 float radical_inverse(std::uint32_t index) {
     std::uint32_t mirrored = 0;
-    for (int bit = 0; bit < 32; ++bit)
-        mirrored |= ((index >> bit) & 1u) << (31 - bit);
+    for (int bit = 0; bit < 32; ++bit) mirrored |= ((index >> bit) & 1u) << (31 - bit);
     return static_cast<float>(mirrored >> 8) * 0x1p-24f;
 }
 
@@ -72,7 +67,7 @@ void place_on(const SceneView& scene, const Surface& surface, const Side& side, 
     // Half a step of the mirrored numbers below `volumes`, so that the first one does not stand on an edge.
     const float half_step = 0.5f / static_cast<float>(std::bit_ceil(side.volumes));
     std::size_t current = 0;
-    double start = 0.0; // area of the triangles before the current one
+    double start = 0.0;  // area of the triangles before the current one
     double area = area_of(scene, surface.triangles.front());
     for (std::uint32_t i = 0; i < side.volumes; ++i) {
         const double target = (i + 0.5) / side.volumes * side.area;
@@ -89,17 +84,16 @@ void place_on(const SceneView& scene, const Surface& surface, const Side& side, 
     }
 }
 
-} // namespace
+}  // namespace
 
 HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings) {
     const Surfaces surfaces = find_surfaces(scene);
     std::vector<Side> sides = lit_sides_of(scene, surfaces);
     share_out(sides, static_cast<std::uint32_t>(volume_count(settings)));
     HostVolumes volumes;
-    for (const Side& side : sides)
-        place_on(scene.view(), surfaces.list[side.surface], side, volumes);
+    for (const Side& side : sides) place_on(scene.view(), surfaces.list[side.surface], side, volumes);
     volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
     return volumes;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -17,13 +17,13 @@ inline constexpr float kMinSurfaceCosine = 0.94868330f;
 
 /// A surface grown over shared corners from its first triangle.
 struct Surface {
-    std::vector<std::uint32_t> triangles; ///< ascending
+    std::vector<std::uint32_t> triangles;  ///< ascending
     double area = 0.0;
 };
 
 struct Surfaces {
-    std::vector<Surface> list;              ///< in the order of their first triangles
-    std::vector<std::uint32_t> of_triangle; ///< [triangle], index into `list` or kNoSurface
+    std::vector<Surface> list;               ///< in the order of their first triangles
+    std::vector<std::uint32_t> of_triangle;  ///< [triangle], index into `list` or kNoSurface
 };
 
 /// Corners are shared if they are at the same position, whether or not the file wrote it twice.
@@ -39,4 +39,4 @@ using LitSides = std::array<bool, 2>;
 /// its surface. Surfaces that receive nothing are taken as lit from the front.
 std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& surfaces);
 
-} // namespace pl
+}  // namespace pl

@@ -19,8 +19,8 @@ namespace pl {
 
 namespace {
 
-constexpr std::size_t kMostAttributes = 100;                      // the library reads back up to 128
-constexpr std::array<const char*, 3> kChannels = {"B", "G", "R"}; // files hold channels in alphabetical order
+constexpr std::size_t kMostAttributes = 100;                       // the library reads back up to 128
+constexpr std::array<const char*, 3> kChannels = {"B", "G", "R"};  // files hold channels in alphabetical order
 
 /// Takes over the library's message.
 std::string take_message(const char* message) {
@@ -79,7 +79,7 @@ struct ImageOwner {
     bool loaded = false;
     ImageOwner() { InitEXRImage(&image); }
     ~ImageOwner() {
-        if (loaded) { // after a failure the library has freed the pixels, and would free them again
+        if (loaded) {  // after a failure the library has freed the pixels, and would free them again
             FreeEXRImage(&image);
         }
     }
@@ -89,8 +89,7 @@ struct ImageOwner {
 
 /// Value of an attribute of type string. The library gives an empty one as a single null character.
 std::string text_of(const EXRAttribute& attribute) {
-    const std::string text(reinterpret_cast<const char*>(attribute.value),
-                           static_cast<std::size_t>(attribute.size));
+    const std::string text(reinterpret_cast<const char*>(attribute.value), static_cast<std::size_t>(attribute.size));
     return text.substr(0, text.find('\0'));
 }
 
@@ -133,7 +132,7 @@ int channel_index(const std::filesystem::path& path, const EXRHeader& header, co
     fail_image(path, fmt::format("expected the channels R, G and B, {} is missing", name));
 }
 
-} // namespace
+}  // namespace
 
 void write_exr(const std::filesystem::path& path, const LinearImage& image, const ImageMetadata& metadata) {
     require_complete(path, image.width, image.height, image.pixels.size(), 1);
@@ -155,7 +154,7 @@ void write_exr(const std::filesystem::path& path, const LinearImage& image, cons
     exr_image.height = image.height;
     exr_image.num_channels = 3;
 
-    EXRHeader header; // not a HeaderOwner: everything it points to lives above
+    EXRHeader header;  // not a HeaderOwner: everything it points to lives above
     InitEXRHeader(&header);
     header.num_channels = 3;
     header.channels = channels.data();
@@ -189,8 +188,7 @@ LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata)
     image.image.num_channels = header.num_channels;  // else the library forgets to free them when it fails
     const char* message = nullptr;
     const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
-    image.loaded =
-        LoadEXRImageFromMemory(&image.image, &header, data, bytes.size(), &message) == TINYEXR_SUCCESS;
+    image.loaded = LoadEXRImageFromMemory(&image.image, &header, data, bytes.size(), &message) == TINYEXR_SUCCESS;
     if (!image.loaded) {
         fail_image(path, "EXR pixels: " + take_message(message));
     }
@@ -211,4 +209,4 @@ LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata)
     return result;
 }
 
-} // namespace pl
+}  // namespace pl

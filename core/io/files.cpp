@@ -23,9 +23,7 @@ struct CloseFile {
 };
 using FileHandle = std::unique_ptr<std::FILE, CloseFile>;
 
-std::string reason(int error_number) {
-    return std::generic_category().message(error_number);
-}
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
 
 [[noreturn]] void fail_read(const fs::path& path, const std::string& why) {
     throw Error(ErrorKind::Input, fmt::format("{}: cannot be read: {}", path.string(), why));
@@ -54,18 +52,16 @@ fs::path temporary_beside(const fs::path& path) {
     return path.parent_path() / fmt::format(".pathlight-{}-{}.tmp", ::getpid(), counter.fetch_add(1));
 }
 
-} // namespace
+}  // namespace
 
 std::string read_file(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status)) {
-        fail_read(path,
-                  error && error != std::errc::no_such_file_or_directory ? error.message() : "no such file");
+        fail_read(path, error && error != std::errc::no_such_file_or_directory ? error.message() : "no such file");
     }
     if (!fs::is_regular_file(status)) {
-        fail_read(path,
-                  fs::is_directory(status) ? "it is a directory, a file is expected" : "it is not a file");
+        fail_read(path, fs::is_directory(status) ? "it is a directory, a file is expected" : "it is not a file");
     }
     FileHandle file(std::fopen(path.c_str(), "rb"));
     if (!file) {
@@ -73,8 +69,8 @@ std::string read_file(const fs::path& path) {
     }
     // Of the file that is open, which another may have replaced under this name by now.
     struct ::stat opened {};
-    std::string bytes(
-        ::fstat(::fileno(file.get()), &opened) == 0 ? static_cast<std::size_t>(opened.st_size) : 0, '\0');
+    std::string bytes(::fstat(::fileno(file.get()), &opened) == 0 ? static_cast<std::size_t>(opened.st_size) : 0,
+                      '\0');
     bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
     if (std::ferror(file.get()) != 0) {
         fail_read(path, reason(errno));
@@ -119,4 +115,4 @@ void write_file_atomic(const fs::path& path, std::string_view bytes) {
     }
 }
 
-} // namespace pl
+}  // namespace pl

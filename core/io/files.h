@@ -23,4 +23,4 @@ inline void write_text_file_atomic(const std::filesystem::path& path, std::strin
     write_file_atomic(path, text);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -13,7 +13,7 @@ namespace {
 /// Side of the scene (+1: from +z) that shows more front faces; +1 if they differ by less than a hundredth, as the
 /// two sides of a closed surface do by rounding.
 double better_side(const SceneDescription& scene) {
-    double front[2] = {0.0, 0.0}; // projected area facing -z, +z
+    double front[2] = {0.0, 0.0};  // projected area facing -z, +z
     for (const TriangleDescription& triangle : scene.triangles) {
         const glm::dvec2 a(scene.positions[triangle.vertex.x]);
         const glm::dvec2 b = glm::dvec2(scene.positions[triangle.vertex.y]) - a;
@@ -24,7 +24,7 @@ double better_side(const SceneDescription& scene) {
     return front[0] > 1.01 * front[1] ? -1.0 : 1.0;
 }
 
-} // namespace
+}  // namespace
 
 CameraDescription frame_camera(const SceneDescription& scene, float fov_deg) {
     glm::vec3 low(std::numeric_limits<float>::max());
@@ -40,8 +40,7 @@ CameraDescription frame_camera(const SceneDescription& scene, float fov_deg) {
     const double radius = 0.5 * glm::length(glm::dvec3(high) - glm::dvec3(low));
     const double half_angle = 0.5 * static_cast<double>(fov_deg) * glm::pi<double>() / 180.0;
     // A tiny object far from the origin: the eye must differ from the target in floats.
-    const double smallest =
-        16.0 * std::abs(center.z) * static_cast<double>(std::numeric_limits<float>::epsilon());
+    const double smallest = 16.0 * std::abs(center.z) * static_cast<double>(std::numeric_limits<float>::epsilon());
     const double distance = std::max(radius / std::sin(half_angle), smallest);
 
     CameraDescription camera;
@@ -52,4 +51,4 @@ CameraDescription frame_camera(const SceneDescription& scene, float fov_deg) {
     return camera;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -10,4 +10,4 @@ namespace pl {
 /// The scene has at least one triangle.
 CameraDescription frame_camera(const SceneDescription& scene, float fov_deg = 40.0f);
 
-} // namespace pl
+}  // namespace pl

@@ -28,13 +28,12 @@ ImageKind image_kind(const std::filesystem::path& path) {
                             path.string(), suffix.empty() ? "none" : suffix));
 }
 
-void require_complete(
-    const std::filesystem::path& path, int width, int height, std::size_t size, std::size_t per_pixel) {
+void require_complete(const std::filesystem::path& path, int width, int height, std::size_t size,
+                      std::size_t per_pixel) {
     if (width <= 0 || height <= 0 ||
         size != static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * per_pixel) {
-        throw Error(ErrorKind::Runtime,
-                    fmt::format("{}: cannot be written: a picture of {}x{} with {} values", path.string(),
-                                width, height, size));
+        throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: a picture of {}x{} with {} values",
+                                                    path.string(), width, height, size));
     }
 }
 
@@ -49,4 +48,4 @@ void fail_image(const std::filesystem::path& path, const std::string& why) {
     throw Error(ErrorKind::Input, path.string() + ": " + why);
 }
 
-} // namespace pl
+}  // namespace pl

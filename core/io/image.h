@@ -37,17 +37,13 @@ ImageKind image_kind(const std::filesystem::path& path);
 // reason, also for an image without pixels or with the wrong number of them.
 
 /// 32-bit floats, losslessly compressed. Metadata become attributes of type string (at most 100; names up to 255 bytes).
-void write_exr(const std::filesystem::path& path,
-               const LinearImage& image,
-               const ImageMetadata& metadata = {});
+void write_exr(const std::filesystem::path& path, const LinearImage& image, const ImageMetadata& metadata = {});
 
 /// 32-bit little-endian floats, no metadata.
 void write_pfm(const std::filesystem::path& path, const LinearImage& image);
 
 /// Metadata become tEXt chunks; names are cut to the 79 bytes that PNG allows.
-void write_png8(const std::filesystem::path& path,
-                const ByteImage& image,
-                const ImageMetadata& metadata = {});
+void write_png8(const std::filesystem::path& path, const ByteImage& image, const ImageMetadata& metadata = {});
 
 // Readers throw Error(Input): missing, not of this kind, truncated. `metadata` receives what the writers stored.
 
@@ -59,4 +55,4 @@ LinearImage read_pfm(const std::filesystem::path& path);
 
 ByteImage read_png8(const std::filesystem::path& path, ImageMetadata* metadata = nullptr);
 
-} // namespace pl
+}  // namespace pl

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kDeepest = 64; // each level stores its pointer: deep nesting would cost memory squared
+constexpr std::size_t kDeepest = 64;  // each level stores its pointer: deep nesting would cost memory squared
 
 /// Reads characters and tells how far it came.
 class CountingIterator {
@@ -136,7 +136,7 @@ private:
     int line_ = 1;
 };
 
-} // namespace
+}  // namespace
 
 std::string pointer_step(const std::string& key) {
     std::string step = "/";
@@ -168,8 +168,7 @@ const json* JsonDocument::find(const std::string& pointer) const {
     return root_.contains(where) ? &root_.at(where) : nullptr;
 }
 
-const json* JsonDocument::object(const std::string& pointer,
-                                 const std::vector<std::string>& known_keys) const {
+const json* JsonDocument::object(const std::string& pointer, const std::vector<std::string>& known_keys) const {
     const json* const value = find(pointer);
     if (value == nullptr) {
         return nullptr;
@@ -234,4 +233,4 @@ std::optional<glm::vec3> JsonDocument::vector(const std::string& pointer) const 
     return result;
 }
 
-} // namespace pl
+}  // namespace pl

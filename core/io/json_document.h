@@ -27,8 +27,7 @@ public:
 
     /// The object at `pointer`, nothing if there is none. Throws if it is no object or has a key that is not known;
     /// the message names the nearest known one.
-    const nlohmann::json* object(const std::string& pointer,
-                                 const std::vector<std::string>& known_keys) const;
+    const nlohmann::json* object(const std::string& pointer, const std::vector<std::string>& known_keys) const;
 
     // The value at `pointer`, nothing if there is none; each throws if it is of another type or not finite.
     std::optional<std::string> text(const std::string& pointer) const;
@@ -47,4 +46,4 @@ private:
 /// A key as one step of a JSON pointer.
 std::string pointer_step(const std::string& key);
 
-} // namespace pl
+}  // namespace pl

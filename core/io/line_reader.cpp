@@ -37,11 +37,9 @@ bool is_underflow(std::string_view word) {
     return word.substr(0, word.find('.')).find_first_of("123456789") == std::string_view::npos;
 }
 
-} // namespace
+}  // namespace
 
-std::string place(const std::filesystem::path& path, int line) {
-    return fmt::format("{}:{}", path.string(), line);
-}
+std::string place(const std::filesystem::path& path, int line) { return fmt::format("{}:{}", path.string(), line); }
 
 void fail_at(const std::filesystem::path& path, int line, const std::string& what) {
     throw Error(ErrorKind::Input, place(path, line) + ": " + what);
@@ -101,7 +99,7 @@ bool LineReader::next() {
         std::string_view statement = take_line();
         const std::string_view start = trim(statement);
         if (start.starts_with('#')) {
-            continue; // a backslash at the end of a comment is part of it
+            continue;  // a backslash at the end of a comment is part of it
         }
         if (statement.ends_with('\\')) {
             joined_.clear();
@@ -127,9 +125,9 @@ std::string_view LineReader::take_line() {
     ++lines_taken_;
     for (const char c : line) {
         if (is_control(c)) {
-            fail_at(path_, lines_taken_,
-                    fmt::format("control character 0x{:02x}: this is not a text file",
-                                static_cast<unsigned>(c) & 0xffu));
+            fail_at(
+                path_, lines_taken_,
+                fmt::format("control character 0x{:02x}: this is not a text file", static_cast<unsigned>(c) & 0xffu));
         }
     }
     return line;
@@ -141,4 +139,4 @@ void LineReader::split(std::string_view statement) {
     arguments_ = trim(statement.substr(end));
 }
 
-} // namespace pl
+}  // namespace pl

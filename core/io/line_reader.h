@@ -39,9 +39,9 @@ public:
     /// False at the end of the text.
     bool next();
 
-    int line() const { return line_; }                        ///< where the statement starts, from 1
-    std::string_view keyword() const { return keyword_; }     ///< first word
-    std::string_view arguments() const { return arguments_; } ///< the rest, trimmed
+    int line() const { return line_; }                         ///< where the statement starts, from 1
+    std::string_view keyword() const { return keyword_; }      ///< first word
+    std::string_view arguments() const { return arguments_; }  ///< the rest, trimmed
     [[noreturn]] void fail(const std::string& what) const { fail_at(path_, line_, what); }
 
 private:
@@ -57,4 +57,4 @@ private:
     int lines_taken_ = 0;
 };
 
-} // namespace pl
+}  // namespace pl

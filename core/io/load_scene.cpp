@@ -55,9 +55,8 @@ SceneDescription load_file(const fs::path& path) {
 [[noreturn]] void fail_unknown(const std::string& name, const fs::path& assets_dir) {
     std::error_code ignored;
     if (fs::exists(name, ignored)) {
-        throw Error(
-            ErrorKind::Input,
-            fmt::format("{}: expected an .obj file, a scene .json file or the name of a scene", name));
+        throw Error(ErrorKind::Input,
+                    fmt::format("{}: expected an .obj file, a scene .json file or the name of a scene", name));
     }
     const std::vector<std::string> known = list_scenes(assets_dir);
     const std::string hint = known.empty() ? ""
@@ -66,7 +65,7 @@ SceneDescription load_file(const fs::path& path) {
     throw Error(ErrorKind::Input, fmt::format("no scene '{}'{}", name, hint));
 }
 
-} // namespace
+}  // namespace
 
 SceneDescription load_scene(const std::string& name_or_path, const fs::path& assets_dir) {
     const std::string extension = lower_extension(name_or_path);
@@ -81,9 +80,8 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     const glm::vec3 up = usable_up(scene.camera);
     if (up != scene.camera.up) {
         scene.camera.up = up;
-        scene.warnings.push_back(
-            fmt::format("{}: the camera's up vector is along its view, replaced by {} {} {}",
-                        scene.source.string(), up.x, up.y, up.z));
+        scene.warnings.push_back(fmt::format("{}: the camera's up vector is along its view, replaced by {} {} {}",
+                                             scene.source.string(), up.x, up.y, up.z));
     }
     return scene;
 }
@@ -126,4 +124,4 @@ std::vector<std::string> list_scenes(const fs::path& assets_dir) {
     return names;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -22,4 +22,4 @@ std::filesystem::path find_assets_dir();
 /// Names of the scenes in assets_dir/scenes, sorted.
 std::vector<std::string> list_scenes(const std::filesystem::path& assets_dir);
 
-} // namespace pl
+}  // namespace pl

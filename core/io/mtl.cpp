@@ -23,7 +23,7 @@ constexpr const char* kTwoSidedKey = "Pl_two_sided";
 /// An MTL text that is safe to hand on, and what the library would not tell.
 struct CheckedMtl {
     std::string text;
-    std::set<std::string> with_color; ///< encoded names that have Kd or Ke
+    std::set<std::string> with_color;  ///< encoded names that have Kd or Ke
 };
 
 class MtlChecker {
@@ -54,8 +54,7 @@ private:
         } else if (keyword == kTwoSidedKey) {
             need_material();
             two_sided();
-        } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" ||
-                   keyword == "disp") {
+        } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" || keyword == "disp") {
             unsupported_.insert(keyword);
         } else if (keyword == "d" || keyword == "Tr") {
             const std::optional<double> value = parse_number(reader_.arguments());
@@ -97,14 +96,13 @@ private:
             const std::string_view word = words[words.size() == 3 ? i : 0];
             const std::optional<double> value = parse_number(word);
             if (!value || *value < 0.0) {
-                reader_.fail(fmt::format("'{}': expected finite numbers of at least 0, got {}", keyword,
-                                         in_quotes(word)));
+                reader_.fail(
+                    fmt::format("'{}': expected finite numbers of at least 0, got {}", keyword, in_quotes(word)));
             }
             rgb[i] = *value;
         }
         if (keyword == "Kd" && *std::max_element(rgb.begin(), rgb.end()) > 1.0) {
-            warnings_.push_back(
-                fmt::format("{}: reflectance above 1 is clamped to 1", place(path_, reader_.line())));
+            warnings_.push_back(fmt::format("{}: reflectance above 1 is clamped to 1", place(path_, reader_.line())));
             std::transform(rgb.begin(), rgb.end(), rgb.begin(), [](double c) { return std::min(c, 1.0); });
         }
         if (name_ == kSkipped) {
@@ -124,7 +122,7 @@ private:
         }
     }
 
-    inline static const std::string kSkipped{"\n"}; // no name: the reader never returns an end of line
+    inline static const std::string kSkipped{"\n"};  // no name: the reader never returns an end of line
 
     const std::filesystem::path& path_;
     LineReader reader_;
@@ -135,14 +133,11 @@ private:
     std::set<std::string> unsupported_;
 };
 
-glm::vec3 to_vec3(const tinyobj::real_t* rgb) {
-    return {rgb[0], rgb[1], rgb[2]};
-}
+glm::vec3 to_vec3(const tinyobj::real_t* rgb) { return {rgb[0], rgb[1], rgb[2]}; }
 
-} // namespace
+}  // namespace
 
-std::vector<MaterialDescription> load_mtl(const std::filesystem::path& path,
-                                          std::vector<std::string>& warnings) {
+std::vector<MaterialDescription> load_mtl(const std::filesystem::path& path, std::vector<std::string>& warnings) {
     const CheckedMtl checked = MtlChecker(read_text_file(path), path, warnings).run();
     std::map<std::string, int> positions;
     std::vector<tinyobj::material_t> parsed;
@@ -152,22 +147,20 @@ std::vector<MaterialDescription> load_mtl(const std::filesystem::path& path,
     std::vector<MaterialDescription> materials;
     for (const tinyobj::material_t& entry : parsed) {
         if (entry.name.empty()) {
-            continue; // the library adds one for a file without materials
+            continue;  // the library adds one for a file without materials
         }
-        MaterialDescription material{.name = decode_name(entry.name),
-                                     .albedo = to_vec3(entry.diffuse),
-                                     .emission = to_vec3(entry.emission)};
+        MaterialDescription material{
+            .name = decode_name(entry.name), .albedo = to_vec3(entry.diffuse), .emission = to_vec3(entry.emission)};
         const auto two_sided = entry.unknown_parameter.find(kTwoSidedKey);
         material.two_sided_emission = two_sided != entry.unknown_parameter.end() && two_sided->second == "1";
         if (!checked.with_color.contains(entry.name)) {
             material.albedo = kDefaultAlbedo;
-            warnings.push_back(
-                fmt::format("{}: material {} has neither Kd nor Ke and is shown in the default color",
-                            path.string(), in_quotes(material.name)));
+            warnings.push_back(fmt::format("{}: material {} has neither Kd nor Ke and is shown in the default color",
+                                           path.string(), in_quotes(material.name)));
         }
         materials.push_back(std::move(material));
     }
     return materials;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -21,7 +21,6 @@ inline constexpr glm::vec3 kDefaultAlbedo{0.70f, 0.45f, 0.70f};
 /// A material with neither Kd nor Ke has kDefaultAlbedo; of two with one name the first counts; both with a warning.
 /// Everything else is left out; what would change the picture (maps, transparency) with one warning.
 /// Throws Error(Input) with file and line for values that are negative or no finite numbers.
-std::vector<MaterialDescription> load_mtl(const std::filesystem::path& path,
-                                          std::vector<std::string>& warnings);
+std::vector<MaterialDescription> load_mtl(const std::filesystem::path& path, std::vector<std::string>& warnings);
 
-} // namespace pl
+}  // namespace pl

@@ -11,4 +11,4 @@ namespace pl {
 /// counts as one edit away. Empty without candidates.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
-} // namespace pl
+}  // namespace pl

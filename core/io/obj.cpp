@@ -27,29 +27,25 @@ constexpr std::uint32_t kNoMaterial = 0xffffffffu;
 struct Polygons {
     struct Corner {
         std::uint32_t vertex;
-        std::uint32_t normal; ///< or TriangleDescription::kNoNormal
+        std::uint32_t normal;  ///< or TriangleDescription::kNoNormal
     };
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<Corner> corners;
-    std::vector<std::size_t> first_corner; ///< per polygon
-    std::vector<std::uint32_t> material;   ///< per polygon: index into `material_names`, or kNoMaterial
+    std::vector<std::size_t> first_corner;  ///< per polygon
+    std::vector<std::uint32_t> material;    ///< per polygon: index into `material_names`, or kNoMaterial
     std::vector<std::string> material_names;
     std::map<std::string, std::uint32_t> name_index{};
     std::uint32_t current = kNoMaterial;
 };
 
-Polygons& polygons(void* user_data) {
-    return *static_cast<Polygons*>(user_data);
-}
+Polygons& polygons(void* user_data) { return *static_cast<Polygons*>(user_data); }
 
 void on_vertex(void* user_data, float x, float y, float z, float) {
     polygons(user_data).positions.emplace_back(x, y, z);
 }
 
-void on_normal(void* user_data, float x, float y, float z) {
-    polygons(user_data).normals.emplace_back(x, y, z);
-}
+void on_normal(void* user_data, float x, float y, float z) { polygons(user_data).normals.emplace_back(x, y, z); }
 
 void on_material(void* user_data, const char* word, int) {
     Polygons& to = polygons(user_data);
@@ -119,8 +115,8 @@ public:
                 crossed_.add(face_lines_[face]);
             }
             for (const auto& [a, b, c] : cut.triangles) {
-                add_triangle({in_.corners[first + a], in_.corners[first + b], in_.corners[first + c]},
-                             material, face_lines_[face]);
+                add_triangle({in_.corners[first + a], in_.corners[first + b], in_.corners[first + c]}, material,
+                             face_lines_[face]);
             }
         }
     }
@@ -129,8 +125,7 @@ public:
         std::vector<std::string>& to = scene_.warnings;
         crossed_.tell(to, path, "face whose outline crosses itself or has no area, cut as a fan");
         no_area_.tell(to, path, "triangle without area removed");
-        no_normal_.tell(to, path,
-                        "normals ignored: not given, or of no length, at one of a triangle's corners");
+        no_normal_.tell(to, path, "normals ignored: not given, or of no length, at one of a triangle's corners");
     }
 
 private:
@@ -171,8 +166,8 @@ private:
     /// Whether a unit normal can be computed in floats: the squared length of the cross product is a normal float.
     bool has_area(const TriangleDescription& t) const {
         const glm::dvec3 a(scene_.positions[t.vertex.x]);
-        const glm::dvec3 n = glm::cross(glm::dvec3(scene_.positions[t.vertex.y]) - a,
-                                        glm::dvec3(scene_.positions[t.vertex.z]) - a);
+        const glm::dvec3 n =
+            glm::cross(glm::dvec3(scene_.positions[t.vertex.y]) - a, glm::dvec3(scene_.positions[t.vertex.z]) - a);
         return glm::dot(n, n) >= static_cast<double>(std::numeric_limits<float>::min());
     }
 
@@ -184,7 +179,7 @@ private:
     Tally no_normal_;
 };
 
-} // namespace
+}  // namespace
 
 SceneDescription load_obj(const fs::path& path) {
     CheckedObj checked = check_obj(read_text_file(path), path);
@@ -208,4 +203,4 @@ SceneDescription load_obj(const fs::path& path) {
     return scene;
 }
 
-} // namespace pl
+}  // namespace pl

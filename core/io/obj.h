@@ -17,4 +17,4 @@ namespace pl {
 /// Throws Error(Input) with file and line for what is malformed; see check_obj() and load_mtl().
 SceneDescription load_obj(const std::filesystem::path& path);
 
-} // namespace pl
+}  // namespace pl

@@ -16,11 +16,11 @@ namespace pl {
 
 namespace {
 
-constexpr char kEncodedBlank = '\x1f'; // cannot occur: the reader refuses control characters
+constexpr char kEncodedBlank = '\x1f';  // cannot occur: the reader refuses control characters
 constexpr double kLargestCoordinate = 1e18;
 constexpr std::size_t kMostCorners = 65536;
 constexpr std::int64_t kMostElements = std::numeric_limits<std::int32_t>::max();
-constexpr std::int64_t kNone = 0; // OBJ indices start at 1
+constexpr std::int64_t kNone = 0;  // OBJ indices start at 1
 
 constexpr std::array<std::string_view, 7> kWithoutEffect = {"g", "o", "s", "l", "p", "vp", "mg"};
 
@@ -52,10 +52,9 @@ public:
             statement();
         }
         if (result_.face_lines.empty()) {
-            throw Error(ErrorKind::Input,
-                        fmt::format("{}: no faces: expected at least one 'f' statement with three "
-                                    "corners, got {} vertices and {} faces of fewer corners",
-                                    path_.string(), vertices_.count, short_faces_.count));
+            throw Error(ErrorKind::Input, fmt::format("{}: no faces: expected at least one 'f' statement with three "
+                                                      "corners, got {} vertices and {} faces of fewer corners",
+                                                      path_.string(), vertices_.count, short_faces_.count));
         }
         for (const Elements* kind : {&vertices_, &normals_, &texture_points_}) {
             check_forward(*kind);
@@ -107,8 +106,8 @@ private:
         for (const std::string_view word : words) {
             const std::optional<double> value = parse_number(word);
             if (!value || std::abs(*value) > kLargestCoordinate) {
-                reader_.fail(fmt::format("'{}': expected finite numbers up to 1e18, got {}",
-                                         reader_.keyword(), in_quotes(word)));
+                reader_.fail(fmt::format("'{}': expected finite numbers up to 1e18, got {}", reader_.keyword(),
+                                         in_quotes(word)));
             }
         }
         return words;
@@ -134,8 +133,7 @@ private:
     void face() {
         const std::vector<std::string_view> words = split_words(reader_.arguments());
         if (words.size() > kMostCorners) {
-            reader_.fail(
-                fmt::format("a face with {} corners: at most {} are supported", words.size(), kMostCorners));
+            reader_.fail(fmt::format("a face with {} corners: at most {} are supported", words.size(), kMostCorners));
         }
         const std::size_t start = result_.text.size();
         result_.text += 'f';
@@ -178,12 +176,11 @@ private:
         }
         const std::optional<std::int64_t> value = parse_integer(part);
         if (!value) {
-            reader_.fail(fmt::format("face corner {}: {} is not an index of a {}", in_quotes(word),
-                                     in_quotes(part), kind.name));
+            reader_.fail(fmt::format("face corner {}: {} is not an index of a {}", in_quotes(word), in_quotes(part),
+                                     kind.name));
         }
         if (*value == 0) {
-            reader_.fail(
-                fmt::format("face corner {}: {} index 0, indices start at 1", in_quotes(word), kind.name));
+            reader_.fail(fmt::format("face corner {}: {} index 0, indices start at 1", in_quotes(word), kind.name));
         }
         if (*value < -kind.count) {
             reader_.fail(fmt::format("face corner {}: {} index {} is out of range, {} precede the face",
@@ -227,7 +224,7 @@ private:
     std::string first_unknown_;
 };
 
-} // namespace
+}  // namespace
 
 CheckedObj check_obj(std::string_view text, const std::filesystem::path& path) {
     return ObjChecker(text, path).run();
@@ -246,4 +243,4 @@ std::string decode_name(std::string_view word) {
     return name == " " ? std::string() : name;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -21,9 +21,9 @@ struct MaterialLibraries {
 /// `v//n` per corner, at least three), and `usemtl` with a name encoded by encode_name().
 struct CheckedObj {
     std::string text;
-    std::vector<int> face_lines; ///< line in the file of each `f` in `text`
+    std::vector<int> face_lines;  ///< line in the file of each `f` in `text`
     std::vector<MaterialLibraries> libraries;
-    std::map<std::string, int> material_lines; ///< name -> line of its first `usemtl`
+    std::map<std::string, int> material_lines;  ///< name -> line of its first `usemtl`
     std::vector<std::string> warnings;
 };
 
@@ -37,4 +37,4 @@ CheckedObj check_obj(std::string_view text, const std::filesystem::path& path);
 std::string encode_name(std::string_view name);
 std::string decode_name(std::string_view word);
 
-} // namespace pl
+}  // namespace pl

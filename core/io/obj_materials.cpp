@@ -44,8 +44,7 @@ std::vector<std::string> library_names(const fs::path& obj, const MaterialLibrar
 }
 
 /// Loads all libraries into the scene. Returns what is missing, for the one warning about materials.
-std::vector<std::string>
-load_libraries(SceneDescription& scene, const fs::path& obj, const CheckedObj& checked) {
+std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path& obj, const CheckedObj& checked) {
     std::vector<std::string> missing;
     std::set<std::string> seen;
     for (const MaterialLibraries& library : checked.libraries) {
@@ -80,13 +79,10 @@ std::string describe(const std::vector<std::string>& reasons, const fs::path& ob
     return shown == reasons.size() ? text : fmt::format("{}; and {} more", text, reasons.size() - shown);
 }
 
-} // namespace
+}  // namespace
 
-MaterialTable load_materials(SceneDescription& scene,
-                             const fs::path& obj,
-                             const CheckedObj& checked,
-                             const std::vector<std::string>& names,
-                             const std::vector<std::size_t>& faces_of) {
+MaterialTable load_materials(SceneDescription& scene, const fs::path& obj, const CheckedObj& checked,
+                             const std::vector<std::string>& names, const std::vector<std::size_t>& faces_of) {
     std::vector<std::string> reasons = load_libraries(scene, obj, checked);
     std::map<std::string, std::uint32_t> known;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
@@ -99,8 +95,8 @@ MaterialTable load_materials(SceneDescription& scene,
         table.of_name.push_back(found == known.end() ? table.fallback : found->second);
         if (found == known.end()) {
             faces += faces_of[i];
-            reasons.push_back(fmt::format(
-                "{}: no material {}", place(obj, checked.material_lines.at(names[i])), in_quotes(names[i])));
+            reasons.push_back(fmt::format("{}: no material {}", place(obj, checked.material_lines.at(names[i])),
+                                          in_quotes(names[i])));
         }
     }
     if (faces > 0) {
@@ -113,4 +109,4 @@ MaterialTable load_materials(SceneDescription& scene,
     return table;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -16,8 +16,7 @@
 
 namespace pl {
 
-static_assert(std::endian::native == std::endian::little,
-              "floats are copied to and from little-endian files");
+static_assert(std::endian::native == std::endian::little, "floats are copied to and from little-endian files");
 
 namespace {
 
@@ -25,7 +24,7 @@ struct Header {
     int width = 0;
     int height = 0;
     bool big_endian = false;
-    std::size_t size = 0; ///< bytes up to the first float
+    std::size_t size = 0;  ///< bytes up to the first float
 };
 
 /// The next word, after which one byte of white space is skipped too: behind the last word the floats begin.
@@ -55,9 +54,7 @@ Header read_header(const std::filesystem::path& path, std::string_view bytes) {
     return header;
 }
 
-std::size_t row_bytes(int width) {
-    return static_cast<std::size_t>(width) * sizeof(glm::vec3);
-}
+std::size_t row_bytes(int width) { return static_cast<std::size_t>(width) * sizeof(glm::vec3); }
 
 void swap_bytes(glm::vec3& pixel) {
     for (int c = 0; c < 3; ++c) {
@@ -67,7 +64,7 @@ void swap_bytes(glm::vec3& pixel) {
     }
 }
 
-} // namespace
+}  // namespace
 
 void write_pfm(const std::filesystem::path& path, const LinearImage& image) {
     require_complete(path, image.width, image.height, image.pixels.size(), 1);
@@ -77,8 +74,7 @@ void write_pfm(const std::filesystem::path& path, const LinearImage& image) {
     const auto rows = static_cast<std::size_t>(image.height);
     bytes.resize(start + rows * row);
     for (std::size_t y = 0; y < rows; ++y) {
-        const glm::vec3* const from =
-            image.pixels.data() + (rows - 1 - y) * static_cast<std::size_t>(image.width);
+        const glm::vec3* const from = image.pixels.data() + (rows - 1 - y) * static_cast<std::size_t>(image.width);
         std::memcpy(bytes.data() + start + y * row, from, row);
     }
     write_file_atomic(path, bytes);
@@ -90,8 +86,8 @@ LinearImage read_pfm(const std::filesystem::path& path) {
     const std::size_t row = row_bytes(header.width);
     const auto rows = static_cast<std::size_t>(header.height);
     if (bytes.size() - header.size != rows * row) {
-        fail_image(path, fmt::format("a PFM of {}x{} has {} bytes of pixels, got {}", header.width,
-                                     header.height, rows * row, bytes.size() - header.size));
+        fail_image(path, fmt::format("a PFM of {}x{} has {} bytes of pixels, got {}", header.width, header.height,
+                                     rows * row, bytes.size() - header.size));
     }
     LinearImage image{.width = header.width, .height = header.height, .pixels = {}};
     image.pixels.resize(rows * static_cast<std::size_t>(header.width));
@@ -105,4 +101,4 @@ LinearImage read_pfm(const std::filesystem::path& path) {
     return image;
 }
 
-} // namespace pl
+}  // namespace pl

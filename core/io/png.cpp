@@ -18,7 +18,7 @@ namespace pl {
 namespace {
 
 constexpr std::size_t kSignatureSize = 8;
-constexpr std::size_t kChunkFrame = 12; // length, type, checksum
+constexpr std::size_t kChunkFrame = 12;  // length, type, checksum
 constexpr std::size_t kHeaderEnd = kSignatureSize + kChunkFrame + 13;
 constexpr std::size_t kLongestKeyword = 79;
 
@@ -77,7 +77,7 @@ void append_bytes(void* to, void* data, int size) {
     static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
 }
 
-} // namespace
+}  // namespace
 
 void write_png8(const std::filesystem::path& path, const ByteImage& image, const ImageMetadata& metadata) {
     require_complete(path, image.width, image.height, image.rgb.size(), 3);
@@ -85,8 +85,7 @@ void write_png8(const std::filesystem::path& path, const ByteImage& image, const
     if (stbi_write_png_to_func(append_bytes, &bytes, image.width, image.height, 3, image.rgb.data(),
                                image.width * 3) == 0 ||
         bytes.size() < kHeaderEnd) {
-        throw Error(ErrorKind::Runtime,
-                    fmt::format("{}: cannot be written: the PNG encoder failed", path.string()));
+        throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: the PNG encoder failed", path.string()));
     }
     std::string chunks;
     for (const auto& [keyword, text] : metadata) {
@@ -110,8 +109,7 @@ ByteImage read_png8(const std::filesystem::path& path, ImageMetadata* metadata) 
     if (!pixels) {
         fail_image(path, std::string("PNG: ") + stbi_failure_reason());
     }
-    const std::size_t count =
-        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3;
+    const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3;
     image.rgb.assign(pixels.get(), pixels.get() + count);
     if (metadata != nullptr) {
         read_text_chunks(bytes, *metadata);
@@ -119,4 +117,4 @@ ByteImage read_png8(const std::filesystem::path& path, ImageMetadata* metadata) 
     return image;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -19,10 +19,10 @@ namespace {
 constexpr const char* kSchema = "pathlight.scene/1";
 
 /// Options that a scene may preset: what decides the picture, not where it goes or what is printed.
-const std::vector<std::string> kSettings = {
-    "method",  "view",         "backend", "threads", "spp",          "time-limit", "target-error",
-    "width",   "height",       "size",    "seed",    "nee",          "max-depth",  "exposure",
-    "tonemap", "field-budget", "volumes", "bins",    "bsdf-fraction"};
+const std::vector<std::string> kSettings = {"method",       "view",         "backend",   "threads",      "spp",
+                                            "time-limit",   "target-error", "width",     "height",       "size",
+                                            "seed",         "nee",          "max-depth", "exposure",     "tonemap",
+                                            "field-budget", "volumes",      "bins",      "bsdf-fraction"};
 
 void read_camera(const JsonDocument& file, SceneDescription& scene) {
     const bool given =
@@ -33,8 +33,7 @@ void read_camera(const JsonDocument& file, SceneDescription& scene) {
     }
     const float fov_deg = file.number("/camera/fov_deg").value_or(CameraDescription{}.fov_deg);
     if (!(fov_deg > 0.0f && fov_deg < 180.0f)) {
-        file.fail("/camera/fov_deg",
-                  fmt::format("expected an angle within (0, 180) degrees, got {}", fov_deg));
+        file.fail("/camera/fov_deg", fmt::format("expected an angle within (0, 180) degrees, got {}", fov_deg));
     }
     scene.camera = frame_camera(scene, fov_deg);
     scene.camera.eye = file.vector("/camera/eye").value_or(scene.camera.eye);
@@ -75,8 +74,7 @@ void read_environment(const JsonDocument& file, SceneDescription& scene) {
     scene.environment = read_light(file, "/environment/radiance").value_or(glm::vec3(0.0f));
 }
 
-MaterialDescription&
-find_material(const JsonDocument& file, SceneDescription& scene, const std::string& name) {
+MaterialDescription& find_material(const JsonDocument& file, SceneDescription& scene, const std::string& name) {
     std::vector<std::string> names;
     for (MaterialDescription& material : scene.materials) {
         if (material.name == name) {
@@ -105,8 +103,7 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
             file.fail(at + "/albedo", "expected numbers within [0, 1]");
         }
         material.emission = read_light(file, at + "/emission").value_or(material.emission);
-        material.two_sided_emission =
-            file.boolean(at + "/two_sided_emission").value_or(material.two_sided_emission);
+        material.two_sided_emission = file.boolean(at + "/two_sided_emission").value_or(material.two_sided_emission);
     }
 }
 
@@ -128,7 +125,7 @@ void read_settings(const JsonDocument& file, SceneDescription& scene) {
     }
 }
 
-} // namespace
+}  // namespace
 
 SceneDescription load_scene_json(const std::filesystem::path& path) {
     const JsonDocument file(read_text_file(path), path);
@@ -152,4 +149,4 @@ SceneDescription load_scene_json(const std::filesystem::path& path) {
     return scene;
 }
 
-} // namespace pl
+}  // namespace pl

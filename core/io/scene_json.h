@@ -16,4 +16,4 @@ namespace pl {
 /// Throws Error(Input) with file and line; an unknown key is answered with the nearest known one.
 SceneDescription load_scene_json(const std::filesystem::path& path);
 
-} // namespace pl
+}  // namespace pl

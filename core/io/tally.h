@@ -18,9 +18,7 @@ struct Tally {
     }
 
     /// "file:line: what (3 in all)", unless nothing was counted.
-    void tell(std::vector<std::string>& warnings,
-              const std::filesystem::path& path,
-              const std::string& what) const {
+    void tell(std::vector<std::string>& warnings, const std::filesystem::path& path, const std::string& what) const {
         if (count > 0) {
             warnings.push_back(path.string() + ":" + std::to_string(first_line) + ": " + what + " (" +
                                std::to_string(count) + " in all)");
@@ -28,4 +26,4 @@ struct Tally {
     }
 };
 
-} // namespace pl
+}  // namespace pl

@@ -14,7 +14,7 @@ using Triangle = std::array<Index, 3>;
 /// Corners in the plane in which the polygon runs counter-clockwise. Dropping the largest coordinate of the normal
 /// changes no number, so orientations are decided on the coordinates of the file.
 std::vector<glm::dvec2> project(std::span<const glm::vec3> corners) {
-    glm::dvec3 normal(0.0); // Newell: the vector area of the outline, doubled
+    glm::dvec3 normal(0.0);  // Newell: the vector area of the outline, doubled
     const glm::dvec3 base(corners[0]);
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
         normal += glm::cross(glm::dvec3(corners[i]) - base, glm::dvec3(corners[i + 1]) - base);
@@ -42,7 +42,7 @@ double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c
 /// Whether the triangles cover the polygon once: their areas, all counted as positive, add up to its own.
 bool covers_exactly(const std::vector<glm::dvec2>& flat, const std::vector<Triangle>& triangles) {
     double outline = 0.0;
-    double magnitude = 0.0; // what the rounding errors are relative to
+    double magnitude = 0.0;  // what the rounding errors are relative to
     for (std::size_t i = 1; i + 1 < flat.size(); ++i) {
         const double area = orientation(flat[0], flat[i], flat[i + 1]);
         outline += area;
@@ -53,8 +53,7 @@ bool covers_exactly(const std::vector<glm::dvec2>& flat, const std::vector<Trian
         covered += std::abs(orientation(flat[t[0]], flat[t[1]], flat[t[2]]));
     }
     // Two sums of n terms, each term rounded thrice: (2n + 6) u times the sum of magnitudes, doubled for safety.
-    const double rounding =
-        std::numeric_limits<double>::epsilon() * 2.0 * (static_cast<double>(flat.size()) + 3.0);
+    const double rounding = std::numeric_limits<double>::epsilon() * 2.0 * (static_cast<double>(flat.size()) + 3.0);
     return outline > 0.0 && std::abs(covered - outline) <= rounding * (magnitude + covered);
 }
 
@@ -74,7 +73,7 @@ Triangulation cut_quad(std::span<const glm::vec3> corners, const std::vector<glm
     const bool second_inside = inside(1, 2, 3, 0);
     if (!first_inside && !second_inside) {
         Triangulation plain = fan(4);
-        plain.exact = covers_exactly(flat, plain.triangles); // a triangle with one corner listed twice
+        plain.exact = covers_exactly(flat, plain.triangles);  // a triangle with one corner listed twice
         return plain;
     }
     const glm::dvec3 first = glm::dvec3(corners[2]) - glm::dvec3(corners[0]);
@@ -128,9 +127,7 @@ public:
     }
 
 private:
-    bool is_convex(Index i) const {
-        return orientation(flat_[previous_[i]], flat_[i], flat_[next_[i]]) > 0.0;
-    }
+    bool is_convex(Index i) const { return orientation(flat_[previous_[i]], flat_[i], flat_[next_[i]]) > 0.0; }
 
     bool is_ear(Index i) const {
         if (blocking_[i]) {
@@ -181,7 +178,7 @@ private:
     std::size_t removed_since_cleanup_ = 0;
 };
 
-} // namespace
+}  // namespace
 
 Triangulation triangulate(std::span<const glm::vec3> corners) {
     if (corners.size() == 3) {
@@ -199,4 +196,4 @@ Triangulation triangulate(std::span<const glm::vec3> corners) {
     return result;
 }
 
-} // namespace pl
+}  // namespace pl

@@ -15,7 +15,7 @@ namespace pl {
 /// Triangles as positions in the polygon's corner list, with the polygon's orientation.
 struct Triangulation {
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    bool exact = true; ///< false: the outline crosses itself or has no area, and this is a plain fan
+    bool exact = true;  ///< false: the outline crosses itself or has no area, and this is a plain fan
 };
 
 /// Quads are cut along the shorter diagonal inside them, larger polygons by clipping ears; a polygon of n corners
@@ -23,4 +23,4 @@ struct Triangulation {
 /// normal. At least 3 corners. Ear clipping takes time proportional to corners times reflex corners.
 Triangulation triangulate(std::span<const glm::vec3> corners);
 
-} // namespace pl
+}  // namespace pl

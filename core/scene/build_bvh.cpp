@@ -43,12 +43,12 @@ struct Task {
     std::uint32_t node;
     std::uint32_t first;
     std::uint32_t count;
-    int depth; ///< of the node; the root has 0
+    int depth;  ///< of the node; the root has 0
 };
 
 struct Split {
-    int axis = -1; ///< -1: none found
-    int bin = 0;   ///< last bin of the lower side
+    int axis = -1;  ///< -1: none found
+    int bin = 0;    ///< last bin of the lower side
     double cost = std::numeric_limits<double>::infinity();
 };
 
@@ -63,8 +63,7 @@ struct Binning {
     float scale;
 
     Binning(const Box& centers, int axis)
-        : low(centers.low[axis]),
-          scale(static_cast<float>(kBinCount) / (centers.high[axis] - centers.low[axis])) {}
+        : low(centers.low[axis]), scale(static_cast<float>(kBinCount) / (centers.high[axis] - centers.low[axis])) {}
 
     int bin_of(float center) const {
         const float position = (center - low) * scale;
@@ -79,16 +78,14 @@ public:
         for (std::uint32_t id = 0; id < triangles.count; ++id) {
             const Triangle& t = triangles[id];
             Primitive primitive{{}, {}, id};
-            for (const std::uint32_t corner : {t.v0, t.v1, t.v2})
-                primitive.box.add(positions[corner]);
+            for (const std::uint32_t corner : {t.v0, t.v1, t.v2}) primitive.box.add(positions[corner]);
             primitive.center = 0.5f * primitive.box.low + 0.5f * primitive.box.high;
             primitives_.push_back(primitive);
         }
     }
 
     Bvh build() {
-        if (primitives_.empty())
-            return {};
+        if (primitives_.empty()) return {};
         bvh_.nodes.reserve(primitives_.size());
         bvh_.nodes.emplace_back();
         std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(primitives_.size()), 0}};
@@ -98,8 +95,7 @@ public:
             split(task, tasks);
         }
         bvh_.primitives.reserve(primitives_.size());
-        for (const Primitive& primitive : primitives_)
-            bvh_.primitives.push_back(primitive.id);
+        for (const Primitive& primitive : primitives_) bvh_.primitives.push_back(primitive.id);
         return std::move(bvh_);
     }
 
@@ -141,20 +137,17 @@ private:
 
     Split best_split(const Task& task, const Box& centers) const {
         Split best;
-        if (task.count < 2)
-            return best;
+        if (task.count < 2) return best;
         for (int axis = 0; axis < 3; ++axis) {
             const float extent = centers.high[axis] - centers.low[axis];
-            if (extent > 0.0f && extent < kInfinity)
-                try_axis(task, centers, axis, best);
+            if (extent > 0.0f && extent < kInfinity) try_axis(task, centers, axis, best);
         }
         return best;
     }
 
     void try_axis(const Task& task, const Box& centers, int axis, Split& best) const {
         const Binning binning(centers, axis);
-        if (!(binning.scale < kInfinity))
-            return;
+        if (!(binning.scale < kInfinity)) return;
         Bin bins[kBinCount];
         for (std::uint32_t i = task.first; i < task.first + task.count; ++i) {
             Bin& bin = bins[binning.bin_of(primitives_[i].center[axis])];
@@ -172,11 +165,9 @@ private:
         for (int i = 0; i + 1 < kBinCount; ++i) {
             lower.box.add(bins[i].box);
             lower.count += bins[i].count;
-            if (lower.count == 0 || upper_cost[i + 1] < 0.0)
-                continue;
+            if (lower.count == 0 || upper_cost[i + 1] < 0.0) continue;
             const double cost = lower.box.half_area() * lower.count + upper_cost[i + 1];
-            if (cost < best.cost)
-                best = {axis, i, cost};
+            if (cost < best.cost) best = {axis, i, cost};
         }
     }
 
@@ -194,14 +185,12 @@ private:
     std::uint32_t halve(const Task& task, const Box& centers) {
         const Vec3f extent = centers.high - centers.low;
         int axis = extent.y > extent.x ? 1 : 0;
-        if (extent.z > extent[axis])
-            axis = 2;
+        if (extent.z > extent[axis]) axis = 2;
         const auto begin = primitives_.begin() + task.first;
         const std::uint32_t lower = task.count / 2;
-        std::nth_element(
-            begin, begin + lower, begin + task.count, [axis](const Primitive& a, const Primitive& b) {
-                return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis] : a.id < b.id;
-            });
+        std::nth_element(begin, begin + lower, begin + task.count, [axis](const Primitive& a, const Primitive& b) {
+            return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis] : a.id < b.id;
+        });
         return lower;
     }
 
@@ -209,10 +198,10 @@ private:
     Bvh bvh_;
 };
 
-} // namespace
+}  // namespace
 
 Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles) {
     return BvhBuilder(positions, triangles).build();
 }
 
-} // namespace pl
+}  // namespace pl

@@ -15,14 +15,14 @@ namespace pl {
 /// A diffuse reflector that may also emit. Both are linear RGB.
 struct MaterialDescription {
     std::string name;
-    glm::vec3 albedo{0.0f};        ///< hemispherical reflectance, each channel in [0, 1]
-    glm::vec3 emission{0.0f};      ///< radiance leaving the front side, W m^-2 sr^-1
+    glm::vec3 albedo{0.0f};           ///< hemispherical reflectance, each channel in [0, 1]
+    glm::vec3 emission{0.0f};         ///< radiance leaving the front side, W m^-2 sr^-1
     bool two_sided_emission = false;  ///< emit from the back side too
 };
 
 /// Three corners and the material between them. The front side sees the corners counter-clockwise.
 struct TriangleDescription {
-    glm::uvec3 vertex{0};   ///< indices into SceneDescription::positions
+    glm::uvec3 vertex{0};                                ///< indices into SceneDescription::positions
     glm::uvec3 normal{kNoNormal, kNoNormal, kNoNormal};  ///< indices into SceneDescription::normals, or kNoNormal
     std::uint32_t material = 0;
 
@@ -48,7 +48,7 @@ struct SceneDescription {
     CameraDescription camera;
     glm::vec3 environment{0.0f};  ///< constant radiance of everything that no surface covers
     std::vector<std::pair<std::string, std::string>> settings;  ///< option name and value the file asks for
-    std::vector<std::string> warnings;  ///< told once, by whoever loaded the scene
+    std::vector<std::string> warnings;                          ///< told once, by whoever loaded the scene
 };
 
 }  // namespace pl

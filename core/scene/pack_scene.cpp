@@ -30,13 +30,10 @@ void pack_triangles(const SceneDescription& scene, HostScene& packed) {
 
 void pack_normals(const SceneDescription& scene, HostScene& packed) {
     bool any = false;
-    for (const TriangleDescription& t : scene.triangles)
-        any = any || has_normals(t);
-    if (!any)
-        return;
+    for (const TriangleDescription& t : scene.triangles) any = any || has_normals(t);
+    if (!any) return;
     packed.normals.reserve(scene.normals.size());
-    for (const glm::vec3& n : scene.normals)
-        packed.normals.push_back(unit_or_zero(Vec3d{n}));
+    for (const glm::vec3& n : scene.normals) packed.normals.push_back(unit_or_zero(Vec3d{n}));
     packed.triangle_normals.reserve(scene.triangles.size());
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const TriangleDescription& t = scene.triangles[i];
@@ -63,11 +60,9 @@ void pack_lights(HostScene& packed) {
     for (std::uint32_t id = 0; id < packed.triangles.size(); ++id) {
         const Triangle& t = packed.triangles[id];
         const Material& material = packed.materials[t.material];
-        const double area =
-            0.5 * glm::length(TriangleCorners(view_of(std::as_const(packed.positions)), t).cross());
+        const double area = 0.5 * glm::length(TriangleCorners(view_of(std::as_const(packed.positions)), t).cross());
         const double power = area * static_cast<double>(luminance(material.emission));
-        if (!material.emits() || !(power > 0.0))
-            continue;
+        if (!material.emits() || !(power > 0.0)) continue;
         total += power;
         running.push_back(total);
         packed.lights.push_back({id, 1.0f});
@@ -81,8 +76,7 @@ void pack_lights(HostScene& packed) {
 /// The coordinate axis that makes the largest angle with a direction.
 Vec3d farthest_axis(Vec3d direction) {
     const Vec3d a = glm::abs(direction);
-    if (a.y <= a.x && a.y <= a.z)
-        return {0.0, 1.0, 0.0};
+    if (a.y <= a.x && a.y <= a.z) return {0.0, 1.0, 0.0};
     return a.x <= a.z ? Vec3d{1.0, 0.0, 0.0} : Vec3d{0.0, 0.0, 1.0};
 }
 
@@ -92,7 +86,7 @@ Vec3d safe_unit(Vec3d v) {
     return scale > 0.0 ? glm::normalize(v / scale) : Vec3d{0.0};
 }
 
-} // namespace
+}  // namespace
 
 Bounds bounds_of(const SceneDescription& scene) {
     Bounds bounds;
@@ -123,11 +117,9 @@ PinholeCamera make_camera(const CameraDescription& camera, int width, int height
     constexpr double kMinSine = 1e-6;
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
     Vec3d forward = safe_unit(Vec3d{camera.target} - Vec3d{camera.eye});
-    if (forward == Vec3d{0.0})
-        forward = {0.0, 0.0, -1.0};
+    if (forward == Vec3d{0.0}) forward = {0.0, 0.0, -1.0};
     Vec3d right = glm::cross(forward, safe_unit(Vec3d{camera.up}));
-    if (!(glm::length(right) > kMinSine))
-        right = glm::cross(forward, farthest_axis(forward));
+    if (!(glm::length(right) > kMinSine)) right = glm::cross(forward, farthest_axis(forward));
     right = glm::normalize(right);
     const Vec3d up = glm::cross(right, forward);
     const double half_height = std::tan(0.5 * static_cast<double>(camera.fov_deg) * kDegree);
@@ -135,4 +127,4 @@ PinholeCamera make_camera(const CameraDescription& camera, int width, int height
     return {camera.eye, Vec3f{forward}, Vec3f{half_width * right}, Vec3f{half_height * up}};
 }
 
-} // namespace pl
+}  // namespace pl

@@ -19,16 +19,14 @@ void add(Fnv1a& hash, const glm::uvec3& v) {
     hash.add(std::uint64_t{v.z});
 }
 
-} // namespace
+}  // namespace
 
 std::string scene_hash(const SceneDescription& scene) {
     Fnv1a hash;
     hash.add(std::uint64_t{scene.positions.size()});
-    for (const glm::vec3& position : scene.positions)
-        add(hash, position);
+    for (const glm::vec3& position : scene.positions) add(hash, position);
     hash.add(std::uint64_t{scene.normals.size()});
-    for (const glm::vec3& normal : scene.normals)
-        add(hash, normal);
+    for (const glm::vec3& normal : scene.normals) add(hash, normal);
     hash.add(std::uint64_t{scene.triangles.size()});
     for (const TriangleDescription& triangle : scene.triangles) {
         add(hash, triangle.vertex);
@@ -45,4 +43,4 @@ std::string scene_hash(const SceneDescription& scene) {
     return fmt::format("{:016x}", hash.value());
 }
 
-} // namespace pl
+}  // namespace pl

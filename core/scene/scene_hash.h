@@ -11,4 +11,4 @@ namespace pl {
 /// paths, the camera and settings do not count: they are told apart by what is recorded beside the hash.
 std::string scene_hash(const SceneDescription& scene);
 
-} // namespace pl
+}  // namespace pl

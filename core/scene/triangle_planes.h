@@ -52,8 +52,7 @@ struct TriangleCorners {
 inline TrianglePlane make_triangle_plane(const TriangleCorners& corners, double scene_edge) {
     const Vec3d cross = corners.cross();
     const double twice_area = glm::length(cross);
-    if (!(twice_area > 0.0))
-        return {{0.0f, 1.0f, 0.0f}, 0.0f, static_cast<float>(kMaxEdgeMargin)};
+    if (!(twice_area > 0.0)) return {{0.0f, 1.0f, 0.0f}, 0.0f, static_cast<float>(kMaxEdgeMargin)};
     const Vec3d normal = cross / twice_area;
     const Vec3d reach = corners.reach();
     const double edge = corners.longest_edge();
@@ -64,16 +63,14 @@ inline TrianglePlane make_triangle_plane(const TriangleCorners& corners, double 
             static_cast<float>(std::min(kEdgeMarginFactor * margin / smallest_height, kMaxEdgeMargin))};
 }
 
-inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions,
-                                                       Span<const Triangle> triangles) {
+inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions, Span<const Triangle> triangles) {
     double scene_edge = 0.0;
     for (const Triangle& t : triangles)
         scene_edge = std::max(scene_edge, TriangleCorners(positions, t).longest_edge());
     std::vector<TrianglePlane> planes;
     planes.reserve(triangles.count);
-    for (const Triangle& t : triangles)
-        planes.push_back(make_triangle_plane({positions, t}, scene_edge));
+    for (const Triangle& t : triangles) planes.push_back(make_triangle_plane({positions, t}, scene_edge));
     return planes;
 }
 
-} // namespace pl
+}  // namespace pl

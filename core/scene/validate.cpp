@@ -12,21 +12,13 @@ namespace pl {
 
 namespace {
 
-bool is_finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-bool is_light(const glm::vec3& v) {
-    return is_finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
-}
+bool is_light(const glm::vec3& v) { return is_finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f; }
 
-bool is_albedo(const glm::vec3& v) {
-    return is_light(v) && v.x <= 1.0f && v.y <= 1.0f && v.z <= 1.0f;
-}
+bool is_albedo(const glm::vec3& v) { return is_light(v) && v.x <= 1.0f && v.y <= 1.0f && v.z <= 1.0f; }
 
-std::string show(const glm::vec3& v) {
-    return fmt::format("({} {} {})", v.x, v.y, v.z);
-}
+std::string show(const glm::vec3& v) { return fmt::format("({} {} {})", v.x, v.y, v.z); }
 
 /// Complaints of one kind: the first in words, all as a number.
 class Complaint {
@@ -93,9 +85,8 @@ void check_materials(std::string& list, const SceneDescription& scene) {
     Complaint emission(list);
     for (const MaterialDescription& m : scene.materials) {
         if (!is_albedo(m.albedo)) {
-            albedo.add([&] {
-                return fmt::format("material '{}': albedo {} is not within [0, 1]", m.name, show(m.albedo));
-            });
+            albedo.add(
+                [&] { return fmt::format("material '{}': albedo {} is not within [0, 1]", m.name, show(m.albedo)); });
         }
         if (!is_light(m.emission)) {
             emission.add([&] {
@@ -117,7 +108,7 @@ void check_camera(std::string& list, const CameraDescription& camera) {
     }
 }
 
-} // namespace
+}  // namespace
 
 void validate_scene(const SceneDescription& scene) {
     std::string list;
@@ -130,12 +121,10 @@ void validate_scene(const SceneDescription& scene) {
     check_materials(list, scene);
     check_camera(list, scene.camera);
     if (!is_light(scene.environment)) {
-        list +=
-            fmt::format("\n  environment radiance {} is not finite and at least 0", show(scene.environment));
+        list += fmt::format("\n  environment radiance {} is not finite and at least 0", show(scene.environment));
     }
     if (!list.empty()) {
-        throw Error(ErrorKind::Input,
-                    fmt::format("{}: the scene is not valid:{}", scene.source.string(), list));
+        throw Error(ErrorKind::Input, fmt::format("{}: the scene is not valid:{}", scene.source.string(), list));
     }
 }
 
@@ -157,4 +146,4 @@ glm::vec3 usable_up(const CameraDescription& camera) {
     return size.z <= size.x ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
 }
 
-} // namespace pl
+}  // namespace pl

@@ -14,4 +14,4 @@ void validate_scene(const SceneDescription& scene);
 /// Expects a camera that validate_scene() accepts.
 glm::vec3 usable_up(const CameraDescription& camera);
 
-} // namespace pl
+}  // namespace pl

@@ -21,8 +21,6 @@ struct Table {
 
 }  // namespace
 
-Invalidation invalidated_by(const SessionEdit& edit) {
-    return std::visit(Table{}, edit);
-}
+Invalidation invalidated_by(const SessionEdit& edit) { return std::visit(Table{}, edit); }
 
 }  // namespace pl

@@ -28,19 +28,11 @@ constexpr std::array kViews{
 
 }  // namespace
 
-std::span<const MethodInfo> all_methods() {
-    return kMethods;
-}
-std::span<const ViewInfo> all_views() {
-    return kViews;
-}
+std::span<const MethodInfo> all_methods() { return kMethods; }
+std::span<const ViewInfo> all_views() { return kViews; }
 
-const MethodInfo& info_of(MethodId id) {
-    return kMethods[static_cast<std::size_t>(id)];
-}
-const ViewInfo& info_of(View id) {
-    return kViews[static_cast<std::size_t>(id)];
-}
+const MethodInfo& info_of(MethodId id) { return kMethods[static_cast<std::size_t>(id)]; }
+const ViewInfo& info_of(View id) { return kViews[static_cast<std::size_t>(id)]; }
 
 std::optional<MethodId> method_by_name(std::string_view name) {
     const auto it = std::ranges::find(kMethods, name, &MethodInfo::name);

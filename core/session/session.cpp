@@ -39,14 +39,10 @@ struct Assign {
 /// when little is left, so that few of them end without having found any. Others play for every loss.
 constexpr float kGuidedRouletteThreshold = 0.01f;
 
-bool is_power_of_two(std::uint32_t n) {
-    return n != 0 && (n & (n - 1)) == 0;
-}
+bool is_power_of_two(std::uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 
 /// The method whose tables the field views show: default path tracing has none of its own.
-MethodId table_owner(MethodId method) {
-    return info_of(method).uses_field ? method : MethodId::Reinforcement;
-}
+MethodId table_owner(MethodId method) { return info_of(method).uses_field ? method : MethodId::Reinforcement; }
 
 }  // namespace
 
@@ -73,9 +69,7 @@ void Session::apply(const SessionEdit& edit) {
     if (clear.scene) load_scene();
 }
 
-void Session::clear_films() {
-    films_.fill(FilmState{});
-}
+void Session::clear_films() { films_.fill(FilmState{}); }
 
 void Session::clear_tables() {
     fields_.fill(FieldState{});

@@ -14,15 +14,11 @@ Arguments render(const std::string& scene, const std::string& output, const Argu
     return arguments;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("0: questions are answered on standard output") {
-    for (const Arguments& question : std::vector<Arguments>{{"--help"},
-                                                            {"--version"},
-                                                            {"--list-methods"},
-                                                            {"--list-views"},
-                                                            {"render", "--help"},
-                                                            {"devices"}}) {
+    for (const Arguments& question : std::vector<Arguments>{
+             {"--help"}, {"--version"}, {"--list-methods"}, {"--list-views"}, {"render", "--help"}, {"devices"}}) {
         const ProgramResult result = run_program(question);
         CAPTURE(question, result.err);
         CHECK(result.code == 0);
@@ -42,8 +38,8 @@ TEST_CASE("1: what cannot be written is found out before rendering") {
         CHECK(result.code == 1);
         CHECK_THAT(result.err, contains(name) && contains("cannot be written"));
     }
-    const ProgramResult stats = run_program({"render", "cornell", "-o", folder / "x.png", "--stats",
-                                             folder / "missing/s.json", "--spp", "1000000000"});
+    const ProgramResult stats = run_program(
+        {"render", "cornell", "-o", folder / "x.png", "--stats", folder / "missing/s.json", "--spp", "1000000000"});
     CHECK(stats.code == 1);
     CHECK((folder.names() == std::vector<std::string>{"d.png", "file"}));
 }
@@ -118,13 +114,10 @@ TEST_CASE("3: input that is missing or invalid, with file and line") {
         {"number.obj", "v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n", "number.obj:2"},
         {"empty.obj", "", "empty.obj"},
         {"cut.json", "{\n\"schema\": \"pathlight.scene/1\",\n\"obj\": \"good.o", "cut.json:3"},
-        {"key.json", "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"good.obj\",\n\"camra\": {}}",
-         "'camera'"},
-        {"key.json", "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"good.obj\",\n\"camra\": {}}",
-         "key.json:3"},
+        {"key.json", "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"good.obj\",\n\"camra\": {}}", "'camera'"},
+        {"key.json", "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"good.obj\",\n\"camra\": {}}", "key.json:3"},
         {"gone.json", "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"gone.obj\"}", "gone.obj"},
-        {"set.json",
-         "{\"schema\": \"pathlight.scene/1\", \"obj\": \"good.obj\",\n\"settings\": {\"bins\": 5}}",
+        {"set.json", "{\"schema\": \"pathlight.scene/1\", \"obj\": \"good.obj\",\n\"settings\": {\"bins\": 5}}",
          "set.json:2"},
     };
     for (const Wrong& wrong : wrongs) {
@@ -162,4 +155,4 @@ TEST_CASE("the message of an error is also an event") {
     CHECK_THAT(result.out, contains("\"event\":\"error\"") && contains("\"exit_code\":3"));
 }
 
-} // namespace pl::test
+}  // namespace pl::test

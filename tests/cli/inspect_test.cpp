@@ -30,7 +30,7 @@ json inspected(const Arguments& more) {
     return json::parse(read_all(folder / "x.json"));
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("an inspection has everything that was learned") {
     for (const std::string method : {"reinforcement", "precomputed"}) {
@@ -40,8 +40,7 @@ TEST_CASE("an inspection has everything that was learned") {
         CHECK(volume["bins"] == 64);
         CHECK(volume["partial"] == false);
         CHECK(volume["position"].size() == 3);
-        for (const char* key : {"radiance", "probability", "visits", "direction"})
-            CHECK(volume[key].size() == 64);
+        for (const char* key : {"radiance", "probability", "visits", "direction"}) CHECK(volume[key].size() == 64);
         double probability = 0.0;
         double visits = 0.0;
         for (std::size_t cell = 0; cell < 64; ++cell) {
@@ -55,10 +54,10 @@ TEST_CASE("an inspection has everything that was learned") {
                 length += d * d;
                 cosine += d * volume["normal"][axis].get<double>();
             }
-            CHECK(length == Approx(1.0).epsilon(1e-5)); // a few roundings of float
+            CHECK(length == Approx(1.0).epsilon(1e-5));  // a few roundings of float
             CHECK(cosine > 0.0);
         }
-        CHECK(probability == Approx(1.0).epsilon(1e-5)); // 64 roundings of float
+        CHECK(probability == Approx(1.0).epsilon(1e-5));  // 64 roundings of float
         CHECK(visits > 0.0);
         CHECK(volume["mean_radiance"] > 0.0);
     }
@@ -92,8 +91,7 @@ TEST_CASE("the table has a row per cell with the numbers of the JSON file") {
     for (std::size_t cell = 0; cell < 64; ++cell) {
         std::istringstream stream(lines[cell + 1]);
         std::vector<double> numbers;
-        for (std::string number; std::getline(stream, number, ',');)
-            numbers.push_back(std::stod(number));
+        for (std::string number; std::getline(stream, number, ',');) numbers.push_back(std::stod(number));
         REQUIRE(numbers.size() == 9);
         CHECK(numbers[0] == static_cast<double>(cell));
         CHECK(numbers[1] == static_cast<double>(cell / 8));
@@ -131,4 +129,4 @@ TEST_CASE("where no volume is, that is said before any training") {
     CHECK(folder.names().empty());
 }
 
-} // namespace pl::test
+}  // namespace pl::test

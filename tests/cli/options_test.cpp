@@ -27,23 +27,16 @@ std::vector<std::string> shell_words(const std::string& command) {
 float any_float(std::mt19937& random) {
     for (;;) {
         const float value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-        if (std::isfinite(value))
-            return value;
+        if (std::isfinite(value)) return value;
     }
 }
 
-glm::vec3 any_vector(std::mt19937& random) {
-    return {any_float(random), any_float(random), any_float(random)};
-}
+glm::vec3 any_vector(std::mt19937& random) { return {any_float(random), any_float(random), any_float(random)}; }
 
 /// Options that a person can have, far from the defaults.
 Options any_options(std::mt19937& random) {
-    const auto whole = [&](int low, int high) {
-        return std::uniform_int_distribution<int>(low, high)(random);
-    };
-    const auto real = [&](float low, float high) {
-        return std::uniform_real_distribution<float>(low, high)(random);
-    };
+    const auto whole = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+    const auto real = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
     Options o;
     o.scene = "some folder/it's a $scene.json";
     o.output = "out \"1\".exr";
@@ -62,10 +55,8 @@ Options any_options(std::mt19937& random) {
     o.render.field.bins *= o.render.field.bins;
     o.display.exposure_ev = real(-64.0f, 64.0f);
     o.display.curve = static_cast<ToneCurve>(whole(0, 2));
-    if (whole(0, 1) == 1)
-        o.spp = static_cast<std::uint32_t>(whole(1, 1000000000));
-    if (whole(0, 1) == 1)
-        o.time_limit_seconds = real(0.001f, 1.0e9f);
+    if (whole(0, 1) == 1) o.spp = static_cast<std::uint32_t>(whole(1, 1000000000));
+    if (whole(0, 1) == 1) o.time_limit_seconds = real(0.001f, 1.0e9f);
     o.threads = whole(0, 1024);
     o.backend = whole(0, 1) == 1 ? "cpu" : "auto";
     return o;
@@ -95,7 +86,7 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE(a.backend == b.backend);
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("a copied command gives back the options it was made from") {
     std::mt19937 random(7);
@@ -161,8 +152,8 @@ TEST_CASE("the limits: 64 samples unless something else is given") {
 
 TEST_CASE("spellings: aliases, equals signs, negative numbers, the last of two") {
     const Options options =
-        parse({"render", "--scene=s", "--outfile", "x.pfm", "--samples=5", "-t3", "--eye", "-1,-2,-3.5",
-               "--exposure", "-2", "--seed", "1", "--seed", "2", "--headless", "--fov=+30"});
+        parse({"render", "--scene=s", "--outfile", "x.pfm", "--samples=5", "-t3", "--eye", "-1,-2,-3.5", "--exposure",
+               "-2", "--seed", "1", "--seed", "2", "--headless", "--fov=+30"});
     CHECK(options.scene == "s");
     CHECK(options.output == "x.pfm");
     CHECK(options.spp == 5u);
@@ -199,19 +190,16 @@ TEST_CASE("every option that can be given is in the help of its subcommand") {
         for (const OptionSpec& spec : option_table()) {
             CAPTURE(command, std::string(spec.name));
             const bool listed = help.find("--" + std::string(spec.name)) != std::string::npos;
-            if (!spec.group.empty() && spec.commands.has(id))
-                CHECK(listed);
+            if (!spec.group.empty() && spec.commands.has(id)) CHECK(listed);
         }
-        for (const std::string& line : lines_of(help))
-            CHECK(line.size() <= 110);
+        for (const std::string& line : lines_of(help)) CHECK(line.size() <= 110);
     }
 }
 
 TEST_CASE("a camera file goes over the scene's camera, single options over both") {
     const TempDir folder;
     write_all(folder / "camera.json", R"({"eye": [7, 8, 9], "fov_deg": 33})");
-    const Options options =
-        parse({"render", "s", "-o", "x.png", "--fov", "44", "--camera", folder / "camera.json"});
+    const Options options = parse({"render", "s", "-o", "x.png", "--fov", "44", "--camera", folder / "camera.json"});
     CHECK((options.render.camera.eye == glm::vec3(7, 8, 9)));
     CHECK((options.render.camera.target == glm::vec3(4, 5, 6)));
     CHECK(options.render.camera.fov_deg == 44.0f);
@@ -231,9 +219,8 @@ TEST_CASE("scene files may set exactly the options that the table says") {
     write_all(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     for (const OptionSpec& spec : option_table()) {
         CAPTURE(std::string(spec.name));
-        write_all(folder / "a.json",
-                  "{\"schema\": \"pathlight.scene/1\", \"obj\": \"a.obj\", \"settings\": {\"" +
-                      std::string(spec.name) + "\": 1}}");
+        write_all(folder / "a.json", "{\"schema\": \"pathlight.scene/1\", \"obj\": \"a.obj\", \"settings\": {\"" +
+                                         std::string(spec.name) + "\": 1}}");
         bool accepted = true;
         try {
             load_scene(folder / "a.json", "");
@@ -264,9 +251,8 @@ TEST_CASE("numbers print as what reads back to the same bits") {
     std::mt19937 random(3);
     for (int i = 0; i < 10000; ++i) {
         const float value = any_float(random);
-        REQUIRE(std::bit_cast<std::uint32_t>(parse_float(print_float(value))) ==
-                std::bit_cast<std::uint32_t>(value));
+        REQUIRE(std::bit_cast<std::uint32_t>(parse_float(print_float(value))) == std::bit_cast<std::uint32_t>(value));
     }
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -14,8 +14,7 @@ inline SceneDescription plain_scene() {
     return scene;
 }
 
-inline Options parse(const std::vector<std::string>& arguments,
-                     const SceneDescription& scene = plain_scene()) {
+inline Options parse(const std::vector<std::string>& arguments, const SceneDescription& scene = plain_scene()) {
     const CommandLine line = parse_command_line(arguments);
     REQUIRE_FALSE(line.answer);
     return resolve_options(line, scene);
@@ -32,4 +31,4 @@ inline std::string complaint(const std::vector<std::string>& arguments) {
     return "nothing";
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -51,7 +51,7 @@ Snapshot tiny_picture(View view, const std::vector<Vec3f>& pixels) {
     return snapshot;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("the first interruption raises the flag, the second one ends the program with 130") {
     CHECK(in_child([] {
@@ -87,11 +87,10 @@ TEST_CASE("the closest surface point is the closest of a dense set of points") {
         float sampled = 1.0e9f;
         for (int u = 0; u <= 200; ++u)
             for (int v = 0; u + v <= 200; ++v)
-                sampled =
-                    std::min(sampled, glm::distance(point, a + (b - a) * (static_cast<float>(u) / 200.0f) +
-                                                               (c - a) * (static_cast<float>(v) / 200.0f)));
+                sampled = std::min(sampled, glm::distance(point, a + (b - a) * (static_cast<float>(u) / 200.0f) +
+                                                                     (c - a) * (static_cast<float>(v) / 200.0f)));
         const ClosestSurface surface = closest_surface(scene, point);
-        REQUIRE(surface.distance <= sampled + 1.0e-5f); // rounding of the sampled distance
+        REQUIRE(surface.distance <= sampled + 1.0e-5f);  // rounding of the sampled distance
         REQUIRE(surface.distance >= sampled - 0.0108f);
         REQUIRE(glm::distance(point, surface.position) == Approx(surface.distance).margin(1.0e-5));
         REQUIRE(glm::dot(point - a, surface.normal) >= 0.0f);
@@ -157,8 +156,7 @@ TEST_CASE("a file that cannot be written is found out beforehand, without a trac
     CHECK((folder.names() == std::vector<std::string>{"old.png"}));
     CHECK(test::read_all(folder / "old.png") == "old");
     CHECK_NOTHROW(require_writable("/dev/null"));
-    for (const std::string& path :
-         {folder / "missing/new.png", folder.path().string(), folder / "old.png/x.png"}) {
+    for (const std::string& path : {folder / "missing/new.png", folder.path().string(), folder / "old.png/x.png"}) {
         try {
             require_writable(path);
             FAIL(path << " counts as writable");
@@ -189,7 +187,7 @@ TEST_CASE("the drawn disc shows each cell where its directions are") {
     volume.radiance.assign(16, 0.0f);
     volume.probability.assign(16, 1.0f / 16.0f);
     volume.visits.assign(16, 1);
-    volume.radiance[15] = 1.0f; // highest row and column: towards +x, +y
+    volume.radiance[15] = 1.0f;  // highest row and column: towards +x, +y
     const ByteImage image = draw_hemisphere(volume, "test");
     const Rgb bright = share_color(1.0f);
     const auto color_at = [&](int x, int y) {
@@ -204,4 +202,4 @@ TEST_CASE("the drawn disc shows each cell where its directions are") {
     CHECK(color_at(center_x, center_y) == share_color(0.0f));
 }
 
-} // namespace pl
+}  // namespace pl

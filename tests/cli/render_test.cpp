@@ -29,8 +29,7 @@ std::string rendered_bytes(const Arguments& more) {
 
 std::string metadata_value(const ImageMetadata& metadata, const std::string& name) {
     for (const auto& [key, value] : metadata)
-        if (key == name)
-            return value;
+        if (key == name) return value;
     return "";
 }
 
@@ -40,20 +39,18 @@ Arguments endless(const std::string& output) {
 }
 
 const std::vector<std::string> kMethods{"default", "precomputed", "reinforcement"};
-const std::vector<std::string> kViews{"beauty", "direct", "radiance-map", "voronoi",
-                                      "normal", "albedo", "depth"};
+const std::vector<std::string> kViews{"beauty", "direct", "radiance-map", "voronoi", "normal", "albedo", "depth"};
 
-} // namespace
+}  // namespace
 
 TEST_CASE("every method renders every view") {
     const TempDir folder;
     for (const std::string& method : kMethods)
         for (const std::string& view : kViews) {
-            if (method == "default" && view == "radiance-map")
-                continue;
+            if (method == "default" && view == "radiance-map") continue;
             const ProgramResult result =
-                run_program({"render", "cornell", "-o", folder / "x.png", "--size", "8x8", "--spp", "2",
-                             "--method", method, "--view", view, "--volumes", "50"});
+                run_program({"render", "cornell", "-o", folder / "x.png", "--size", "8x8", "--spp", "2", "--method",
+                             method, "--view", view, "--volumes", "50"});
             CAPTURE(method, view, result.err);
             CHECK(result.code == 0);
             const ByteImage image = read_png8(folder / "x.png");
@@ -180,9 +177,8 @@ TEST_CASE("an interruption writes the partial picture, marks it and exits with 1
 
 TEST_CASE("an interruption before the first sample still writes a marked picture") {
     const TempDir folder;
-    RunningProgram running(
-        program({"render", "cornell", "-o", folder / "x.exr", "--method", "precomputed", "--volumes", "20000",
-                 "--bins", "1024", "--size", "16x16", "--json", "-t", "1"}));
+    RunningProgram running(program({"render", "cornell", "-o", folder / "x.exr", "--method", "precomputed",
+                                    "--volumes", "20000", "--bins", "1024", "--size", "16x16", "--json", "-t", "1"}));
     REQUIRE(running.wait_for_output("\"event\":\"start\""));
     running.send(SIGTERM);
     const ProgramResult result = running.wait();
@@ -208,11 +204,9 @@ TEST_CASE("a killed program leaves the old picture") {
 TEST_CASE("any working directory, relative paths, and an OBJ without a camera") {
     const TempDir folder;
     write_all(folder / "light.mtl", "newmtl light\nKe 1 1 1\n");
-    write_all(folder / "my scene.obj",
-              "mtllib light.mtl\nusemtl light\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    write_all(folder / "my scene.obj", "mtllib light.mtl\nusemtl light\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
     const ProgramSetup there{.folder = folder.path()};
-    CHECK(run_program({"render", "my scene.obj", "-o", "x.pfm", "--size", "9x9", "--spp", "1"}, there).code ==
-          0);
+    CHECK(run_program({"render", "my scene.obj", "-o", "x.pfm", "--size", "9x9", "--spp", "1"}, there).code == 0);
     // The camera frames it: the middle shows the light.
     CHECK(read_pfm(folder / "x.pfm").pixels[40].x == 1.0f);
     CHECK(run_program({"render", "door", "-o", "y.png", "--size", "9x9", "--spp", "1"}, there).code == 0);
@@ -226,8 +220,7 @@ TEST_CASE("settings of a scene file are defaults that options override") {
     write_all(folder / "a.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj",
         "settings": {"size": "20x10", "spp": 2, "method": "reinforcement", "nee": true}})");
     const auto stats_of = [&](const Arguments& more) {
-        Arguments arguments{"render",         folder / "a.json", "-o",
-                            folder / "x.pfm", "--stats",         folder / "s.json"};
+        Arguments arguments{"render", folder / "a.json", "-o", folder / "x.pfm", "--stats", folder / "s.json"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         REQUIRE(run_program(arguments).code == 0);
         return json::parse(read_all(folder / "s.json"));
@@ -244,4 +237,4 @@ TEST_CASE("settings of a scene file are defaults that options override") {
     CHECK(changed["height"] == 20);
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -16,8 +16,7 @@ using nlohmann::ordered_json;
 
 std::vector<std::string> keys_of(const ordered_json& object) {
     std::vector<std::string> keys;
-    for (const auto& [key, value] : object.items())
-        keys.push_back(key);
+    for (const auto& [key, value] : object.items()) keys.push_back(key);
     return keys;
 }
 
@@ -65,7 +64,7 @@ private:
     int other_end_ = -1;
 };
 
-} // namespace
+}  // namespace
 
 TEST_CASE("statistics have every key in its order, and plausible values") {
     for (const std::string method : {"default", "precomputed", "reinforcement"}) {
@@ -104,8 +103,7 @@ TEST_CASE("statistics have every key in its order, and plausible values") {
         double sum = 0.0;
         for (const auto& [name, seconds] : stats["seconds"].items()) {
             CHECK(seconds.get<double>() >= 0.0);
-            if (name != "total")
-                sum += seconds.get<double>();
+            if (name != "total") sum += seconds.get<double>();
         }
         CHECK(stats["seconds"]["total"].get<double>() == Approx(sum));
         CHECK(stats["seconds"]["render"] > 0.0);
@@ -117,8 +115,7 @@ TEST_CASE("statistics have every key in its order, and plausible values") {
 
 TEST_CASE("statistics of the field: null without one, complete with one") {
     CHECK(stats_of({})["field"].is_null());
-    const ordered_json field =
-        stats_of({"--method", "reinforcement", "--volumes", "60", "--bins", "64"})["field"];
+    const ordered_json field = stats_of({"--method", "reinforcement", "--volumes", "60", "--bins", "64"})["field"];
     CHECK(keys_of(field) == kFieldKeys);
     CHECK(field["volumes"] >= 60);
     CHECK(field["bins"] == 64);
@@ -236,8 +233,8 @@ TEST_CASE("progress is a bar on a terminal only") {
 
 TEST_CASE("without a terminal progress is a plain line every five seconds") {
     const TempDir folder;
-    const ProgramResult result = run_program({"render", "cornell", "-o", folder / "x.png", "--size", "16x16",
-                                              "--spp", "1000000000", "--time-limit", "6"});
+    const ProgramResult result = run_program(
+        {"render", "cornell", "-o", folder / "x.png", "--size", "16x16", "--spp", "1000000000", "--time-limit", "6"});
     CHECK(result.code == 0);
     CHECK(lines_of(result.err).size() == 1);
     CHECK(result.err.find_first_of("\r\033") == std::string::npos);
@@ -246,8 +243,7 @@ TEST_CASE("without a terminal progress is a plain line every five seconds") {
 TEST_CASE("errors are red on a terminal unless NO_COLOR is set") {
     const auto text_with = [](const std::vector<std::string>& set) {
         const Terminal terminal;
-        CHECK(run_program({"info", "cornel"},
-                          {.unset = {"NO_COLOR"}, .set = set, .terminal = terminal.device()})
+        CHECK(run_program({"info", "cornel"}, {.unset = {"NO_COLOR"}, .set = set, .terminal = terminal.device()})
                   .code == 3);
         return terminal.text();
     };
@@ -288,8 +284,7 @@ TEST_CASE("devices tells what there is, and why something is not") {
     CHECK(cpu["available"] == true);
     const ordered_json cuda = ordered_json::parse(lines[1]);
     CHECK(cuda["backend"] == "cuda");
-    if (cuda["available"] == false)
-        CHECK_FALSE(cuda["reason"].get<std::string>().empty());
+    if (cuda["available"] == false) CHECK_FALSE(cuda["reason"].get<std::string>().empty());
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -28,7 +28,7 @@ private:
 };
 
 struct ProgramResult {
-    int code = -1; ///< exit code; 128 + number for a signal
+    int code = -1;  ///< exit code; 128 + number for a signal
     std::string out;
     std::string err;
 };
@@ -40,11 +40,11 @@ Arguments program(const Arguments& arguments);
 
 /// How the program is started.
 struct ProgramSetup {
-    std::filesystem::path folder{};   ///< working directory; empty: this one
-    std::vector<std::string> unset{}; ///< environment variables that it does not get
-    std::vector<std::string> set{};   ///< "NAME=value"
-    std::string terminal{};           ///< device that standard error goes to instead of a file
-    std::string output_device{};      ///< that standard output goes to instead of a file
+    std::filesystem::path folder{};    ///< working directory; empty: this one
+    std::vector<std::string> unset{};  ///< environment variables that it does not get
+    std::vector<std::string> set{};    ///< "NAME=value"
+    std::string terminal{};            ///< device that standard error goes to instead of a file
+    std::string output_device{};       ///< that standard output goes to instead of a file
 };
 
 /// A program that runs. What it prints goes to files, so that it never has to wait for a reader.
@@ -80,4 +80,4 @@ std::string read_all(const std::filesystem::path& path);
 void write_all(const std::filesystem::path& path, const std::string& text);
 std::vector<std::string> lines_of(const std::string& text);
 
-} // namespace pl::test
+}  // namespace pl::test

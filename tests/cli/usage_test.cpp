@@ -12,7 +12,7 @@ std::vector<std::string> render_with(const std::vector<std::string>& words) {
     return arguments;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("wrong values name the option, what is expected and what was given") {
     struct Wrong {
@@ -139,4 +139,4 @@ TEST_CASE("inspection needs one place") {
     CHECK((*options.at->normal == glm::vec3(0, 0, -1)));
 }
 
-} // namespace pl::test
+}  // namespace pl::test

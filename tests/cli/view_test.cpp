@@ -12,27 +12,24 @@ ProgramResult run_script(const TempDir& folder, const std::string& script, const
     Arguments arguments{"view",    "cornell", "--script", "script", "--software", "--window",
                         "800x600", "--size",  "32x24",    "--spp",  "2"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program(arguments,
-                       {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
+    return run_program(arguments, {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
 }
 
 std::string command_in(const std::filesystem::path& png) {
     ImageMetadata metadata;
     read_png8(png, &metadata);
     for (const auto& [name, text] : metadata)
-        if (name == "command")
-            return text;
+        if (name == "command") return text;
     return "";
 }
 
 std::filesystem::path only_file(const TempDir& folder, const std::string& suffix) {
     for (const std::string& name : folder.names())
-        if (name.ends_with(suffix))
-            return folder / name;
+        if (name.ends_with(suffix)) return folder / name;
     return "";
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("the command of a saved picture makes that picture") {
     const TempDir folder;
@@ -46,8 +43,7 @@ TEST_CASE("the command of a saved picture makes that picture") {
     REQUIRE_FALSE(shown.empty());
     REQUIRE_FALSE(linear.empty());
     const std::string command = command_in(shown);
-    CHECK_THAT(command,
-               contains("--exposure 0.5") && contains("--method reinforcement") && contains("--size 32x24"));
+    CHECK_THAT(command, contains("--exposure 0.5") && contains("--method reinforcement") && contains("--size 32x24"));
 
     REQUIRE(run_shell(command, {.folder = folder.path()}).code == 0);
     CHECK((read_png8(folder / "cornell.png").rgb == read_png8(shown).rgb));
@@ -57,13 +53,12 @@ TEST_CASE("the command of a saved picture makes that picture") {
 
 TEST_CASE("the window opens with what the command line asks for") {
     const TempDir folder;
-    const ProgramResult result =
-        run_script(folder,
-                   "1 expect method == precomputed\n1 expect nee == yes\n1 expect exposure == -1\n1 expect "
-                   "size == 32x24\n"
-                   "1 expect eye_z == -700\n2 wait state == done\n3 expect spp == 2\n4 quit\n",
-                   {"--method", "precomputed", "--nee", "on", "--exposure", "-1", "--eye", "278,273,-700",
-                    "--volumes", "50"});
+    const ProgramResult result = run_script(
+        folder,
+        "1 expect method == precomputed\n1 expect nee == yes\n1 expect exposure == -1\n1 expect "
+        "size == 32x24\n"
+        "1 expect eye_z == -700\n2 wait state == done\n3 expect spp == 2\n4 quit\n",
+        {"--method", "precomputed", "--nee", "on", "--exposure", "-1", "--eye", "278,273,-700", "--volumes", "50"});
     CAPTURE(result.err);
     CHECK(result.code == 0);
 }
@@ -77,4 +72,4 @@ TEST_CASE("a back end that is not there is told before a window opens") {
     }
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -49,9 +49,7 @@ void count_path(PassCounters& counters, Vec3f radiance, bool valid) {
 
 constexpr std::uint32_t kPasses = 3;
 
-PathSettings path_settings(bool next_event) {
-    return {.seed = 77, .next_event = next_event ? 1u : 0u};
-}
+PathSettings path_settings(bool next_event) { return {.seed = 77, .next_event = next_event ? 1u : 0u}; }
 
 /// One path after the other.
 template <FeatureSet F, Method M>
@@ -127,9 +125,7 @@ void check_method(MethodId method) {
 
 }  // namespace
 
-TEST_CASE("Batches of default paths equal single paths") {
-    check_method<DefaultMethod>(MethodId::Default);
-}
+TEST_CASE("Batches of default paths equal single paths") { check_method<DefaultMethod>(MethodId::Default); }
 TEST_CASE("Batches of precomputed paths equal single paths") {
     check_method<PrecomputedMethod>(MethodId::Precomputed);
 }

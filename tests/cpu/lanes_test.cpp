@@ -11,9 +11,7 @@ using test::Uniforms;
 
 namespace {
 
-bool same_bits(Vec4f a, Vec4f b) {
-    return std::memcmp(&a, &b, sizeof a) == 0;
-}
+bool same_bits(Vec4f a, Vec4f b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace
 

@@ -22,18 +22,13 @@ SurfacePoint site(Vec3f position, Vec3f normal = {0, 0, 1}) {
 
 Sites make_sites(int count, const std::function<Vec3f(int)>& position) {
     Sites sites;
-    for (int i = 0; i < count; ++i)
-        sites.push_back(site(position(i)));
+    for (int i = 0; i < count; ++i) sites.push_back(site(position(i)));
     return sites;
 }
 
-std::vector<KdNode> tree_of(const Sites& sites) {
-    return build_kd_tree(view_of(sites));
-}
+std::vector<KdNode> tree_of(const Sites& sites) { return build_kd_tree(view_of(sites)); }
 
-KdTreeView view(const std::vector<KdNode>& nodes) {
-    return {view_of(nodes)};
-}
+KdTreeView view(const std::vector<KdNode>& nodes) { return {view_of(nodes)}; }
 
 /// Linear search over the sites themselves: knows nothing of the tree, not even its order.
 Nearest search_sites(const Sites& sites, Vec3f position, Vec3f normal) {
@@ -43,29 +38,23 @@ Nearest search_sites(const Sites& sites, Vec3f position, Vec3f normal) {
     return nearest;
 }
 
-std::uint32_t bits(float x) {
-    return std::bit_cast<std::uint32_t>(x);
-}
+std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 
 /// Queries around the sites, at them, and one ulp beside them.
 Vec3f random_query(const Sites& sites, Uniforms& random) {
-    if (sites.empty() || random.below(4) == 0)
-        return random.cube(-2, 2);
+    if (sites.empty() || random.below(4) == 0) return random.cube(-2, 2);
     Vec3f p = sites[random.below(static_cast<std::uint32_t>(sites.size()))].position;
     const std::uint32_t kind = random.below(4);
-    if (kind == 1)
-        p += 0.1f * random.cube(-1, 1);
-    if (kind == 2)
-        p[static_cast<int>(random.below(3))] = next_float_up(p[static_cast<int>(random.below(3))]);
-    if (kind == 3) // between two sites: ties on regular grids
+    if (kind == 1) p += 0.1f * random.cube(-1, 1);
+    if (kind == 2) p[static_cast<int>(random.below(3))] = next_float_up(p[static_cast<int>(random.below(3))]);
+    if (kind == 3)  // between two sites: ties on regular grids
         p = 0.5f * (p + sites[random.below(static_cast<std::uint32_t>(sites.size()))].position);
     return p;
 }
 
 void check_searches(const Sites& sites, int queries, const std::function<Vec3f(Uniforms&)>& normal) {
     const std::vector<KdNode> nodes = tree_of(sites);
-    const std::unique_ptr<NanoflannIndex> index =
-        sites.empty() ? nullptr : std::make_unique<NanoflannIndex>(sites);
+    const std::unique_ptr<NanoflannIndex> index = sites.empty() ? nullptr : std::make_unique<NanoflannIndex>(sites);
     Uniforms random(41);
     for (int i = 0; i < queries; ++i) {
         const Vec3f position = random_query(sites, random);
@@ -82,33 +71,28 @@ void check_searches(const Sites& sites, int queries, const std::function<Vec3f(U
     }
 }
 
-Vec3f up(Uniforms&) {
-    return {0, 0, 1};
-}
+Vec3f up(Uniforms&) { return {0, 0, 1}; }
 
 /// Depth of the deepest node: how often a range can be halved.
 int depth_of(std::size_t nodes) {
     int depth = 0;
-    for (; nodes > 0; nodes /= 2)
-        ++depth;
+    for (; nodes > 0; nodes /= 2) ++depth;
     return depth;
 }
 
 /// KdTreeView's promise: along a node's axis nothing before it is larger, nothing behind it smaller.
 bool ordered(const std::vector<KdNode>& nodes, std::size_t low, std::size_t high) {
-    if (low >= high)
-        return true;
+    if (low >= high) return true;
     const std::size_t middle = low + (high - low) / 2;
     const int axis = static_cast<int>(nodes[middle].axis);
     for (std::size_t i = low; i < high; ++i) {
         const float difference = nodes[i].position[axis] - nodes[middle].position[axis];
-        if (i < middle ? difference > 0.0f : difference < 0.0f)
-            return false;
+        if (i < middle ? difference > 0.0f : difference < 0.0f) return false;
     }
     return ordered(nodes, low, middle) && ordered(nodes, middle + 1, high);
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Few points or none are searched exactly") {
     for (int count = 0; count <= 4; ++count) {
@@ -142,8 +126,7 @@ TEST_CASE("Duplicate and collinear and sorted points are searched exactly") {
 
 TEST_CASE("Grids full of ties give the lowest number") {
     const auto at = [](int i) {
-        return Vec3f{static_cast<float>(i % 8), static_cast<float>(i / 8 % 8), static_cast<float>(i / 64)} *
-               0.25f;
+        return Vec3f{static_cast<float>(i % 8), static_cast<float>(i / 8 % 8), static_cast<float>(i / 64)} * 0.25f;
     };
     check_searches(make_sites(512, at), 20000, up);
     // The same with numbers in another order.
@@ -163,12 +146,10 @@ TEST_CASE("The order of equal points in the tree does not matter") {
 TEST_CASE("Normals filter the search") {
     Uniforms random(4);
     Sites sites = make_sites(1000, [&](int) { return random.cube(-1, 1); });
-    for (SurfacePoint& s : sites)
-        s.geometric_normal = random.direction();
+    for (SurfacePoint& s : sites) s.geometric_normal = random.direction();
     check_searches(sites, 20000, [](Uniforms& r) { return r.direction(); });
     // One that agrees, far away behind a thousand that do not; and none that does.
-    for (SurfacePoint& s : sites)
-        s.geometric_normal = {0, 1, 0};
+    for (SurfacePoint& s : sites) s.geometric_normal = {0, 1, 0};
     sites.push_back(site({9, 9, 9}));
     const std::vector<KdNode> nodes = tree_of(sites);
     CHECK(find_volume(view(nodes), {0, 0, 0}, {0, 0, 1}) == 1000);
@@ -189,8 +170,7 @@ TEST_CASE("Queries on and beside every splitting plane are exact") {
                 float& x = query[static_cast<int>(node.axis)];
                 x = node.position[static_cast<int>(node.axis)];
                 x = side < 0 ? next_float_down(x) : (side > 0 ? next_float_up(x) : x);
-                REQUIRE(find_volume(view(nodes), query, {0, 0, 1}) ==
-                        search_sites(sites, query, {0, 0, 1}).volume);
+                REQUIRE(find_volume(view(nodes), query, {0, 0, 1}) == search_sites(sites, query, {0, 0, 1}).volume);
             }
     }
 }
@@ -256,11 +236,9 @@ void check_large_trees(int count) {
     check_tree(make_sites(count, [&](int) { return glm::floor(random.cube(0, 10)); }));
 }
 
-} // namespace
+}  // namespace
 
-TEST_CASE("Trees of 1e5 equal or sorted or tied points are built and ordered") {
-    check_large_trees(100000);
-}
+TEST_CASE("Trees of 1e5 equal or sorted or tied points are built and ordered") { check_large_trees(100000); }
 
 TEST_CASE("Trees of 1e6 equal or sorted or tied points are built and ordered", "[nightly]") {
     check_large_trees(1000000);

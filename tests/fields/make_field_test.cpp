@@ -22,14 +22,12 @@ float unit_for(Vec3f emission, Vec3f environment = Vec3f{0.0f}) {
 /// Gray whose luminance is exactly a power of two, in float.
 Vec3f of_luminance(float y) {
     float g = y;
-    while (luminance(Vec3f{g}) > y)
-        g = next_float_down(g);
-    while (luminance(Vec3f{g}) < y)
-        g = next_float_up(g);
+    while (luminance(Vec3f{g}) > y) g = next_float_down(g);
+    while (luminance(Vec3f{g}) < y) g = next_float_up(g);
     return Vec3f{g};
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("The number of volumes follows the budget up to the default") {
     FieldSettings settings;
@@ -41,7 +39,7 @@ TEST_CASE("The number of volumes follows the budget up to the default") {
     CHECK(volume_count(settings) == kDefaultVolumes);
     settings.budget_megabytes = 1e-9;
     CHECK(volume_count(settings) == 1);
-    settings.volumes = 12345; // asked for: whatever it takes
+    settings.volumes = 12345;  // asked for: whatever it takes
     CHECK(volume_count(settings) == 12345);
     CHECK(bytes_per_volume(1024) > bytes_per_volume(256));
 }
@@ -98,8 +96,7 @@ TEST_CASE("Empty tables sample uniformly and end in exactly 1") {
             for (int row = 0; row < side; ++row) {
                 CHECK(table.column_cdf[row * side + side - 1] == 1.0f);
                 for (int column = 0; column < side; ++column)
-                    REQUIRE(std::fabs(table.cell_probability(column, row) * static_cast<float>(bins) - 1.0f) <
-                            1e-5f);
+                    REQUIRE(std::fabs(table.cell_probability(column, row) * static_cast<float>(bins) - 1.0f) < 1e-5f);
             }
         }
         CHECK(tables.mean_radiance == std::vector<float>(3, 0.0f));

@@ -14,9 +14,7 @@ using Sites = std::vector<SurfacePoint>;
 /// nanoflann over the same points.
 class NanoflannIndex {
 public:
-    explicit NanoflannIndex(const Sites& sites) : cloud_{sites}, tree_(3, cloud_, {10}) {
-        tree_.buildIndex();
-    }
+    explicit NanoflannIndex(const Sites& sites) : cloud_{sites}, tree_(3, cloud_, {10}) { tree_.buildIndex(); }
 
     float nearest_distance2(Vec3f position) const {
         std::size_t index = 0;
@@ -46,4 +44,4 @@ private:
     nanoflann::KDTreeSingleIndexAdaptor<Metric, Cloud, 3> tree_;
 };
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -45,8 +45,7 @@ struct SideCount {
 };
 
 /// Volumes on each surface, by the side they face.
-std::vector<SideCount>
-count_sides(const HostScene& scene, const Surfaces& surfaces, const HostVolumes& volumes) {
+std::vector<SideCount> count_sides(const HostScene& scene, const Surfaces& surfaces, const HostVolumes& volumes) {
     std::vector<SideCount> counts(surfaces.list.size());
     for (const SurfacePoint& site : volumes.sites) {
         SideCount& count = counts[surfaces.of_triangle[site.primitive]];
@@ -56,14 +55,13 @@ count_sides(const HostScene& scene, const Surfaces& surfaces, const HostVolumes&
     return counts;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Counts are the number asked for in proportion to area") {
     const HostScene scene = pack_scene(lit_room());
     const Surfaces surfaces = find_surfaces(scene);
     double total = 0.0;
-    for (const Surface& surface : surfaces.list)
-        total += surface.area;
+    for (const Surface& surface : surfaces.list) total += surface.area;
     for (const int asked : {12, 100, 1000, 5000}) {
         const HostVolumes volumes = place_volumes(scene, asking_for(asked));
         REQUIRE(volumes.sites.size() == static_cast<std::size_t>(asked));
@@ -110,8 +108,7 @@ TEST_CASE("Every point is within three mean spacings of a volume that serves it"
     const SceneView view = scene.view();
     const Surfaces surfaces = find_surfaces(scene);
     double total = 0.0;
-    for (const Surface& surface : surfaces.list)
-        total += surface.area;
+    for (const Surface& surface : surfaces.list) total += surface.area;
     for (const int asked : {100, 1000}) {
         const HostVolumes volumes = place_volumes(scene, asking_for(asked));
         const double spacing = std::sqrt(total / asked);
@@ -119,8 +116,7 @@ TEST_CASE("Every point is within three mean spacings of a volume that serves it"
         for (int i = 0; i < 50000; ++i) {
             const Vec2f b = square_to_triangle(random.square());
             const Hit hit{.t = 1, .primitive = random.below(view.triangles.count), .b1 = b.x, .b2 = b.y};
-            const SurfacePoint point =
-                make_surface_point<FeatureSet{}>(view, hit, view.planes[hit.primitive].normal);
+            const SurfacePoint point = make_surface_point<FeatureSet{}>(view, hit, view.planes[hit.primitive].normal);
             Nearest nearest;
             search_kd_tree({view_of(volumes.kd_nodes)}, point.position, point.geometric_normal, nearest);
             REQUIRE(nearest.volume != kNoVolume);
@@ -142,7 +138,7 @@ TEST_CASE("Volumes cover a square evenly") {
         ++counts[static_cast<std::size_t>(row * 4 + column)];
     }
     for (const int count : counts)
-        CHECK(std::abs(count - 100) <= 10); // independent points would have a standard deviation of 10
+        CHECK(std::abs(count - 100) <= 10);  // independent points would have a standard deviation of 10
 }
 
 TEST_CASE("Volumes stand inside their triangles and face their side") {
@@ -154,8 +150,7 @@ TEST_CASE("Volumes stand inside their triangles and face their side") {
         REQUIRE(volumes.normals[i] == site.geometric_normal);
         places.insert({site.position.x, site.position.y, site.position.z});
         // A ray from above meets the triangle right there, and not at an edge.
-        const Ray ray{.origin = site.position + 0.01f * site.geometric_normal,
-                      .direction = -site.geometric_normal};
+        const Ray ray{.origin = site.position + 0.01f * site.geometric_normal, .direction = -site.geometric_normal};
         const Hit hit = closest_hit_by_all(scene.view(), ray);
         REQUIRE(hit.primitive == site.primitive);
         REQUIRE(min_of(hit.b1, min_of(hit.b2, 1.0f - hit.b1 - hit.b2)) > 0.0f);
@@ -167,8 +162,8 @@ TEST_CASE("Only the sides that light reaches get volumes") {
     SceneDescription description;
     description.materials = {gray(), gray()};
     description.materials[1].emission = Vec3f{1.0f};
-    add_sheet(description, 1.0f, 0.0f, 0);  // lit from below
-    add_sheet(description, 1.0f, -1.0f, 1); // the light: its front looks up
+    add_sheet(description, 1.0f, 0.0f, 0);   // lit from below
+    add_sheet(description, 1.0f, -1.0f, 1);  // the light: its front looks up
     const HostScene below = pack_scene(description);
     const Surfaces surfaces = find_surfaces(below);
     std::vector<SideCount> counts = count_sides(below, surfaces, place_volumes(below, asking_for(100)));
@@ -178,7 +173,7 @@ TEST_CASE("Only the sides that light reaches get volumes") {
     CHECK(counts[1].front == 50);
     CHECK(counts[1].back == 0);
 
-    add_sheet(description, 1.0f, 1.0f, 1); // a second light above, with its back to the sheet
+    add_sheet(description, 1.0f, 1.0f, 1);  // a second light above, with its back to the sheet
     const HostScene one_sided = pack_scene(description);
     counts = count_sides(one_sided, find_surfaces(one_sided), place_volumes(one_sided, asking_for(100)));
     CHECK(counts[0].front == 0);
@@ -194,8 +189,7 @@ TEST_CASE("An environment lights both sides of a sheet and without any light it 
     description.materials.push_back(gray());
     add_sheet(description, 1.0f, 0.0f, 0);
     const HostScene dark = pack_scene(description);
-    std::vector<SideCount> counts =
-        count_sides(dark, find_surfaces(dark), place_volumes(dark, asking_for(100)));
+    std::vector<SideCount> counts = count_sides(dark, find_surfaces(dark), place_volumes(dark, asking_for(100)));
     CHECK(counts[0].front == 100);
     CHECK(counts[0].back == 0);
     description.environment = Vec3f{1.0f};
@@ -219,15 +213,13 @@ TEST_CASE("Placement is the same every time and scales with the scene bit by bit
     for (const int exponent : {0, -20, 20}) {
         const float scale = std::ldexp(1.0f, exponent);
         SceneDescription description = lit_room();
-        for (glm::vec3& p : description.positions)
-            p *= scale;
+        for (glm::vec3& p : description.positions) p *= scale;
         const HostVolumes scaled = place_volumes(pack_scene(description), asking_for(1000));
         REQUIRE(scaled.sites.size() == first.sites.size());
         bool same = true;
         for (std::size_t i = 0; i < first.sites.size(); ++i) {
             same = same && scaled.sites[i].position == first.sites[i].position * scale &&
-                   scaled.normals[i] == first.normals[i] &&
-                   scaled.kd_nodes[i].volume == first.kd_nodes[i].volume &&
+                   scaled.normals[i] == first.normals[i] && scaled.kd_nodes[i].volume == first.kd_nodes[i].volume &&
                    scaled.kd_nodes[i].axis == first.kd_nodes[i].axis;
             same = same && second.sites[i].position == first.sites[i].position;
         }

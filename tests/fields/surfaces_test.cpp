@@ -14,12 +14,11 @@ namespace {
 
 std::vector<double> areas_of(const Surfaces& surfaces) {
     std::vector<double> areas;
-    for (const Surface& surface : surfaces.list)
-        areas.push_back(surface.area);
+    for (const Surface& surface : surfaces.list) areas.push_back(surface.area);
     return areas;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("A box has six surfaces and a sphere a few dozen") {
     SceneDescription box;
@@ -44,12 +43,12 @@ TEST_CASE("Surfaces are joined at equal corners written twice and end where noth
     SceneDescription scene;
     scene.materials = {gray(), gray(0.0f)};
     add_triangle(scene, Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0});
-    add_triangle(scene, Vec3f{1, 0, -0.0f}, Vec3f{1, 1, 0}, Vec3f{0, 1, 0});   // shares an edge, -0 is 0
-    add_triangle(scene, Vec3f{1, 1, 0}, Vec3f{2, 1, 0}, Vec3f{1, 2, 0});       // shares a corner
-    add_triangle(scene, Vec3f{5, 5, 0}, Vec3f{6, 5, 0}, Vec3f{5, 6, 0});       // shares nothing
-    add_triangle(scene, Vec3f{0, 0, 0}, Vec3f{0, 1, 0}, Vec3f{1, 0, 0});       // faces the other way
-    add_triangle(scene, Vec3f{1, 0, 0}, Vec3f{2, 0, 0}, Vec3f{1, 1, 0}, 1);    // reflects nothing
-    add_triangle(scene, Vec3f{0, 0, 0}, Vec3f{1, 1, 0}, Vec3f{0.5f, 0.5f, 0}); // has no area
+    add_triangle(scene, Vec3f{1, 0, -0.0f}, Vec3f{1, 1, 0}, Vec3f{0, 1, 0});    // shares an edge, -0 is 0
+    add_triangle(scene, Vec3f{1, 1, 0}, Vec3f{2, 1, 0}, Vec3f{1, 2, 0});        // shares a corner
+    add_triangle(scene, Vec3f{5, 5, 0}, Vec3f{6, 5, 0}, Vec3f{5, 6, 0});        // shares nothing
+    add_triangle(scene, Vec3f{0, 0, 0}, Vec3f{0, 1, 0}, Vec3f{1, 0, 0});        // faces the other way
+    add_triangle(scene, Vec3f{1, 0, 0}, Vec3f{2, 0, 0}, Vec3f{1, 1, 0}, 1);     // reflects nothing
+    add_triangle(scene, Vec3f{0, 0, 0}, Vec3f{1, 1, 0}, Vec3f{0.5f, 0.5f, 0});  // has no area
     const Surfaces surfaces = find_surfaces(pack_scene(scene));
     REQUIRE(surfaces.list.size() == 3);
     CHECK(surfaces.of_triangle == std::vector<std::uint32_t>{0, 0, 0, 1, 2, kNoSurface, kNoSurface});
@@ -76,7 +75,6 @@ TEST_CASE("A fan of many triangles around one point is found quickly") {
         const double angle = 6.283185307179586 * i / kTriangles;
         add_vertex(description, Vec3f{Vec3d{std::cos(angle), std::sin(angle), 0.0}});
     }
-    for (std::uint32_t i = 0; i < kTriangles; ++i)
-        add_triangle(description, 0, 1 + i, 1 + (i + 1) % kTriangles);
+    for (std::uint32_t i = 0; i < kTriangles; ++i) add_triangle(description, 0, 1 + i, 1 + (i + 1) % kTriangles);
     CHECK(find_surfaces(pack_scene(description)).list.size() == 1);
 }

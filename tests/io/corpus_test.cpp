@@ -26,7 +26,7 @@ std::vector<std::filesystem::path> scenes_in(const std::string& folder) {
     return result;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Corpus: what must be refused") {
     const auto paths = scenes_in("refused");

@@ -42,8 +42,7 @@ TEST_CASE("What cannot be written is told with the path and leaves nothing behin
     const auto message = [&](const fs::path& path) {
         return error_message(ErrorKind::Runtime, [&] { write_file_atomic(path, "new"); });
     };
-    CHECK_THAT(message(folder.path() / "gone/a.txt"),
-               contains("gone/a.txt: cannot be written: No such file"));
+    CHECK_THAT(message(folder.path() / "gone/a.txt"), contains("gone/a.txt: cannot be written: No such file"));
     fs::create_directories(folder.path() / "dir");
     CHECK_THAT(message(folder.path() / "dir"), contains("dir: cannot be written: it is a directory"));
     const fs::path below_file = folder.write("file", "old") / "a.txt";
@@ -58,7 +57,7 @@ TEST_CASE("A folder that may not be written to keeps its old file") {
     const fs::path path = folder.write("locked/a.txt", "old");
     fs::permissions(path.parent_path(), fs::perms::owner_read | fs::perms::owner_exec);
     if (::access(path.parent_path().c_str(), W_OK) == 0) {
-        return; // the superuser may write everywhere
+        return;  // the superuser may write everywhere
     }
     CHECK_THAT(error_message(ErrorKind::Runtime, [&] { write_file_atomic(path, "new"); }),
                contains("Permission denied"));

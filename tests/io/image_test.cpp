@@ -32,8 +32,7 @@ LinearImage noise(int width, int height) {
         }
         image.pixels.push_back(pixel);
     }
-    image.pixels[0] = {std::numeric_limits<float>::infinity(), -0.0f,
-                       std::numeric_limits<float>::denorm_min()};
+    image.pixels[0] = {std::numeric_limits<float>::infinity(), -0.0f, std::numeric_limits<float>::denorm_min()};
     return image;
 }
 
@@ -42,10 +41,9 @@ bool same_bits(const LinearImage& a, const LinearImage& b) {
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec3)) == 0;
 }
 
-const ImageMetadata kMetadata = {
-    {"settings", "--method reinforcement --spp 64"}, {"partial", "true"}, {"empty", ""}};
+const ImageMetadata kMetadata = {{"settings", "--method reinforcement --spp 64"}, {"partial", "true"}, {"empty", ""}};
 
-} // namespace
+}  // namespace
 
 TEST_CASE("EXR keeps every bit and the metadata") {
     const auto [width, height] = GENERATE(table<int, int>({{1, 1}, {3, 2}, {37, 51}, {1, 40}, {65, 1}}));
@@ -68,8 +66,8 @@ TEST_CASE("PFM keeps every bit, from the bottom row up") {
     const std::string header = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
     REQUIRE(bytes.starts_with(header));
     // The first float in the file is the red of the lower left pixel.
-    CHECK(std::memcmp(bytes.data() + header.size(),
-                      &image.pixels[static_cast<std::size_t>(width * (height - 1))], 12) == 0);
+    CHECK(std::memcmp(bytes.data() + header.size(), &image.pixels[static_cast<std::size_t>(width * (height - 1))],
+                      12) == 0);
 }
 
 TEST_CASE("PFM of the other byte order") {
@@ -118,8 +116,7 @@ TEST_CASE("Pictures that cannot be written leave nothing behind") {
                contains("gone/a.exr: cannot be written"));
     CHECK_THAT(fails([&] { write_pfm(folder.path(), image); }), contains("it is a directory"));
     const ByteImage byte_image{.width = 1, .height = 1, .rgb = {1, 2, 3}};
-    CHECK_THAT(fails([&] { write_png8(folder.path() / "gone/a.png", byte_image); }),
-               contains("cannot be written"));
+    CHECK_THAT(fails([&] { write_png8(folder.path() / "gone/a.png", byte_image); }), contains("cannot be written"));
     CHECK_THAT(fails([&] { write_exr(folder.path() / "a.exr", {}); }), contains("a picture of 0x0"));
     CHECK_THAT(fails([&] {
                    write_pfm(folder.path() / "a.pfm", {.width = 2, .height = 2, .pixels = {{}, {}, {}}});
@@ -148,8 +145,8 @@ TEST_CASE("Pictures that are not what they should be are refused") {
 TEST_CASE("Truncated pictures are refused at every length") {
     const TemporaryFolder folder;
     write_pfm(folder.path() / "whole.pfm", noise(3, 2));
-    write_png8(folder.path() / "whole.png",
-               {.width = 2, .height = 2, .rgb = std::vector<std::uint8_t>(12, 7)}, kMetadata);
+    write_png8(folder.path() / "whole.png", {.width = 2, .height = 2, .rgb = std::vector<std::uint8_t>(12, 7)},
+               kMetadata);
     write_exr(folder.path() / "whole.exr", noise(5, 20), kMetadata);
     const std::string pfm = read_file(folder.path() / "whole.pfm");
     const std::string png = read_file(folder.path() / "whole.png");

@@ -39,4 +39,4 @@ bool loads_or_refuses(Call&& call) {
     }
 }
 
-} // namespace pl::test
+}  // namespace pl::test

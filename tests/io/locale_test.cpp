@@ -44,21 +44,20 @@ std::string outcome() {
     for (const auto& [name, value] : scene.settings) {
         result += name + "=" + value + "\n";
     }
-    const LinearImage image{
-        .width = 1200, .height = 1, .pixels = std::vector<glm::vec3>(1200, glm::vec3(0.5f))};
+    const LinearImage image{.width = 1200, .height = 1, .pixels = std::vector<glm::vec3>(1200, glm::vec3(0.5f))};
     write_pfm(folder.path() / "a.pfm", image);
     write_exr(folder.path() / "a.exr", image, {{"x", "1.5"}});
     return result + read_file(folder.path() / "a.pfm") + read_file(folder.path() / "a.exr");
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("A locale of C++ with decimal commas changes nothing") {
     const std::string expected = outcome();
     const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaPunctuation));
     const std::string got = outcome();
     std::locale::global(before);
-    const bool same = got == expected; // bytes: not to be printed
+    const bool same = got == expected;  // bytes: not to be printed
     CHECK(same);
 }
 
@@ -77,6 +76,6 @@ TEST_CASE("A locale of C with decimal commas changes nothing") {
     }
     const std::string got = outcome();
     std::setlocale(LC_ALL, before.c_str());
-    const bool same = got == expected; // bytes: not to be printed
+    const bool same = got == expected;  // bytes: not to be printed
     CHECK(same);
 }

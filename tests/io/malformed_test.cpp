@@ -55,7 +55,7 @@ std::string load_text(const std::string& text) {
 
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Files truncated at every byte load or are refused") {
     const auto [name, text] =
@@ -68,7 +68,7 @@ TEST_CASE("Files truncated at every byte load or are refused") {
         loaded += scene.try_with(name, text.substr(0, size)) ? 1 : 0;
     }
     if (name == "s.json") {
-        CHECK(loaded == 1); // only the last end of line may be missing
+        CHECK(loaded == 1);  // only the last end of line may be missing
     } else {
         CHECK(loaded > 0);
         CHECK(loaded < text.size());
@@ -89,14 +89,9 @@ TEST_CASE("Files with random damage load or are refused") {
             const std::size_t at = random() % damaged.size();
             const char letter = alphabet[random() % alphabet.size()];
             switch (random() % 3) {
-            case 0:
-                damaged[at] = letter;
-                break;
-            case 1:
-                damaged.insert(at, 1 + random() % 12, letter);
-                break;
-            default:
-                damaged.erase(at, 1 + random() % 20);
+            case 0: damaged[at] = letter; break;
+            case 1: damaged.insert(at, 1 + random() % 12, letter); break;
+            default: damaged.erase(at, 1 + random() % 20);
             }
         }
         INFO(name << ":\n" << damaged);
@@ -111,22 +106,18 @@ TEST_CASE("Indices out of range are refused with file and line") {
         std::string told;
     };
     const Case sample = GENERATE(
-        Case{"0", "vertex index 0, indices start at 1"},
-        Case{"4", "vertex index 4 is out of range, the file has 3"},
+        Case{"0", "vertex index 0, indices start at 1"}, Case{"4", "vertex index 4 is out of range, the file has 3"},
         Case{"-4", "vertex index -4 is out of range, 3 precede the face"},
-        Case{"2147483647", "vertex index 2147483647 is out"},
-        Case{"2147483648", "vertex index 2147483648 is out"}, Case{"-2147483649", "-2147483649 is out"},
-        Case{"4294967297", "vertex index 4294967297 is out"},
+        Case{"2147483647", "vertex index 2147483647 is out"}, Case{"2147483648", "vertex index 2147483648 is out"},
+        Case{"-2147483649", "-2147483649 is out"}, Case{"4294967297", "vertex index 4294967297 is out"},
         Case{"99999999999", "vertex index 99999999999 is out"},
         Case{"99999999999999999999999", "is not an index of a vertex"}, Case{"1//0", "normal index 0"},
-        Case{"1//2", "normal index 2 is out of range, the file has 1"},
-        Case{"1//-2", "normal index -2 is out"},
+        Case{"1//2", "normal index 2 is out of range, the file has 1"}, Case{"1//-2", "normal index -2 is out"},
         Case{"1/1", "texture point index 1 is out of range, the file has 0"},
         Case{"1/99999999999/1", "texture point index 99999999999"}, Case{"1.5", "'1.5' is not an index"},
-        Case{"x", "'x' is not an index"}, Case{"+-1", "'+-1' is not an index"},
-        Case{"1/", "expected a face corner"}, Case{"/1", "expected a face corner"},
-        Case{"1//", "expected a face corner"}, Case{"1/1/1/1", "'1/1' is not an index of a normal"},
-        Case{"0x1", "'0x1' is not an index"});
+        Case{"x", "'x' is not an index"}, Case{"+-1", "'+-1' is not an index"}, Case{"1/", "expected a face corner"},
+        Case{"/1", "expected a face corner"}, Case{"1//", "expected a face corner"},
+        Case{"1/1/1/1", "'1/1' is not an index of a normal"}, Case{"0x1", "'0x1' is not an index"});
     INFO(sample.corner);
     const std::string text =
         "# three\n\n" + kTriangle + "vn 0 0 1\nf 1 2 3\nf 1 2 \\\n" + sample.corner + "\nf 1 2 3\n";
@@ -134,14 +125,13 @@ TEST_CASE("Indices out of range are refused with file and line") {
 }
 
 TEST_CASE("The first index that points past the last vertex is named") {
-    CHECK_THAT(load_text("f 1 2 3\nf 1 2 9\nf 1 2 7\nf 3 2 4\n" + kTriangle),
-               contains("bad.obj:2: vertex index 9"));
+    CHECK_THAT(load_text("f 1 2 3\nf 1 2 9\nf 1 2 7\nf 3 2 4\n" + kTriangle), contains("bad.obj:2: vertex index 9"));
 }
 
 TEST_CASE("Numbers that are none are refused with file and line") {
     const std::string word =
-        GENERATE(as<std::string>{}, "nan", "NaN", "-nan", "inf", "-infinity", "1e400", "-1e39", "1,5", "0x10",
-                 "1e", "+-1", "--1", "1.2.3", "abc", "1e18000000000000000000000", "2e18", "1;", "'1'");
+        GENERATE(as<std::string>{}, "nan", "NaN", "-nan", "inf", "-infinity", "1e400", "-1e39", "1,5", "0x10", "1e",
+                 "+-1", "--1", "1.2.3", "abc", "1e18000000000000000000000", "2e18", "1;", "'1'");
     INFO(word);
     const std::string keyword = GENERATE("v", "vn");
     CHECK_THAT(load_text(kTriangle + "\r\n" + keyword + " 0 " + word + " 0\nf 1 2 3\n"),
@@ -156,8 +146,7 @@ TEST_CASE("Vertices with too few numbers are refused") {
 TEST_CASE("Numbers of many digits are read as what they are") {
     const TemporaryFolder folder;
     const std::string zeros(400, '0');
-    const std::string text =
-        "v 1" + zeros + "e-400 0." + zeros + "1 0" + zeros + "2\nv 5 0 0\nv 0 5 0\nf 1 2 3\n";
+    const std::string text = "v 1" + zeros + "e-400 0." + zeros + "1 0" + zeros + "2\nv 5 0 0\nv 0 5 0\nf 1 2 3\n";
     const SceneDescription scene = load_scene(folder.write("s.obj", text).string(), folder.path());
     CHECK(scene.positions[0] == glm::vec3(1.0f, 0.0f, 2.0f));
 }
@@ -170,8 +159,7 @@ TEST_CASE("Files without faces are refused") {
 }
 
 TEST_CASE("Files whose faces have no area are refused") {
-    CHECK_THAT(load_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n"),
-               contains("bad.obj: no face has an area"));
+    CHECK_THAT(load_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n"), contains("bad.obj: no face has an area"));
 }
 
 TEST_CASE("Binary files are refused at their first control character") {
@@ -202,8 +190,7 @@ TEST_CASE("What is missing or not a file is named") {
     CHECK_THAT(message("dir.obj"), contains("dir.obj: cannot be read: it is a directory"));
     CHECK_THAT(message("dir.json"), contains("dir.json: cannot be read: it is a directory"));
     CHECK_THAT(message("."), contains("expected an .obj file, a scene .json file or the name of a scene"));
-    CHECK_THAT(input_error([&] { load_scene("/dev/null", folder.path()); }),
-               contains("/dev/null: expected an .obj"));
+    CHECK_THAT(input_error([&] { load_scene("/dev/null", folder.path()); }), contains("/dev/null: expected an .obj"));
 }
 
 TEST_CASE("Material libraries outside of the scene's folder are refused") {

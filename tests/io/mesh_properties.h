@@ -87,4 +87,4 @@ inline double signed_volume(const SceneDescription& scene, const Body& body, con
     return sum;
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -24,7 +24,7 @@ Loaded load(const std::string& text) {
     return result;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Reflectance and emission, in the order of the file") {
     const Loaded loaded = load("\xEF\xBB\xBF# colors\r\nnewmtl b\r\n\tKd 0.1 0.2 0.3\r\nKe 1e1 .5 "
@@ -82,9 +82,8 @@ TEST_CASE("Values that are wrong are refused with file and line") {
         Case{"Kd -0.1 0 0", "at least 0, got '-0.1'"}, Case{"Kd nan 0 0", "got 'nan'"},
         Case{"Kd 0 inf 0", "got 'inf'"}, Case{"Ke 0 0 -3", "got '-3'"}, Case{"Ke 1e39 0 0", "got '1e39'"},
         Case{"Ke 1e400 0 0", "got '1e400'"}, Case{"Kd 1,5 0 0", "got '1,5'"}, Case{"Kd 0x1 0 0", "got '0x1'"},
-        Case{"Kd 0.5 0.5", "got 2 words"}, Case{"Kd", "got 0 words"},
-        Case{"Kd spectral file.rfl", "got 2 words"}, Case{"Pl_two_sided yes", "expected 0 or 1"},
-        Case{"newmtl", "expected a name"});
+        Case{"Kd 0.5 0.5", "got 2 words"}, Case{"Kd", "got 0 words"}, Case{"Kd spectral file.rfl", "got 2 words"},
+        Case{"Pl_two_sided yes", "expected 0 or 1"}, Case{"newmtl", "expected a name"});
     INFO(sample.line);
     CHECK_THAT(input_error([&] { load("newmtl a\n\n" + sample.line + "\n"); }),
                contains("m.mtl:3: ") && contains(sample.told));

@@ -18,8 +18,7 @@ using pl::test::TemporaryFolder;
 
 namespace {
 
-constexpr const char* kMtl =
-    "newmtl red\nKd 0.6 0.1 0.2\nnewmtl lamp\nKd 0.1 0.2 0.3\nKe 4 5 6\nPl_two_sided 1\n";
+constexpr const char* kMtl = "newmtl red\nKd 0.6 0.1 0.2\nnewmtl lamp\nKd 0.1 0.2 0.3\nKe 4 5 6\nPl_two_sided 1\n";
 
 SceneDescription load(const std::string& obj, const std::string& mtl = kMtl) {
     const TemporaryFolder folder;
@@ -32,8 +31,7 @@ bool same_geometry(const SceneDescription& a, const SceneDescription& b) {
         return false;
     }
     for (std::size_t i = 0; i < a.triangles.size(); ++i) {
-        if (a.triangles[i].vertex != b.triangles[i].vertex ||
-            a.triangles[i].normal != b.triangles[i].normal ||
+        if (a.triangles[i].vertex != b.triangles[i].vertex || a.triangles[i].normal != b.triangles[i].normal ||
             a.triangles[i].material != b.triangles[i].material) {
             return false;
         }
@@ -43,7 +41,7 @@ bool same_geometry(const SceneDescription& a, const SceneDescription& b) {
 
 const std::string kQuad = "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nusemtl red\nf 1 2 3 4\n";
 
-} // namespace
+}  // namespace
 
 TEST_CASE("A triangle with its material") {
     const SceneDescription scene = load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0.5\nusemtl lamp\nf 1 2 3\n");
@@ -91,7 +89,7 @@ TEST_CASE("Groups and objects are merged, vertices may follow their faces") {
         load("o a\ng one two\ns 1\nf 1 2 3\ng\no b\ns off\nf 2 4 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
     CHECK(scene.triangles.size() == 2);
     CHECK(test::bodies(scene).size() == 1);
-    CHECK(scene.warnings.size() == 1); // no material
+    CHECK(scene.warnings.size() == 1);  // no material
 }
 
 TEST_CASE("Smooth normals are kept per corner and made unit") {
@@ -107,9 +105,8 @@ TEST_CASE("Smooth normals are kept per corner and made unit") {
 }
 
 TEST_CASE("Normals that are not usable are ignored with one counted warning") {
-    const SceneDescription scene =
-        load("mtllib m.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 0\nvn 0 0 1\n"
-             "f 1//1 2//2 3//2\nf 1//2 2 3//2\nf 1//2 2//2 3//2\n");
+    const SceneDescription scene = load("mtllib m.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 0\nvn 0 0 1\n"
+                                        "f 1//1 2//2 3//2\nf 1//2 2 3//2\nf 1//2 2//2 3//2\n");
     REQUIRE(scene.triangles.size() == 3);
     CHECK(scene.triangles[0].normal == glm::uvec3(TriangleDescription::kNoNormal));
     CHECK(scene.triangles[1].normal == glm::uvec3(TriangleDescription::kNoNormal));
@@ -194,7 +191,7 @@ TEST_CASE("What cannot be used is left out with one counted warning each") {
     const SceneDescription scene =
         load("mtllib m.mtl\nusemtl red\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1\nv 2 0 0\n"
              "f 1 2\nf 3\nf 1 2 4\nf 1 2 2 3\nf 1 1 1\ncurv 1 2\nf 1 2 3\nl 1 2\n");
-    CHECK(scene.triangles.size() == 2); // the last face, and the quad with one corner twice
+    CHECK(scene.triangles.size() == 2);  // the last face, and the quad with one corner twice
     CHECK(test::area(scene) == Approx(1.0));
     REQUIRE(scene.warnings.size() == 5);
     CHECK_THAT(scene.warnings[0], contains("s.obj:7: face with fewer than 3 corners left out (2 in all)"));
@@ -222,7 +219,7 @@ TEST_CASE("A face on one line of a megabyte") {
     std::string text = "mtllib m.mtl\nusemtl red\n";
     std::string face = "f";
     constexpr int kCorners = 1000;
-    for (int i = 0; i < kCorners; ++i) { // a comb: every second corner is inside
+    for (int i = 0; i < kCorners; ++i) {  // a comb: every second corner is inside
         const int x = i < kCorners / 2 ? i : kCorners - 1 - i;
         const int y = i < kCorners / 2 ? -(i % 2) - 1 : (i % 2) + 1;
         text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
@@ -244,8 +241,7 @@ TEST_CASE("An OBJ alone opens with a camera that sees all of it") {
     const glm::dvec3 eye(scene.camera.eye);
     CHECK(scene.camera.eye.x == scene.camera.target.x);
     CHECK(scene.camera.eye.y == scene.camera.target.y);
-    const double tangent =
-        std::tan(0.5 * static_cast<double>(scene.camera.fov_deg) * 3.14159265358979 / 180.0);
+    const double tangent = std::tan(0.5 * static_cast<double>(scene.camera.fov_deg) * 3.14159265358979 / 180.0);
     const double side = scene.camera.eye.z > scene.camera.target.z ? 1.0 : -1.0;
     for (const glm::vec3& p : scene.positions) {
         const double depth = side * (eye.z - static_cast<double>(p.z));
@@ -256,10 +252,8 @@ TEST_CASE("An OBJ alone opens with a camera that sees all of it") {
 }
 
 TEST_CASE("The framing camera looks into a box that is open on one side only") {
-    const SceneDescription cornell =
-        load_obj(std::string(PL_SOURCE_DIR) + "/assets/scenes/cornell/cornell.obj");
+    const SceneDescription cornell = load_obj(std::string(PL_SOURCE_DIR) + "/assets/scenes/cornell/cornell.obj");
     CHECK(frame_camera(cornell).eye.z < 0.0f);
-    const SceneDescription furnace =
-        load_obj(std::string(PL_SOURCE_DIR) + "/assets/scenes/furnace/furnace.obj");
+    const SceneDescription furnace = load_obj(std::string(PL_SOURCE_DIR) + "/assets/scenes/furnace/furnace.obj");
     CHECK(frame_camera(furnace).eye.z > 1.5f);
 }

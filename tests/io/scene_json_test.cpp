@@ -19,8 +19,7 @@ namespace {
 SceneDescription load(const std::string& members) {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl la/mp~\nKe 1 1 1\n");
-    folder.write("s.obj",
-                 "mtllib m.mtl\nv -1 0 0\nv 1 0 0\nv 0 2 0\nusemtl wall\nf 1 2 3\nusemtl la/mp~\nf 1 3 2\n");
+    folder.write("s.obj", "mtllib m.mtl\nv -1 0 0\nv 1 0 0\nv 0 2 0\nusemtl wall\nf 1 2 3\nusemtl la/mp~\nf 1 3 2\n");
     const std::string text = "{\n\"schema\": \"pathlight.scene/1\",\n\"obj\": \"s.obj\"" + members + "}\n";
     return load_scene(folder.write("scene.json", text).string(), folder.path());
 }
@@ -29,7 +28,7 @@ std::string refused(const std::string& members) {
     return input_error([&] { load(members); });
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("A scene file with only what is required frames its geometry") {
     const SceneDescription scene = load("");
@@ -62,11 +61,9 @@ TEST_CASE("Everything a scene file may say") {
     CHECK(scene.materials[1].emission == glm::vec3(7, 8, 9));
     CHECK(scene.materials[1].two_sided_emission);
     using Setting = std::pair<std::string, std::string>;
-    CHECK(scene.settings == std::vector<Setting>{{"exposure", "-1.5"},
-                                                 {"method", "reinforcement"},
-                                                 {"nee", "on"},
-                                                 {"size", "640x480"},
-                                                 {"spp", "128"}});
+    CHECK(scene.settings ==
+          std::vector<Setting>{
+              {"exposure", "-1.5"}, {"method", "reinforcement"}, {"nee", "on"}, {"size", "640x480"}, {"spp", "128"}});
 }
 
 TEST_CASE("A part of a camera completes the framing one") {
@@ -85,8 +82,7 @@ TEST_CASE("An up vector along the view is replaced with a warning") {
 }
 
 TEST_CASE("Unknown keys are answered with the nearest known one, with file and line") {
-    CHECK_THAT(refused(",\n\n\"camra\": {}"),
-               contains("scene.json:5: 'camra': unknown key, did you mean 'camera'?"));
+    CHECK_THAT(refused(",\n\n\"camra\": {}"), contains("scene.json:5: 'camra': unknown key, did you mean 'camera'?"));
     CHECK_THAT(refused(",\n\"camera\": {\n\"fov\": 3}"),
                contains("scene.json:5: 'camera/fov': unknown key, did you mean 'fov_deg'?"));
     CHECK_THAT(refused(",\"environment\": {\n\"radience\": [1,1,1]}"),
@@ -105,8 +101,7 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         std::string told;
     };
     const Case sample = GENERATE(
-        Case{"\"name\": 3", "expected a text in quotes, got '3'"},
-        Case{"\"camera\": []", "expected an object"},
+        Case{"\"name\": 3", "expected a text in quotes, got '3'"}, Case{"\"camera\": []", "expected an object"},
         Case{"\"camera\": {\"eye\": [1, 2]}", "expected three numbers"},
         Case{"\"camera\": {\"eye\": [1, 2, \"3\"]}", "expected three numbers"},
         Case{"\"camera\": {\"eye\": [1, 2, 1e39]}", "expected three numbers"},
@@ -121,8 +116,7 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         Case{"\"environment\": {\"map\": \"sky.hdr\"}", "no environment maps"},
         Case{"\"environment\": {\"scale\": 2}", "no environment maps"},
         Case{"\"environment\": {\"radiance\": [0, -1, 0]}", "at least 0"},
-        Case{"\"materials\": 1", "expected an object"},
-        Case{"\"materials\": {\"wall\": 1}", "expected an object"},
+        Case{"\"materials\": 1", "expected an object"}, Case{"\"materials\": {\"wall\": 1}", "expected an object"},
         Case{"\"materials\": {\"wall\": {\"albedo\": [2, 0, 0]}}", "within [0, 1]"},
         Case{"\"materials\": {\"wall\": {\"albedo\": [-1, 0, 0]}}", "at least 0"},
         Case{"\"materials\": {\"wall\": {\"two_sided_emission\": 1}}", "expected true or false"},
@@ -131,8 +125,8 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         Case{"\"settings\": {\"spp\": null}", "expected a number"},
         Case{"\"name\": \"a\", \"name\": \"b\"", "key 'name' is given twice"},
         Case{"\"obj\": \"t.obj\"", "given twice"}, Case{"\"camera\": {\"fov_deg\": 1e400}", "not valid JSON"},
-        Case{"\"name\": \"\xff\"", "not valid JSON"},
-        Case{"\"camera\": {\"eye\": [NaN, 0, 0]}", "not valid JSON"}, Case{"// comment", "not valid JSON"});
+        Case{"\"name\": \"\xff\"", "not valid JSON"}, Case{"\"camera\": {\"eye\": [NaN, 0, 0]}", "not valid JSON"},
+        Case{"// comment", "not valid JSON"});
     INFO(sample.members);
     CHECK_THAT(refused(",\n" + sample.members), contains("scene.json:4: ") && contains(sample.told));
 }
@@ -148,8 +142,7 @@ TEST_CASE("The frame of a scene file is checked") {
     CHECK_THAT(message("{}"), contains("f.json:1: 'schema': expected \"pathlight.scene/1\", got none"));
     CHECK_THAT(message("{\n\"schema\": \"pathlight.scene/2\"}"),
                contains("f.json:2: 'schema': expected \"pathlight.scene/1\", got \"pathlight.scene/2\""));
-    CHECK_THAT(message("{\n\"schema\": \"pathlight.scene/1\"}"),
-               contains("'obj': expected the name of an OBJ file"));
+    CHECK_THAT(message("{\n\"schema\": \"pathlight.scene/1\"}"), contains("'obj': expected the name of an OBJ file"));
     CHECK_THAT(message("{\"schema\": \"pathlight.scene/1\", \"obj\": \"gone.obj\"}"),
                contains("gone.obj: cannot be read: no such file"));
     CHECK_THAT(message("{\"schema\": \"pathlight.scene/1\"} {}"), contains("f.json:1: not valid JSON"));

@@ -65,14 +65,13 @@ bool is_corner(const Quad& quad, const glm::vec3& p) {
                        [&](const glm::dvec3& c) { return glm::vec3(c) == p; });
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Cornell: every published quad is there, with its material, facing the right way") {
     const SceneDescription scene = load("cornell");
     CHECK(scene.triangles.size() == 32);
     for (const Quad& quad : published_box()) {
-        const glm::dvec3 expected =
-            glm::cross(quad.corners[2] - quad.corners[0], quad.corners[3] - quad.corners[1]);
+        const glm::dvec3 expected = glm::cross(quad.corners[2] - quad.corners[0], quad.corners[3] - quad.corners[1]);
         glm::dvec3 sum(0.0);
         int count = 0;
         for (const TriangleDescription& t : scene.triangles) {
@@ -110,26 +109,24 @@ TEST_CASE("Cornell: materials and camera as published") {
     CHECK(scene.camera.target.z > -800);
     CHECK(scene.camera.up == glm::vec3(0, 1, 0));
     // 39.3076 degrees, published rounded to 39.3077.
-    CHECK(scene.camera.fov_deg ==
-          Approx(2.0 * std::atan(0.0125 / 0.035) * 180.0 / 3.14159265358979).epsilon(1e-5));
+    CHECK(scene.camera.fov_deg == Approx(2.0 * std::atan(0.0125 / 0.035) * 180.0 / 3.14159265358979).epsilon(1e-5));
 }
 
 TEST_CASE("Cornell: bodies share the vertices of their common edges") {
     const SceneDescription scene = load("cornell");
     const std::vector<Body> parts = bodies(scene);
     REQUIRE(parts.size() == 4);
-    for (const auto& [from, to] : open_edges(parts[0])) { // the box: open at its front only
+    for (const auto& [from, to] : open_edges(parts[0])) {  // the box: open at its front only
         CHECK(scene.positions[from].z == 0.0f);
         CHECK(scene.positions[to].z == 0.0f);
     }
     CHECK(open_edges(parts[0]).size() == 4);
-    CHECK(open_edges(parts[1]).size() == 4); // the light
-    const double short_base = 27633.0;       // mm^2, shoelace formula on the published corners
+    CHECK(open_edges(parts[1]).size() == 4);  // the light
+    const double short_base = 27633.0;        // mm^2, shoelace formula on the published corners
     const double tall_base = 27626.5;
-    for (const auto& [body, volume] :
-         {std::pair{parts[2], 165.0 * short_base}, {parts[3], 330.0 * tall_base}}) {
+    for (const auto& [body, volume] : {std::pair{parts[2], 165.0 * short_base}, {parts[3], 330.0 * tall_base}}) {
         CHECK(open_edges(body).size() == 4);
-        for (const auto& [from, to] : open_edges(body)) { // the blocks: open at the floor only
+        for (const auto& [from, to] : open_edges(body)) {  // the blocks: open at the floor only
             CHECK(scene.positions[from].y == 0.0f);
             CHECK(scene.positions[to].y == 0.0f);
         }
@@ -165,8 +162,7 @@ TEST_CASE("Door: a closed room and a closed door, the lamp behind it") {
     CHECK(signed_volume(scene, room, {0, 0, 0}) == Approx(-2.0 * 2.0 * 3.0));
     CHECK(material_of(scene, room).albedo == glm::vec3(0.75f));
     CHECK(open_edges(door).empty());
-    CHECK(signed_volume(scene, door, {0, 0, 0}) ==
-          Approx(0.98 * 1.5 * 0.036).epsilon(1e-4)); // corners to 1e-6
+    CHECK(signed_volume(scene, door, {0, 0, 0}) == Approx(0.98 * 1.5 * 0.036).epsilon(1e-4));  // corners to 1e-6
     CHECK(material_of(scene, door).name == "blue");
 
     CHECK(material_of(scene, lamp).emission == glm::vec3(8.0f));
@@ -184,8 +180,7 @@ TEST_CASE("Door: a closed room and a closed door, the lamp behind it") {
         CHECK(scene.positions[to].y == -1.0f);
     }
     CHECK(signed_volume(scene, cube, {0, -1, 0}) == Approx(0.4 * 0.4 * 0.4));
-    CHECK(
-        glm::all(glm::lessThan(glm::abs(scene.camera.eye - glm::vec3(0, 0, -0.5f)), glm::vec3(1, 1, 1.5f))));
+    CHECK(glm::all(glm::lessThan(glm::abs(scene.camera.eye - glm::vec3(0, 0, -0.5f)), glm::vec3(1, 1, 1.5f))));
 }
 
 TEST_CASE("Door: it is ajar by 17.9 degrees, hangs free, and leaves everything inside the room") {
@@ -195,8 +190,7 @@ TEST_CASE("Door: it is ajar by 17.9 degrees, hangs free, and leaves everything i
         for (const TriangleDescription& t : parts[part]) {
             for (int k = 0; k < 3; ++k) {
                 const glm::vec3 p = scene.positions[t.vertex[k]];
-                CHECK(glm::all(
-                    glm::lessThanEqual(glm::abs(p - glm::vec3(0, 0, -0.5f)), glm::vec3(1, 1, 1.5f))));
+                CHECK(glm::all(glm::lessThanEqual(glm::abs(p - glm::vec3(0, 0, -0.5f)), glm::vec3(1, 1, 1.5f))));
                 if (part == 2) {
                     CHECK(p.y > -1.0f);
                     CHECK(p.z > -2.0f);

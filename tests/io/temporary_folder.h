@@ -49,4 +49,4 @@ private:
     std::filesystem::path path_;
 };
 
-} // namespace pl::test
+}  // namespace pl::test

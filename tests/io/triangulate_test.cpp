@@ -42,7 +42,7 @@ bool is_inside(const Polygon& polygon, const glm::dvec2& p) {
 /// Checks count, orientation, area and, at random points, that inside is covered once and outside never.
 void check_cover(const Polygon& polygon, const glm::dmat3& to_space, const glm::dvec3& offset) {
     std::vector<glm::vec3> corners;
-    Polygon rounded; // the polygon that the floats describe
+    Polygon rounded;  // the polygon that the floats describe
     const glm::dmat3 back = glm::transpose(to_space);
     for (const glm::dvec2& p : polygon) {
         corners.emplace_back(glm::vec3(to_space * glm::dvec3(p, 0.0) + offset));
@@ -91,24 +91,15 @@ Polygon star(int tips) {
     return result;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Polygons of all shapes, places and planes are covered once") {
     const auto polygon = GENERATE(
         Polygon{{0, 0}, {2, 0}, {2, 1}, {0, 1}}, Polygon{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
-        Polygon{{0, 1}, {3, 0}, {2.5, 1}, {3, 2}}, Polygon{{3, 0}, {2.5, 1}, {3, 2}, {0, 1}}, // darts
-        Polygon{{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}},              // U
-        Polygon{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 3}, {1.5, 3}, {0, 3}, {0, 1}}, // corners on edges
-        Polygon{{0, 0},
-                {3, 0},
-                {3, 3},
-                {0, 3},
-                {0, 0},
-                {1, 1},
-                {1, 2},
-                {2, 2},
-                {2, 1},
-                {1, 1}}, // ring with a cut
+        Polygon{{0, 1}, {3, 0}, {2.5, 1}, {3, 2}}, Polygon{{3, 0}, {2.5, 1}, {3, 2}, {0, 1}},     // darts
+        Polygon{{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}},                  // U
+        Polygon{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 3}, {1.5, 3}, {0, 3}, {0, 1}},                // corners on edges
+        Polygon{{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}},  // ring with a cut
         star(5), star(20));
     const auto offset = GENERATE(glm::dvec3(0.0), glm::dvec3(-30, 20, 10), glm::dvec3(7, -40, 3));
     const double angle = GENERATE(0.0, 0.7, 2.9);
@@ -133,8 +124,7 @@ TEST_CASE("A quad with one corner twice is one triangle and one without area") {
     const glm::vec3 a(0, 0, 0);
     const glm::vec3 b(1, 0, 0);
     const glm::vec3 c(0, 1, 0);
-    for (const std::vector<glm::vec3>& quad :
-         {std::vector{a, a, b, c}, {a, b, b, c}, {a, b, c, c}, {a, b, c, a}}) {
+    for (const std::vector<glm::vec3>& quad : {std::vector{a, a, b, c}, {a, b, b, c}, {a, b, c, c}, {a, b, c, a}}) {
         const Triangulation cut = triangulate(quad);
         CHECK(cut.exact);
         double area = 0.0;

@@ -53,8 +53,7 @@ ClosedScene prism(const char* name, const std::vector<Vec2f>& polygon, Vec3f sta
     result.scene.materials.push_back(gray());
     const auto count = static_cast<std::uint32_t>(polygon.size());
     for (const float z : {-1.5f, 1.5f})
-        for (const Vec2f& p : polygon)
-            add_vertex(result.scene, {p.x, p.y, z});
+        for (const Vec2f& p : polygon) add_vertex(result.scene, {p.x, p.y, z});
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t j = (i + 1) % count;
         add_quad(result.scene, j, i, count + i, count + j);
@@ -69,16 +68,10 @@ ClosedScene prism(const char* name, const std::vector<Vec2f>& polygon, Vec3f sta
 /// Strips 3 mm wide between walls of 2 m: neighbours of very different sizes.
 ClosedScene bevelled_room(const char* name) {
     constexpr float e = 0.002f;
-    ClosedScene room = prism(name,
-                             {{-1 + e, -1},
-                              {1 - e, -1},
-                              {1, -1 + e},
-                              {1, 1 - e},
-                              {1 - e, 1},
-                              {-1 + e, 1},
-                              {-1, 1 - e},
-                              {-1, -1 + e}},
-                             {0.1f, 0.5f, -0.9f});
+    ClosedScene room = prism(
+        name,
+        {{-1 + e, -1}, {1 - e, -1}, {1, -1 + e}, {1, 1 - e}, {1 - e, 1}, {-1 + e, 1}, {-1, 1 - e}, {-1, -1 + e}},
+        {0.1f, 0.5f, -0.9f});
     room.slivers = true;
     return room;
 }
@@ -127,8 +120,7 @@ std::vector<ClosedScene> closed_scenes() {
 }
 
 WalkStyle style_for(const ClosedScene& closed, bool adversarial) {
-    return adversarial && !closed.solid_parts && !closed.slivers ? WalkStyle::Adversarial
-                                                                 : WalkStyle::Diffuse;
+    return adversarial && !closed.solid_parts && !closed.slivers ? WalkStyle::Adversarial : WalkStyle::Diffuse;
 }
 
 void check_closed(std::uint64_t segments_in_all, bool adversarial) {
@@ -146,32 +138,22 @@ void check_closed(std::uint64_t segments_in_all, bool adversarial) {
     }
 }
 
-} // namespace
+}  // namespace
 
-TEST_CASE("Closed scenes lose no ray in 1e6 segments") {
-    check_closed(1000000, false);
-}
+TEST_CASE("Closed scenes lose no ray in 1e6 segments") { check_closed(1000000, false); }
 
-TEST_CASE("Closed scenes lose no ray in 1e8 segments", "[nightly]") {
-    check_closed(100000000, false);
-}
+TEST_CASE("Closed scenes lose no ray in 1e8 segments", "[nightly]") { check_closed(100000000, false); }
 
-TEST_CASE("Closed scenes lose no ray in 1e6 segments next to edges") {
-    check_closed(1000000, true);
-}
+TEST_CASE("Closed scenes lose no ray in 1e6 segments next to edges") { check_closed(1000000, true); }
 
-TEST_CASE("Closed scenes lose no ray in 1e8 segments next to edges", "[nightly]") {
-    check_closed(100000000, true);
-}
+TEST_CASE("Closed scenes lose no ray in 1e8 segments next to edges", "[nightly]") { check_closed(100000000, true); }
 
 // The walk can fail: without a step off the surface and without a margin, rays get out far from the origin.
 TEST_CASE("Without margins the same walk finds the way out") {
     const ClosedScene closed = moved(make_room("rotated room far away"), true, 1.0f, {1e3f, -777.0f, 333.0f});
     HostScene packed = pack_scene(closed.scene);
-    for (TrianglePlane& plane : packed.planes)
-        plane.position_error = plane.edge_margin = 0.0f;
+    for (TrianglePlane& plane : packed.planes) plane.position_error = plane.edge_margin = 0.0f;
     const SceneView scene = packed.view();
-    const WalkResult result =
-        walk(scene, BvhIntersector{scene}, closed.start, 20000, WalkStyle::Adversarial, 1);
+    const WalkResult result = walk(scene, BvhIntersector{scene}, closed.start, 20000, WalkStyle::Adversarial, 1);
     CHECK(result.escapes + result.leaks > 0);
 }

@@ -13,16 +13,15 @@ namespace {
 
 constexpr float kAlmostOne = 1.0f - 0x1p-24f;
 
-} // namespace
+}  // namespace
 
 TEST_CASE("A point in a cell leads back to the cell through square and hemisphere and world") {
     Uniforms random(1);
     for (int side = 2; side <= 32; ++side) {
         const DirectionCells cells{side};
         for (int cell = 0; cell < cells.count(); ++cell) {
-            const Vec2f inside[] = {{0.0f, 0.0f},       {kAlmostOne, kAlmostOne},
-                                    {0.0f, kAlmostOne}, {kAlmostOne, 0.5f},
-                                    {0.5f, 0.5f},       random.square()};
+            const Vec2f inside[] = {{0.0f, 0.0f}, {kAlmostOne, kAlmostOne}, {0.0f, kAlmostOne}, {kAlmostOne, 0.5f},
+                                    {0.5f, 0.5f}, random.square()};
             for (const Vec2f u : inside) {
                 const Vec2f square = cells.point_in_cell(cell, u);
                 REQUIRE(cells.cell_of(square) == cell);
@@ -50,7 +49,7 @@ TEST_CASE("Directions keep their cell or the neighbour on the way through the wo
         moved += cells.cell_of(square) != cells.cell_of(back) ? 1 : 0;
     }
     CHECK(largest <= 1e-6f);
-    CHECK(moved <= 200); // a share of 1e-4
+    CHECK(moved <= 200);  // a share of 1e-4
 }
 
 TEST_CASE("Cells are in range for every point of the closed square") {

@@ -20,8 +20,7 @@ std::vector<double> probabilities(const DirectionTable& table) {
     const float quarter = 0.5f / static_cast<float>(side);
     for (int y = 0; y < 2 * side; ++y)
         for (int x = 0; x < 2 * side; ++x) {
-            const Vec2f middle{(static_cast<float>(x) + 0.5f) * quarter,
-                               (static_cast<float>(y) + 0.5f) * quarter};
+            const Vec2f middle{(static_cast<float>(x) + 0.5f) * quarter, (static_cast<float>(y) + 0.5f) * quarter};
             cells[static_cast<std::size_t>(y / 2 * side + x / 2)] +=
                 static_cast<double>(square_density(table, middle)) / (4.0 * side * side);
         }
@@ -30,8 +29,7 @@ std::vector<double> probabilities(const DirectionTable& table) {
 
 double sum_of(const std::vector<double>& values) {
     double sum = 0.0;
-    for (const double value : values)
-        sum += value;
+    for (const double value : values) sum += value;
     return sum;
 }
 
@@ -45,23 +43,21 @@ std::vector<std::uint64_t> sample_counts(const DirectionTable& table, int sample
     return counts;
 }
 
-} // namespace
+}  // namespace
 
 // Every boundary of many tables with zeros first, last and in runs, one float to each side, and the ends of [0,1).
 TEST_CASE("Every number finds an interval that has a probability") {
     Uniforms random(1);
     for (int table = 0; table < 1000; ++table) {
         float cdf[16];
-        for (float& weight : cdf)
-            weight = random.below(3) == 0 ? random.next() : 0.0f;
+        for (float& weight : cdf) weight = random.below(3) == 0 ? random.next() : 0.0f;
         const int count = 2 + static_cast<int>(random.below(15));
         accumulate_cdf(cdf, count);
         REQUIRE(cdf[count - 1] == 1.0f);
         std::vector<float> numbers{0.0f, 0x1p-24f, 0.5f, kAlmostOne};
         for (int i = 0; i < count; ++i)
             for (const float u : {next_float_down(cdf[i]), cdf[i], next_float_up(cdf[i])})
-                if (u >= 0.0f && u < 1.0f)
-                    numbers.push_back(u);
+                if (u >= 0.0f && u < 1.0f) numbers.push_back(u);
         for (const float u : numbers) {
             const int i = find_interval(cdf, count, u);
             REQUIRE(i >= 0);
@@ -103,8 +99,7 @@ TEST_CASE("Cells are drawn with the probability that the table states") {
             for (int column = 0; column < 4; ++column)
                 expected.push_back(static_cast<double>(table.cell_probability(column, row)));
         std::vector<std::uint64_t> counts(16);
-        for (int i = 0; i < 1000000; ++i)
-            ++counts[static_cast<std::size_t>(sample_cell(table, random.square()))];
+        for (int i = 0; i < 1000000; ++i) ++counts[static_cast<std::size_t>(sample_cell(table, random.square()))];
         INFO(hard.name);
         CHECK(std::fabs(sum_of(expected) - 1.0) < 1e-6);
         // A single cell leaves nothing to vary: all samples must be there, which the rule's zero bins say.
@@ -133,8 +128,7 @@ TEST_CASE("The rule sees a wrong density and a missing jitter") {
     std::vector<float> weights = hard_weights(12)[1].weights;
     field.set_weights(weights);
     const std::vector<std::uint64_t> counts = sample_counts(field.table(), 4000000, 3);
-    for (std::size_t i = 0; i < weights.size(); i += 2)
-        weights[i] *= 1.02f;
+    for (std::size_t i = 0; i < weights.size(); i += 2) weights[i] *= 1.02f;
     field.set_weights(weights);
     CHECK(sampler_matches(counts, probabilities(field.table()), 0.007).verdict == Verdict::Fail);
 
@@ -142,8 +136,7 @@ TEST_CASE("The rule sees a wrong density and a missing jitter") {
     const DirectionTable table = field.table();
     Uniforms random(3);
     std::vector<std::uint64_t> without_jitter(144);
-    for (int i = 0; i < 4000000; ++i)
-        ++without_jitter[static_cast<std::size_t>(sample_cell(table, random.square()))];
+    for (int i = 0; i < 4000000; ++i) ++without_jitter[static_cast<std::size_t>(sample_cell(table, random.square()))];
     CHECK(sampler_matches(without_jitter, probabilities(table), 0.007).verdict == Verdict::Fail);
 }
 
@@ -157,14 +150,11 @@ TEST_CASE("Samples stay in the square and where the density is positive") {
         int outside = 0;
         int impossible = 0;
         for (int i = 0; i < 100000; ++i) {
-            const Vec2f u =
-                i % 2 == 0 ? random.square() : Vec2f{ends[random.below(3)], ends[random.below(3)]};
-            const Vec2f jitter =
-                i % 3 == 0 ? Vec2f{ends[random.below(3)], ends[random.below(3)]} : random.square();
+            const Vec2f u = i % 2 == 0 ? random.square() : Vec2f{ends[random.below(3)], ends[random.below(3)]};
+            const Vec2f jitter = i % 3 == 0 ? Vec2f{ends[random.below(3)], ends[random.below(3)]} : random.square();
             const Vec2f square = sample_square(table, u, jitter);
             outside += square.x >= 0.0f && square.x <= 1.0f && square.y >= 0.0f && square.y <= 1.0f ? 0 : 1;
-            impossible +=
-                jitter.x > 0.0f && jitter.y > 0.0f && !(square_density(table, square) > 0.0f) ? 1 : 0;
+            impossible += jitter.x > 0.0f && jitter.y > 0.0f && !(square_density(table, square) > 0.0f) ? 1 : 0;
         }
         INFO(hard.name);
         CHECK(outside == 0);

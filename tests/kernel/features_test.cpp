@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kSubsets = 1u << (sizeof(kAllFeatures) / sizeof(kAllFeatures[0]));
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Features are single and distinct bits") {
     std::uint32_t all = 0;
@@ -32,18 +32,15 @@ TEST_CASE("The compiled set that is chosen covers the need and no smaller one do
         const FeatureSet chosen = kCompiledSets[smallest_superset(needed)];
         CHECK(chosen.covers(needed));
         for (const FeatureSet other : kCompiledSets)
-            if (other.covers(needed))
-                CHECK(std::popcount(other.bits) >= std::popcount(chosen.bits));
+            if (other.covers(needed)) CHECK(std::popcount(other.bits) >= std::popcount(chosen.bits));
     }
 }
 
 TEST_CASE("Compiled sets are chosen for themselves") {
-    for (int i = 0; i < kCompiledSetCount; ++i)
-        CHECK(smallest_superset(kCompiledSets[i]) == i);
+    for (int i = 0; i < kCompiledSetCount; ++i) CHECK(smallest_superset(kCompiledSets[i]) == i);
 }
 
 TEST_CASE("Covering is inclusion") {
     for (std::uint32_t a = 0; a < kSubsets; ++a)
-        for (std::uint32_t b = 0; b < kSubsets; ++b)
-            CHECK(FeatureSet{a}.covers(FeatureSet{b}) == ((a | b) == a));
+        for (std::uint32_t b = 0; b < kSubsets; ++b) CHECK(FeatureSet{a}.covers(FeatureSet{b}) == ((a | b) == a));
 }

@@ -16,8 +16,7 @@ struct TestField {
     HostVolumes volumes;
     HostTables tables;
 
-    explicit TestField(int side, const std::vector<Vec3f>& normals = {Vec3f{0, 0, 1}})
-        : shape{.cells = {side}} {
+    explicit TestField(int side, const std::vector<Vec3f>& normals = {Vec3f{0, 0, 1}}) : shape{.cells = {side}} {
         for (const Vec3f normal : normals) {
             SurfacePoint site;
             site.geometric_normal = site.shading_normal = normal;
@@ -44,8 +43,7 @@ struct TestField {
     }
 
     void publish() {
-        for (std::uint32_t volume = 0; volume < volumes.sites.size(); ++volume)
-            publish_volume(publication(), volume);
+        for (std::uint32_t volume = 0; volume < volumes.sites.size(); ++volume) publish_volume(publication(), volume);
     }
 };
 
@@ -60,13 +58,11 @@ inline std::vector<NamedWeights> hard_weights(int side) {
     const auto fill = [side](const std::function<float(int, int)>& weight) {
         std::vector<float> weights;
         for (int row = 0; row < side; ++row)
-            for (int column = 0; column < side; ++column)
-                weights.push_back(weight(row, column));
+            for (int column = 0; column < side; ++column) weights.push_back(weight(row, column));
         return weights;
     };
     const auto one_hot = [&](int hot_row, int hot_column) {
-        return fill(
-            [=](int row, int column) { return row == hot_row && column == hot_column ? 1.0f : 0.0f; });
+        return fill([=](int row, int column) { return row == hot_row && column == hot_column ? 1.0f : 0.0f; });
     };
     return {
         {"uniform", fill([](int, int) { return 1.0f; })},
@@ -85,4 +81,4 @@ inline std::vector<NamedWeights> hard_weights(int side) {
     };
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -27,7 +27,7 @@ int display_byte(float radiance, ToneCurve curve) {
     return static_cast<int>(std::lround(255.0f * encode_srgb(mapped)));
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Invalid samples are counted and dropped") {
     Film film(1);
@@ -58,8 +58,7 @@ TEST_CASE("A pixel without samples is black") {
 TEST_CASE("Ten million samples lose nothing") {
     Film film(1);
     constexpr int kSamples = 10000000;
-    for (int i = 0; i < kSamples; ++i)
-        accumulate(film.view(), 0, {0.1f, 1.0f, i == 0 ? 1e6f : 1e-3f});
+    for (int i = 0; i < kSamples; ++i) accumulate(film.view(), 0, {0.1f, 1.0f, i == 0 ? 1e6f : 1e-3f});
     const FilmPixel& pixel = film.pixels[0];
     CHECK(pixel.samples == kSamples);
     CHECK(mean_radiance(pixel).x == 0.1f);

@@ -12,8 +12,8 @@ using namespace pl::test;
 
 namespace {
 
-constexpr int kRows = 12;    ///< of cos(theta) around z, from -1 to 1
-constexpr int kColumns = 24; ///< of the angle
+constexpr int kRows = 12;     ///< of cos(theta) around z, from -1 to 1
+constexpr int kColumns = 24;  ///< of the angle
 constexpr int kQuadrature = 24;
 constexpr double kTurn = 6.283185307179586;
 
@@ -26,14 +26,11 @@ SurfacePoint make_surface(double lean_deg) {
 }
 
 /// Unit, 30 degrees from +z: the volume's hemisphere is not the surface's.
-Vec3f leaning_normal() {
-    return Vec3f{Vec3d{0.0, 0.5, std::sqrt(0.75)}};
-}
+Vec3f leaning_normal() { return Vec3f{Vec3d{0.0, 0.5, std::sqrt(0.75)}}; }
 
 std::size_t bin_of(Vec3f d) {
     const double row = (static_cast<double>(d.z) + 1.0) * 0.5 * kRows;
-    const double column =
-        (std::atan2(static_cast<double>(d.y), static_cast<double>(d.x)) / kTurn + 0.5) * kColumns;
+    const double column = (std::atan2(static_cast<double>(d.y), static_cast<double>(d.x)) / kTurn + 0.5) * kColumns;
     return static_cast<std::size_t>(min_of(static_cast<int>(row), kRows - 1) * kColumns +
                                     min_of(static_cast<int>(column), kColumns - 1));
 }
@@ -59,14 +56,13 @@ std::vector<double> integrate_bins(Pdf&& pdf) {
 struct Draws {
     std::uint32_t next = 0;
 
-    DirectionSample
-    operator()(const GuidedSampling& guided, GuidedVertex vertex, const SurfacePoint& surface) {
+    DirectionSample operator()(const GuidedSampling& guided, GuidedVertex vertex, const SurfacePoint& surface) {
         const Rng rng{5, Stream::Picture, next++, 0};
         return guided.sample_direction(vertex, surface, rng, 1, rng.draw(1, Purpose::Scatter));
     }
 };
 
-} // namespace
+}  // namespace
 
 // S3 over at most 287 degrees of freedom, N = 1e6: a density off by 1.7 % alternating from bin to bin is found.
 TEST_CASE("Samples of the mixture follow its density") {
@@ -79,12 +75,10 @@ TEST_CASE("Samples of the mixture follow its density") {
             const std::vector<double> expected =
                 integrate_bins([&](Vec3f d) { return guided.pdf_sa({0}, surface, d); });
             double sum = 0.0;
-            for (const double p : expected)
-                sum += p;
+            for (const double p : expected) sum += p;
             std::vector<std::uint64_t> counts(expected.size());
             Draws draw;
-            for (int i = 0; i < 1000000; ++i)
-                ++counts[bin_of(draw(guided, {0}, surface).wi)];
+            for (int i = 0; i < 1000000; ++i) ++counts[bin_of(draw(guided, {0}, surface).wi)];
             INFO(hard.name << ", BSDF fraction " << fraction);
             CHECK(std::fabs(sum - 1.0) < 1e-3);
             CHECK(sampler_matches(counts, expected, 0.017));
@@ -104,8 +98,7 @@ TEST_CASE("The density of a sample is that of its direction and no weight exceed
                 const DirectionSample sample = draw(guided, {0}, surface);
                 REQUIRE(sample.pdf_sa == guided.pdf_sa({0}, surface, sample.wi));
                 REQUIRE(std::fabs(glm::length(sample.wi) - 1.0f) < 1e-5f);
-                if (!(sample.pdf_sa > 0.0f))
-                    continue;
+                if (!(sample.pdf_sa > 0.0f)) continue;
                 const float bsdf = reflection_cosine(surface, sample.wi) * kInvPi;
                 heaviest = max_of(heaviest, static_cast<double>(bsdf) / static_cast<double>(sample.pdf_sa));
             }
@@ -162,7 +155,7 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     CHECK(field.tables.pending_count[9] == 1);
     CHECK(field.tables.pending_sum[9] == static_cast<std::int64_t>(quarter_gray * 16777216.0));
     method.learn(memory, {.emitted = Vec3f{1.0f}}, {kNoVolume},
-                 counters); // a lamp that reflects nothing, or the sky
+                 counters);  // a lamp that reflects nothing, or the sky
     CHECK(field.tables.pending_count[9] == 2);
     CHECK(counters.records == 2);
 
@@ -173,7 +166,7 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     CHECK(counters.records == 2);
     CHECK(field.tables.pending_count[9] == 2);
     CHECK(method.remember({kNoVolume}, wi).volume == kNoVolume);
-    CHECK(method.remember({0}, {0, 0.6f, -0.8f}).volume == kNoVolume); // below the volume's horizon
+    CHECK(method.remember({0}, {0, 0.6f, -0.8f}).volume == kNoVolume);  // below the volume's horizon
 }
 
 TEST_CASE("The precomputed method learns nothing") {

@@ -33,7 +33,7 @@ SurfacePoint receiver(Vec3f normal = {0, 0, 1}) {
     return point;
 }
 
-} // namespace
+}  // namespace
 
 // S3: 3 lights x 16 similar parts of each triangle; N = 2e6: densities off by 1 % are found.
 TEST_CASE("Points on lights are chosen by area and luminance and uniformly in each") {
@@ -94,7 +94,7 @@ TEST_CASE("Every number chooses a light and zero-width ones never") {
     SceneDescription description;
     description.materials = {gray(), gray()};
     description.materials[0].emission = Vec3f{1.0f};
-    description.materials[1].emission = Vec3f{1e-30f}; // vanishes in the sum
+    description.materials[1].emission = Vec3f{1e-30f};  // vanishes in the sum
     for (const std::uint32_t material : {1u, 0u, 1u, 0u, 1u}) {
         const auto z = static_cast<float>(description.triangles.size());
         add_triangle(description, Vec3f{0, 0, z}, Vec3f{1, 0, z}, Vec3f{0, 1, z}, material);
@@ -113,20 +113,20 @@ TEST_CASE("Light samples that cannot contribute have no density") {
     SceneDescription description;
     description.materials.push_back(gray());
     description.materials[0].emission = Vec3f{1.0f};
-    add_triangle(description, Vec3f{-1, -1, 2}, Vec3f{0, 1, 2}, Vec3f{1, -1, 2}); // its front looks down
+    add_triangle(description, Vec3f{-1, -1, 2}, Vec3f{0, 1, 2}, Vec3f{1, -1, 2});  // its front looks down
     const auto sample = [&](const SurfacePoint& surface) {
         const HostScene scene = pack_scene(description);
         return sample_direct_light(scene.view(), surface, {0.3f, 0.4f, 0.5f});
     };
     CHECK(sample(receiver()).pdf_sa > 0.0f);
     CHECK(sample(receiver()).light.front);
-    CHECK(sample(receiver({0, 0, -1})).pdf_sa == 0.0f); // faces away
+    CHECK(sample(receiver({0, 0, -1})).pdf_sa == 0.0f);  // faces away
     SurfacePoint above = receiver({0, 0, -1});
     above.position = {0, 0, 4};
-    CHECK(sample(above).pdf_sa == 0.0f); // sees the dark back
+    CHECK(sample(above).pdf_sa == 0.0f);  // sees the dark back
     SurfacePoint in_plane = receiver({1, 0, 0});
     in_plane.position = {-5, 0, 2};
-    CHECK(sample(in_plane).pdf_sa == 0.0f); // edge on
+    CHECK(sample(in_plane).pdf_sa == 0.0f);  // edge on
     SurfacePoint itself = receiver();
     itself.primitive = 0;
     CHECK(sample(itself).pdf_sa == 0.0f);
@@ -135,7 +135,7 @@ TEST_CASE("Light samples that cannot contribute have no density") {
     CHECK_FALSE(sample(above).light.front);
 
     description.materials[0].emission = Vec3f{0.0f};
-    CHECK(sample(receiver()).pdf_sa == 0.0f); // no light at all
+    CHECK(sample(receiver()).pdf_sa == 0.0f);  // no light at all
 }
 
 // Estimates of the irradiance below a small light against area * cos * cos / distance^2.
@@ -144,7 +144,7 @@ TEST_CASE("A light sample weighed by its density gives the light of a distant pa
     description.materials.push_back(gray());
     description.materials[0].emission = Vec3f{3.0f};
     constexpr float s = 1e-3f;
-    add_triangle(description, Vec3f{1, 0, 1}, Vec3f{1, s, 1}, Vec3f{1 + s, 0, 1}); // its front looks down
+    add_triangle(description, Vec3f{1, 0, 1}, Vec3f{1, s, 1}, Vec3f{1 + s, 0, 1});  // its front looks down
     const HostScene scene = pack_scene(description);
     Uniforms random(3);
     for (int i = 0; i < 1000; ++i) {
@@ -152,8 +152,7 @@ TEST_CASE("A light sample weighed by its density gives the light of a distant pa
         const DirectLight light = sample_direct_light(scene.view(), receiver(), u);
         const double estimate = static_cast<double>(light.emitted.x * light.cos_i / light.pdf_sa);
         const double area = 0.5 * static_cast<double>(s) * static_cast<double>(s);
-        REQUIRE(std::fabs(estimate / (3.0 * area * 0.5 / 2.0) - 1.0) <
-                4e-3); // the patch spans 1e-3 of the distance
+        REQUIRE(std::fabs(estimate / (3.0 * area * 0.5 / 2.0) - 1.0) < 4e-3);  // the patch spans 1e-3 of the distance
     }
 }
 
@@ -163,8 +162,7 @@ TEST_CASE("Weights of two strategies add up to one for all densities") {
         const float a = std::pow(10.0f, random.between(-30, 30));
         const float b = std::pow(10.0f, random.between(-30, 30));
         const float sum = balance_weight(a, b) + balance_weight(b, a);
-        if (!(std::fabs(sum - 1.0f) <= 4.0f * kRoundoff))
-            FAIL(a << " and " << b << " give " << sum);
+        if (!(std::fabs(sum - 1.0f) <= 4.0f * kRoundoff)) FAIL(a << " and " << b << " give " << sum);
     }
     CHECK(balance_weight(1.0f, 0.0f) == 1.0f);
     CHECK(balance_weight(0.0f, 1.0f) == 0.0f);

@@ -17,7 +17,7 @@ double largest_error(float low, float high, Fn&& fn, Reference&& reference) {
     for (int i = 0; i <= kPoints; ++i) {
         const float x = i < kPoints ? low + (high - low) * (static_cast<float>(i) / kPoints) : high;
         const double error = std::fabs(static_cast<double>(fn(x)) - reference(static_cast<double>(x)));
-        largest = error <= largest ? largest : error; // NaN counts as largest
+        largest = error <= largest ? largest : error;  // NaN counts as largest
     }
     return largest;
 }
@@ -50,7 +50,7 @@ Vec3f near_pole(test::Uniforms& random, float pole) {
                        static_cast<double>(pole) * std::sqrt(1.0 - sine * sine)}};
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Sine and cosine and arctangent keep the error they state") {
     const auto to_sin = [](double x) { return std::sin(x); };
@@ -67,8 +67,7 @@ TEST_CASE("Sine and arctangent are odd and cosine is even bit by bit") {
     test::Uniforms random(1);
     for (int i = 0; i < 100000; ++i) {
         const float x = kPiOver4 * random.next();
-        if (sin_quarter(-x) != -sin_quarter(x) || cos_quarter(-x) != cos_quarter(x) ||
-            atan_unit(-x) != -atan_unit(x))
+        if (sin_quarter(-x) != -sin_quarter(x) || cos_quarter(-x) != cos_quarter(x) || atan_unit(-x) != -atan_unit(x))
             FAIL("at " << x);
     }
     SUCCEED();
@@ -84,10 +83,8 @@ TEST_CASE("Neighbouring floats") {
     test::Uniforms random(2);
     for (int i = 0; i < 100000; ++i) {
         const float x = std::bit_cast<float>(random.bits());
-        if (!(std::fabs(x) < kInfinity))
-            continue;
-        if (next_float_up(x) != std::nextafter(x, kInfinity) ||
-            next_float_down(x) != std::nextafter(x, -kInfinity))
+        if (!(std::fabs(x) < kInfinity)) continue;
+        if (next_float_up(x) != std::nextafter(x, kInfinity) || next_float_down(x) != std::nextafter(x, -kInfinity))
             FAIL("at " << x);
     }
 }

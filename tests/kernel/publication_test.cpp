@@ -12,7 +12,7 @@ using namespace pl::test;
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr double kSteps = 16777216.0; ///< fixed-point steps per unit
+constexpr double kSteps = 16777216.0;  ///< fixed-point steps per unit
 
 /// All probabilities finite, not negative, at least the floor's share, adding up to 1.
 bool is_probability(const TestField& field, const DirectionTable& table) {
@@ -22,27 +22,24 @@ bool is_probability(const TestField& field, const DirectionTable& table) {
     for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column) {
             const float p = table.cell_probability(column, row);
-            if (!(p >= 0.0f) || !(p <= 1.0f))
-                return false;
+            if (!(p >= 0.0f) || !(p <= 1.0f)) return false;
             sum += static_cast<double>(p);
             least = min_of(least, p);
         }
     // Differences of numbers near 1 are off by a roundoff of 1 in the row and in the column.
     const float floor = field.shape.uniform_floor / static_cast<float>(table.cells.count());
-    return std::fabs(sum - 1.0) <= 1e-6 && least >= floor * (1.0f - 1e-3f) - 1e-7f &&
-           table.row_cdf[side - 1] == 1.0f;
+    return std::fabs(sum - 1.0) <= 1e-6 && least >= floor * (1.0f - 1e-3f) - 1e-7f && table.row_cdf[side - 1] == 1.0f;
 }
 
 void add_records(TestField& field, std::uint32_t cell, std::uint32_t count, float radiance) {
-    for (std::uint32_t i = 0; i < count; ++i)
-        record(field.view(), 0, static_cast<int>(cell), radiance);
+    for (std::uint32_t i = 0; i < count; ++i) record(field.view(), 0, static_cast<int>(cell), radiance);
 }
 
 double exact_step(double visits, double fresh, LearningRate rate) {
     return 1.0 - std::pow(visits / (visits + fresh), static_cast<double>(rate));
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Fixed point is exact at its edges") {
     constexpr std::int64_t kMost = std::int64_t{65536} << 24;
@@ -72,11 +69,9 @@ TEST_CASE("The order of records does not matter") {
     for (int i = 0; i < 5000; ++i)
         records.emplace_back(static_cast<int>(random.below(16)), std::exp2(random.between(-30, 10)));
     TestField forwards(4), backwards(4);
-    for (const auto& [cell, radiance] : records)
-        record(forwards.view(), 0, cell, radiance);
+    for (const auto& [cell, radiance] : records) record(forwards.view(), 0, cell, radiance);
     std::reverse(records.begin(), records.end());
-    for (const auto& [cell, radiance] : records)
-        record(backwards.view(), 0, cell, radiance);
+    for (const auto& [cell, radiance] : records) record(backwards.view(), 0, cell, radiance);
     CHECK(forwards.tables.pending_sum == backwards.tables.pending_sum);
     forwards.publish();
     backwards.publish();
@@ -97,7 +92,7 @@ TEST_CASE("Learning rates are exact from the first visit to the last") {
                 const double step = static_cast<double>(learning_step(visits, fresh, rate));
                 REQUIRE(step > 0.0);
                 REQUIRE(step <= 1.0);
-                REQUIRE(std::fabs(step / exact - 1.0) <= 1e-6); // about 10 roundoffs
+                REQUIRE(std::fabs(step / exact - 1.0) <= 1e-6);  // about 10 roundoffs
             }
     }
 }
@@ -115,8 +110,7 @@ TEST_CASE("Ten updates give the rational mean") {
         field.publish();
         REQUIRE(field.tables.visits[5] == count);
         const double mean = sum / count;
-        REQUIRE(std::fabs(static_cast<double>(field.tables.radiance[5]) / mean - 1.0) <=
-                4.0 * 0x1p-24 * pass);
+        REQUIRE(std::fabs(static_cast<double>(field.tables.radiance[5]) / mean - 1.0) <= 4.0 * 0x1p-24 * pass);
     }
     CHECK(field.tables.visits[4] == 0);
     CHECK(field.tables.radiance[4] == 0.0f);
@@ -150,8 +144,7 @@ TEST_CASE("Learned radiance stays between the least and the greatest target") {
         const float high = 0.300001f;
         for (int pass = 0; pass < 1000000; ++pass) {
             view.pending_count[0] = 1 + random.below(3);
-            view.pending_sum[0] =
-                to_fixed_point(random.below(2) == 0 ? low : high, 1.0f) * view.pending_count[0];
+            view.pending_sum[0] = to_fixed_point(random.below(2) == 0 ? low : high, 1.0f) * view.pending_count[0];
             absorb_records(view, 0);
             // Fixed point cuts off a step; the update rounds twice.
             if (!(view.radiance[0] >= low - 3.0f * 0x1p-24f && view.radiance[0] <= high + 0x1p-24f))
@@ -173,29 +166,26 @@ TEST_CASE("Visits saturate and do not wrap") {
 
 TEST_CASE("Cells without new records keep every bit") {
     TestField field(4);
-    for (float& q : field.tables.radiance)
-        q = 0.1f;
+    for (float& q : field.tables.radiance) q = 0.1f;
     field.tables.visits.assign(16, 7);
     add_records(field, 2, 3, 5.0f);
     field.publish();
     for (std::size_t cell = 0; cell < 16; ++cell)
-        if (cell != 2)
-            CHECK(field.tables.radiance[cell] == 0.1f);
+        if (cell != 2) CHECK(field.tables.radiance[cell] == 0.1f);
     CHECK(field.tables.radiance[2] > 0.1f);
 }
 
 TEST_CASE("Bad numbers in memory are taken for nothing learned") {
     const float bad_values[] = {kNan, kInfinity, -kInfinity, -1.0f, -1e38f, 3e38f, 1e38f, 1e-45f};
     for (const float bad : bad_values)
-        for (std::size_t cell = 0; cell <= 256; ++cell) { // each alone, then all together
+        for (std::size_t cell = 0; cell <= 256; ++cell) {  // each alone, then all together
             TestField field(16);
             for (std::size_t i = 0; i < 256; ++i) {
                 field.tables.radiance[i] = cell == 256 || cell == i ? bad : 0.5f;
                 field.tables.visits[i] = 10;
             }
             field.publish();
-            if (!is_probability(field, field.table()))
-                FAIL("value " << bad << " in cell " << cell);
+            if (!is_probability(field, field.table())) FAIL("value " << bad << " in cell " << cell);
             // ... and the next record heals the cell.
             const std::uint32_t healed = static_cast<std::uint32_t>(cell % 256);
             add_records(field, healed, 1, 0.5f);
@@ -212,8 +202,7 @@ TEST_CASE("Every table that can be learned is a probability with its floor") {
             TestField field(16);
             field.shape.uniform_floor = floor;
             for (std::size_t i = 0; i < 256; ++i)
-                for (int k = 0; k < 3; ++k)
-                    record(field.view(), 0, static_cast<int>(i), hard.weights[i]);
+                for (int k = 0; k < 3; ++k) record(field.view(), 0, static_cast<int>(i), hard.weights[i]);
             field.publish();
             INFO(hard.name << ", floor " << floor);
             CHECK(is_probability(field, field.table()));
@@ -225,8 +214,7 @@ TEST_CASE("Dim cells next to a bright one stay possible") {
     TestField field(16);
     field.shape.radiance_unit = 0x1p27f;
     for (int cell = 0; cell < 256; ++cell)
-        for (int k = 0; k < 100; ++k)
-            record(field.view(), 0, cell, cell == 100 ? 1e8f : 1e-8f);
+        for (int k = 0; k < 100; ++k) record(field.view(), 0, cell, cell == 100 ? 1e8f : 1e-8f);
     field.publish();
     CHECK(is_probability(field, field.table()));
     const float least = field.table().cell_probability(15, 15);
@@ -238,10 +226,9 @@ TEST_CASE("With many visits the table follows what was learned and with none it 
     TestField field(4);
     field.shape.uniform_floor = 0.0f;
     for (int cell = 0; cell < 16; ++cell)
-        for (int k = 0; k < 100000; ++k)
-            record(field.view(), 0, cell, static_cast<float>(cell + 1));
+        for (int k = 0; k < 100000; ++k) record(field.view(), 0, cell, static_cast<float>(cell + 1));
     field.publish();
-    for (int cell = 0; cell < 16; ++cell) // the prior of 2 visits has a share of 2e-5
+    for (int cell = 0; cell < 16; ++cell)  // the prior of 2 visits has a share of 2e-5
         CHECK(field.table().cell_probability(cell % 4, cell / 4) ==
               Approx(static_cast<float>(cell + 1) / 136.0f).epsilon(1e-3));
     TestField empty(4);
@@ -258,16 +245,14 @@ TEST_CASE("The mean radiance is that of the visited cells") {
     double sum = 0.0;
     int visited = 0;
     for (std::size_t cell = 0; cell < 256; ++cell) {
-        if (random.below(3) == 0)
-            continue;
+        if (random.below(3) == 0) continue;
         field.tables.visits[cell] = 1 + random.below(100);
         field.tables.radiance[cell] = random.next();
         sum += static_cast<double>(field.tables.radiance[cell]);
         ++visited;
     }
     field.publish();
-    CHECK(std::fabs(static_cast<double>(field.tables.mean_radiance[0]) / (sum / visited) - 1.0) <=
-          200.0 * 0x1p-24);
+    CHECK(std::fabs(static_cast<double>(field.tables.mean_radiance[0]) / (sum / visited) - 1.0) <= 200.0 * 0x1p-24);
 }
 
 TEST_CASE("Volumes are published independently") {

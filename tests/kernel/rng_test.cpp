@@ -25,7 +25,7 @@ double correlation(std::uint32_t pairs, First&& first, Second&& second) {
     return products.mean();
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Philox gives the published vectors") {
     using Block = std::array<std::uint32_t, 4>;
@@ -64,21 +64,17 @@ TEST_CASE("No two draws share a counter") {
                 for (const std::uint32_t vertex : vertices)
                     for (std::uint32_t purpose = 0; purpose <= static_cast<std::uint32_t>(Purpose::Placement);
                          ++purpose) {
-                        const Vec4f u =
-                            Rng{7, stream, pixel, sample}.draw(vertex, static_cast<Purpose>(purpose));
+                        const Vec4f u = Rng{7, stream, pixel, sample}.draw(vertex, static_cast<Purpose>(purpose));
                         seen.insert({u.x, u.y, u.z, u.w});
                         ++draws;
                     }
     // 5184 draws of 96 bits: the probability of an accidental repetition is 2e-22.
     CHECK(seen.size() == draws);
-    static_assert(static_cast<std::uint32_t>(Purpose::Placement) < 256,
-                  "purposes have eight bits of the counter");
+    static_assert(static_cast<std::uint32_t>(Purpose::Placement) < 256, "purposes have eight bits of the counter");
 }
 
 TEST_CASE("Both halves of the seed count") {
-    const auto draw = [](std::uint64_t seed) {
-        return Rng{seed, Stream::Picture, 3, 4}.draw(5, Purpose::Light);
-    };
+    const auto draw = [](std::uint64_t seed) { return Rng{seed, Stream::Picture, 3, 4}.draw(5, Purpose::Light); };
     CHECK(draw(1) != draw(2));
     CHECK(draw(1) != draw(1 + (std::uint64_t{1} << 32)));
     CHECK(draw(1) == draw(1));
@@ -89,9 +85,7 @@ TEST_CASE("Both halves of the seed count") {
 TEST_CASE("Neighbouring streams are uncorrelated") {
     constexpr std::uint32_t kPairs = 1000000;
     constexpr double kLimit = test::kZAlpha / 1000.0;
-    const auto by_pixel = [](std::uint32_t i) {
-        return Rng{1, Stream::Picture, i, 0}.draw(0, Purpose::Scatter).x;
-    };
+    const auto by_pixel = [](std::uint32_t i) { return Rng{1, Stream::Picture, i, 0}.draw(0, Purpose::Scatter).x; };
     const auto next_pixel = [&](std::uint32_t i) { return by_pixel(i + 1); };
     const auto next_sample = [](std::uint32_t i) {
         return Rng{1, Stream::Picture, i, 1}.draw(0, Purpose::Scatter).x;

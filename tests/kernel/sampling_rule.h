@@ -26,20 +26,17 @@ inline double needed_noncentrality(double freedom) {
 
 /// `probabilities` add up to 1, or to less if the sampler may also give nothing. Any sample in a bin of probability 0
 /// is a failure. `delta`: relative error of the density, alternating in sign from bin to bin, that must be found.
-inline Decision sampler_matches(const std::vector<std::uint64_t>& counts,
-                                const std::vector<double>& probabilities,
+inline Decision sampler_matches(const std::vector<std::uint64_t>& counts, const std::vector<double>& probabilities,
                                 double delta) {
     std::ostringstream reason;
     double samples = 0.0;
-    for (const std::uint64_t count : counts)
-        samples += static_cast<double>(count);
+    for (const std::uint64_t count : counts) samples += static_cast<double>(count);
     double chi2 = 0.0;
     double freedom = -1.0;
     double pooled_expected = 0.0;
     double pooled_count = 0.0;
     double total = 0.0;
-    for (const double p : probabilities)
-        total += p;
+    for (const double p : probabilities) total += p;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const double expected = probabilities[i] / total * samples;
         const auto count = static_cast<double>(counts[i]);
@@ -49,8 +46,7 @@ inline Decision sampler_matches(const std::vector<std::uint64_t>& counts,
         }
         pooled_expected += expected;
         pooled_count += count;
-        if (pooled_expected < kMinExpected)
-            continue;
+        if (pooled_expected < kMinExpected) continue;
         chi2 += (pooled_count - pooled_expected) * (pooled_count - pooled_expected) / pooled_expected;
         freedom += 1.0;
         pooled_expected = 0.0;
@@ -61,11 +57,9 @@ inline Decision sampler_matches(const std::vector<std::uint64_t>& counts,
     reason << "chi^2 " << chi2 << " of " << freedom << " (tail " << tail << ") with " << samples
            << " samples; a density off by " << delta << " would add " << noncentrality
            << ", needed: " << needed_noncentrality(freedom);
-    if (!(tail >= kAlpha))
-        return {Verdict::Fail, reason.str()};
-    if (!(noncentrality >= needed_noncentrality(freedom)))
-        return {Verdict::Inconclusive, reason.str()};
+    if (!(tail >= kAlpha)) return {Verdict::Fail, reason.str()};
+    if (!(noncentrality >= needed_noncentrality(freedom))) return {Verdict::Inconclusive, reason.str()};
     return {Verdict::Pass, reason.str()};
 }
 
-} // namespace pl::test
+}  // namespace pl::test

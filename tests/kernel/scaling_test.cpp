@@ -15,8 +15,7 @@ SceneDescription make_scene(float scale) {
     add_spiky_sphere(scene, 8, 8, 0.2f, 0.5f, 3);
     add_box(scene, {-0.9f, -0.75f, -0.5f}, {-0.7f, 0.1f, 0.3f}, false);
     transform(scene, true, 1.0f, {0.3f, 0.1f, -0.2f});
-    for (glm::vec3& p : scene.positions)
-        p *= scale; // exact
+    for (glm::vec3& p : scene.positions) p *= scale;  // exact
     return scene;
 }
 
@@ -41,8 +40,7 @@ std::vector<Step> record_walk(float scale) {
     while (steps.size() < 20000) {
         Step step{};
         step.hit = intersector.closest_hit(ray);
-        if (!step.hit.found())
-            break;
+        if (!step.hit.found()) break;
         const SurfacePoint point = make_surface_point<FeatureSet{}>(scene, step.hit, -ray.direction);
         ray = spawn_ray(point, lambert_sample(point, random.square()));
         step.hit.t /= scale;
@@ -54,7 +52,7 @@ std::vector<Step> record_walk(float scale) {
     return steps;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Scaling a scene by a power of two changes no bit of its hits") {
     const std::vector<Step> expected = record_walk(1.0f);
@@ -63,8 +61,7 @@ TEST_CASE("Scaling a scene by a power of two changes no bit of its hits") {
         const std::vector<Step> scaled = record_walk(std::ldexp(1.0f, exponent));
         REQUIRE(scaled.size() == expected.size());
         std::size_t same = 0;
-        while (same < expected.size() && scaled[same].same_bits(expected[same]))
-            ++same;
+        while (same < expected.size() && scaled[same].same_bits(expected[same])) ++same;
         INFO("scaled by 2^" << exponent);
         CHECK(same == expected.size());
     }

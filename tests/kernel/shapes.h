@@ -43,8 +43,7 @@ public:
         for (;;) {
             const Vec3f v = cube(-1.0f, 1.0f);
             const float length2 = glm::dot(v, v);
-            if (length2 > 1e-4f && length2 <= 1.0f)
-                return v * (1.0f / std::sqrt(length2));
+            if (length2 > 1e-4f && length2 <= 1.0f) return v * (1.0f / std::sqrt(length2));
         }
     }
 
@@ -68,8 +67,8 @@ inline std::uint32_t add_vertex(SceneDescription& scene, Vec3f position) {
     return static_cast<std::uint32_t>(scene.positions.size() - 1);
 }
 
-inline void add_triangle(
-    SceneDescription& scene, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material = 0) {
+inline void add_triangle(SceneDescription& scene, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                         std::uint32_t material = 0) {
     TriangleDescription triangle;
     triangle.vertex = {a, b, c};
     triangle.material = material;
@@ -84,25 +83,19 @@ inline void add_triangle(SceneDescription& scene, Vec3f a, Vec3f b, Vec3f c, std
 }
 
 /// Counter-clockwise seen from the front.
-inline void add_quad(SceneDescription& scene,
-                     std::uint32_t a,
-                     std::uint32_t b,
-                     std::uint32_t c,
-                     std::uint32_t d,
+inline void add_quad(SceneDescription& scene, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
                      std::uint32_t material = 0) {
     add_triangle(scene, a, b, c, material);
     add_triangle(scene, a, c, d, material);
 }
 
 /// A box with shared vertices; its fronts look outwards, or inwards like the walls of a room.
-inline void
-add_box(SceneDescription& scene, Vec3f low, Vec3f high, bool inwards, std::uint32_t material = 0) {
+inline void add_box(SceneDescription& scene, Vec3f low, Vec3f high, bool inwards, std::uint32_t material = 0) {
     std::uint32_t v[8];
     for (int i = 0; i < 8; ++i)
-        v[i] = add_vertex(scene, {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y,
-                                  (i & 4) != 0 ? high.z : low.z});
-    constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                  {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+        v[i] = add_vertex(
+            scene, {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z});
+    constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (const auto& f : kFaces) {
         if (inwards)
             add_quad(scene, v[f[3]], v[f[2]], v[f[1]], v[f[0]], material);
@@ -113,26 +106,19 @@ add_box(SceneDescription& scene, Vec3f low, Vec3f high, bool inwards, std::uint3
 
 /// Sphere of rings x segments facets whose radii vary between `low` and `high`; closed, vertices shared. Fronts look
 /// inwards.
-inline void add_spiky_sphere(SceneDescription& scene,
-                             int rings,
-                             int segments,
-                             float low,
-                             float high,
-                             std::uint64_t seed,
-                             std::uint32_t material = 0) {
+inline void add_spiky_sphere(SceneDescription& scene, int rings, int segments, float low, float high,
+                             std::uint64_t seed, std::uint32_t material = 0) {
     Uniforms random(seed);
     const auto vertex = [&](double theta, double phi) {
         const auto radius = static_cast<double>(random.between(low, high));
-        return add_vertex(scene,
-                          Vec3f{Vec3d{radius * std::sin(theta) * std::cos(phi), radius * std::cos(theta),
-                                      radius * std::sin(theta) * std::sin(phi)}});
+        return add_vertex(scene, Vec3f{Vec3d{radius * std::sin(theta) * std::cos(phi), radius * std::cos(theta),
+                                             radius * std::sin(theta) * std::sin(phi)}});
     };
     constexpr double kTurn = 6.283185307179586;
     const std::uint32_t top = vertex(0.0, 0.0);
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
     for (int ring = 1; ring < rings; ++ring)
-        for (int s = 0; s < segments; ++s)
-            vertex(0.5 * kTurn * ring / rings, kTurn * s / segments);
+        for (int s = 0; s < segments; ++s) vertex(0.5 * kTurn * ring / rings, kTurn * s / segments);
     const std::uint32_t bottom = vertex(0.5 * kTurn, 0.0);
     const auto at = [&](int ring, int s) {
         return first + static_cast<std::uint32_t>((ring - 1) * segments + s % segments);
@@ -158,4 +144,4 @@ inline void transform(SceneDescription& scene, bool rotate, float scale, Vec3f m
     }
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -15,8 +15,7 @@ HostScene make_quad(Uniforms& random, float size, Vec3f place, bool narrow) {
     SceneDescription scene;
     scene.materials.push_back(gray());
     const Vec3f corner = place + size * random.cube(-1, 1);
-    for (const Vec3f p : {corner, corner + right, corner + right + up, corner + up})
-        add_vertex(scene, p);
+    for (const Vec3f p : {corner, corner + right, corner + right + up, corner + up}) add_vertex(scene, p);
     add_quad(scene, 0, 1, 2, 3);
     return pack_scene(scene);
 }
@@ -29,7 +28,7 @@ Hit random_hit(Uniforms& random) {
 struct SelfHits {
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;
-    double largest_step = 0.0; ///< in 32 ulp(max |p|) + 32 u extent
+    double largest_step = 0.0;  ///< in 32 ulp(max |p|) + 32 u extent
 };
 
 SelfHits leave_quads(float size, Vec3f place, bool narrow, std::uint64_t quads) {
@@ -42,8 +41,7 @@ SelfHits leave_quads(float size, Vec3f place, bool narrow, std::uint64_t quads) 
             const Vec3f wo = random.direction();
             const SurfacePoint point = make_surface_point<FeatureSet{}>(scene, random_hit(random), wo);
             const Vec3f direction = lambert_sample(point, random.square());
-            if (glm::dot(direction, point.geometric_normal) <= 0.0f)
-                continue;
+            if (glm::dot(direction, point.geometric_normal) <= 0.0f) continue;
             const Ray ray = spawn_ray(point, direction);
             result.hits += BvhIntersector{scene}.closest_hit(ray).found() ? 1u : 0u;
             const Vec3f a = absolute(point.position);
@@ -60,8 +58,7 @@ void check_self_hits(std::uint64_t quads) {
     for (const float size : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f})
         for (const float place : {0.0f, 1.0f, 1e3f, 1e6f})
             for (const bool narrow : {false, true}) {
-                if (place > 1e4f * size)
-                    continue; // coordinates cannot even tell the corners apart
+                if (place > 1e4f * size) continue;  // coordinates cannot even tell the corners apart
                 const SelfHits result = leave_quads(size, place * Vec3f{0.7f, -0.5f, 0.4f}, narrow, quads);
                 INFO("size " << size << " at " << place << (narrow ? ", narrow" : ""));
                 CHECK(result.hits == 0);
@@ -69,22 +66,17 @@ void check_self_hits(std::uint64_t quads) {
             }
 }
 
-} // namespace
+}  // namespace
 
-TEST_CASE("Rays do not meet the quad that they leave in 1e4 rays a cell") {
-    check_self_hits(100);
-}
+TEST_CASE("Rays do not meet the quad that they leave in 1e4 rays a cell") { check_self_hits(100); }
 
-TEST_CASE("Rays do not meet the quad that they leave in 2e6 rays a cell", "[nightly]") {
-    check_self_hits(20000);
-}
+TEST_CASE("Rays do not meet the quad that they leave in 2e6 rays a cell", "[nightly]") { check_self_hits(20000); }
 
 TEST_CASE("Hits are kept off the edges and in their triangle") {
     Uniforms random(22);
     for (int i = 0; i < 100000; ++i) {
         Hit hit = random_hit(random);
-        if (i % 2 == 0)
-            move_to_edge(hit, random);
+        if (i % 2 == 0) move_to_edge(hit, random);
         const float margin = 0.0625f * random.next();
         const Vec3f b = inner_barycentrics(hit, margin);
         REQUIRE(std::fabs(b.x + b.y + b.z - 1.0f) <= 4.0f * kRoundoff);
@@ -124,8 +116,8 @@ TEST_CASE("Shadow segments are free of their ends and blocked in between") {
         description.materials.push_back(gray());
         for (const float z : {0.0f, 1.0f, blocker}) {
             const float half = 0.5f + 10.0f * (z == blocker ? 1.0f : 0.0f);
-            add_triangle(description, place + length * Vec3f{-half, -half, z},
-                         place + length * Vec3f{half, -half, z}, place + length * Vec3f{0, half, z});
+            add_triangle(description, place + length * Vec3f{-half, -half, z}, place + length * Vec3f{half, -half, z},
+                         place + length * Vec3f{0, half, z});
         }
         const HostScene all = pack_scene(description);
         description.triangles.pop_back();

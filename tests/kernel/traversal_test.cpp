@@ -22,9 +22,7 @@ void add_around(SceneDescription& scene, Uniforms& random, Vec3f anchor, float s
 }
 
 /// A power of two between 2^-20 and 1.
-float any_scale(Uniforms& random) {
-    return std::exp2(-static_cast<float>(random.below(21)));
-}
+float any_scale(Uniforms& random) { return std::exp2(-static_cast<float>(random.below(21))); }
 
 void add_sliver(SceneDescription& scene, Uniforms& random, float width) {
     const Vec3f a = random.cube(-1, 1);
@@ -43,8 +41,7 @@ void add_flat(SceneDescription& scene, Uniforms& random) {
 
 Shape repeated(std::function<void(SceneDescription&, Uniforms&)> add) {
     return [add](SceneDescription& scene, Uniforms& random) {
-        for (int i = 0; i < kTriangles; ++i)
-            add(scene, random);
+        for (int i = 0; i < kTriangles; ++i) add(scene, random);
     };
 }
 
@@ -67,9 +64,7 @@ std::vector<NamedShape> hard_shapes() {
         {"one huge, many tiny",
          [](auto& s, auto& r) {
              test::add_triangle(s, Vec3f{-1e3f, 0, -1e3f}, Vec3f{1e3f, 0.1f, -1e3f}, Vec3f{0, 0, 1e3f});
-             repeated([](auto& scene, auto& random) {
-                 add_around(scene, random, random.cube(-1, 1), 0.01f);
-             })(s, r);
+             repeated([](auto& scene, auto& random) { add_around(scene, random, random.cube(-1, 1), 0.01f); })(s, r);
          }},
         {"closed mesh", [](auto& s, auto&) { test::add_spiky_sphere(s, 12, 12, 1.0f, 6.0f, 3); }},
         {"room with a block",
@@ -89,10 +84,8 @@ std::vector<NamedShape> hard_shapes() {
 Vec3f point_on(const SceneView& scene, Uniforms& random) {
     const Triangle& t = scene.triangles[random.below(scene.triangles.count)];
     Vec3f b = random.cube(0.01f, 1);
-    if (random.below(2) == 0)
-        b.x = 0.0f;
-    if (random.below(2) == 0)
-        b.y = 0.0f;
+    if (random.below(2) == 0) b.x = 0.0f;
+    if (random.below(2) == 0) b.y = 0.0f;
     b *= 1.0f / (b.x + b.y + b.z);
     return b.x * scene.positions[t.v0] + b.y * scene.positions[t.v1] + b.z * scene.positions[t.v2];
 }
@@ -101,8 +94,8 @@ Vec3f point_on(const SceneView& scene, Uniforms& random) {
 Vec3f along_triangle(const SceneView& scene, Uniforms& random) {
     const Triangle& t = scene.triangles[random.below(scene.triangles.count)];
     const Vec3f a = scene.positions[t.v0];
-    const Vec3f along = random.between(-1, 1) * (scene.positions[t.v1] - a) +
-                        random.between(-1, 1) * (scene.positions[t.v2] - a);
+    const Vec3f along =
+        random.between(-1, 1) * (scene.positions[t.v1] - a) + random.between(-1, 1) * (scene.positions[t.v2] - a);
     return glm::normalize(along) + 1e-4f * random.next() * random.cube(-1, 1);
 }
 
@@ -110,30 +103,24 @@ Ray hard_ray(const SceneView& scene, Uniforms& random) {
     const Vec3f on_surface = point_on(scene, random);
     Ray ray{.origin = on_surface + random.cube(-2, 2), .direction = random.direction()};
     switch (random.below(4)) {
-    case 0:
-        ray.direction = on_surface - ray.origin;
-        break; // to a point, an edge or a corner
-    case 1:
-        break;
-    case 2: // along an axis, with exact zeros; from a slab plane half of the time
+    case 0: ray.direction = on_surface - ray.origin; break;  // to a point, an edge or a corner
+    case 1: break;
+    case 2:  // along an axis, with exact zeros; from a slab plane half of the time
         ray.direction = Vec3f{0.0f};
         ray.direction[static_cast<int>(random.below(3))] = random.below(2) == 0 ? 1.0f : -1.0f;
         ray.origin = on_surface - static_cast<float>(random.below(2)) * 2.0f * ray.direction;
         break;
-    case 3: // along a triangle
+    case 3:  // along a triangle
         ray.direction = along_triangle(scene, random);
         ray.origin = on_surface - random.between(0, 3) * ray.direction;
         break;
-    default: // from one surface to another
+    default:  // from one surface to another
         ray.origin = on_surface;
         ray.direction = point_on(scene, random) - on_surface;
     }
-    if (random.below(4) == 0)
-        ray.t_max = random.next();
-    if (random.below(4) == 0)
-        ray.source = random.below(scene.triangles.count);
-    if (random.below(8) == 0)
-        ray.target = random.below(scene.triangles.count);
+    if (random.below(4) == 0) ray.t_max = random.next();
+    if (random.below(4) == 0) ray.source = random.below(scene.triangles.count);
+    if (random.below(8) == 0) ray.target = random.below(scene.triangles.count);
     return ray;
 }
 
@@ -162,15 +149,11 @@ void check_against_all(int rays) {
     }
 }
 
-} // namespace
+}  // namespace
 
-TEST_CASE("The hierarchy agrees with all triangles for 2e4 rays a scene") {
-    check_against_all(20000);
-}
+TEST_CASE("The hierarchy agrees with all triangles for 2e4 rays a scene") { check_against_all(20000); }
 
-TEST_CASE("The hierarchy agrees with all triangles for 1e6 rays a scene", "[nightly]") {
-    check_against_all(1000000);
-}
+TEST_CASE("The hierarchy agrees with all triangles for 1e6 rays a scene", "[nightly]") { check_against_all(1000000); }
 
 TEST_CASE("An empty scene is missed") {
     const HostScene scene = pack_scene(SceneDescription{});

@@ -21,22 +21,20 @@ Hit hit_of(const Ray& ray, Vec3f a, Vec3f b, Vec3f c, std::uint32_t primitive = 
 
 /// Bitwise, so that 0 = -0 would not do... but the sign of zero decides nothing, so it may differ.
 bool antisymmetric(const Corner& p, const Corner& q) {
-    return edge_function(p, q) == -edge_function(q, p) &&
-           exact_edge_function(p, q) == -exact_edge_function(q, p);
+    return edge_function(p, q) == -edge_function(q, p) && exact_edge_function(p, q) == -exact_edge_function(q, p);
 }
 
 struct RandomTriangle {
     Vec3f a, b, c;
 
-    explicit RandomTriangle(Uniforms& random)
-        : a(random.cube(-1, 1)), b(random.cube(-1, 1)), c(random.cube(-1, 1)) {}
+    explicit RandomTriangle(Uniforms& random) : a(random.cube(-1, 1)), b(random.cube(-1, 1)), c(random.cube(-1, 1)) {}
     Vec3f point(Uniforms& random) const {
         const Vec2f b12 = square_to_triangle(random.square());
         return (1.0f - b12.x - b12.y) * a + b12.x * b + b12.y * c;
     }
 };
 
-} // namespace
+}  // namespace
 
 // The heart of watertightness: two triangles see their common edge from opposite ends. A contracted multiply-add
 // breaks this for nearly every pair.
@@ -45,7 +43,7 @@ TEST_CASE("Edge functions are antisymmetric bit by bit") {
     bool all = true;
     for (int i = 0; i < 2000000; ++i) {
         const Corner p{random.between(-1, 1), random.between(-1, 1), 0.0f};
-        const float t = random.between(-2, 2); // almost on a line through the origin
+        const float t = random.between(-2, 2);  // almost on a line through the origin
         const Corner q{p.x * t, p.y * t + random.between(-1, 1) * 1e-7f, 0.0f};
         all = all && antisymmetric(p, q);
     }
@@ -85,8 +83,7 @@ TEST_CASE("Edges that rounding cannot decide are decided exactly") {
         const Vec3f b{a.x * back, a.y * back, 1};
         const Corner p{a.x, a.y, 1}, q{b.x, b.y, 1};
         const float exact = exact_edge_function(p, q);
-        if (edge_function(p, q) != 0.0f || exact == 0.0f)
-            continue;
+        if (edge_function(p, q) != 0.0f || exact == 0.0f) continue;
         ++undecided;
         const bool left = hit_of({}, a, b, {-3, 3, 1}).found();
         const bool right = hit_of({}, a, b, {3, -3, 1}).found();
@@ -106,8 +103,7 @@ TEST_CASE("Both sides are hit alike and barycentric weights give the point") {
         const Hit front = hit_of(ray, t.a, t.b, t.c);
         const Hit back = hit_of(ray, t.a, t.c, t.b);
         REQUIRE(front.found() == back.found());
-        if (!front.found())
-            continue; // aimed at an edge, or along the plane
+        if (!front.found()) continue;  // aimed at an edge, or along the plane
         ++hits;
         // Same terms, added in another order: three sums of numbers up to 6.
         REQUIRE(std::fabs(front.t - back.t) <= 4e-6f);
@@ -134,22 +130,21 @@ TEST_CASE("Hits at equal distance go to the lowest number in any order") {
         const Hit rising = hit_of(ray, t.a, t.b, t.c, 9, hit_of(ray, t.a, t.b, t.c, 4));
         const Hit falling = hit_of(ray, t.a, t.b, t.c, 4, hit_of(ray, t.a, t.b, t.c, 9));
         REQUIRE(test::same_bits(rising, falling));
-        if (rising.found())
-            REQUIRE(rising.primitive == 4);
+        if (rising.found()) REQUIRE(rising.primitive == 4);
     }
 }
 
 TEST_CASE("Distances are limited on both sides") {
     const Vec3f a{-1, -1, 2}, b{1, -1, 2}, c{0, 1, 2};
-    Ray ray; // along +z from 0
+    Ray ray;  // along +z from 0
     CHECK(hit_of(ray, a, b, c).t == 2.0f);
-    CHECK(hit_of(ray, a, b, c, 0, Hit{.t = 2.0f}).found()); // t_max itself is inside
+    CHECK(hit_of(ray, a, b, c, 0, Hit{.t = 2.0f}).found());  // t_max itself is inside
     CHECK_FALSE(hit_of(ray, a, b, c, 0, Hit{.t = next_float_down(2.0f)}).found());
-    ray.origin.z = 2.0f; // on it: t = 0 is outside
+    ray.origin.z = 2.0f;  // on it: t = 0 is outside
     CHECK_FALSE(hit_of(ray, a, b, c).found());
     ray.origin.z = 3.0f;
     CHECK_FALSE(hit_of(ray, a, b, c).found());
-    ray.direction.z = -4.0f; // distances count in units of the direction
+    ray.direction.z = -4.0f;  // distances count in units of the direction
     CHECK(hit_of(ray, a, b, c).t == 0.25f);
 }
 
@@ -160,19 +155,18 @@ TEST_CASE("Rays in the plane of a triangle give nothing that is not finite") {
         const RandomTriangle t(random);
         Ray ray;
         Vec3f a = t.a, b = t.b, c = t.c;
-        if (i % 2 == 0) { // exactly in the plane: both in a plane of coordinates
+        if (i % 2 == 0) {  // exactly in the plane: both in a plane of coordinates
             const int axis = static_cast<int>(random.below(3));
             ray.origin = random.cube(-3, 3);
             ray.direction = random.direction();
             a[axis] = b[axis] = c[axis] = ray.origin[axis];
             ray.direction[axis] = 0.0f;
-        } else { // to rounding
+        } else {  // to rounding
             ray.origin = t.a + random.between(-2, 2) * (t.b - t.a);
             ray.direction = t.point(random) - ray.origin;
         }
         const Hit hit = hit_of(ray, a, b, c);
-        if (!hit.found())
-            continue;
+        if (!hit.found()) continue;
         ++hits;
         REQUIRE(hit.t < kInfinity);
         REQUIRE(hit.t > 0.0f);
@@ -192,21 +186,19 @@ TEST_CASE("Directions with zeros hit what they should") {
             Vec3f d{static_cast<float>(pattern % 3 - 1), static_cast<float>(pattern / 3 % 3 - 1),
                     static_cast<float>(pattern / 9 - 1)};
             for (int axis = 0; axis < 3; ++axis)
-                if (d[axis] == 0.0f && ((zeros >> axis) & 1) != 0)
-                    d[axis] = -0.0f;
-            if (d.z == 0.0f)
-                continue; // in the plane, or no direction at all
-            for (const Vec3f target : {Vec3f{0.25f, 0.25f, 0}, Vec3f{0, 0, 0}, Vec3f{1, 0, 0},
-                                       Vec3f{0.5f, 0, 0}, Vec3f{0.5f, 0.5f, 0}}) {
+                if (d[axis] == 0.0f && ((zeros >> axis) & 1) != 0) d[axis] = -0.0f;
+            if (d.z == 0.0f) continue;  // in the plane, or no direction at all
+            for (const Vec3f target :
+                 {Vec3f{0.25f, 0.25f, 0}, Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0.5f, 0, 0}, Vec3f{0.5f, 0.5f, 0}}) {
                 const Ray ray{.origin = target - 2.0f * d, .direction = d};
                 const Hit hit = hit_of(ray, corners[0], corners[1], corners[2]);
                 REQUIRE(hit.found());
                 REQUIRE(hit.t == 2.0f);
                 ++tested;
             }
-            REQUIRE_FALSE(hit_of({.origin = Vec3f{1, 1, 0} - 2.0f * d, .direction = d}, corners[0],
-                                 corners[1], corners[2])
-                              .found());
+            REQUIRE_FALSE(
+                hit_of({.origin = Vec3f{1, 1, 0} - 2.0f * d, .direction = d}, corners[0], corners[1], corners[2])
+                    .found());
         }
     CHECK(tested == 5 * 18 * 8);
 }

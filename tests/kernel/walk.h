@@ -9,14 +9,14 @@ namespace pl::test {
 
 struct WalkResult {
     std::uint64_t segments = 0;
-    std::uint64_t escapes = 0; ///< segments that hit nothing
-    std::uint64_t leaks = 0;   ///< segments that hit a surface from behind
+    std::uint64_t escapes = 0;  ///< segments that hit nothing
+    std::uint64_t leaks = 0;    ///< segments that hit a surface from behind
 };
 
 /// How hard a walk looks for trouble.
 enum class WalkStyle {
-    Diffuse,     ///< as paths go
-    Adversarial, ///< every second vertex is moved next to an edge or a corner, every fourth direction grazes
+    Diffuse,      ///< as paths go
+    Adversarial,  ///< every second vertex is moved next to an edge or a corner, every fourth direction grazes
 };
 
 /// Weights that are small for one or two corners, down to 2^-40.
@@ -41,11 +41,7 @@ inline Vec3f grazing(const SurfacePoint& point, Vec3f direction, Uniforms& rando
 
 /// A walk from `start` that begins anew there when it has got out. Fronts must look inwards for leaks to be counted.
 template <Intersector I>
-WalkResult walk(const SceneView& scene,
-                const I& intersector,
-                Vec3f start,
-                std::uint64_t segments,
-                WalkStyle style,
+WalkResult walk(const SceneView& scene, const I& intersector, Vec3f start, std::uint64_t segments, WalkStyle style,
                 std::uint64_t seed) {
     Uniforms random(seed);
     WalkResult result;
@@ -59,15 +55,13 @@ WalkResult walk(const SceneView& scene,
             ray = restart();
             continue;
         }
-        if (style != WalkStyle::Diffuse && random.below(2) == 0)
-            move_to_edge(hit, random);
+        if (style != WalkStyle::Diffuse && random.below(2) == 0) move_to_edge(hit, random);
         const SurfacePoint point = make_surface_point<FeatureSet{}>(scene, hit, wo);
         Vec3f direction = lambert_sample(point, random.square());
-        if (style == WalkStyle::Adversarial && random.below(4) == 0)
-            direction = grazing(point, direction, random);
+        if (style == WalkStyle::Adversarial && random.below(4) == 0) direction = grazing(point, direction, random);
         ray = glm::dot(direction, point.geometric_normal) > 0.0f ? spawn_ray(point, direction) : restart();
     }
     return result;
 }
 
-} // namespace pl::test
+}  // namespace pl::test

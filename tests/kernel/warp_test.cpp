@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kAlmostOne = 1.0f - 0x1p-24f;
 
-} // namespace
+}  // namespace
 
 // Two maps with an error of a few roundoffs each, in coordinates up to 1; near the center directions are steep, but
 // lengths are small.
@@ -21,13 +21,12 @@ TEST_CASE("Square to disk and back") {
     bool inside = true;
     for (int i = 0; i < 2000000; ++i) {
         Vec2f u = random.square();
-        if (i % 4 == 0)
-            u = Vec2f{0.5f} + (u - Vec2f{0.5f}) * std::exp2(-20.0f * random.next());
+        if (i % 4 == 0) u = Vec2f{0.5f} + (u - Vec2f{0.5f}) * std::exp2(-20.0f * random.next());
         const Vec2f disk = square_to_disk(u);
         const Vec2f back = disk_to_square(disk);
         largest = max_of(largest, max_of(std::fabs(back.x - u.x), std::fabs(back.y - u.y)));
-        inside = inside && glm::dot(disk, disk) <= 1.0f + 4.0f * kRoundoff && back.x >= 0.0f &&
-                 back.x <= 1.0f && back.y >= 0.0f && back.y <= 1.0f;
+        inside = inside && glm::dot(disk, disk) <= 1.0f + 4.0f * kRoundoff && back.x >= 0.0f && back.x <= 1.0f &&
+                 back.y >= 0.0f && back.y <= 1.0f;
     }
     CHECK(largest < 5e-7f);
     CHECK(inside);
@@ -87,8 +86,8 @@ TEST_CASE("The cosine hemisphere has the density it states") {
     // Midpoint rule in cos(theta), exact for a linear function.
     double integral = 0.0;
     for (int ring = 0; ring < 1000; ++ring)
-        integral += 2.0 * 3.14159265358979 * 1e-3 *
-                    cosine_hemisphere_pdf_sa((static_cast<float>(ring) + 0.5f) * 1e-3f);
+        integral +=
+            2.0 * 3.14159265358979 * 1e-3 * cosine_hemisphere_pdf_sa((static_cast<float>(ring) + 0.5f) * 1e-3f);
     CHECK(std::fabs(integral - 1.0) < 1e-6);
     CHECK(cosine_hemisphere_pdf_sa(0.0f) == 0.0f);
     CHECK(cosine_hemisphere_pdf_sa(-0.5f) == 0.0f);

@@ -33,8 +33,7 @@ bool usual_test_hits(const Ray& ray, Vec3f a, Vec3f b, Vec3f c) {
 
 bool usual_test_misses_all(const SceneView& scene, const Ray& ray) {
     for (const Triangle& t : scene.triangles)
-        if (usual_test_hits(ray, scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]))
-            return false;
+        if (usual_test_hits(ray, scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2])) return false;
     return true;
 }
 
@@ -103,15 +102,11 @@ HostScene sliver_cone() {
     return pack_scene(scene);
 }
 
-} // namespace
+}  // namespace
 
-TEST_CASE("A closed mesh is watertight to 2e4 rays each") {
-    check_watertight(20000);
-}
+TEST_CASE("A closed mesh is watertight to 2e4 rays each") { check_watertight(20000); }
 
-TEST_CASE("A closed mesh is watertight to 1e6 rays each", "[nightly]") {
-    check_watertight(1000000);
-}
+TEST_CASE("A closed mesh is watertight to 1e6 rays each", "[nightly]") { check_watertight(1000000); }
 
 TEST_CASE("A fan of slivers is watertight") {
     const HostScene scene = sliver_cone();

@@ -31,15 +31,14 @@ constexpr Check kChecks[] = {
     {"floor", check_floor},
 };
 
-} // namespace
-} // namespace pl::test
+}  // namespace
+}  // namespace pl::test
 
 int main(int argc, char** argv) {
     const std::string_view name = argc > 1 ? argv[1] : "";
     const bool want_caught = argc > 2 && std::string_view(argv[2]) == "--caught";
     for (const pl::test::Check& check : pl::test::kChecks) {
-        if (check.name != name)
-            continue;
+        if (check.name != name) continue;
         const pl::test::Decision decision = check.run();
         std::cout << check.name << ": " << decision << "\n";
         return decision.verdict == (want_caught ? pl::test::Verdict::Fail : pl::test::Verdict::Pass) ? 0 : 1;

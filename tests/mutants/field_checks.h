@@ -50,15 +50,13 @@ inline Decision judge_cells(SmallField& field, std::int32_t volume, Vec3f origin
     for (int cell = 0; cell < view.cells.count(); ++cell) {
         const std::uint32_t index = view.cell_index(volume, cell);
         const Sees sees = seen_by_cell(view, volume, cell, origin);
-        if (field.tables().visits[index] == 0 || sees == Sees::Both)
-            continue;
+        if (field.tables().visits[index] == 0 || sees == Sees::Both) continue;
         ++(sees == Sees::WallX0 ? bright : dark);
         wrong += field.tables().radiance[index] == (sees == Sees::WallX0 ? 1.0f : 0.0f) ? 0 : 1;
     }
-    const std::string reason = std::to_string(bright) + " bright cells, " + std::to_string(dark) +
-                               " dark ones, " + std::to_string(wrong) + " learned something else";
-    if (wrong > 0)
-        return {Verdict::Fail, reason};
+    const std::string reason = std::to_string(bright) + " bright cells, " + std::to_string(dark) + " dark ones, " +
+                               std::to_string(wrong) + " learned something else";
+    if (wrong > 0) return {Verdict::Fail, reason};
     return {bright >= 8 && dark >= 8 ? Verdict::Pass : Verdict::Inconclusive, reason};
 }
 
@@ -109,8 +107,8 @@ inline Decision check_furnace_cells() {
     SmallField field(scene, 30, 4);
     for (std::uint32_t pass = 0; pass < 64; ++pass) {
         trace_many<FeatureSet{}>(scene, CameraDescription{.eye = Vec3f{0.0f}, .target = Vec3f{1.0f}},
-                                 ReinforcementMethod{{.field = field.view()}}, {.seed = 1},
-                                 {1000 * pass, 1000}, [](const auto&, const auto&) {});
+                                 ReinforcementMethod{{.field = field.view()}}, {.seed = 1}, {1000 * pass, 1000},
+                                 [](const auto&, const auto&) {});
         field.publish();
     }
     float worst = 0.0f;
@@ -121,8 +119,7 @@ inline Decision check_furnace_cells() {
             ++cells;
         }
     const std::string reason = std::to_string(cells) + " cells, the worst off by " + std::to_string(worst);
-    if (!(worst <= 0.02f))
-        return {Verdict::Fail, reason};
+    if (!(worst <= 0.02f)) return {Verdict::Fail, reason};
     return {cells > 100 ? Verdict::Pass : Verdict::Inconclusive, reason};
 }
 
@@ -157,8 +154,7 @@ inline Decision check_mixture_density() {
         const Rng rng{.seed = 1, .sample = i};
         const DirectionSample sample =
             method.sample_direction({volume}, surface, rng, 1, rng.draw(1, Purpose::Scatter));
-        const Vec3f local{glm::dot(sample.wi, frame.x), glm::dot(sample.wi, frame.y),
-                          glm::dot(sample.wi, frame.z)};
+        const Vec3f local{glm::dot(sample.wi, frame.x), glm::dot(sample.wi, frame.y), glm::dot(sample.wi, frame.z)};
         ++observed[static_cast<std::size_t>(bins.cell_of_direction(local))];
     }
     return follows_density(observed, expected, 0.012);
@@ -175,12 +171,11 @@ inline Decision check_floor() {
     field.publish();
     const DirectionTable table(field.view(), 0);
     float least = 1.0f;
-    for (int cell = 0; cell < 64; ++cell)
-        least = min_of(least, table.cell_probability(cell % 8, cell / 8));
+    for (int cell = 0; cell < 64; ++cell) least = min_of(least, table.cell_probability(cell % 8, cell / 8));
     // Probabilities are differences of cumulative sums up to 1, in two steps: 4 roundoffs, 8 columns per row.
     const float share = field.shape().uniform_floor / 64.0f - 32.0f * kRoundoff;
     return {least >= share ? Verdict::Pass : Verdict::Fail,
             "least probability " + std::to_string(least) + ", floor " + std::to_string(share)};
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -13,12 +13,8 @@ namespace pl::test {
 
 /// Rule S1 in every channel at the middle of a wall of a cube of known radiosity.
 template <FeatureSet F, class M>
-inline Decision check_cube_wall(const CubeReference& reference,
-                                const HostScene& scene,
-                                Wall wall,
-                                const M& method,
-                                Range samples,
-                                double delta) {
+inline Decision check_cube_wall(const CubeReference& reference, const HostScene& scene, Wall wall, const M& method,
+                                Range samples, double delta) {
     std::array<Moments, 3> channels;
     const PathSettings settings{.seed = 1, .next_event = F.has(Feature::NextEventEstimation) ? 1u : 0u};
     trace_many<F>(scene, camera_at_center(wall, kCubeLow, kCubeHigh), method, settings, samples,
@@ -29,8 +25,8 @@ inline Decision check_cube_wall(const CubeReference& reference,
     Decision decision{Verdict::Pass, ""};
     for (int c = 0; c < 3; ++c) {
         const double truth = reference.center[wall][c];
-        decision = worse_of(
-            mean_equals(channels[static_cast<std::size_t>(c)], {truth, reference.error}, delta), decision);
+        decision =
+            worse_of(mean_equals(channels[static_cast<std::size_t>(c)], {truth, reference.error}, delta), decision);
     }
     return decision;
 }
@@ -38,15 +34,15 @@ inline Decision check_cube_wall(const CubeReference& reference,
 /// Floor of the cube under a bright ceiling, directions from the BSDF. Seed 1, 6e5 paths, resolves 2 %.
 inline Decision check_cube() {
     const CubeReference reference = cube_with_bright_ceiling();
-    return check_cube_wall<FeatureSet{}>(reference, pack_scene(cube_scene(reference)), kFloor,
-                                         DefaultMethod{}, {0, 600'000}, 0.02);
+    return check_cube_wall<FeatureSet{}>(reference, pack_scene(cube_scene(reference)), kFloor, DefaultMethod{},
+                                         {0, 600'000}, 0.02);
 }
 
 /// A wall of the cube with a lamp, lights sampled as well. Seed 1, 4e5 paths, resolves 2 %.
 inline Decision check_cube_next_event() {
     const CubeReference reference = cube_with_lamp();
-    return check_cube_wall<kWithNextEvent>(reference, pack_scene(cube_scene(reference)), kWallX0,
-                                           DefaultMethod{}, {0, 400'000}, 0.02);
+    return check_cube_wall<kWithNextEvent>(reference, pack_scene(cube_scene(reference)), kWallX0, DefaultMethod{},
+                                           {0, 400'000}, 0.02);
 }
 
 /// The same with directions learned in 32 passes of 1000 paths. Seed 1, 1.2e6 paths, resolves 2 %.
@@ -69,8 +65,7 @@ inline Decision check_roulette() {
     constexpr double kRho = 0.5;
     Moments radiance, squared_deviation;
     trace_many<FeatureSet{}>(pack_scene(furnace_scene(0.5f, 0.5f)), CameraDescription{}, DefaultMethod{},
-                             {.seed = 1, .roulette_start = 1}, {0, 1'000'000},
-                             [&](const auto& state, const auto&) {
+                             {.seed = 1, .roulette_start = 1}, {0, 1'000'000}, [&](const auto& state, const auto&) {
                                  const auto x = static_cast<double>(state.radiance.x);
                                  radiance.add(x);
                                  squared_deviation.add((x - 1.0) * (x - 1.0));
@@ -100,8 +95,7 @@ inline Decision check_equilibrium() {
     BoxLook look;
     look.albedo = {Vec3f{0.5f, 0.8f, 0.2f}, Vec3f{0.7f}, Vec3f{0.3f}, Vec3f{0.9f}, Vec3f{0.6f}, Vec3f{0.4f}};
     SceneDescription box = in_equilibrium(box_scene(look, Vec3f{40.0f}, Vec3f{41.0f}));
-    for (MaterialDescription& material : box.materials)
-        material.two_sided_emission = false;
+    for (MaterialDescription& material : box.materials) material.two_sided_emission = false;
     const HostScene scene = pack_scene(box);
     const SceneView view = scene.view();
     const PathSettings settings{.seed = 1, .max_depth = 24, .roulette_start = 1000};
@@ -112,8 +106,8 @@ inline Decision check_equilibrium() {
         Vec3d product{1.0};
         PathCounters counters;
         auto state = begin_path<DefaultMethod>(camera, settings, 1, 1, 0, sample);
-        trace_path<FeatureSet{}>(view, AlbedoProduct{BvhIntersector{view}, &product}, DefaultMethod{},
-                                 settings, state, counters);
+        trace_path<FeatureSet{}>(view, AlbedoProduct{BvhIntersector{view}, &product}, DefaultMethod{}, settings,
+                                 state, counters);
         const double tolerance = 4.0 * (state.vertices + 1) * static_cast<double>(kRoundoff);
         const Vec3d off = glm::abs(Vec3d{state.radiance} - (Vec3d{1.0} - product));
         const bool right = off.x <= tolerance && off.y <= tolerance && off.z <= tolerance;
@@ -156,9 +150,8 @@ inline Decision check_umbra() {
                                });
     const std::string reason =
         std::to_string(lit) + " paths are lit, " + std::to_string(shadow_rays) + " shadow rays";
-    if (lit > 0)
-        return {Verdict::Fail, reason};
+    if (lit > 0) return {Verdict::Fail, reason};
     return {shadow_rays >= 10'000 ? Verdict::Pass : Verdict::Inconclusive, reason};
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -18,16 +18,11 @@ public:
     FieldView view() { return field_view(shape_, volumes_, tables_); }
     void publish() {
         const FieldPublicationView view = publication_view(shape_, tables_);
-        for (std::uint32_t volume = 0; volume < volumes_.sites.size(); ++volume)
-            publish_volume(view, volume);
+        for (std::uint32_t volume = 0; volume < volumes_.sites.size(); ++volume) publish_volume(view, volume);
     }
 
-    std::int32_t volume_at(Vec3f position, Vec3f normal) {
-        return find_volume(view().tree, position, normal);
-    }
-    const SurfacePoint& site(std::int32_t volume) const {
-        return volumes_.sites[static_cast<std::size_t>(volume)];
-    }
+    std::int32_t volume_at(Vec3f position, Vec3f normal) { return find_volume(view().tree, position, normal); }
+    const SurfacePoint& site(std::int32_t volume) const { return volumes_.sites[static_cast<std::size_t>(volume)]; }
     const FieldShape& shape() const { return shape_; }
     HostTables& tables() { return tables_; }
 
@@ -37,4 +32,4 @@ private:
     HostTables tables_;
 };
 
-} // namespace pl::test
+}  // namespace pl::test

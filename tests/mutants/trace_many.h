@@ -19,12 +19,8 @@ struct Range {
 
 /// Samples of one pixel; `each(state, counters)` sees every finished path with its own counters.
 template <FeatureSet F, class M, class Each>
-void trace_many(const HostScene& scene,
-                const CameraDescription& camera,
-                const M& method,
-                const PathSettings& settings,
-                Range samples,
-                Each&& each) {
+void trace_many(const HostScene& scene, const CameraDescription& camera, const M& method,
+                const PathSettings& settings, Range samples, Each&& each) {
     const SceneView view = scene.view();
     const BvhIntersector intersector{view};
     const PinholeCamera pinhole = make_camera(camera, 1, 1);
@@ -36,4 +32,4 @@ void trace_many(const HostScene& scene,
     }
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -25,16 +25,16 @@ struct Mesh {
 };
 
 struct Shape {
-    int depth = 0; ///< of the deepest leaf; a root alone has 1
+    int depth = 0;  ///< of the deepest leaf; a root alone has 1
     std::uint32_t largest_leaf = 0;
     std::uint64_t inner_nodes = 0;
     std::uint64_t visited = 0;
-    bool contained = true; ///< every child lies in its parent, every triangle in its leaf
+    bool contained = true;  ///< every child lies in its parent, every triangle in its leaf
 };
 
 bool contains(const BvhNode& node, Vec3f p) {
-    return p.x >= node.low.x && p.y >= node.low.y && p.z >= node.low.z && p.x <= node.high.x &&
-           p.y <= node.high.y && p.z <= node.high.z;
+    return p.x >= node.low.x && p.y >= node.low.y && p.z >= node.low.z && p.x <= node.high.x && p.y <= node.high.y &&
+           p.z <= node.high.z;
 }
 
 Shape shape_of(const Mesh& mesh, const Bvh& bvh) {
@@ -44,8 +44,7 @@ Shape shape_of(const Mesh& mesh, const Bvh& bvh) {
     };
     Shape shape;
     std::vector<Visit> stack;
-    if (!bvh.nodes.empty())
-        stack.push_back({0, 1});
+    if (!bvh.nodes.empty()) stack.push_back({0, 1});
     while (!stack.empty()) {
         const Visit visit = stack.back();
         stack.pop_back();
@@ -82,8 +81,7 @@ void check_sound(const Mesh& mesh) {
     std::sort(sorted.begin(), sorted.end());
     REQUIRE(sorted.size() == mesh.triangles.size());
     bool permutation = true;
-    for (std::uint32_t i = 0; i < sorted.size(); ++i)
-        permutation = permutation && sorted[i] == i;
+    for (std::uint32_t i = 0; i < sorted.size(); ++i) permutation = permutation && sorted[i] == i;
     CHECK(permutation);
     const Bvh again = mesh.build();
     CHECK(again.primitives == bvh.primitives);
@@ -108,8 +106,7 @@ Mesh random_mesh(int triangles) {
 
 Mesh all_at_one_place(int triangles) {
     Mesh mesh;
-    for (int i = 0; i < triangles; ++i)
-        mesh.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    for (int i = 0; i < triangles; ++i) mesh.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     return mesh;
 }
 
@@ -162,20 +159,15 @@ void check_hard_inputs(int triangles) {
     check_sound(nested(triangles));
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("A hierarchy holds every triangle once") {
-    for (const int triangles : {1, 2, 3, 4, 5, 8, 9, 100})
-        check_hard_inputs(triangles);
+    for (const int triangles : {1, 2, 3, 4, 5, 8, 9, 100}) check_hard_inputs(triangles);
 }
 
-TEST_CASE("Hierarchies of 2e4 hard triangles stay shallow") {
-    check_hard_inputs(20000);
-}
+TEST_CASE("Hierarchies of 2e4 hard triangles stay shallow") { check_hard_inputs(20000); }
 
-TEST_CASE("Hierarchies of 1e6 hard triangles stay shallow", "[nightly]") {
-    check_hard_inputs(1000000);
-}
+TEST_CASE("Hierarchies of 1e6 hard triangles stay shallow", "[nightly]") { check_hard_inputs(1000000); }
 
 TEST_CASE("No triangles give no nodes") {
     const Bvh bvh = Mesh{}.build();

@@ -22,18 +22,16 @@ void add_right_triangle(SceneDescription& scene, float leg, float z, std::uint32
     add_triangle(scene, Vec3f{0, 0, z}, Vec3f{leg, 0, z}, Vec3f{0, leg, z}, material);
 }
 
-bool all_finite(Vec3f v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool all_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Lights are the emitting triangles in proportion to area and luminance") {
     SceneDescription scene;
     scene.materials = {gray(), glowing({1, 1, 1}), glowing({0, 3, 0})};
-    add_right_triangle(scene, 2, 0, 0); // not a light
-    add_right_triangle(scene, 2, 1, 1); // area 2
-    add_right_triangle(scene, 4, 2, 2); // area 8
+    add_right_triangle(scene, 2, 0, 0);  // not a light
+    add_right_triangle(scene, 2, 1, 1);  // area 2
+    add_right_triangle(scene, 4, 2, 2);  // area 8
     const HostScene packed = pack_scene(scene);
     REQUIRE(packed.lights.size() == 2);
     CHECK(packed.lights[0].primitive == 1);
@@ -69,11 +67,10 @@ TEST_CASE("The power of many lights is summed in double") {
     SceneDescription scene;
     scene.materials = {glowing({1, 1, 1})};
     constexpr int kLights = 100000;
-    for (int i = 0; i < kLights; ++i)
-        add_right_triangle(scene, 0.1f, static_cast<float>(i), 0);
+    for (int i = 0; i < kLights; ++i) add_right_triangle(scene, 0.1f, static_cast<float>(i), 0);
     const HostScene packed = pack_scene(scene);
-    const double one = 0.5 * static_cast<double>(0.1f) * static_cast<double>(0.1f) *
-                       static_cast<double>(luminance(Vec3f{1.0f}));
+    const double one =
+        0.5 * static_cast<double>(0.1f) * static_cast<double>(0.1f) * static_cast<double>(luminance(Vec3f{1.0f}));
     CHECK(std::fabs(static_cast<double>(packed.light_power) / (one * kLights) - 1.0) <= 1.5e-7);
     CHECK(packed.lights.back().cumulative_probability == 1.0f);
     bool sorted = true;
@@ -81,8 +78,7 @@ TEST_CASE("The power of many lights is summed in double") {
     for (std::size_t i = 0; i < packed.lights.size(); ++i) {
         const float p = packed.lights[i].cumulative_probability;
         sorted = sorted && (i == 0 || p >= packed.lights[i - 1].cumulative_probability);
-        accurate =
-            accurate && std::fabs(static_cast<double>(p) - static_cast<double>(i + 1) / kLights) <= 1e-7;
+        accurate = accurate && std::fabs(static_cast<double>(p) - static_cast<double>(i + 1) / kLights) <= 1e-7;
     }
     CHECK(sorted);
     CHECK(accurate);
@@ -91,7 +87,7 @@ TEST_CASE("The power of many lights is summed in double") {
 TEST_CASE("Scenes without smooth normals pack none and need no effect") {
     SceneDescription scene;
     scene.materials.push_back(gray());
-    scene.normals = {Vec3f{0, 0, 1}}; // in the file, but no triangle asks for it
+    scene.normals = {Vec3f{0, 0, 1}};  // in the file, but no triangle asks for it
     add_right_triangle(scene, 1, 0, 0);
     const HostScene packed = pack_scene(scene);
     CHECK(packed.normals.empty());
@@ -104,14 +100,14 @@ TEST_CASE("Triangles without normals get their geometric one where others are sm
     scene.materials.push_back(gray());
     scene.normals = {Vec3f{0, 0, 2}, Vec3f{0, 3, 0}, Vec3f{0, 0, 0}};
     add_right_triangle(scene, 1, 0, 0);
-    add_triangle(scene, Vec3f{0}, Vec3f{0, 1, 0}, Vec3f{0, 0, 1}); // faces +x
+    add_triangle(scene, Vec3f{0}, Vec3f{0, 1, 0}, Vec3f{0, 0, 1});  // faces +x
     scene.triangles[0].normal = {0, 1, 2};
     const HostScene packed = pack_scene(scene);
     REQUIRE(packed.triangle_normals.size() == 2);
     const TriangleNormals smooth = packed.triangle_normals[0];
     CHECK(packed.normals[smooth.n0] == Vec3f{0, 0, 1});
     CHECK(packed.normals[smooth.n1] == Vec3f{0, 1, 0});
-    CHECK(packed.normals[smooth.n2] == Vec3f{0, 0, 0}); // has no say
+    CHECK(packed.normals[smooth.n2] == Vec3f{0, 0, 0});  // has no say
     const TriangleNormals flat = packed.triangle_normals[1];
     CHECK(packed.normals[flat.n0] == Vec3f{1, 0, 0});
     CHECK(flat.n0 == flat.n1);
@@ -125,10 +121,8 @@ TEST_CASE("An environment is an effect") {
     CHECK(needed_effects(pack_scene(scene)) == FeatureSet{}.with(Feature::Environment));
     CHECK(effect_names(needed_effects(pack_scene(scene))) == std::vector<std::string>{"environment"});
     FeatureSet all;
-    for (const Feature feature : kAllFeatures)
-        all = all.with(feature);
-    CHECK(effect_names(all) ==
-          std::vector<std::string>{"smooth-normals", "environment", "next-event-estimation"});
+    for (const Feature feature : kAllFeatures) all = all.with(feature);
+    CHECK(effect_names(all) == std::vector<std::string>{"smooth-normals", "environment", "next-event-estimation"});
     CHECK(effect_names(FeatureSet{}).empty());
 }
 
@@ -144,7 +138,7 @@ TEST_CASE("An empty scene packs") {
 TEST_CASE("Bounds cover what triangles use and nothing else") {
     SceneDescription scene;
     scene.materials.push_back(gray());
-    add_vertex(scene, {100, 100, 100}); // in the file, but unused
+    add_vertex(scene, {100, 100, 100});  // in the file, but unused
     add_triangle(scene, Vec3f{-1, 2, 3}, Vec3f{4, -5, 6}, Vec3f{0, 0, 0});
     const Bounds bounds = bounds_of(scene);
     CHECK(bounds.low == Vec3f{-1, -5, 0});
@@ -175,7 +169,7 @@ TEST_CASE("The camera's basis is orthogonal and as wide as the picture") {
     CHECK(basis.forward == Vec3f{0, 0, 1});
     CHECK(glm::length(basis.up) == Approx(1.0f));
     CHECK(glm::length(basis.right) == Approx(2.0f));
-    CHECK(basis.right.x < 0.0f); // looking along +z with y up, right is -x
+    CHECK(basis.right.x < 0.0f);  // looking along +z with y up, right is -x
     // The middle of the picture looks forward, its corners see half of the angle each.
     CHECK(glm::length(generate_ray(basis, {100, 50}, {200, 100}).direction - basis.forward) < 1e-6f);
     const Vec3f top = generate_ray(basis, {100, 0}, {200, 100}).direction;
@@ -189,8 +183,7 @@ TEST_CASE("Cameras that look along their up vector have a basis") {
         for (int y = -1; y <= 1; ++y)
             for (int z = -1; z <= 1; ++z)
                 for (const float ulps : {-1.0f, 0.0f, 1.0f}) {
-                    const Vec3f direction{static_cast<float>(x), static_cast<float>(y),
-                                          static_cast<float>(z)};
+                    const Vec3f direction{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
                     CameraDescription camera;
                     camera.eye = Vec3f{0.0f};
                     camera.target = direction;

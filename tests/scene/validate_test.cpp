@@ -19,19 +19,16 @@ SceneDescription good() {
     scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     scene.normals = {{0, 0, 1}};
     scene.materials = {{.name = "wall", .albedo = glm::vec3(0.5f)}};
-    scene.triangles = {
-        {.vertex = {0, 1, 2}, .normal = {0, 0, TriangleDescription::kNoNormal}, .material = 0}};
+    scene.triangles = {{.vertex = {0, 1, 2}, .normal = {0, 0, TriangleDescription::kNoNormal}, .material = 0}};
     return scene;
 }
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-} // namespace
+}  // namespace
 
-TEST_CASE("A good scene has no complaints") {
-    CHECK_NOTHROW(validate_scene(good()));
-}
+TEST_CASE("A good scene has no complaints") { CHECK_NOTHROW(validate_scene(good())); }
 
 TEST_CASE("Each kind of fault is named") {
     struct Case {
@@ -44,8 +41,7 @@ TEST_CASE("Each kind of fault is named") {
              "triangle 0: vertex 3 is out of range, there are 3"},
         Case{[](SceneDescription& s) { s.triangles[0].normal.x = 1; },
              "triangle 0: normal 1 is out of range, there are 1"},
-        Case{[](SceneDescription& s) { s.triangles[0].material = 1; },
-             "triangle 0: material 1 is out of range"},
+        Case{[](SceneDescription& s) { s.triangles[0].material = 1; }, "triangle 0: material 1 is out of range"},
         Case{[](SceneDescription& s) { s.positions[1].y = kNan; }, "vertex 1 is not finite"},
         Case{[](SceneDescription& s) { s.normals[0].y = kInfinity; }, "normal 0 is not finite"},
         Case{[](SceneDescription& s) { s.materials[0].albedo.x = 1.001f; }, "material 'wall': albedo"},
@@ -54,8 +50,7 @@ TEST_CASE("Each kind of fault is named") {
         Case{[](SceneDescription& s) { s.materials[0].emission.z = -1.0f; }, "material 'wall': emission"},
         Case{[](SceneDescription& s) { s.materials[0].emission.z = kInfinity; }, "material 'wall': emission"},
         Case{[](SceneDescription& s) { s.environment.y = kNan; }, "environment radiance"},
-        Case{[](SceneDescription& s) { s.camera.eye = s.camera.target; },
-             "eye and target are the same point"},
+        Case{[](SceneDescription& s) { s.camera.eye = s.camera.target; }, "eye and target are the same point"},
         Case{[](SceneDescription& s) { s.camera.up.x = kNan; }, "eye, target and up must be finite"},
         Case{[](SceneDescription& s) { s.camera.fov_deg = 0.0f; }, "field of view 0"},
         Case{[](SceneDescription& s) { s.camera.fov_deg = 180.0f; }, "field of view 180"},
@@ -73,9 +68,8 @@ TEST_CASE("All faults are told at once, each kind with its number") {
     scene.positions[2].x = kNan;
     scene.materials[0].emission.x = -1.0f;
     scene.camera.fov_deg = -1.0f;
-    CHECK_THAT(input_error([&] { validate_scene(scene); }),
-               contains("vertex 0 is not finite: (nan 0 0) (2 such)") && contains("emission") &&
-                   contains("field of view"));
+    CHECK_THAT(input_error([&] { validate_scene(scene); }), contains("vertex 0 is not finite: (nan 0 0) (2 such)") &&
+                                                                contains("emission") && contains("field of view"));
 }
 
 TEST_CASE("A usable up vector is kept, any other is replaced by one that is") {

@@ -28,7 +28,7 @@ State render(const SceneDescription& scene, const RenderSettings& settings, cons
     return state_of(session);
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Threads and batches do not change a bit of films, tables and counters") {
     const SceneDescription scene = shipped_scene("door");
@@ -52,12 +52,10 @@ TEST_CASE("A seed changes films and tables") {
         settings.seed = 2;
         const State other = render(scene, settings, {.threads = 2});
         CHECK_FALSE(same_bits(one.snapshot.pixels, other.snapshot.pixels));
-        if (info_of(estimator.method).uses_field)
-            CHECK_FALSE(same_bits(one.tables.radiance, other.tables.radiance));
+        if (info_of(estimator.method).uses_field) CHECK_FALSE(same_bits(one.tables.radiance, other.tables.radiance));
         // Seeds beyond 32 bits count too.
         settings.seed = 2 + (std::uint64_t{1} << 32);
-        CHECK_FALSE(
-            same_bits(other.snapshot.pixels, render(scene, settings, {.threads = 2}).snapshot.pixels));
+        CHECK_FALSE(same_bits(other.snapshot.pixels, render(scene, settings, {.threads = 2}).snapshot.pixels));
     }
 }
 
@@ -86,7 +84,7 @@ bool slice_is_partial(const Session& session) {
            field->records % static_cast<std::uint64_t>(field->volumes * field->bins) != 0;
 }
 
-} // namespace
+}  // namespace
 
 // Small batches, so that a flag is seen soon. No seed decides when stops come, and what has to come out does not depend
 // on it; runs are repeated until some stops have left work in part.
@@ -109,8 +107,7 @@ TEST_CASE("Work that is stopped and resumed at any moment does not change a bit"
                 partial_passes += pass_is_partial(session) ? 1 : 0;
                 partial_slices += slice_is_partial(session) ? 1 : 0;
             }
-            while (session.passes() < 4)
-                session.advance();
+            while (session.passes() < 4) session.advance();
             CHECK(same_state(uninterrupted, state_of(session)));
         }
         CHECK(partial_passes >= 3);
@@ -125,8 +122,7 @@ TEST_CASE("A flag that is set from the beginning starts nothing and loses nothin
         const RenderSettings settings = small_settings(scene, estimator);
         Session session = make_session(scene, settings, 2);
         const StopFlag stop{true};
-        for (int i = 0; i < 3; ++i)
-            CHECK(session.advance(&stop) == Progress::Stopped);
+        for (int i = 0; i < 3; ++i) CHECK(session.advance(&stop) == Progress::Stopped);
         CHECK(session.passes() == 0);
         render_passes(session, 4);
         CHECK(same_state(render(scene, settings, {.threads = 2}), state_of(session)));
@@ -180,24 +176,22 @@ std::vector<Vec3f> render_with(Session& session, FeatureSet set, bool next_event
     return backend.read_film(slot).mean;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Every compiled superset of the needed effects makes the same picture") {
     std::vector<SceneDescription> scenes;
-    for (const std::string& name : list_scenes(PL_SOURCE_DIR "/assets"))
-        scenes.push_back(shipped_scene(name));
+    for (const std::string& name : list_scenes(PL_SOURCE_DIR "/assets")) scenes.push_back(shipped_scene(name));
     scenes.push_back(with_all_effects(shipped_scene("cornell")));
     int compared = 0;
     for (const SceneDescription& scene : scenes)
         for (const Estimator estimator : kEstimators) {
             Session session = make_session(scene, small_settings(scene, estimator), 2);
-            render_passes(session, 2); // something to be guided by
+            render_passes(session, 2);  // something to be guided by
             const FeatureSet needed = session.needed_features();
             const std::vector<Vec3f> expected =
                 render_with(session, kCompiledSets[smallest_superset(needed)], estimator.next_event);
             for (const FeatureSet set : kCompiledSets) {
-                if (!set.covers(needed))
-                    continue;
+                if (!set.covers(needed)) continue;
                 INFO(scene.name << ", " << estimator << ", effects " << set.bits);
                 CHECK(same_bits(expected, render_with(session, set, estimator.next_event)));
                 ++compared;

@@ -23,13 +23,13 @@ RenderSettings small_settings(const SceneDescription& scene) {
 struct Contents {
     std::array<State, kMethodCount> methods;
     std::shared_ptr<const HostScene> scene;
-    double place_seconds = 0.0; ///< measured anew by every placement
+    double place_seconds = 0.0;  ///< measured anew by every placement
 };
 
 /// Looks at all methods and comes back to the one that was set.
 Contents contents_of(Session& session) {
     const MethodId current = session.settings().method;
-    session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f}); // places volumes if there are none
+    session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f});  // places volumes if there are none
     Contents contents{{}, session.packed_scene(), session.snapshot().clocks.place};
     for (const MethodInfo& method : all_methods()) {
         session.apply(EditMethod{method.id});
@@ -82,8 +82,7 @@ std::vector<Case> all_cases(const RenderSettings& settings) {
     FieldSettings field = settings.field;
     field.volumes = 50;
     SceneDescription brighter = shipped_scene("door");
-    for (MaterialDescription& material : brighter.materials)
-        material.emission *= 2.0f;
+    for (MaterialDescription& material : brighter.materials) material.emission *= 2.0f;
     return {
         {"camera", EditCamera{camera}, {.films = true}},
         {"size", EditSize{50, 20}, {.films = true}},
@@ -104,26 +103,22 @@ std::vector<Case> all_cases(const RenderSettings& settings) {
 
 /// The settings that a session should have after an edit; those of commands and scenes stay.
 RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
-    if (const auto* camera = std::get_if<EditCamera>(&edit))
-        settings.camera = camera->camera;
+    if (const auto* camera = std::get_if<EditCamera>(&edit)) settings.camera = camera->camera;
     if (const auto* size = std::get_if<EditSize>(&edit)) {
         settings.width = size->width;
         settings.height = size->height;
     }
-    if (const auto* seed = std::get_if<EditSeed>(&edit))
-        settings.seed = seed->seed;
+    if (const auto* seed = std::get_if<EditSeed>(&edit)) settings.seed = seed->seed;
     if (const auto* estimator = std::get_if<EditEstimator>(&edit)) {
         settings.max_depth = estimator->max_depth;
         settings.next_event = estimator->next_event;
     }
-    if (const auto* mixture = std::get_if<EditMixture>(&edit))
-        settings.bsdf_fraction = mixture->bsdf_fraction;
-    if (const auto* field = std::get_if<EditField>(&edit))
-        settings.field = field->field;
+    if (const auto* mixture = std::get_if<EditMixture>(&edit)) settings.bsdf_fraction = mixture->bsdf_fraction;
+    if (const auto* field = std::get_if<EditField>(&edit)) settings.field = field->field;
     return settings;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Every edit clears what the table says and keeps the rest") {
     const SceneDescription scene = shipped_scene("door");
@@ -151,8 +146,7 @@ TEST_CASE("An edit that clears what was learned leaves a session like a new one"
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene);
     for (const Case& c : all_cases(settings)) {
-        if (!c.cleared.tables)
-            continue;
+        if (!c.cleared.tables) continue;
         Session session = used_session(scene, settings);
         session.apply(c.edit);
         const auto* replaced = std::get_if<EditScene>(&c.edit);
@@ -175,8 +169,7 @@ TEST_CASE("An edit that clears the films leaves default path tracing like a new 
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene);
     for (const Case& c : all_cases(settings)) {
-        if (!c.cleared.films || c.cleared.tables)
-            continue;
+        if (!c.cleared.films || c.cleared.tables) continue;
         INFO(c.name);
         Session session = used_session(scene, settings);
         session.apply(c.edit);

@@ -38,8 +38,7 @@ inline bool same_film(const State& a, const State& b) {
     return a.snapshot.passes == b.snapshot.passes && same_bits(a.snapshot.pixels, b.snapshot.pixels);
 }
 inline bool same_state(const State& a, const State& b) {
-    return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) &&
-           same_bits(a.tables, b.tables);
+    return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) && same_bits(a.tables, b.tables);
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -80,31 +80,19 @@ void check_first_passes(const std::string& name, int runs, double resolution) {
     }
 }
 
-} // namespace
+}  // namespace
 
 // 64 batches of pictures of 64 x 64 pixels (16 tiles), seeds 1 and 2; alpha 1e-6 per decision and channel. The
 // comparisons resolve a global difference of 4 % (8 standard errors), and one tile that is 20 % off.
-TEST_CASE("All methods agree on the Cornell box") {
-    check_agreement("cornell", 0.04);
-}
-TEST_CASE("All methods agree on the door ajar") {
-    check_agreement("door", 0.04);
-}
-TEST_CASE("The first passes of learning agree on the Cornell box") {
-    check_first_passes("cornell", 128, 0.04);
-}
+TEST_CASE("All methods agree on the Cornell box") { check_agreement("cornell", 0.04); }
+TEST_CASE("All methods agree on the door ajar") { check_agreement("door", 0.04); }
+TEST_CASE("The first passes of learning agree on the Cornell box") { check_first_passes("cornell", 128, 0.04); }
 // Behind the door few early paths find the lamp and they weigh much: twice the samples, for a coarser 6 %.
-TEST_CASE("The first passes of learning agree on the door ajar") {
-    check_first_passes("door", 256, 0.06);
-}
+TEST_CASE("The first passes of learning agree on the door ajar") { check_first_passes("door", 256, 0.06); }
 
 // The same with four times the samples.
-TEST_CASE("All methods agree on the Cornell box within 2 %", "[merge]") {
-    check_agreement("cornell", 0.02);
-}
-TEST_CASE("All methods agree on the door ajar within 2 %", "[merge]") {
-    check_agreement("door", 0.02);
-}
+TEST_CASE("All methods agree on the Cornell box within 2 %", "[merge]") { check_agreement("cornell", 0.02); }
+TEST_CASE("All methods agree on the door ajar within 2 %", "[merge]") { check_agreement("door", 0.02); }
 TEST_CASE("The first passes of learning agree on the Cornell box within 2 %", "[merge]") {
     check_first_passes("cornell", 512, 0.02);
 }
@@ -113,12 +101,8 @@ TEST_CASE("The first passes of learning agree on the door ajar within 3 %", "[me
 }
 
 // And with 64 times.
-TEST_CASE("All methods agree on the Cornell box within 0.5 %", "[nightly]") {
-    check_agreement("cornell", 0.005);
-}
-TEST_CASE("All methods agree on the door ajar within 0.5 %", "[nightly]") {
-    check_agreement("door", 0.005);
-}
+TEST_CASE("All methods agree on the Cornell box within 0.5 %", "[nightly]") { check_agreement("cornell", 0.005); }
+TEST_CASE("All methods agree on the door ajar within 0.5 %", "[nightly]") { check_agreement("door", 0.005); }
 TEST_CASE("The first passes of learning agree on the Cornell box within 0.5 %", "[nightly]") {
     check_first_passes("cornell", 8192, 0.005);
 }

@@ -14,22 +14,20 @@ constexpr int kSide = 32;
 constexpr int kBatches = 64;
 
 /// Rule S1 for the mean of a picture whose pixels all show the same point; the worst channel.
-Decision
-judge_point(Session& session, std::uint32_t passes, double delta, glm::dvec3 expected, double error) {
+Decision judge_point(Session& session, std::uint32_t passes, double delta, glm::dvec3 expected, double error) {
     Picture picture(kSide, kSide, kSide);
     render_batches(session, picture, kBatches, passes);
     Decision worst = mean_equals(picture.channels[0].whole(), {expected[0], error}, delta);
     for (std::size_t c = 1; c < 3; ++c)
-        worst = worse_of(
-            worst, mean_equals(picture.channels[c].whole(), {expected[static_cast<int>(c)], error}, delta));
+        worst =
+            worse_of(worst, mean_equals(picture.channels[c].whole(), {expected[static_cast<int>(c)], error}, delta));
     return worst;
 }
 
 /// Passes per batch with which a resolution of 4 % was measured to be safe, scaled to another one.
 std::uint32_t passes_for(const CubeReference& reference, Estimator estimator, double delta) {
     double base = 2.0;
-    if (reference.small_light && !estimator.next_event)
-        base = estimator.method == MethodId::Default ? 9.0 : 5.0;
+    if (reference.small_light && !estimator.next_event) base = estimator.method == MethodId::Default ? 9.0 : 5.0;
     return static_cast<std::uint32_t>(std::ceil(base * (0.04 / delta) * (0.04 / delta)));
 }
 
@@ -52,15 +50,13 @@ void check_cube(const CubeReference& reference, const std::vector<Wall>& walls, 
 
 const std::vector<Wall> kAllWalls{kWallX0, kWallX1, kFloor, kCeiling, kWallZ0};
 
-} // namespace
+}  // namespace
 
 // R18. Seed 1, 64 batches of 2 to 9 passes of 1024 paths, alpha 1e-6 per decision; resolves 4 % in every channel.
 TEST_CASE("A cube under a bright ceiling has the solved radiosity") {
     check_cube(cube_with_bright_ceiling(), {kFloor, kWallX1}, 0.04);
 }
-TEST_CASE("A cube under a lamp has the solved radiosity") {
-    check_cube(cube_with_lamp(), {kFloor, kWallX0}, 0.04);
-}
+TEST_CASE("A cube under a lamp has the solved radiosity") { check_cube(cube_with_lamp(), {kFloor, kWallX0}, 0.04); }
 
 // The same at every wall, resolving 1 %: 16 times the samples.
 TEST_CASE("A cube under a bright ceiling has the solved radiosity within 1 %", "[merge]") {
@@ -80,8 +76,7 @@ TEST_CASE("A cube under a lamp has the solved radiosity within 0.3 %", "[nightly
 
 namespace {
 
-Decision
-judge_lamp(const LampOverFloor& lamp, Estimator estimator, View view, std::uint32_t passes, double delta) {
+Decision judge_lamp(const LampOverFloor& lamp, Estimator estimator, View view, std::uint32_t passes, double delta) {
     RenderSettings settings = settings_for(lamp.scene, estimator, kSide, kSide);
     settings.view = view;
     settings.field.volumes = 100;
@@ -90,13 +85,13 @@ judge_lamp(const LampOverFloor& lamp, Estimator estimator, View view, std::uint3
     return judge_point(session, passes, delta, glm::dvec3{lamp.floor_radiance}, 1.0e-6);
 }
 
-} // namespace
+}  // namespace
 
 // R7 and R8. Seed 1, 64 x 10 passes of 1024 paths (Direct: 12), resolves 1 %: light samples see the lamp from below
 // and from aside, near and far.
 TEST_CASE("Light samples give the form factor of a rectangle") {
-    for (const LampOverFloor& lamp : {lamp_above(0.1f, 0.05f), lamp_above(1.2f, 0.9f),
-                                      lamp_beside(0.1f, 0.3f), lamp_beside(1.2f, 0.9f)}) {
+    for (const LampOverFloor& lamp :
+         {lamp_above(0.1f, 0.05f), lamp_above(1.2f, 0.9f), lamp_beside(0.1f, 0.3f), lamp_beside(1.2f, 0.9f)}) {
         INFO("floor radiance " << lamp.floor_radiance);
         CHECK(judge_lamp(lamp, {MethodId::Default, true}, View::Beauty, 10, 0.01));
         CHECK(judge_lamp(lamp, {MethodId::Default, false}, View::Direct, 12, 0.01));

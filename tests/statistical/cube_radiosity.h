@@ -10,10 +10,10 @@ namespace pl::test {
 /// Three independent scenes at once, one per color channel: the channels share nothing but the random numbers.
 struct CubeReference {
     BoxLook look;
-    bool small_light = false; ///< only the square [0.25, 0.75]^2 of the ceiling emits
+    bool small_light = false;  ///< only the square [0.25, 0.75]^2 of the ceiling emits
     /// Leaving radiance, emission included, at the middle of each wall.
     std::array<glm::dvec3, kWalls> center{};
-    double error = 0.0; ///< bound on the error of the numbers above
+    double error = 0.0;  ///< bound on the error of the numbers above
 };
 
 namespace cube_detail {
@@ -25,7 +25,7 @@ inline BoxLook look_of(glm::vec3 x0, glm::vec3 x1, glm::vec3 others) {
     return look;
 }
 
-} // namespace cube_detail
+}  // namespace cube_detail
 
 /// The whole ceiling emits 1. Albedos: red 0.5; green 0.8; blue 0.63 at x0, 0.14 at x1, 0.75 elsewhere.
 inline CubeReference cube_with_bright_ceiling() {
@@ -55,8 +55,7 @@ inline CubeReference cube_with_lamp() {
 
 /// The scene of a reference, without T-junctions: four trapezoids around the lamp.
 inline SceneDescription cube_scene(const CubeReference& reference) {
-    if (!reference.small_light)
-        return box_scene(reference.look);
+    if (!reference.small_light) return box_scene(reference.look);
     BoxLook look = reference.look;
     look.emission[kCeiling] = glm::vec3(0.0f);
     SceneDescription scene = box_scene(look);
@@ -78,4 +77,4 @@ inline SceneDescription cube_scene(const CubeReference& reference) {
     return scene;
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -33,4 +33,4 @@ inline FilmSamples sample_film(const SceneDescription& scene, FilmSize size, con
     return samples;
 }
 
-} // namespace pl::test
+}  // namespace pl::test

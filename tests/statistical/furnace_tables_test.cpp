@@ -18,9 +18,7 @@ RenderSettings furnace_settings(Estimator estimator, const SceneDescription& sce
     return settings;
 }
 
-HostTables tables_of(Session& session) {
-    return session.backend_access().download_tables(session.settings().method);
-}
+HostTables tables_of(Session& session) { return session.backend_access().download_tables(session.settings().method); }
 
 /// Follows a table through its publications and bounds how far each cell can still be from the fixed point. Targets
 /// are e + rho V of some volume, so a cell that starts with error E and takes the share s of new targets is left with
@@ -42,8 +40,7 @@ public:
         }
         visits_ = tables.visits;
         worst_mean_ = 0.0;
-        for (std::size_t v = 0; v < volumes_; ++v)
-            worst_mean_ = std::max(worst_mean_, mean_error(v));
+        for (std::size_t v = 0; v < volumes_; ++v) worst_mean_ = std::max(worst_mean_, mean_error(v));
     }
 
     double operator[](std::size_t cell) const { return error_[cell]; }
@@ -54,8 +51,7 @@ private:
     double mean_error(std::size_t volume) const {
         Moments visited;
         for (std::size_t i = volume * cells_; i < (volume + 1) * cells_; ++i)
-            if (visits_[i] > 0)
-                visited.add(error_[i]);
+            if (visits_[i] > 0) visited.add(error_[i]);
         return visited.count() > 0 ? visited.mean() : 1.0;
     }
 
@@ -70,7 +66,7 @@ private:
 /// mean and the update (6), and the sum over 16 cells in V; errors come back multiplied by rho: 1/(1-rho) = 2.
 constexpr double kTableRounding = 2.0 * (4 + 1 + 6 + 16) * static_cast<double>(kRoundoff);
 
-} // namespace
+}  // namespace
 
 // Targets in a furnace have no noise given the tables, so there is nothing statistical here: every cell has to
 // be within its derived bound. Seed 1, 1024 paths per pass: the forgetful rate has to bring all bounds below 0.1 % in
@@ -85,7 +81,7 @@ TEST_CASE("Reinforcement learns e/(1-rho) in every cell of the furnace") {
             const double wanted = rate == LearningRate::Forgetful ? 0.001 : 0.03;
             INFO("rate " << static_cast<int>(rate) << ", next-event estimation " << next_event);
             Session session = make_session(scene, settings);
-            session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f}); // places the volumes
+            session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f});  // places the volumes
             render_passes(session, 1);
             HostTables tables = tables_of(session);
             HostTables empty = tables;
@@ -123,8 +119,7 @@ TEST_CASE("Precomputation fills e/(1-rho) into every cell of the furnace") {
         render_passes(session, 1);
         const HostTables tables = tables_of(session);
         Moments cells;
-        for (const float radiance : tables.radiance)
-            cells.add(static_cast<double>(radiance));
+        for (const float radiance : tables.radiance) cells.add(static_cast<double>(radiance));
         INFO("next-event estimation " << next_event);
         CHECK(mean_equals(cells, {1.0}, 0.01));
         const double error = std::sqrt(cells.variance());

@@ -14,7 +14,7 @@ constexpr std::uint32_t kSamples = 64;
 
 struct Outcome {
     std::vector<Vec3f> pixels;
-    double zero_share = 0.0; ///< of paths that brought no light
+    double zero_share = 0.0;  ///< of paths that brought no light
 };
 
 Outcome render(const SceneDescription& scene, Estimator estimator, std::uint64_t seed) {
@@ -35,7 +35,7 @@ double mean_squared_error(const Outcome& a, const Outcome& b) {
     return sum / static_cast<double>(a.pixels.size());
 }
 
-} // namespace
+}  // namespace
 
 // 64 samples of 128 x 128 pixels, seeds 1 and 2.
 TEST_CASE("Guided methods have less noise than default path tracing on the door ajar") {
@@ -46,8 +46,8 @@ TEST_CASE("Guided methods have less noise than default path tracing on the door 
         const Outcome guided = render(scene, {method, false}, 1);
         const double error = mean_squared_error(guided, render(scene, {method, false}, 2));
         WARN(info_of(method).name << ": error of default " << plain_error / error
-                                  << " times as large, paths without light " << guided.zero_share
-                                  << " against " << plain.zero_share);
+                                  << " times as large, paths without light " << guided.zero_share << " against "
+                                  << plain.zero_share);
         CHECK(error < plain_error);
         CHECK(guided.zero_share <= plain.zero_share / 3.0);
     }

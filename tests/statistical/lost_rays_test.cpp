@@ -19,8 +19,7 @@ RenderSettings small_settings(const SceneDescription& scene, Estimator estimator
 /// Renders until so many path segments were traced.
 PassCounters trace_segments(const SceneDescription& scene, Estimator estimator, std::uint64_t segments) {
     Session session = make_session(scene, small_settings(scene, estimator));
-    do
-        session.advance();
+    do session.advance();
     while (session.snapshot().counters.path.segments < segments);
     return session.snapshot().counters;
 }
@@ -40,7 +39,7 @@ void check_closed(const SceneDescription& scene, std::uint64_t segments) {
 SceneDescription turned_room(float scale, Vec3f move) {
     SceneDescription scene = shipped_scene("door");
     transform(scene, true, scale, move);
-    SceneDescription camera; // goes through the same motion
+    SceneDescription camera;  // goes through the same motion
     camera.positions = {scene.camera.eye, scene.camera.target};
     transform(camera, true, scale, move);
     scene.camera.eye = camera.positions[0];
@@ -52,7 +51,7 @@ SceneDescription turned_room(float scale, Vec3f move) {
 constexpr std::uint64_t kPush = 1'000'000;
 constexpr std::uint64_t kNightly = 100'000'000;
 
-} // namespace
+}  // namespace
 
 TEST_CASE("The furnace loses no ray in a million segments of every method") {
     check_closed(shipped_scene("furnace"), kPush);

@@ -21,8 +21,7 @@ public:
     double mean() const { return mean_; }
     /// Unbiased; infinite below two samples, so that nothing is ever known from one.
     double variance() const {
-        return count_ < 2 ? std::numeric_limits<double>::infinity()
-                          : squares_ / static_cast<double>(count_ - 1);
+        return count_ < 2 ? std::numeric_limits<double>::infinity() : squares_ / static_cast<double>(count_ - 1);
     }
     /// Of the mean.
     double standard_error() const { return std::sqrt(variance() / static_cast<double>(count_)); }
@@ -33,4 +32,4 @@ private:
     double squares_ = 0.0;
 };
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -26,7 +26,7 @@ enum class Verdict { Pass, Fail, Inconclusive };
 
 struct Decision {
     Verdict verdict = Verdict::Inconclusive;
-    std::string reason; ///< the numbers behind it
+    std::string reason;  ///< the numbers behind it
 
     explicit operator bool() const { return verdict == Verdict::Pass; }
 };
@@ -51,9 +51,7 @@ struct Reference {
 };
 
 /// Largest standard error with which a difference of `delta` is found with probability 1 - kBeta.
-inline double resolving_error(double delta) {
-    return delta / (kZAlpha + kZBeta);
-}
+inline double resolving_error(double delta) { return delta / (kZAlpha + kZBeta); }
 
 /// Rule S1: the mean equals the reference, and a relative difference of `delta` would have been seen.
 inline Decision mean_equals(const Moments& samples, Reference reference, double delta) {
@@ -63,13 +61,10 @@ inline Decision mean_equals(const Moments& samples, Reference reference, double 
     reason.precision(7);
     reason << "mean " << samples.mean() << " of " << samples.count() << ", expected " << reference.value
            << ", off by " << difference / error << " standard errors; standard error " << error
-           << ", needed for a resolution of " << delta << ": "
-           << resolving_error(delta * std::fabs(reference.value));
+           << ", needed for a resolution of " << delta << ": " << resolving_error(delta * std::fabs(reference.value));
     // Negated comparisons: NaN fails.
-    if (!(std::fabs(difference) <= kZAlpha * error + reference.error))
-        return {Verdict::Fail, reason.str()};
-    if (!(error <= resolving_error(delta * std::fabs(reference.value))))
-        return {Verdict::Inconclusive, reason.str()};
+    if (!(std::fabs(difference) <= kZAlpha * error + reference.error)) return {Verdict::Fail, reason.str()};
+    if (!(error <= resolving_error(delta * std::fabs(reference.value)))) return {Verdict::Inconclusive, reason.str()};
     return {Verdict::Pass, reason.str()};
 }
 
@@ -78,8 +73,7 @@ inline Decision mean_equals(const Moments& samples, Reference reference, double 
 inline double chi_squared_tail(double x, double freedom) {
     const double a = 0.5 * freedom;
     const double z = 0.5 * x;
-    if (!(z > 0.0))
-        return 1.0;
+    if (!(z > 0.0)) return 1.0;
     const double scale = std::exp(a * std::log(z) - z - std::lgamma(a));
     constexpr double kSmall = 1.0e-300;
     if (z < a + 1.0) {
@@ -102,8 +96,7 @@ inline double chi_squared_tail(double x, double freedom) {
         c = std::fabs(b + an / c) < kSmall ? kSmall : b + an / c;
         const double factor = d * c;
         fraction *= factor;
-        if (std::fabs(factor - 1.0) < 1.0e-15)
-            break;
+        if (std::fabs(factor - 1.0) < 1.0e-15) break;
     }
     return scale * fraction;
 }
@@ -111,8 +104,8 @@ inline double chi_squared_tail(double x, double freedom) {
 /// Rule S3: samples follow a density, which gives `expected` counts per bin (their sum need not be the number of
 /// samples: a density that does not integrate to 1 fails too). Neighboring bins are pooled until 10 are expected.
 /// `delta` is the root mean square relative error of the density that would have been found.
-inline Decision
-follows_density(std::span<const std::uint64_t> observed, std::span<const double> expected, double delta) {
+inline Decision follows_density(std::span<const std::uint64_t> observed, std::span<const double> expected,
+                                double delta) {
     assert(observed.size() == expected.size());
     struct Bin {
         double expected = 0.0;
@@ -123,8 +116,7 @@ follows_density(std::span<const std::uint64_t> observed, std::span<const double>
     bool impossible = false;
     for (std::size_t i = 0; i < expected.size(); ++i) {
         impossible = impossible || (observed[i] > 0 && !(expected[i] > 0.0));
-        if (bins.back().expected >= kMinExpected)
-            bins.emplace_back();
+        if (bins.back().expected >= kMinExpected) bins.emplace_back();
         bins.back().expected += expected[i];
         bins.back().observed += static_cast<double>(observed[i]);
     }
@@ -147,8 +139,7 @@ follows_density(std::span<const std::uint64_t> observed, std::span<const double>
     reason << "chi^2 " << chi2 << " of " << freedom << " (tail " << tail << "), samples expected " << total
            << ", needed for a resolution of " << delta << ": " << needed
            << (impossible ? ", samples where the density is 0" : "");
-    if (impossible || !(tail >= kAlpha))
-        return {Verdict::Fail, reason.str()};
+    if (impossible || !(tail >= kAlpha)) return {Verdict::Fail, reason.str()};
     return {total >= needed ? Verdict::Pass : Verdict::Inconclusive, reason.str()};
 }
 
@@ -172,8 +163,7 @@ public:
             means[static_cast<std::size_t>((y / tile_) * columns_ + x / tile_)].add(pixels[i]);
             whole.add(pixels[i]);
         }
-        for (std::size_t t = 0; t < tiles_.size(); ++t)
-            tiles_[t].add(means[t].mean());
+        for (std::size_t t = 0; t < tiles_.size(); ++t) tiles_[t].add(means[t].mean());
         whole_.add(whole.mean());
     }
 
@@ -203,23 +193,20 @@ inline Decision same_mean(const TiledBatches& a, const TiledBatches& b, double d
         const double difference = left.mean() - right.mean();
         const double variance = std::pow(left.standard_error(), 2) + std::pow(right.standard_error(), 2);
         // Tiles that both see no light at all say nothing.
-        if (difference == 0.0 && variance == 0.0)
-            continue;
+        if (difference == 0.0 && variance == 0.0) continue;
         chi2 += difference * difference / variance;
         ++freedom;
     }
     const double tail = freedom > 0 ? chi_squared_tail(chi2, freedom) : 0.0;
     std::ostringstream reason;
-    reason << "means " << a.whole().mean() << " and " << b.whole().mean() << ", Z " << z << ", tile chi^2 "
-           << chi2 << " of " << freedom << " (tail " << tail << "), relative standard error " << error / scale
+    reason << "means " << a.whole().mean() << " and " << b.whole().mean() << ", Z " << z << ", tile chi^2 " << chi2
+           << " of " << freedom << " (tail " << tail << "), relative standard error " << error / scale
            << ", needed for a resolution of " << delta << ": " << delta / 8.0;
-    if (!(std::fabs(z) <= kZAlpha) || !(tail >= kAlpha))
-        return {Verdict::Fail, reason.str()};
+    if (!(std::fabs(z) <= kZAlpha) || !(tail >= kAlpha)) return {Verdict::Fail, reason.str()};
     const bool enough =
         a.whole().count() >= TiledBatches::kMinBatches && b.whole().count() >= TiledBatches::kMinBatches;
-    if (!enough || !(error <= delta / 8.0 * scale))
-        return {Verdict::Inconclusive, reason.str()};
+    if (!enough || !(error <= delta / 8.0 * scale)) return {Verdict::Inconclusive, reason.str()};
     return {Verdict::Pass, reason.str()};
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -18,8 +18,7 @@ double exponential(std::mt19937_64& random, double mean) {
 Moments exponential_moments(std::uint64_t seed, int count, double mean) {
     std::mt19937_64 random(seed);
     Moments moments;
-    for (int i = 0; i < count; ++i)
-        moments.add(exponential(random, mean));
+    for (int i = 0; i < count; ++i) moments.add(exponential(random, mean));
     return moments;
 }
 
@@ -33,8 +32,7 @@ TiledBatches exponential_picture(std::uint64_t seed, Fn&& pixel_mean, int batche
     for (int batch = 0; batch < batches; ++batch) {
         for (int i = 0; i < 64 * 64; ++i) {
             double sum = 0.0;
-            for (int s = 0; s < 4; ++s)
-                sum += exponential(random, 1.0);
+            for (int s = 0; s < 4; ++s) sum += exponential(random, 1.0);
             pixels[static_cast<std::size_t>(i)] = 0.25 * sum * pixel_mean(i % 64, i / 64);
         }
         picture.add(pixels);
@@ -44,19 +42,17 @@ TiledBatches exponential_picture(std::uint64_t seed, Fn&& pixel_mean, int batche
 
 int count_verdicts(const std::vector<Decision>& decisions, Verdict verdict) {
     int count = 0;
-    for (const Decision& decision : decisions)
-        count += decision.verdict == verdict ? 1 : 0;
+    for (const Decision& decision : decisions) count += decision.verdict == verdict ? 1 : 0;
     return count;
 }
 
 constexpr int kRepeats = 20;
 
-} // namespace
+}  // namespace
 
 TEST_CASE("Moments agree with the textbook formulas") {
     Moments moments;
-    for (const double x : {2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0})
-        moments.add(x);
+    for (const double x : {2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0}) moments.add(x);
     CHECK(moments.mean() == Approx(5.0));
     CHECK(moments.variance() == Approx(32.0 / 7.0));
     CHECK(moments.standard_error() == Approx(std::sqrt(32.0 / 56.0)));
@@ -132,8 +128,7 @@ TEST_CASE("S2 passes equal pictures and finds a global difference") {
 TEST_CASE("S2 finds a local difference that cancels globally") {
     const auto truth = [](int, int) { return 1.0; };
     const auto tilted = [](int x, int y) {
-        if (y >= 16)
-            return 1.0;
+        if (y >= 16) return 1.0;
         return x < 16 ? 1.05 : (x < 32 ? 0.95 : 1.0);
     };
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -165,14 +160,13 @@ std::vector<std::uint64_t> histogram(std::uint64_t seed, std::size_t bins, int s
     std::vector<std::uint64_t> counts(bins);
     for (int i = 0; i < samples; ++i) {
         auto bin = static_cast<std::size_t>(uniform(random) * static_cast<double>(bins));
-        if (bin == 0 && uniform(random) < moved)
-            bin = 1;
+        if (bin == 0 && uniform(random) < moved) bin = 1;
         ++counts[bin];
     }
     return counts;
 }
 
-} // namespace
+}  // namespace
 
 // Seeds 1 to 20, 1e6 samples in 144 bins resolve 1.2 %. False alarm of the case 2e-5. Of the planted defects, a
 // density 2 % too large adds 400 to chi^2, and 15 % of one bin moved to the next adds 312: both beyond the

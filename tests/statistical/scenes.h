@@ -17,15 +17,14 @@ struct BoxLook {
 };
 
 /// A closed box, one material per wall, the camera in its middle.
-inline SceneDescription
-box_scene(const BoxLook& look, glm::vec3 low = glm::vec3(0.0f), glm::vec3 high = glm::vec3(1.0f)) {
+inline SceneDescription box_scene(const BoxLook& look, glm::vec3 low = glm::vec3(0.0f),
+                                  glm::vec3 high = glm::vec3(1.0f)) {
     SceneDescription scene;
     scene.name = "box";
     add_box(scene, low, high, true);
     for (std::uint32_t wall = 0; wall < kWalls; ++wall) {
-        scene.materials.push_back({.name = "wall" + std::to_string(wall),
-                                   .albedo = look.albedo[wall],
-                                   .emission = look.emission[wall]});
+        scene.materials.push_back(
+            {.name = "wall" + std::to_string(wall), .albedo = look.albedo[wall], .emission = look.emission[wall]});
         scene.triangles[2 * wall].material = scene.triangles[2 * wall + 1].material = wall;
     }
     scene.camera.eye = 0.5f * (low + high);
@@ -66,4 +65,4 @@ inline CameraDescription camera_at_center(Wall wall, glm::vec3 low, glm::vec3 hi
             .fov_deg = 0.5f};
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -20,17 +20,14 @@ struct Estimator {
         return std::string(info_of(method).name) + (next_event ? " with next-event estimation" : "");
     }
 };
-inline std::ostream& operator<<(std::ostream& out, const Estimator& estimator) {
-    return out << estimator.name();
-}
+inline std::ostream& operator<<(std::ostream& out, const Estimator& estimator) { return out << estimator.name(); }
 
 inline constexpr std::array kEstimators{
     Estimator{MethodId::Default, false},       Estimator{MethodId::Default, true},
     Estimator{MethodId::Precomputed, false},   Estimator{MethodId::Precomputed, true},
     Estimator{MethodId::Reinforcement, false}, Estimator{MethodId::Reinforcement, true}};
 
-inline RenderSettings
-settings_for(const SceneDescription& scene, Estimator estimator, int width, int height) {
+inline RenderSettings settings_for(const SceneDescription& scene, Estimator estimator, int width, int height) {
     RenderSettings settings;
     settings.method = estimator.method;
     settings.next_event = estimator.next_event;
@@ -42,15 +39,13 @@ settings_for(const SceneDescription& scene, Estimator estimator, int width, int 
 
 /// One thread by default: ctest keeps the cores busy with several tests.
 inline Session make_session(const SceneDescription& scene, const RenderSettings& settings, int threads = 1) {
-    return Session(make_cpu_backend({.threads = threads}), std::make_shared<const SceneDescription>(scene),
-                   settings);
+    return Session(make_cpu_backend({.threads = threads}), std::make_shared<const SceneDescription>(scene), settings);
 }
 
 /// Advances until `passes` more samples per pixel are in the picture, after whatever has to come first.
 inline void render_passes(Session& session, std::uint32_t passes) {
     const std::uint32_t target = session.passes() + passes;
-    while (session.passes() < target)
-        session.advance();
+    while (session.passes() < target) session.advance();
 }
 
 /// A picture per channel. The channels of a picture are not independent, so each is judged alone.
@@ -65,8 +60,7 @@ struct Picture {
     void add(const std::vector<Vec3d>& sums, double samples) {
         std::vector<double> values(sums.size());
         for (std::size_t c = 0; c < channels.size(); ++c) {
-            for (std::size_t i = 0; i < sums.size(); ++i)
-                values[i] = sums[i][static_cast<int>(c)] / samples;
+            for (std::size_t i = 0; i < sums.size(); ++i) values[i] = sums[i][static_cast<int>(c)] / samples;
             channels[c].add(values);
         }
     }
@@ -78,8 +72,7 @@ inline std::vector<Vec3d> film_sums(const Session& session) {
     const Snapshot snapshot = session.snapshot();
     std::vector<Vec3d> sums;
     sums.reserve(snapshot.pixels.size());
-    for (const Vec3f& mean : snapshot.pixels)
-        sums.push_back(Vec3d{mean} * static_cast<double>(snapshot.passes));
+    for (const Vec3f& mean : snapshot.pixels) sums.push_back(Vec3d{mean} * static_cast<double>(snapshot.passes));
     return sums;
 }
 
@@ -89,8 +82,7 @@ inline void render_batches(Session& session, Picture& picture, int batches, std:
     for (int batch = 0; batch < batches; ++batch) {
         render_passes(session, passes);
         std::vector<Vec3d> after = film_sums(session);
-        for (std::size_t i = 0; i < after.size(); ++i)
-            before[i] = after[i] - before[i];
+        for (std::size_t i = 0; i < after.size(); ++i) before[i] = after[i] - before[i];
         picture.add(before, passes);
         before = std::move(after);
     }
@@ -104,4 +96,4 @@ inline Decision same_picture(const Picture& a, const Picture& b, double delta) {
     return worst;
 }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -5,8 +5,6 @@
 
 namespace pl::test {
 
-inline SceneDescription shipped_scene(const std::string& name) {
-    return load_scene(name, PL_SOURCE_DIR "/assets");
-}
+inline SceneDescription shipped_scene(const std::string& name) { return load_scene(name, PL_SOURCE_DIR "/assets"); }
 
-} // namespace pl::test
+}  // namespace pl::test

@@ -20,9 +20,7 @@ void check_close(Vec3f a, Vec3f b, float tolerance) {
     CHECK(glm::length(a - b) <= tolerance);
 }
 
-Vec3f direction(const CameraDescription& camera) {
-    return glm::normalize(camera.target - camera.eye);
-}
+Vec3f direction(const CameraDescription& camera) { return glm::normalize(camera.target - camera.eye); }
 
 float pitch_deg(const CameraDescription& camera) {
     return std::asin(glm::dot(direction(camera), glm::normalize(camera.up))) * 180.0f / kPi;

@@ -9,13 +9,9 @@ using namespace pl;
 
 namespace {
 
-float exact_code(ToneCurve curve, float x) {
-    return 255.0f * encode_srgb(apply_curve(curve, x));
-}
+float exact_code(ToneCurve curve, float x) { return 255.0f * encode_srgb(apply_curve(curve, x)); }
 
-std::uint32_t gray(std::uint32_t code) {
-    return 0xff000000u | code << 16 | code << 8 | code;
-}
+std::uint32_t gray(std::uint32_t code) { return 0xff000000u | code << 16 | code << 8 | code; }
 
 Snapshot snapshot_of(int width, int height, Vec3f value) {
     Snapshot snapshot;

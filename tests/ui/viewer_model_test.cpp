@@ -53,9 +53,7 @@ struct Bench {
     }
 };
 
-bool has_frame(const ViewerModel& model) {
-    return model.frame() != nullptr;
-}
+bool has_frame(const ViewerModel& model) { return model.frame() != nullptr; }
 
 }  // namespace
 

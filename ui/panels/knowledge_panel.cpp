@@ -21,13 +21,9 @@ ImU32 color_of(LogLevel level) {
     return colors::kText;
 }
 
-std::string vector_text(Vec3f v) {
-    return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x, v.y, v.z);
-}
+std::string vector_text(Vec3f v) { return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x, v.y, v.z); }
 
-std::string radiance_text(Vec3f v) {
-    return fmt::format("{:.5g}  {:.5g}  {:.5g}", v.x, v.y, v.z);
-}
+std::string radiance_text(Vec3f v) { return fmt::format("{:.5g}  {:.5g}  {:.5g}", v.x, v.y, v.z); }
 
 /// The surface under the middle of a pixel, by a ray of our own: nobody has to wait for the render thread.
 std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const HoveredPixel& pixel) {

@@ -7,9 +7,7 @@
 namespace pl {
 namespace {
 
-std::string count_text(std::uint64_t count) {
-    return short_number(static_cast<double>(count));
-}
+std::string count_text(std::uint64_t count) { return short_number(static_cast<double>(count)); }
 
 std::string share_text(std::uint64_t part, std::uint64_t whole) {
     return whole > 0 ? fmt::format("{:.2f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole)) : "-";

@@ -11,9 +11,7 @@ namespace {
 
 constexpr float kLabelEm = 6.4f;
 
-std::string hidden_label(const char* label) {
-    return std::string("##") + label;
-}
+std::string hidden_label(const char* label) { return std::string("##") + label; }
 
 /// Keeps what is typed aside until the field is left: half a number must not place volumes anew.
 template <std::size_t N>

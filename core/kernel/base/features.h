@@ -21,13 +21,9 @@ inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Envi
 struct FeatureSet {
     std::uint32_t bits = 0;
 
-    PL_HD constexpr bool has(Feature feature) const {
-        return (bits & static_cast<std::uint32_t>(feature)) != 0;
-    }
+    PL_HD constexpr bool has(Feature feature) const { return (bits & static_cast<std::uint32_t>(feature)) != 0; }
     PL_HD constexpr bool covers(FeatureSet needed) const { return (needed.bits & ~bits) == 0; }
-    PL_HD constexpr FeatureSet with(Feature feature) const {
-        return {bits | static_cast<std::uint32_t>(feature)};
-    }
+    PL_HD constexpr FeatureSet with(Feature feature) const { return {bits | static_cast<std::uint32_t>(feature)}; }
     PL_HD friend constexpr bool operator==(FeatureSet, FeatureSet) = default;
 };
 

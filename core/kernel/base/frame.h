@@ -9,9 +9,7 @@ struct Frame {
     Vec3f x, y, z;
 
     PL_HD Vec3f to_world(Vec3f local) const { return local.x * x + local.y * y + local.z * z; }
-    PL_HD Vec3f to_local(Vec3f world) const {
-        return {glm::dot(world, x), glm::dot(world, y), glm::dot(world, z)};
-    }
+    PL_HD Vec3f to_local(Vec3f world) const { return {glm::dot(world, x), glm::dot(world, y), glm::dot(world, z)}; }
 };
 
 /// Branchless and continuous except at z = -0.   [Duff et al. 2017, "Building an Orthonormal Basis, Revisited"]

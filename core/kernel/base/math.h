@@ -64,7 +64,8 @@ PL_HD inline float sin_quarter(float x) {
 /// cos(x) for |x| <= pi/4, error below 1e-7. Polynomial of the Cephes library.
 PL_HD inline float cos_quarter(float x) {
     const float z = x * x;
-    return 1.0f - 0.5f * z + z * z * (4.166664568298827e-2f + z * (-1.388731625493765e-3f + z * 2.443315711809948e-5f));
+    return 1.0f - 0.5f * z +
+           z * z * (4.166664568298827e-2f + z * (-1.388731625493765e-3f + z * 2.443315711809948e-5f));
 }
 /// atan(x) for |x| <= 1, error below 2e-7. Polynomial of the Cephes library, odd by construction.
 PL_HD inline float atan_unit(float x) {

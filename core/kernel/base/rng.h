@@ -41,8 +41,8 @@ PL_INLINE PhiloxWords<Word> philox4x32(PhiloxWords<Word> counter, std::uint32_t 
     for (int round = 0; round < 10; ++round) {
         const WideProduct<Word> product0 = multiply(0xD2511F53u, counter.v[0]);
         const WideProduct<Word> product1 = multiply(0xCD9E8D57u, counter.v[2]);
-        counter = {{product1.high ^ counter.v[1] ^ key0, product1.low, product0.high ^ counter.v[3] ^ key1,
-                    product0.low}};
+        counter = {
+            {product1.high ^ counter.v[1] ^ key0, product1.low, product0.high ^ counter.v[3] ^ key1, product0.low}};
         key0 += 0x9E3779B9u;
         key1 += 0xBB67AE85u;
     }
@@ -64,7 +64,7 @@ PL_HD inline float to_unit_float(std::uint32_t bits) { return static_cast<float>
 struct Rng {
     std::uint64_t seed = 0;
     Stream stream = Stream::Picture;
-    std::uint32_t pixel = 0;   ///< or the probe's index
+    std::uint32_t pixel = 0;  ///< or the probe's index
     std::uint32_t sample = 0;
 
     /// Four independent uniforms in [0, 1)^4 for this vertex and purpose.

@@ -18,8 +18,7 @@ struct Span {
 
     /// A view that may write converts to one that may only read.
     template <class U>
-        requires std::is_same_v<const U, T>
-    PL_HD Span(Span<U> other) : data(other.data), count(other.count) {}
+    requires std::is_same_v<const U, T> PL_HD Span(Span<U> other) : data(other.data), count(other.count) {}
 
     PL_HD T& operator[](std::uint32_t index) const {
         PL_ASSERT(index < count);

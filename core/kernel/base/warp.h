@@ -41,14 +41,10 @@ PL_HD inline Vec3f square_to_cosine_hemisphere(Vec2f u) {
 }
 
 /// Inverse of square_to_cosine_hemisphere for unit directions with z >= 0.
-PL_HD inline Vec2f cosine_hemisphere_to_square(Vec3f direction) {
-    return disk_to_square({direction.x, direction.y});
-}
+PL_HD inline Vec2f cosine_hemisphere_to_square(Vec3f direction) { return disk_to_square({direction.x, direction.y}); }
 
 /// Density of cosine-weighted directions, per steradian; 0 below the horizon.
-PL_HD inline float cosine_hemisphere_pdf_sa(float cos_theta) {
-    return cos_theta > 0.0f ? cos_theta * kInvPi : 0.0f;
-}
+PL_HD inline float cosine_hemisphere_pdf_sa(float cos_theta) { return cos_theta > 0.0f ? cos_theta * kInvPi : 0.0f; }
 
 /// Barycentric coordinates (b1, b2), uniform over a triangle's area.   [Heitz 2019, "A Low-Distortion Map"]
 PL_HD inline Vec2f square_to_triangle(Vec2f u) {

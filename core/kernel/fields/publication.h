@@ -21,13 +21,13 @@ struct FieldPublicationView {
     LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = 0.05f;  ///< share of the table that is uniform, so that no cell is ever impossible
 
-    Span<float> radiance;              ///< learned incident radiance Q. [volume][cell]
-    Span<std::uint32_t> visits;        ///< records so far. [volume][cell]
-    Span<std::int64_t> pending_sum;    ///< emptied. [volume][cell]
-    Span<std::uint32_t> pending_count; ///< emptied. [volume][cell]
-    Span<float> row_cdf;               ///< [volume][row]
-    Span<float> column_cdf;            ///< [volume][row][column]
-    Span<float> mean_radiance;         ///< [volume]
+    Span<float> radiance;               ///< learned incident radiance Q. [volume][cell]
+    Span<std::uint32_t> visits;         ///< records so far. [volume][cell]
+    Span<std::int64_t> pending_sum;     ///< emptied. [volume][cell]
+    Span<std::uint32_t> pending_count;  ///< emptied. [volume][cell]
+    Span<float> row_cdf;                ///< [volume][row]
+    Span<float> column_cdf;             ///< [volume][row][column]
+    Span<float> mean_radiance;          ///< [volume]
 };
 
 /// Share of the new mean that `fresh` new records get: 1 - (N/(N+m))^p. Written in terms of m/(N+m), because the

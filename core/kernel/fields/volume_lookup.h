@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "core/kernel/base/span.h"
 #include "core/kernel/base/math.h"
+#include "core/kernel/base/span.h"
 
 namespace pl {
 

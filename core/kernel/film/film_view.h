@@ -7,10 +7,10 @@
 namespace pl {
 
 struct FilmPixel {
-    Vec3d sum{0.0};                     ///< of valid samples, linear sRGB radiance
+    Vec3d sum{0.0};  ///< of valid samples, linear sRGB radiance
     double sum_squared_luminance = 0.0;
-    std::uint32_t samples = 0;          ///< valid ones: what the mean divides by
-    std::uint32_t invalid = 0;          ///< NaN, infinite or negative ones: dropped, counted, shown
+    std::uint32_t samples = 0;  ///< valid ones: what the mean divides by
+    std::uint32_t invalid = 0;  ///< NaN, infinite or negative ones: dropped, counted, shown
 };
 
 struct FilmView {

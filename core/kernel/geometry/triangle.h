@@ -41,9 +41,15 @@ PL_INLINE void permute_axes(Mask along_x, Mask along_y, Real& x, Real& y, Real& 
 
 /// `abs_*` are the magnitudes of the direction's components.
 template <class Real, class Mask>
-PL_INLINE RaySpace<Real, Mask> make_ray_space(Real ox, Real oy, Real oz, Real dx, Real dy, Real dz, Real abs_x, Real abs_y,
-                                           Real abs_z, Real one) {
-    RaySpace<Real, Mask> space{ox, oy, oz, {}, {}, {}, static_cast<Mask>((abs_x > abs_y) & (abs_x > abs_z)),
+PL_INLINE RaySpace<Real, Mask> make_ray_space(Real ox, Real oy, Real oz, Real dx, Real dy, Real dz, Real abs_x,
+                                              Real abs_y, Real abs_z, Real one) {
+    RaySpace<Real, Mask> space{ox,
+                               oy,
+                               oz,
+                               {},
+                               {},
+                               {},
+                               static_cast<Mask>((abs_x > abs_y) & (abs_x > abs_z)),
                                static_cast<Mask>((abs_y >= abs_x) & (abs_y > abs_z))};
     permute_axes(space.along_x, space.along_y, dx, dy, dz);
     space.shear_x = dx / dz;
@@ -75,7 +81,7 @@ struct EdgeFunctions {
 
 template <class Real>
 PL_INLINE EdgeFunctions<Real> edge_functions(const RayCorner<Real>& a, const RayCorner<Real>& b,
-                                          const RayCorner<Real>& c) {
+                                             const RayCorner<Real>& c) {
     return {edge_function(c, b), edge_function(a, c), edge_function(b, a)};
 }
 
@@ -89,7 +95,7 @@ PL_HD inline float exact_edge_function(const RayCorner<float>& p, const RayCorne
 /// Scaled distance: divided by the determinant u + v + w it is the ray parameter t.
 template <class Real>
 PL_INLINE Real scaled_distance(const EdgeFunctions<Real>& e, const RayCorner<Real>& a, const RayCorner<Real>& b,
-                            const RayCorner<Real>& c) {
+                               const RayCorner<Real>& c) {
     return e.u * a.z + e.v * b.z + e.w * c.z;
 }
 

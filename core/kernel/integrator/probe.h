@@ -27,8 +27,8 @@ PL_HD inline PathState<DefaultMethod> begin_probe(const FieldView& field, std::u
     const Vec2f in_cell = (stratum + Vec2f{u.x, u.y}) * (1.0f / static_cast<float>(strata_side));
     const Vec3f local = square_to_cosine_hemisphere(field.cells.point_in_cell(target.cell, in_cell));
     PathState<DefaultMethod> state;
-    state.ray = spawn_ray(field.sites[static_cast<std::uint32_t>(target.volume)],
-                          field.frame(target.volume).to_world(local));
+    state.ray =
+        spawn_ray(field.sites[static_cast<std::uint32_t>(target.volume)], field.frame(target.volume).to_world(local));
     state.pixel = probe;
     state.sample = sample;
     return state;

@@ -47,8 +47,8 @@ PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32
     const Triangle& triangle = scene.triangles[primitive];
     const TrianglePlane& plane = scene.planes[primitive];
     SurfacePoint point;
-    point.position = b.x * scene.positions[triangle.v0] + b.y * scene.positions[triangle.v1] +
-                     b.z * scene.positions[triangle.v2];
+    point.position =
+        b.x * scene.positions[triangle.v0] + b.y * scene.positions[triangle.v1] + b.z * scene.positions[triangle.v2];
     point.position_error = plane.position_error;
     point.primitive = primitive;
     point.material = triangle.material;
@@ -101,11 +101,8 @@ PL_HD inline Ray spawn_shadow_ray(const SurfacePoint& from, const SurfacePoint& 
     const Vec3f direction = to.position - from.position;
     const Vec3f origin = spawn_origin(from, direction);
     const Vec3f end = spawn_origin(to, -direction);
-    return {.origin = origin,
-            .direction = end - origin,
-            .t_max = 1.0f,
-            .source = from.primitive,
-            .target = to.primitive};
+    return {
+        .origin = origin, .direction = end - origin, .t_max = 1.0f, .source = from.primitive, .target = to.primitive};
 }
 
 }  // namespace pl
