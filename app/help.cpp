@@ -1,5 +1,6 @@
 #include "app/help.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 

@@ -1,4 +1,6 @@
 // `pathlight info`: what a scene holds, and what it takes to render it.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/commands.h"

@@ -21,26 +21,6 @@ bool shows_nothing(const char* driver) {
     return std::strcmp(driver, "offscreen") == 0 || std::strcmp(driver, "dummy") == 0;
 }
 
-/// Keeps SDL's video part running as long as it lives.
-class VideoLease {
-public:
-    VideoLease() : ok_(SDL_InitSubSystem(SDL_INIT_VIDEO) == 0) {}
-    ~VideoLease() {
-        if (ok_) SDL_QuitSubSystem(SDL_INIT_VIDEO);
-    }
-    VideoLease(const VideoLease&) = delete;
-    VideoLease& operator=(const VideoLease&) = delete;
-    bool ok() const { return ok_; }
-
-private:
-    bool ok_;
-};
-
-bool fail(std::string* why, const std::string& text) {
-    if (why != nullptr) *why = text;
-    return false;
-}
-
 /// GL_RENDERER of the context that SDL's renderer uses; empty if it uses none.
 std::string opengl_device() {
     using GetString = const unsigned char*(SDLCALL*)(unsigned int);
@@ -54,27 +34,24 @@ std::string opengl_device() {
 
 }  // namespace
 
-bool display_available(std::string* why) {
-    if (is_set("SDL_VIDEODRIVER")) return true;
+VideoSubsystem::VideoSubsystem() {
+    const bool chosen = is_set("SDL_VIDEODRIVER");
     // Asked before SDL, which would silently draw where nobody can see it.
-    if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
-        return fail(why, "no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
-    const VideoLease video;
-    if (!video.ok()) return fail(why, fmt::format("no display: {}", SDL_GetError()));
-    const char* driver = SDL_GetCurrentVideoDriver();
-    if (driver == nullptr || shows_nothing(driver))
-        return fail(why, fmt::format("no display: '{}' cannot be opened",
-                                     is_set("DISPLAY") ? std::getenv("DISPLAY") : std::getenv("WAYLAND_DISPLAY")));
-    return true;
-}
-
-Display::Display(const std::string& title, int width, int height, bool software) {
-    std::string why;
-    if (!display_available(&why)) throw Error(ErrorKind::Unavailable, why);
+    if (!chosen && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
+        throw Error(ErrorKind::Unavailable, "no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl+C in the terminal ends the program
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
-        throw Error(ErrorKind::Unavailable, fmt::format("cannot start the display: {}", SDL_GetError()));
+        throw Error(ErrorKind::Unavailable, fmt::format("no display: {}", SDL_GetError()));
+    if (chosen || !shows_nothing(SDL_GetCurrentVideoDriver())) return;
+    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    throw Error(ErrorKind::Unavailable,
+                fmt::format("no display: '{}' cannot be opened",
+                            is_set("DISPLAY") ? std::getenv("DISPLAY") : std::getenv("WAYLAND_DISPLAY")));
+}
 
+VideoSubsystem::~VideoSubsystem() { SDL_QuitSubSystem(SDL_INIT_VIDEO); }
+
+Display::Display(const std::string& title, int width, int height, bool software) {
     // A driver or renderer named in the environment is what the person wants.
     const bool probe = !software && !is_set("SDL_RENDER_DRIVER") && !is_set("SDL_FRAMEBUFFER_ACCELERATION") &&
                        !shows_nothing(SDL_GetCurrentVideoDriver());
@@ -92,19 +69,12 @@ Display::Display(const std::string& title, int width, int height, bool software)
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "1");
         opened = open(title, width, height, true);
     }
-    if (!opened) {
-        const std::string reason = SDL_GetError();
-        SDL_QuitSubSystem(SDL_INIT_VIDEO);
-        throw Error(ErrorKind::Unavailable, fmt::format("cannot open a window: {}", reason));
-    }
+    if (!opened) throw Error(ErrorKind::Unavailable, fmt::format("cannot open a window: {}", SDL_GetError()));
     SDL_SetWindowMinimumSize(window_, 640, 400);
     set_window_icon(window_);
 }
 
-Display::~Display() {
-    close();
-    SDL_QuitSubSystem(SDL_INIT_VIDEO);
-}
+Display::~Display() { close(); }
 
 bool Display::open(const std::string& title, int width, int height, bool software) {
     close();

@@ -10,9 +10,16 @@ struct SDL_Renderer;
 
 namespace pl {
 
-/// Is there a screen to open a window on, or did SDL_VIDEODRIVER ask for another one? If not, `why` says so in one
-/// line. Opens no window.
-bool display_available(std::string* why = nullptr);
+/// Keeps SDL's video part running. Throws Error(Unavailable) with one line where there is no screen to open a window
+/// on, unless SDL_VIDEODRIVER asked for a driver that needs none. The driver is looked at in the connection that is then
+/// used: an X server may start afresh when its last client leaves, and refuse the next for a moment.
+class VideoSubsystem {
+public:
+    VideoSubsystem();
+    ~VideoSubsystem();
+    VideoSubsystem(const VideoSubsystem&) = delete;
+    VideoSubsystem& operator=(const VideoSubsystem&) = delete;
+};
 
 /// Owner of window and renderer. Chooses an accelerated renderer if it runs on hardware: on a software
 /// implementation of OpenGL plain pixels are several times faster.
@@ -40,6 +47,7 @@ private:
     bool runs_on_hardware();
     void close();
 
+    VideoSubsystem video_;
     SDL_Window* window_ = nullptr;
     SDL_Renderer* renderer_ = nullptr;
     std::string name_;

@@ -1,5 +1,6 @@
 #include "ui/viewer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,5 @@
 // `pathlight inspect` from outside.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <sstream>

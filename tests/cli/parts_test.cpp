@@ -1,4 +1,5 @@
 // The parts of the program that are worth a test of their own.
+#include <algorithm>
 #include <csignal>
 #include <random>
 

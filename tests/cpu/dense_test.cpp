@@ -1,5 +1,7 @@
 // The dense intersector gives, with every instruction set, the bits of the scalar test on all triangles; so does the
 // hierarchy.
+#include <algorithm>
+
 #include "core/base/error.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/cpu_backend.h"

@@ -1,6 +1,7 @@
 // Scene files, scenes by name, and where the scenes are.
 #include "core/io/scene_json.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "core/io/load_scene.h"

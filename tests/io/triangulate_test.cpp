@@ -1,6 +1,7 @@
 // Polygons are covered exactly once by their triangles.
 #include "core/io/triangulate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>

@@ -1,4 +1,6 @@
 // Sampling a table: every interval reachable, densities that belong to the samples, for tables made to be hard.
+#include <algorithm>
+
 #include "core/kernel/fields/direction_table.h"
 
 #include "tests/catch.hpp"

@@ -1,5 +1,7 @@
 // What each edit clears, and that it clears no more: the table of core/session/edits.h, one case per edit, on real
 // sessions in which all three methods have rendered and learned.
+#include <algorithm>
+
 #include "tests/catch.hpp"
 #include "tests/session/same_bits.h"
 #include "tests/statistical/shipped_scenes.h"

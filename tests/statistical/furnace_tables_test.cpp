@@ -1,4 +1,6 @@
 // What is learned in a furnace: e/(1-rho) in every cell of every table.
+#include <algorithm>
+
 #include "tests/catch.hpp"
 #include "tests/statistical/scenes.h"
 #include "tests/statistical/sessions.h"
