@@ -61,7 +61,7 @@ TEST_CASE("every method renders every view") {
         }
 }
 
-TEST_CASE("same seed, same bytes, whatever the number of threads; another seed, other bytes") {
+TEST_CASE("same seed, same bytes, whatever the number of threads, and another seed, other bytes") {
     for (const std::string& method : kMethods)
         for (const std::string nee : {"off", "on"}) {
             CAPTURE(method, nee);
@@ -79,7 +79,7 @@ TEST_CASE("same seed, same bytes, whatever the number of threads; another seed, 
         }
 }
 
-TEST_CASE("linear files hold the same numbers; sizes need not be square") {
+TEST_CASE("linear files hold the same numbers, and sizes need not be square") {
     const TempDir folder;
     REQUIRE(run_program(render(folder / "x.pfm")).code == 0);
     REQUIRE(run_program(render(folder / "x.exr")).code == 0);

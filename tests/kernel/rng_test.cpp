@@ -38,7 +38,7 @@ TEST_CASE("Philox gives the published vectors") {
 }
 
 // The conversion looks at the top 24 bits only, so these 2^24 values are all there are.
-TEST_CASE("Uniforms are multiples of 2^-24 in [0, 1)") {
+TEST_CASE("Uniforms are multiples of 2^-24, from 0 to below 1") {
     bool exact = true;
     for (std::uint32_t top = 0; top < (1u << 24); ++top) {
         const float low_bits_clear = to_unit_float(top << 8);
