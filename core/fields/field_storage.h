@@ -14,6 +14,7 @@ struct FieldShape {
     float radiance_unit = 1.0f;
     LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = 0.05f;
+    Lookup lookup = Lookup::KdTree;
 };
 
 /// Where the volumes are, and the tree that finds them.
@@ -46,8 +47,9 @@ void zip(const VolumeStorage<From>& from, VolumeStorage<To>& to, Fn&& fn) {
     fn(from.kd_nodes, to.kd_nodes);
 }
 
-template <template <class> class From, template <class> class To, class Fn>
-void zip(const TableStorage<From>& from, TableStorage<To>& to, Fn&& fn) {
+/// `to` is const where nothing is written.
+template <template <class> class From, class To, class Fn>
+void zip(const TableStorage<From>& from, To& to, Fn&& fn) {
     fn(from.radiance, to.radiance);
     fn(from.visits, to.visits);
     fn(from.pending_sum, to.pending_sum);
@@ -62,7 +64,7 @@ template <template <class> class Array>
 FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes, TableStorage<Array>& tables) {
     const TableStorage<Array>& frozen = tables;
     return {.cells = shape.cells,
-            .tree = {.nodes = view_of(volumes.kd_nodes)},
+            .tree = {.nodes = view_of(volumes.kd_nodes), .lookup = shape.lookup},
             .normals = view_of(volumes.normals),
             .sites = view_of(volumes.sites),
             .row_cdf = view_of(frozen.row_cdf),

@@ -51,7 +51,8 @@ FieldShape make_field_shape(const HostScene& scene, const FieldSettings& setting
     return {.cells = {side_of(settings.bins)},
             .radiance_unit = power_of_two_above(brightest),
             .rate = settings.rate,
-            .uniform_floor = settings.uniform_floor};
+            .uniform_floor = settings.uniform_floor,
+            .lookup = settings.lookup};
 }
 
 HostTables make_tables(const FieldShape& shape, std::size_t volumes) {

@@ -15,6 +15,7 @@ struct FieldSettings {
     LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = 0.05f;
     int precompute_samples = 16;  ///< paths per cell and volume, a square number
+    Lookup lookup = Lookup::KdTree;
 
     friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };

@@ -15,6 +15,7 @@ struct Table {
     Invalidation operator()(const EditScene&) const {
         return {.films = true, .tables = true, .volumes = true, .scene = true};
     }
+    Invalidation operator()(const EditBackend& edit) const { return {.tables = edit.abandon_old}; }
     Invalidation operator()(const EditRestart&) const { return {.films = true}; }
     Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }
 };

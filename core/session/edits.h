@@ -8,6 +8,8 @@
 
 namespace pl {
 
+class RenderBackend;
+
 struct EditCamera {
     CameraDescription camera;
 };
@@ -37,11 +39,16 @@ struct EditField {
 struct EditScene {
     std::shared_ptr<const SceneDescription> scene;
 };
+/// Another back end goes on with what was learned. The pictures of the old one are parked with it, for the way back.
+struct EditBackend {
+    std::shared_ptr<RenderBackend> backend;
+    bool abandon_old = false;  ///< the old one is broken: what it held is lost
+};
 struct EditRestart {};  ///< clear the pictures, keep what was learned
 struct EditForget {};   ///< clear the pictures and what was learned
 
 using SessionEdit = std::variant<EditCamera, EditSize, EditMethod, EditView, EditSeed, EditEstimator, EditMixture,
-                                 EditField, EditScene, EditRestart, EditForget>;
+                                 EditField, EditScene, EditBackend, EditRestart, EditForget>;
 
 /// What has to go when an edit is applied. Display settings are not here: they are no part of a session.
 struct Invalidation {

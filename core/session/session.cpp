@@ -8,6 +8,7 @@
 #include "core/kernel/geometry/intersector.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
+#include "core/scene/scene_hash.h"
 
 namespace pl {
 namespace {
@@ -31,6 +32,7 @@ struct Assign {
     void operator()(const EditMixture& edit) const { settings.bsdf_fraction = edit.bsdf_fraction; }
     void operator()(const EditField& edit) const { settings.field = edit.field; }
     void operator()(const EditScene& edit) const { settings.camera = edit.scene->camera; }
+    void operator()(const EditBackend&) const {}
     void operator()(const EditRestart&) const {}
     void operator()(const EditForget&) const {}
 };
@@ -39,6 +41,17 @@ struct Assign {
 /// when little is left, so that few of them end without having found any. Others play for every loss.
 constexpr float kGuidedRouletteThreshold = 0.01f;
 
+/// Do the sizes of all arrays agree?
+bool fits_together(const LearnedField& field) {
+    if (field.volumes == nullptr || field.shape.cells.side < 1) return false;
+    const std::size_t volumes = field.volumes->normals.size();
+    const HostTables expected = make_tables(field.shape, volumes);
+    bool fits = field.volumes->sites.size() == volumes && field.volumes->kd_nodes.size() <= volumes;
+    zip(expected, field.tables,
+        [&](const auto& want, const auto& have) { fits = fits && want.size() == have.size(); });
+    return fits;
+}
+
 bool is_power_of_two(std::uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 
 /// The method whose tables the field views show: default path tracing has none of its own.
@@ -46,7 +59,7 @@ MethodId table_owner(MethodId method) { return info_of(method).uses_field ? meth
 
 }  // namespace
 
-Session::Session(std::unique_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
+Session::Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
                  const RenderSettings& settings, double load_seconds)
     : backend_(std::move(backend)), scene_(std::move(scene)), settings_(settings), load_seconds_(load_seconds) {
     load_scene();
@@ -60,6 +73,7 @@ void Session::load_scene() {
 }
 
 void Session::apply(const SessionEdit& edit) {
+    if (const auto* change = std::get_if<EditBackend>(&edit)) switch_backend(*change);
     const Invalidation clear = invalidated_by(edit);
     std::visit(Assign{settings_}, edit);
     if (const auto* change = std::get_if<EditScene>(&edit)) scene_ = change->scene;
@@ -69,10 +83,36 @@ void Session::apply(const SessionEdit& edit) {
     if (clear.scene) load_scene();
 }
 
-void Session::clear_films() { films_.fill(FilmState{}); }
+void Session::clear_films() {
+    films_.fill(FilmState{});
+    for (ParkedBackend& parked : parked_) parked.films.fill(FilmState{});
+}
+
+/// The new back end is made ready first, so that nothing has changed if it fails.
+void Session::switch_backend(const EditBackend& edit) {
+    if (edit.backend == backend_) return;
+    ParkedBackend next = unpark(edit.backend);
+    if (next.scene != packed_) next.backend->upload_scene(packed_);
+    if (volumes_) next.backend->upload_volumes(volumes_, shape_);
+    if (!edit.abandon_old) {
+        for (const MethodInfo& method : all_methods())
+            if (backend_->has_tables(method.id))
+                next.backend->upload_tables(method.id, backend_->download_tables(method.id));
+        parked_.push_back({backend_, films_, packed_});
+    }
+    std::erase_if(parked_, [&](const ParkedBackend& parked) { return parked.backend == next.backend; });
+    backend_ = std::move(next.backend);
+    films_ = next.films;
+}
+
+Session::ParkedBackend Session::unpark(const std::shared_ptr<RenderBackend>& backend) {
+    for (const ParkedBackend& parked : parked_)
+        if (parked.backend == backend) return parked;
+    return {.backend = backend, .films = {}, .scene = nullptr};
+}
 
 void Session::clear_tables() {
-    fields_.fill(FieldState{});
+    fields_.fill(FieldProgress{});
     if (volumes_) backend_->upload_volumes(volumes_, shape_);
 }
 
@@ -123,7 +163,7 @@ bool Session::needs_precompute() const {
 
 Progress Session::precompute_slice(const StopFlag* stop) {
     const Stopwatch watch;
-    FieldState& state = field();
+    FieldProgress& state = field();
     PathSettings path = path_settings();
     path.stream = Stream::Precompute;
     path.roulette_threshold = 1.0f;  // probes follow the default method
@@ -206,7 +246,7 @@ Progress Session::advance(const StopFlag* stop) {
 
 std::optional<FieldStatus> Session::field_status() const {
     if (!volumes_ || !info_of(settings_.method).uses_field) return std::nullopt;
-    const FieldState& state = field();
+    const FieldProgress& state = field();
     FieldStatus status{.volumes = static_cast<int>(volumes_->normals.size()),
                        .bins = shape_.cells.count(),
                        .bytes = volumes_->normals.size() * bytes_per_volume(shape_.cells.count()),
@@ -277,6 +317,36 @@ VolumeInspection Session::inspect_volume(std::int32_t volume) const {
         for (int column = 0; column < shape_.cells.side; ++column)
             result.probability.push_back(table.cell_probability(column, row));
     return result;
+}
+
+LearnedField Session::export_field() const {
+    const MethodId method = settings_.method;
+    if (!volumes_ || !backend_->has_tables(method))
+        throw Error(ErrorKind::Usage, "method '" + std::string(info_of(method).name) + "' has learned nothing yet");
+    return {.method = method,
+            .scene_hash = scene_hash(*scene_),
+            .settings = settings_.field,
+            .shape = shape_,
+            .volumes = volumes_,
+            .tables = backend_->download_tables(method),
+            .progress = field()};
+}
+
+void Session::import_field(LearnedField learned) {
+    const std::string hash = scene_hash(*scene_);
+    if (learned.scene_hash != hash)
+        throw Error(ErrorKind::Input, "the field was learned in another scene: expected scene hash " + hash +
+                                          ", got " + learned.scene_hash);
+    if (!info_of(learned.method).uses_field || !fits_together(learned))
+        throw Error(ErrorKind::Input, "the field's volumes and tables do not fit together");
+    backend_->upload_volumes(learned.volumes, learned.shape);
+    backend_->upload_tables(learned.method, std::move(learned.tables));
+    settings_.field = learned.settings;
+    shape_ = learned.shape;
+    volumes_ = std::move(learned.volumes);
+    fields_.fill(FieldProgress{});
+    fields_[static_cast<std::size_t>(learned.method)] = learned.progress;
+    clear_films();
 }
 
 std::int32_t Session::find_volume_at(Vec3f position, Vec3f normal) {

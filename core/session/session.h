@@ -7,6 +7,7 @@
 
 #include "core/session/backend.h"
 #include "core/session/edits.h"
+#include "core/session/learned_field.h"
 #include "core/session/snapshot.h"
 
 namespace pl {
@@ -21,10 +22,11 @@ enum class Progress {
 class Session {
 public:
     /// The scene must be valid. `load_seconds` goes into the clocks.
-    Session(std::unique_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
+    Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
             const RenderSettings& settings, double load_seconds = 0.0);
 
-    /// Applies a change and clears what invalidated_by() says.
+    /// Applies a change and clears what invalidated_by() says. Throws Error if a back end fails; if it is the new one
+    /// of EditBackend, the session stays with the old one, unchanged.
     void apply(const SessionEdit& edit);
 
     /// Does the next piece of work: a slice of precomputation if the method still needs it, else one sample for
@@ -36,6 +38,11 @@ public:
 
     /// What the current method learned at a volume. Throws Error(Usage) if it learns nothing.
     VolumeInspection inspect_volume(std::int32_t volume) const;
+    /// What the current method has learned. Throws Error(Usage) if it has no tables.
+    LearnedField export_field() const;
+    /// Goes on from a learned field: takes its settings and volumes, and empties all pictures and the tables of other
+    /// methods. Throws Error(Input) if it was learned in another scene or does not fit together.
+    void import_field(LearnedField field);
     /// Volume that serves a point; kNoVolume if none. Places the volumes if they are not placed yet.
     std::int32_t find_volume_at(Vec3f position, Vec3f normal);
     /// First surface under a point of the film, in pixels of the current size; empty where nothing is hit.
@@ -63,13 +70,12 @@ private:
         double render_seconds = 0.0;
         double learn_seconds = 0.0;
     };
-    struct FieldState {
-        std::uint64_t passes = 0;
-        std::uint64_t records = 0;
-        std::uint64_t lookup_misses = 0;
-        std::uint32_t precomputed_slices = 0;  ///< complete ones
-        std::uint32_t next_probe = 0;          ///< where the running slice goes on
-        double precompute_seconds = 0.0;
+    using FilmStates = std::array<FilmState, FilmSlot::kCount>;
+    /// A back end that was left, with its pictures and the scene that it knows.
+    struct ParkedBackend {
+        std::shared_ptr<RenderBackend> backend;
+        FilmStates films{};
+        std::shared_ptr<const HostScene> scene;
     };
 
     FilmSlot slot() const { return {settings_.method, settings_.view}; }
@@ -77,10 +83,12 @@ private:
     std::uint32_t probe_count() const;
     const FilmState& film() const { return films_[static_cast<std::size_t>(slot().index())]; }
     FilmState& film() { return films_[static_cast<std::size_t>(slot().index())]; }
-    FieldState& field() { return fields_[static_cast<std::size_t>(settings_.method)]; }
-    const FieldState& field() const { return fields_[static_cast<std::size_t>(settings_.method)]; }
+    FieldProgress& field() { return fields_[static_cast<std::size_t>(settings_.method)]; }
+    const FieldProgress& field() const { return fields_[static_cast<std::size_t>(settings_.method)]; }
 
     void load_scene();
+    void switch_backend(const EditBackend& edit);
+    ParkedBackend unpark(const std::shared_ptr<RenderBackend>& backend);
     void ensure_volumes();
     void ensure_tables();
     void ensure_film(FilmSlot slot);
@@ -92,14 +100,15 @@ private:
     void publish_pass(FilmState& state);
     PathSettings path_settings() const;
 
-    std::unique_ptr<RenderBackend> backend_;
+    std::shared_ptr<RenderBackend> backend_;
+    std::vector<ParkedBackend> parked_;
     std::shared_ptr<const SceneDescription> scene_;
     RenderSettings settings_;
     std::shared_ptr<const HostScene> packed_;
     std::shared_ptr<const HostVolumes> volumes_;
     FieldShape shape_;
-    std::array<FilmState, FilmSlot::kCount> films_{};
-    std::array<FieldState, kMethodCount> fields_{};
+    FilmStates films_{};
+    std::array<FieldProgress, kMethodCount> fields_{};
     double load_seconds_ = 0.0;
     double build_seconds_ = 0.0;
     double place_seconds_ = 0.0;

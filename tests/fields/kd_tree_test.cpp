@@ -52,6 +52,11 @@ Vec3f random_query(const Sites& sites, Uniforms& random) {
     return p;
 }
 
+KdTreeView linear(KdTreeView tree) {
+    tree.lookup = Lookup::Linear;
+    return tree;
+}
+
 void check_searches(const Sites& sites, int queries, const std::function<Vec3f(Uniforms&)>& normal) {
     const std::vector<KdNode> nodes = tree_of(sites);
     const std::unique_ptr<NanoflannIndex> index = sites.empty() ? nullptr : std::make_unique<NanoflannIndex>(sites);
@@ -65,7 +70,7 @@ void check_searches(const Sites& sites, int queries, const std::function<Vec3f(U
         REQUIRE(found.volume == expected.volume);
         REQUIRE(bits(found.distance2) == bits(expected.distance2));
         REQUIRE(find_volume(view(nodes), position, n) == expected.volume);
-        REQUIRE(find_volume_linear(view(nodes), position, n) == expected.volume);
+        REQUIRE(find_volume(linear(view(nodes)), position, n) == expected.volume);
         if (index != nullptr && n == Vec3f{0, 0, 1})
             REQUIRE(bits(index->nearest_distance2(position)) == bits(expected.distance2));
     }
@@ -188,7 +193,7 @@ TEST_CASE("Points and queries that are not finite find nothing") {
             Vec3f query{1.0f};
             query[axis] = bad;
             CHECK(find_volume(view(nodes), query, {0, 0, 1}) == kNoVolume);
-            CHECK(find_volume_linear(view(nodes), query, {0, 0, 1}) == kNoVolume);
+            CHECK(find_volume(linear(view(nodes)), query, {0, 0, 1}) == kNoVolume);
         }
     CHECK(find_volume(view(nodes), {1, 1, 1}, Vec3f{nan}) == kNoVolume);
 }

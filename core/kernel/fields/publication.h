@@ -108,42 +108,72 @@ PL_HD inline float accumulate_cdf(float* weights, int count) {
     return usable ? total : 0.0f;
 }
 
-/// Rebuilds the sampling table of one volume from what it learned.
-PL_HD inline void build_table(const FieldPublicationView& field, std::uint32_t volume, float volume_mean) {
-    const int side = field.cells.side;
-    const auto cells = static_cast<std::uint32_t>(field.cells.count());
-    const std::uint32_t first = volume * cells;
-    float* columns = field.column_cdf.data + first;
-    float* rows = field.row_cdf.data + volume * static_cast<std::uint32_t>(side);
-
+/// Sum in order of number.
+PL_HD inline float sum_of(const float* values, int count) {
     float total = 0.0f;
-    for (int row = 0; row < side; ++row)
-        for (int column = 0; column < side; ++column) {
-            const float weight = smoothed_radiance(field, first, column, row, volume_mean);
-            columns[row * side + column] = weight;
-            total += weight;
-        }
+    for (int i = 0; i < count; ++i) total += values[i];
+    return total;
+}
+
+/// Share of `weight` in `total`, mixed with an equal share of `count`; equal shares alone if the total is unusable.
+PL_HD inline float with_uniform_share(const FieldPublicationView& field, float weight, float total, int count) {
+    const float uniform = 1.0f / static_cast<float>(count);
     const bool known = total > 0.0f && total < kInfinity;
-    const float uniform = 1.0f / static_cast<float>(cells);
-    for (int row = 0; row < side; ++row) {
-        for (int column = 0; column < side; ++column) {
-            float& weight = columns[row * side + column];
-            const float learned = known ? weight / total : uniform;
-            weight = (1.0f - field.uniform_floor) * learned + field.uniform_floor * uniform;
-        }
-        rows[row] = accumulate_cdf(columns + row * side, side);
-    }
+    return (1.0f - field.uniform_floor) * (known ? weight / total : uniform) + field.uniform_floor * uniform;
+}
+
+/// Weight of every cell before anything is normalized: what the cell is thought to receive.
+PL_HD inline void weigh_cell(const FieldPublicationView& field, std::uint32_t cell) {
+    const auto cells = static_cast<std::uint32_t>(field.cells.count());
+    const std::uint32_t volume = cell / cells;
+    const auto inside = static_cast<int>(cell % cells);
+    field.column_cdf[cell] = smoothed_radiance(field, volume * cells, inside % field.cells.side,
+                                               inside / field.cells.side, field.mean_radiance[volume]);
+}
+
+/// Total weight of one row of cells; rows are numbered through all volumes.
+PL_HD inline void sum_row(const FieldPublicationView& field, std::uint32_t row) {
+    const auto side = static_cast<std::uint32_t>(field.cells.side);
+    float sum = 0.0f;
+    for (std::uint32_t i = row * side; i < (row + 1) * side; ++i) sum += field.column_cdf[i];
+    field.row_cdf[row] = sum;
+}
+
+/// Weights of one row become its cumulative probabilities, with their uniform share.
+PL_HD inline void build_row(const FieldPublicationView& field, std::uint32_t row) {
+    const auto side = static_cast<std::uint32_t>(field.cells.side);
+    const float total = sum_of(field.row_cdf.data + row / side * side, field.cells.side);
+    for (std::uint32_t i = row * side; i < (row + 1) * side; ++i)
+        field.column_cdf[i] = with_uniform_share(field, field.column_cdf[i], total, field.cells.count());
+    accumulate_cdf(field.column_cdf.data + row * side, field.cells.side);
+}
+
+/// Weights of a volume's rows become its cumulative probabilities.
+PL_HD inline void build_row_choice(const FieldPublicationView& field, std::uint32_t volume) {
+    const int side = field.cells.side;
+    float* rows = field.row_cdf.data + volume * static_cast<std::uint32_t>(side);
+    const float total = sum_of(rows, side);
+    for (int row = 0; row < side; ++row) rows[row] = with_uniform_share(field, rows[row], total, side);
     accumulate_cdf(rows, side);
 }
 
-/// Publishes one volume: absorbs the pass's records and rebuilds everything derived from the learned radiance.
+/// Mean of what a volume has learned, once its cells have absorbed the pass's records.
+PL_HD inline void publish_mean(const FieldPublicationView& field, std::uint32_t volume) {
+    const auto cells = static_cast<std::uint32_t>(field.cells.count());
+    field.mean_radiance[volume] = mean_of_visited(field, volume * cells);
+}
+
+/// Publishes one volume: absorbs the pass's records and rebuilds everything derived from the learned radiance. The
+/// steps in their order; a device runs each for all volumes at once.
 PL_HD inline void publish_volume(const FieldPublicationView& field, std::uint32_t volume) {
     const auto cells = static_cast<std::uint32_t>(field.cells.count());
-    const std::uint32_t first = volume * cells;
-    for (std::uint32_t k = 0; k < cells; ++k) absorb_records(field, first + k);
-    const float mean = mean_of_visited(field, first);
-    field.mean_radiance[volume] = mean;
-    build_table(field, volume, mean);
+    const auto side = static_cast<std::uint32_t>(field.cells.side);
+    for (std::uint32_t cell = volume * cells; cell < (volume + 1) * cells; ++cell) absorb_records(field, cell);
+    publish_mean(field, volume);
+    for (std::uint32_t cell = volume * cells; cell < (volume + 1) * cells; ++cell) weigh_cell(field, cell);
+    for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row) sum_row(field, row);
+    for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row) build_row(field, row);
+    build_row_choice(field, volume);
 }
 
 }  // namespace pl

@@ -11,6 +11,9 @@ namespace pl {
 
 inline constexpr std::int32_t kNoVolume = -1;
 
+/// How the nearest volume is searched. The answer is the same, the time is not.
+enum class Lookup : std::uint32_t { KdTree, Linear };
+
 /// Cosine of the largest angle between the normals of a surface point and of the volume that serves it.
 inline constexpr float kMinNormalCosine = 0.8f;
 
@@ -27,6 +30,7 @@ static_assert(sizeof(KdNode) == 32);
 /// are not larger along its axis, entries behind it not smaller.
 struct KdTreeView {
     Span<const KdNode> nodes;
+    Lookup lookup = Lookup::KdTree;
 };
 
 /// Ranges halve at every step, so 32 entries serve any 32-bit count.
@@ -115,17 +119,19 @@ PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f n
     }
 }
 
+/// Offers every volume to `result`: the reference of the tests, and what a tree has to beat.
+template <class Result>
+PL_HD inline void search_all(const KdTreeView& tree, Vec3f position, Vec3f normal, Result& result) {
+    for (std::uint32_t i = 0; i < tree.nodes.count; ++i) result.consider(tree.nodes[i], position, normal);
+}
+
 /// The volume that serves a surface point, or kNoVolume.
 PL_HD inline std::int32_t find_volume(const KdTreeView& tree, Vec3f position, Vec3f normal) {
     Nearest nearest;
-    search_kd_tree(tree, position, normal, nearest);
-    return nearest.volume;
-}
-
-/// Same answer by looking at every volume; the reference of the tests.
-PL_HD inline std::int32_t find_volume_linear(const KdTreeView& tree, Vec3f position, Vec3f normal) {
-    Nearest nearest;
-    for (std::uint32_t i = 0; i < tree.nodes.count; ++i) nearest.consider(tree.nodes[i], position, normal);
+    if (tree.lookup == Lookup::Linear)
+        search_all(tree, position, normal, nearest);
+    else
+        search_kd_tree(tree, position, normal, nearest);
     return nearest.volume;
 }
 

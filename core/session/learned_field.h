@@ -1,0 +1,34 @@
+// What one method has learned, taken out of a session: what files hold and what moves between back ends.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/fields/make_field.h"
+#include "core/session/methods.h"
+
+namespace pl {
+
+/// How far a method's learning has come. Exact: work that was interrupted goes on where it ended.
+struct FieldProgress {
+    std::uint64_t passes = 0;  ///< publications
+    std::uint64_t records = 0;
+    std::uint64_t lookup_misses = 0;
+    std::uint32_t precomputed_slices = 0;  ///< complete ones
+    std::uint32_t next_probe = 0;          ///< where the running slice goes on
+    double precompute_seconds = 0.0;
+
+    friend bool operator==(const FieldProgress&, const FieldProgress&) = default;
+};
+
+struct LearnedField {
+    MethodId method = MethodId::Reinforcement;
+    std::string scene_hash;  ///< of the scene it was learned in
+    FieldSettings settings;
+    FieldShape shape;
+    std::shared_ptr<const HostVolumes> volumes;
+    HostTables tables;
+    FieldProgress progress;
+};
+
+}  // namespace pl
