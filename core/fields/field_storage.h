@@ -40,14 +40,14 @@ struct TableStorage {
 using HostVolumes = VolumeStorage<HostArray>;
 using HostTables = TableStorage<HostArray>;
 
-template <template <class> class From, template <class> class To, class Fn>
-void zip(const VolumeStorage<From>& from, VolumeStorage<To>& to, Fn&& fn) {
+/// `to` is const where nothing is written.
+template <template <class> class From, class To, class Fn>
+void zip(const VolumeStorage<From>& from, To& to, Fn&& fn) {
     fn(from.sites, to.sites);
     fn(from.normals, to.normals);
     fn(from.kd_nodes, to.kd_nodes);
 }
 
-/// `to` is const where nothing is written.
 template <template <class> class From, class To, class Fn>
 void zip(const TableStorage<From>& from, To& to, Fn&& fn) {
     fn(from.radiance, to.radiance);

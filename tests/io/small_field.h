@@ -1,0 +1,68 @@
+// A learned field as small as can be, for tests of files that look at every bit.
+#pragma once
+
+#include <random>
+#include <utility>
+
+#include "core/session/learned_field.h"
+
+namespace pl::test {
+
+inline constexpr int kVolumes = 3;
+
+inline HostVolumes small_volumes() {
+    HostVolumes volumes;
+    for (int i = 0; i < kVolumes; ++i) {
+        const auto x = static_cast<float>(i);
+        const Vec3f normal{0.0f, i % 2 == 0 ? 1.0f : -1.0f, 0.0f};
+        volumes.sites.push_back({.position = {x, 0.1f * x, -2.0f * x},
+                                 .geometric_normal = normal,
+                                 .shading_normal = {0.6f, 0.0f, 0.8f},
+                                 .position_error = 1.0e-6f * x,
+                                 .primitive = static_cast<std::uint32_t>(i),
+                                 .material = 5,
+                                 .front = i % 2 == 0});
+        volumes.normals.push_back(normal);
+    }
+    volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
+    return volumes;
+}
+
+/// As different from a default as it may be, in the middle of a pass, and small: tests look at every bit.
+inline LearnedField small_field() {
+    LearnedField field{.method = MethodId::Precomputed,
+                       .scene_hash = "0123456789abcdef",
+                       .settings = {.volumes = kVolumes,
+                                    .budget_megabytes = 0.7,
+                                    .bins = 4,
+                                    .rate = LearningRate::SampleMean,
+                                    .uniform_floor = 0.1f,
+                                    .precompute_samples = 9,
+                                    .lookup = Lookup::Linear},
+                       .shape = {.cells = {2},
+                                 .radiance_unit = 0.125f,
+                                 .rate = LearningRate::SampleMean,
+                                 .uniform_floor = 0.1f,
+                                 .lookup = Lookup::Linear},
+                       .volumes = std::make_shared<const HostVolumes>(small_volumes()),
+                       .tables = {},
+                       .progress = {.passes = std::uint64_t{3} << 40,
+                                    .records = std::uint64_t{5} << 50,
+                                    .lookup_misses = 7,
+                                    .precomputed_slices = 4,
+                                    .next_probe = 11,
+                                    .precompute_seconds = 0.3}};
+    field.tables = make_tables(field.shape, kVolumes);
+    std::mt19937 random(1);
+    const auto uniform = [&] { return std::uniform_real_distribution<float>(0.0f, 1.0f)(random); };
+    for (float& radiance : field.tables.radiance) radiance = 10.0f * uniform();
+    for (float& radiance : field.tables.mean_radiance) radiance = 10.0f * uniform();
+    for (std::uint32_t& visits : field.tables.visits) visits = static_cast<std::uint32_t>(random());
+    for (std::uint32_t& count : field.tables.pending_count) count = 1 + static_cast<std::uint32_t>(random()) % 9;
+    for (std::int64_t& sum : field.tables.pending_sum) sum = static_cast<std::int64_t>(random()) << 8;
+    for (HostArray<float>* cdf : {&field.tables.row_cdf, &field.tables.column_cdf})
+        for (std::size_t i = 0; i < cdf->size(); i += 2) (*cdf)[i] = uniform();
+    return field;
+}
+
+}  // namespace pl::test
