@@ -3,6 +3,7 @@
 
 #include "app/closest_surface.h"
 #include "app/commands.h"
+#include "app/field_files.h"
 #include "app/inspection_file.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
@@ -22,6 +23,7 @@ void require_outputs(const Options& options) {
     inspection_kind(options.output);
     require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
+    if (!options.save_field.empty()) require_writable(options.save_field);
 }
 
 [[noreturn]] void fail_nothing(const std::string& where) {
@@ -60,6 +62,12 @@ void require_inside(const Options& options) {
                                                   options.render.width, options.render.height, pixel.x, pixel.y));
 }
 
+/// What was loaded is looked at as it is, unless more training is asked for. A radiance map is completed in any case.
+bool is_trained(const Options& options) {
+    return !options.load_field.empty() && info_of(options.render.method).learns && !options.spp &&
+           !options.time_limit_seconds;
+}
+
 void report(const VolumeInspection& volume, const Options& options, bool interrupted, Console& console) {
     console.remark(fmt::format("{}: volume {} at {}, normal {}, mean radiance {}{}\n", options.output, volume.volume,
                                print_vector(volume.position), print_vector(volume.normal),
@@ -76,14 +84,17 @@ int run_inspect(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
     require_outputs(line.options);
     const LoadedScene loaded = open_scene(line.options.scene, console);
-    const Options options = resolve_options(line, *loaded.scene);
+    FieldFiles fields(line.options);
+    const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_inside(options);
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
-                    loaded.load_seconds);
+                    loaded.load_seconds + fields.load_seconds());
+    fields.hand_over(session, options, console);
     // Before training: a place without a volume should not cost a minute.
     const std::int32_t index = options.at ? volume_at(session, *options.at) : volume_under(session, *options.pixel);
 
-    const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Learned);
+    const RunOutcome outcome =
+        is_trained(options) ? RunOutcome{} : run_passes(session, options, interrupt, console, Until::Learned);
     const VolumeInspection volume = session.inspect_volume(index);
     save_inspection(options.output, volume,
                     {.scene = options.scene,
@@ -94,6 +105,7 @@ int run_inspect(const CommandLine& line, Console& console) {
                      .partial = outcome.interrupted});
     if (!options.stats_file.empty())
         write_text_file_atomic(options.stats_file, stats_json(session, session.snapshot(), options).dump(2) + "\n");
+    fields.save(session, options, console);
     report(volume, options, outcome.interrupted, console);
     return outcome.interrupted ? kExitInterrupted : 0;
 }

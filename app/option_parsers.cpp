@@ -20,6 +20,7 @@ struct CurveName {
 };
 constexpr std::array kCurves{CurveName{ToneCurve::Clamp, "clamp"}, CurveName{ToneCurve::Reinhard, "reinhard"},
                              CurveName{ToneCurve::Aces, "aces"}};
+constexpr std::array<std::string_view, 2> kLookups{"kdtree", "linear"};  // by number
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
 
 /// "a, b or c"
@@ -88,7 +89,7 @@ void parse_bins(Options& options, const std::string& text) {
 }
 
 void parse_bsdf_fraction(Options& options, const std::string& text) {
-    if (text == "learned") fail_not_yet("the share is fixed at 0.5 unless a number from 0.1 to 1 is given");
+    if (text == "learned") fail_not_yet("the share is fixed at 0.25 unless a number from 0.1 to 1 is given");
     const float share = static_cast<float>(parse_real(text, 0.1, 1.0));
     options.render.bsdf_fraction = share < 0.1f ? 0.1f : share;
 }
@@ -119,6 +120,12 @@ void parse_picture_size(Options& options, const std::string& text) {
     options.height = size.y;
 }
 
+void parse_lookup(Options& options, const std::string& text) {
+    const auto found = std::find(kLookups.begin(), kLookups.end(), std::string_view(text));
+    if (found == kLookups.end()) fail_choice(names_in(kLookups, [](std::string_view name) { return name; }), text);
+    options.render.field.lookup = static_cast<Lookup>(found - kLookups.begin());
+}
+
 void parse_at(Options& options, const std::string& text) {
     const std::vector<float> v = parse_floats(text, {3, 6}, "three or six numbers X,Y,Z[,NX,NY,NZ]");
     ScenePoint point{.position = {v[0], v[1], v[2]}, .normal = {}};
@@ -147,5 +154,7 @@ std::string field_method_choices() {
 }
 
 std::string_view tone_curve_name(ToneCurve curve) { return kCurves[static_cast<std::size_t>(curve)].name; }
+
+std::string_view lookup_name(Lookup lookup) { return kLookups[static_cast<std::size_t>(lookup)]; }
 
 }  // namespace pl

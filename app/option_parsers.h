@@ -22,6 +22,7 @@ void parse_field_budget(Options& options, const std::string& text);
 void parse_time_limit(Options& options, const std::string& text);
 void parse_window(Options& options, const std::string& text);
 void parse_picture_size(Options& options, const std::string& text);
+void parse_lookup(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
 void parse_pixel(Options& options, const std::string& text);
 
@@ -29,5 +30,6 @@ void parse_pixel(Options& options, const std::string& text);
 std::string field_method_choices();
 
 std::string_view tone_curve_name(ToneCurve curve);
+std::string_view lookup_name(Lookup lookup);
 
 }  // namespace pl

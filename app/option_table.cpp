@@ -49,7 +49,7 @@ void parse_side(Options& options, const std::string& text) {
 }
 
 void refuse_field_files(Options&, const std::string&) {
-    fail_not_yet("learned fields live as long as the program runs");
+    fail_not_yet("the viewer keeps what it learns until it closes; 'render' and 'inspect' save and load it");
 }
 
 using Text = const std::string&;
@@ -173,13 +173,25 @@ const auto kTable = std::to_array<OptionSpec>({
      .commands = kSampling, .in_scene_files = true, .parse = parse_bins,
      .print = [](const Options& o) { return std::to_string(o.render.field.bins); }},
     {.name = "bsdf-fraction", .flags = "--bsdf-fraction", .value = "X", .group = kField,
-     .help = "Share of directions that follow the surface instead of the field, 0.1 to 1 (default 0.5)",
+     .help = "Share of directions that follow the surface instead of the field, 0.1 to 1 (default 0.25)",
      .commands = kSampling, .in_scene_files = true, .parse = parse_bsdf_fraction,
      .print = [](const Options& o) { return print_float(o.render.bsdf_fraction); }},
-    {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kHidden, .help = "",
-     .commands = kSampling, .parse = refuse_field_files},
+    {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,
+     .help = "How the volume of a point is found: kdtree (default), or linear, which is slow and finds the same",
+     .commands = kSampling, .parse = parse_lookup,
+     .print = [](const Options& o) { return std::string(lookup_name(o.render.field.lookup)); }},
+    {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kField,
+     .help = "Go on from a field that was saved for this scene: it brings method, volumes, bins and what was learned. "
+             "Timings count this run only. 'inspect' then trains only if --spp or --time-limit is given",
+     .commands = kFiles, .parse = parse_text<&Options::load_field>,
+     .print = [](const Options& o) { return o.load_field; }},
+    {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kField,
+     .help = "Write what was learned, also when interrupted; a run that loads it goes on exactly there",
+     .commands = kFiles, .parse = parse_text<&Options::save_field>},
     {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kHidden, .help = "",
-     .commands = kSampling, .parse = refuse_field_files},
+     .commands = kView, .parse = refuse_field_files},
+    {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kHidden, .help = "",
+     .commands = kView, .parse = refuse_field_files},
 
     {.name = "json", .flags = "--json", .value = "", .group = kMessages,
      .help = "One JSON object per line on standard output instead of text",

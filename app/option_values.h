@@ -42,6 +42,9 @@ struct Options {
     int height = 0;  ///< 0: not given
     CameraChoice camera;
 
+    std::string load_field;  ///< file to go on from
+    std::string save_field;  ///< file for what was learned
+
     std::optional<ScenePoint> at;
     std::optional<glm::ivec2> pixel;
 

@@ -7,6 +7,7 @@
 
 #include "app/option_table.h"
 #include "core/scene/description.h"
+#include "core/session/learned_field.h"
 
 namespace pl {
 
@@ -27,9 +28,10 @@ struct CommandLine {
 /// named), wrong value, something missing; Error(Input): the camera file.
 CommandLine parse_command_line(const std::vector<std::string>& arguments);
 
-/// Defaults, then the scene's camera and settings, then what was given. Throws Error(Usage) for options that do not go
-/// together, Error(Input) for settings of the scene that are wrong.
-Options resolve_options(const CommandLine& line, const SceneDescription& scene);
+/// Defaults, then the scene's camera and settings, then what was given. A field that was loaded brings its method and
+/// settings; of these only the lookup may be given otherwise. Throws Error(Usage) for options that do not go together,
+/// Error(Input) for settings of the scene that are wrong.
+Options resolve_options(const CommandLine& line, const SceneDescription& scene, const LearnedField* loaded = nullptr);
 
 /// What resolve_options() gives for a scene opened without options.
 Options scene_defaults(const std::string& scene_name, const SceneDescription& scene);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/field_files.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
@@ -18,6 +19,7 @@ void require_outputs(const Options& options) {
     image_kind(options.output);
     require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
+    if (!options.save_field.empty()) require_writable(options.save_field);
 }
 
 void announce(const Session& session, Console& console) {
@@ -72,9 +74,11 @@ int run_render(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
     require_outputs(line.options);
     const LoadedScene loaded = open_scene(line.options.scene, console);
-    const Options options = resolve_options(line, *loaded.scene);
+    FieldFiles fields(line.options);
+    const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
-                    loaded.load_seconds);
+                    loaded.load_seconds + fields.load_seconds());
+    fields.hand_over(session, options, console);
     announce(session, console);
 
     const RunOutcome outcome = run_passes(session, options, interrupt, console);
@@ -83,6 +87,7 @@ int run_render(const CommandLine& line, Console& console) {
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
     save_picture(options.output, snapshot, options.display, metadata_of(stats, command, outcome.interrupted));
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
+    fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted, console);
     return outcome.interrupted ? kExitInterrupted : 0;
 }

@@ -61,6 +61,40 @@ void apply_scene(Options& options, const SceneDescription& scene) {
     settle_size(options);
 }
 
+/// The words of an option, as a person would give them.
+std::string words(const OptionSpec& spec, const std::string& value) {
+    return fmt::format("--{} {}", spec.name, value);
+}
+
+/// What was given for a loaded field has to be what the field has. The lookup finds the same either way.
+void adopt_field(const CommandLine& line, const LearnedField& field, Options& options) {
+    const Options asked = options;
+    options.render.method = field.method;
+    options.render.field = field.settings;
+    for (const auto& [spec, text] : line.given) {
+        if (spec->name == "lookup") options.render.field.lookup = asked.render.field.lookup;
+        if (spec->print == nullptr || spec->print(asked) == spec->print(options)) continue;
+        const std::string own = spec->print(options);
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{}: the field in {} was learned {}: expected that, or nothing", words(*spec, text),
+                                line.options.load_field,
+                                own.empty() ? fmt::format("without --{}", spec->name) : "with " + words(*spec, own)));
+    }
+}
+
+/// Only what is learned in the run can be saved.
+void require_learning(const Options& options) {
+    const MethodInfo& method = info_of(options.render.method);
+    const ViewInfo& view = info_of(options.render.view);
+    if (!method.uses_field)
+        throw Error(ErrorKind::Usage, fmt::format("--save-field: --method {} learns nothing: expected --method {}",
+                                                  method.name, field_method_choices()));
+    if (view.id != View::Beauty && !view.needs_tables)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--save-field: nothing is learned for --view {}: expected --view {} or {}", view.name,
+                                info_of(View::Beauty).name, info_of(View::RadianceMap).name));
+}
+
 void check_combinations(Command command, Options& options) {
     const MethodInfo& method = info_of(options.render.method);
     const bool needs_field = command == Command::Render && info_of(options.render.view).needs_tables;
@@ -69,6 +103,7 @@ void check_combinations(Command command, Options& options) {
             ErrorKind::Usage,
             fmt::format("--view {}: shows what was learned, and --method {} learns nothing: expected --method {}",
                         info_of(options.render.view).name, method.name, field_method_choices()));
+    if (!options.save_field.empty()) require_learning(options);
 }
 
 /// Inspection is about what was learned, so it does not inherit a method that learns nothing.
@@ -93,11 +128,12 @@ std::string shell_word(const std::string& text) {
 
 }  // namespace
 
-Options resolve_options(const CommandLine& line, const SceneDescription& scene) {
+Options resolve_options(const CommandLine& line, const SceneDescription& scene, const LearnedField* loaded) {
     Options options;
     apply_scene(options, scene);
     for (const GivenOption& given : line.given) apply_option(*given.spec, options, given.text);
     options.scene = line.options.scene;
+    if (loaded != nullptr) adopt_field(line, *loaded, options);
     settle_size(options);
     settle_camera(options);
     if (line.command == Command::Inspect) settle_inspection(line, options);

@@ -26,6 +26,8 @@ reset() {
     put core/fields/place.h '#pragma once\n#include "core/scene/description.h"\n'
     put core/session/backend.h '#pragma once\n#include "core/kernel/film/film.h"\n'
     put core/session/session.h '#pragma once\n#include "core/session/backend.h"\n'
+    put core/session/learned_field.h '#pragma once\n#include "core/fields/place.h"\n'
+    put core/io/field_file.cpp '#include "core/session/learned_field.h"\n'
     put core/io/load.cpp '#include <tiny_obj_loader.h>\n\n#include "core/scene/description.h"\n'
     put cpu/backend.cpp '#include <embree3/rtcore.h>\n#include <omp.h>\n\n#include "core/session/backend.h"\n'
     put ui/window.cpp '#include <SDL.h>\n#include <imgui.h>\n\n#include "core/session/session.h"\n'

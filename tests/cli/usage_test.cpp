@@ -60,6 +60,7 @@ TEST_CASE("wrong values name the option, what is expected and what was given") {
         {{"--threads", "0"}, "--threads: expected"},
         {{"--volumes", "0"}, "--volumes: expected"},
         {{"--field-budget", "0"}, "--field-budget: expected"},
+        {{"--lookup", "kd-tree"}, "--lookup: expected kdtree or linear, got 'kd-tree' (nearest: 'kdtree')"},
         {{"--seed", "-1"}, "--seed: expected a whole number of at least 0"},
         {{"--seed", "18446744073709551616"}, "--seed: expected"},
     };
@@ -87,13 +88,13 @@ TEST_CASE("the limits of values are values") {
 
 TEST_CASE("what a later version will have is refused by name") {
     for (const std::vector<std::string>& words :
-         std::vector<std::vector<std::string>>{{"--target-error", "0.1"},
-                                               {"--save-field", "f"},
-                                               {"--load-field", "f"},
-                                               {"--bsdf-fraction", "learned"}}) {
+         std::vector<std::vector<std::string>>{{"--target-error", "0.1"}, {"--bsdf-fraction", "learned"}}) {
         CHECK_THAT(complaint(render_with(words)),
                    contains(words.front()) && contains("this version does not have it"));
     }
+    for (const char* word : {"--save-field", "--load-field"})
+        CHECK_THAT(complaint({"view", "s", word, "f"}),
+                   contains(std::string(word) + ": this version does not have it") && contains("'render'"));
     for (const char* command : {"reference", "bench", "compare", "report"})
         CHECK_THAT(complaint({command, "x"}), contains("unknown subcommand '" + std::string(command) + "'"));
 }
@@ -111,6 +112,91 @@ TEST_CASE("views of what was learned need a method that learns") {
     CHECK_THAT(complaint(render_with({"--view", "radiance-map"})), contains("precomputed or reinforcement"));
     CHECK_NOTHROW(parse(render_with({"--view", "radiance-map", "--method", "precomputed"})));
     CHECK_NOTHROW(parse(render_with({"--view", "voronoi"})));
+}
+
+TEST_CASE("only what is learned can be saved") {
+    CHECK_THAT(
+        complaint(render_with({"--save-field", "f"})),
+        contains("--save-field: --method default learns nothing: expected --method precomputed or reinforcement"));
+    CHECK_THAT(
+        complaint(render_with({"--save-field", "f", "--method", "precomputed", "--view", "voronoi"})),
+        contains("--save-field: nothing is learned for --view voronoi: expected --view beauty or radiance-map"));
+    for (const char* view : {"beauty", "radiance-map"})
+        CHECK(parse(render_with({"--save-field", "f", "--method", "reinforcement", "--view", view})).save_field ==
+              "f");
+    CHECK(parse({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--save-field", "f"}).save_field == "f");
+}
+
+namespace {
+
+Options parse_with_field(const std::vector<std::string>& arguments, const LearnedField& field,
+                         const SceneDescription& scene = plain_scene()) {
+    return resolve_options(parse_command_line(arguments), scene, &field);
+}
+
+std::vector<std::string> loading(const std::vector<std::string>& words) {
+    std::vector<std::string> arguments = render_with({"--load-field", "my.field"});
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    return arguments;
+}
+
+std::string complaint_with_field(const std::vector<std::string>& words, const LearnedField& field) {
+    try {
+        parse_with_field(loading(words), field);
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::Usage);
+        return error.what();
+    }
+    return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("a loaded field brings its method and settings") {
+    LearnedField field;
+    field.method = MethodId::Precomputed;
+    field.settings = {.volumes = 70, .bins = 64, .lookup = Lookup::Linear};
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"method", "reinforcement"}, {"volumes", "5"}, {"bins", "16"}, {"seed", "9"}};
+    const Options options = parse_with_field(loading({}), field, scene);
+    CHECK(options.render.method == MethodId::Precomputed);
+    CHECK((options.render.field == field.settings));
+    CHECK(options.render.seed == 9);
+    // Inspection does not need to be told the method either.
+    CHECK(parse_with_field({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--load-field", "f"}, field)
+              .render.method == MethodId::Precomputed);
+    // The command in the picture loads it again, and says nothing that contradicts it.
+    const std::string command = command_text(options, scene_defaults("s", scene));
+    CHECK_THAT(command, contains("--load-field my.field") && contains("--bins 64") && contains("--volumes 70"));
+}
+
+TEST_CASE("what is given beside a loaded field has to agree with it, but for the lookup") {
+    LearnedField field;
+    field.method = MethodId::Precomputed;
+    field.settings.bins = 64;
+    CHECK_NOTHROW(
+        parse_with_field(loading({"--bins", "64", "--method", "precomputed", "--field-budget", "16"}), field));
+    CHECK_NOTHROW(parse_with_field(loading({"--seed", "5", "--nee", "on", "--bsdf-fraction", "0.7"}), field));
+    struct Wrong {
+        std::vector<std::string> words;
+        std::string message;
+    };
+    const std::vector<Wrong> wrongs{
+        {{"--bins", "256"}, "--bins 256: the field in my.field was learned with --bins 64"},
+        {{"--volumes", "9"}, "--volumes 9: the field in my.field was learned without --volumes"},
+        {{"--field-budget", "1"}, "--field-budget 1: the field in my.field was learned with --field-budget 16"},
+        {{"--method", "reinforcement"},
+         "--method reinforcement: the field in my.field was learned with --method prec"},
+        {{"--method", "default"}, "--method default: the field in my.field was learned with --method precomputed"},
+    };
+    for (const Wrong& wrong : wrongs) {
+        CAPTURE(wrong.words);
+        CHECK_THAT(complaint_with_field(wrong.words, field), contains(wrong.message));
+    }
+    CHECK(parse_with_field(loading({}), field).render.field.lookup == Lookup::KdTree);
+    CHECK(parse_with_field(loading({"--lookup", "linear"}), field).render.field.lookup == Lookup::Linear);
+    field.settings.lookup = Lookup::Linear;
+    CHECK(parse_with_field(loading({"--lookup", "kdtree"}), field).render.field.lookup == Lookup::KdTree);
 }
 
 TEST_CASE("inspection is about a method that learns") {
