@@ -1,4 +1,66 @@
-# This version has no CUDA back end. PL_CUDA is read all the same, so that presets and scripts stay valid.
-if(NOT PL_CUDA MATCHES "^(AUTO|OFF)$")
-    message(FATAL_ERROR "PL_CUDA: expected AUTO or OFF, got '${PL_CUDA}'")
+# Is there a CUDA compiler that works? Sets PL_CUDA_BUILT, else PL_CUDA_MISSING to the reason in words. With
+# PL_CUDA=ON a missing one is an error. CMAKE_CUDA_ARCHITECTURES defaults to all major ones.
+set(PL_CUDA_BUILT OFF)
+set(PL_CUDA_MISSING "")
+if(NOT PL_CUDA MATCHES "^(AUTO|ON|OFF)$")
+    message(FATAL_ERROR "PL_CUDA: expected AUTO, ON or OFF, got '${PL_CUDA}'")
+endif()
+
+if(PL_CUDA STREQUAL "OFF")
+    set(PL_CUDA_MISSING "configured with PL_CUDA=OFF")
+elseif(PL_SANITIZE)
+    # Sanitizers do not know the device; the tests run the same sources on the host instead.
+    set(PL_CUDA_MISSING "a build with sanitizers")
+else()
+    # Found by name, not by CMAKE_CUDA_COMPILER: that would skip the check whether it works.
+    if(NOT CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX})
+        find_program(PL_NVCC nvcc HINTS ENV CUDA_PATH ENV CUDA_HOME PATHS /usr/local/cuda /opt/cuda /usr/lib/cuda
+            PATH_SUFFIXES bin)
+        mark_as_advanced(PL_NVCC)
+        if(PL_NVCC)
+            set(ENV{CUDACXX} "${PL_NVCC}")
+        endif()
+    endif()
+    if(CMAKE_CUDA_COMPILER OR DEFINED ENV{CUDACXX})
+        include(CheckLanguage)
+        check_language(CUDA)
+        if(NOT CMAKE_CUDA_COMPILER)
+            set(PL_CUDA_MISSING "nvcc was found but does not work with this C++ compiler")
+        endif()
+    else()
+        set(PL_CUDA_MISSING "no nvcc was found")
+    endif()
+    if(CMAKE_CUDA_COMPILER)
+        if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+            set(CMAKE_CUDA_ARCHITECTURES all-major CACHE STRING "GPU architectures")
+        endif()
+        enable_language(CUDA)
+        if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 12.0)
+            set(PL_CUDA_MISSING "nvcc ${CMAKE_CUDA_COMPILER_VERSION} is older than 12.0")
+        else()
+            find_package(CUDAToolkit REQUIRED)
+            set(PL_CUDA_BUILT ON)
+        endif()
+    endif()
+endif()
+if(PL_CUDA STREQUAL "ON" AND NOT PL_CUDA_BUILT)
+    message(FATAL_ERROR "PL_CUDA=ON, but ${PL_CUDA_MISSING}")
+endif()
+
+if(PL_CUDA_BUILT)
+    # CMake 3.25.0 and 3.25.1 do not know how nvcc is told the standard.
+    if(NOT DEFINED CMAKE_CUDA20_STANDARD_COMPILE_OPTION)
+        set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION "-std=c++20")
+        set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION "-std=c++20")
+    endif()
+    set(CMAKE_CUDA_STANDARD 20)
+    set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+    set(CMAKE_CUDA_FLAGS_RELEASE "-O3 -DNDEBUG")
+    # No contraction, as on the host: -fmad=false makes every operation round for itself. 20012: annotations on
+    # defaulted functions, in GLM. 445: a template argument that only the body of a lambda uses.
+    set(PL_CUDA_FLAGS -fmad=false --expt-relaxed-constexpr -diag-suppress=20012,445 -Xcompiler=-Wall,-Wextra,-ffp-contract=off)
+    add_library(pl_cuda_options INTERFACE)
+    target_compile_options(pl_cuda_options INTERFACE
+        "$<$<COMPILE_LANGUAGE:CUDA>:${PL_CUDA_FLAGS}>"
+        "$<$<AND:$<COMPILE_LANGUAGE:CUDA>,$<BOOL:${PL_WERROR}>>:-Werror=all-warnings>")
 endif()

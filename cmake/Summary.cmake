@@ -1,8 +1,8 @@
 # What this build has, one line each, at a level that survives --log-level=NOTICE.
-if(PL_CUDA STREQUAL "OFF")
-    message(NOTICE "   CUDA: switched off, CPU only")
+if(PL_CUDA_BUILT)
+    message(NOTICE "   CUDA: yes (nvcc ${CMAKE_CUDA_COMPILER_VERSION}, architectures: ${CMAKE_CUDA_ARCHITECTURES})")
 else()
-    message(NOTICE "   CUDA: no back end in this version, CPU only")
+    message(NOTICE "   CUDA: no, CPU only (${PL_CUDA_MISSING})")
 endif()
 if(PL_VIEWER)
     message(NOTICE " viewer: yes (SDL ${SDL2_VERSION}, Dear ImGui ${PL_IMGUI_VERSION})")

@@ -4,10 +4,8 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/error.h"
-#include "core/scene/needed_effects.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/device_name.h"
 #include "cpu/film_store.h"
@@ -18,7 +16,7 @@
 namespace pl {
 namespace {
 
-const KernelRow<PicturePass>& picture_kernels(MethodId method) {
+const PassKernels<PicturePass>& picture_kernels(MethodId method) {
     switch (method) {
     case MethodId::Default: return kDefaultKernels;
     case MethodId::Precomputed: return kPrecomputedKernels;
@@ -98,9 +96,7 @@ public:
     }
 
     std::string kernel_name(MethodId method, View view, FeatureSet needed) const override {
-        const std::vector<std::string> effects = effect_names(kCompiledSets[covering_set(needed)]);
-        return fmt::format("cpu/{}/{}", view == View::Beauty ? info_of(method).name : info_of(view).name,
-                           effects.empty() ? "base" : fmt::format("{}", fmt::join(effects, "+")));
+        return kernel_name_of("cpu", method, view, needed);
     }
 
 private:
@@ -128,8 +124,7 @@ private:
     /// What the views of a field show. Default path tracing learns nothing: it shows what Reinforcement learned.
     FieldView shown_field(const FilmSlot& slot) {
         const ViewInfo& view = info_of(slot.view);
-        if (view.needs_tables)
-            return learned_field(info_of(slot.method).uses_field ? slot.method : MethodId::Reinforcement);
+        if (view.needs_tables) return learned_field(table_owner(slot.method));
         if (!view.needs_volumes) return {};
         if (!volumes_) throw Error(ErrorKind::Runtime, "CPU back end: expected volumes, got none");
         HostTables none;

@@ -1,7 +1,6 @@
 #include "cpu/film_store.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -15,11 +14,6 @@ namespace {
 constexpr std::uint32_t kPixelChunk = 1u << 14;
 
 std::size_t index_of(FilmSlot slot) { return static_cast<std::size_t>(slot.index()); }
-
-Vec3f mean_or_nan(const FilmPixel& pixel) {
-    const bool all_invalid = pixel.samples == 0 && pixel.invalid > 0;
-    return all_invalid ? Vec3f{std::nanf("")} : mean_radiance(pixel);
-}
 
 }  // namespace
 

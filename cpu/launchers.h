@@ -1,11 +1,9 @@
-// Tables of compiled kernels: one column per set of effects, filled in methods/*.cpp so that builds run in parallel.
+// What kernels are called with, and the tables of compiled ones, filled in methods/*.cpp so that builds run in parallel.
 #pragma once
 
-#include <array>
 #include <type_traits>
-#include <utility>
 
-#include "core/base/error.h"
+#include "core/base/kernel_row.h"
 #include "core/kernel/methods/default.h"
 #include "core/kernel/methods/precomputed.h"
 #include "core/kernel/methods/reinforcement.h"
@@ -35,14 +33,14 @@ struct ProbePass {
     std::uint32_t strata_side = 1;
 };
 
-/// One kernel per entry of kCompiledSets.
+/// One kernel per compiled set of effects.
 template <class Pass>
-using KernelRow = std::array<PassCounters (*)(const Pass&), kCompiledSetCount>;
+using PassKernels = KernelRow<PassCounters (*)(const Pass&)>;
 
-extern const KernelRow<PicturePass> kDefaultKernels;
-extern const KernelRow<PicturePass> kPrecomputedKernels;
-extern const KernelRow<PicturePass> kReinforcementKernels;
-extern const KernelRow<ProbePass> kProbeKernels;
+extern const PassKernels<PicturePass> kDefaultKernels;
+extern const PassKernels<PicturePass> kPrecomputedKernels;
+extern const PassKernels<PicturePass> kReinforcementKernels;
+extern const PassKernels<ProbePass> kProbeKernels;
 
 template <FeatureSet F, Method M>
 PassCounters run_picture_pass(const PicturePass& pass) {
@@ -55,31 +53,15 @@ PassCounters run_picture_pass(const PicturePass& pass) {
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }
 
-/// The row of what kernel.operator()<F>() returns for every compiled set F.
-template <class Pass, class Kernel>
-constexpr KernelRow<Pass> make_kernel_row(Kernel kernel) {
-    return [&]<std::size_t... I>(std::index_sequence<I...>) {
-        return KernelRow<Pass>{kernel.template operator()<kCompiledSets[I]>()...};
-    }
-    (std::make_index_sequence<kCompiledSetCount>{});
-}
-
 template <Method M>
-constexpr KernelRow<PicturePass> make_picture_kernels() {
-    return make_kernel_row<PicturePass>([]<FeatureSet F>() { return run_picture_pass<F, M>; });
-}
-
-/// The set that serves the needed effects: the smallest compiled one that covers them.
-inline std::size_t covering_set(FeatureSet needed) {
-    const int set = smallest_superset(needed);
-    if (!kCompiledSets[set].covers(needed))
-        throw Error(ErrorKind::Runtime, "no kernel is compiled for the effects that the scene needs");
-    return static_cast<std::size_t>(set);
+constexpr PassKernels<PicturePass> make_picture_kernels() {
+    return make_kernel_row<PassCounters (*)(const PicturePass&)>(
+        []<FeatureSet F>() { return run_picture_pass<F, M>; });
 }
 
 /// The kernel that serves the needed effects.
 template <class Pass>
-PassCounters launch(const KernelRow<Pass>& row, FeatureSet needed, const Pass& pass) {
+PassCounters launch(const PassKernels<Pass>& row, FeatureSet needed, const Pass& pass) {
     return row[covering_set(needed)](pass);
 }
 

@@ -117,11 +117,7 @@ private:
         }
     }
 
-    void finish(const PathState<M>& state) {
-        ++counters_.paths;
-        counters_.zero_contribution_paths += is_black(state.radiance) ? 1u : 0u;
-        counters_.invalid_samples += work_.finish(state) ? 0u : 1u;
-    }
+    void finish(const PathState<M>& state) { count_path(counters_, state.radiance, work_.finish(state)); }
 
     const PassSetup& setup_;
     const I& intersector_;

@@ -27,7 +27,7 @@ PassCounters run_view_pass(const ViewPass& pass) {
 
 }  // namespace
 
-constinit const KernelRow<ViewPass> kViewKernels =
-    make_kernel_row<ViewPass>([]<FeatureSet F>() { return run_view_pass<F>; });
+constinit const PassKernels<ViewPass> kViewKernels =
+    make_kernel_row<PassCounters (*)(const ViewPass&)>([]<FeatureSet F>() { return run_view_pass<F>; });
 
 }  // namespace pl

@@ -16,6 +16,6 @@ struct ViewPass {
     FilmView film;
 };
 
-extern const KernelRow<ViewPass> kViewKernels;
+extern const PassKernels<ViewPass> kViewKernels;
 
 }  // namespace pl

@@ -1,13 +1,48 @@
 #include "cuda/availability.h"
 
+#include <cuda_runtime.h>
+#include <fmt/format.h>
+
+#include "cuda/kernels/kernels.h"
+#include "cuda/runtime/check.h"
+
 namespace pl {
+namespace {
+
+/// Number of devices, or why there are none.
+cudaError_t count_devices(int& count) {
+    count = 0;  // left untouched on failure
+    const cudaError_t code = cudaGetDeviceCount(&count);
+    (void)cudaGetLastError();
+    return code;
+}
+
+}  // namespace
 
 std::string cuda_unavailable_reason() {
-    if constexpr (PL_CUDA_SWITCHED_OFF) {
-        return "not built: configured with PL_CUDA=OFF";
-    } else {
-        return "not built: this version has no CUDA back end";
+    int count = 0;
+    const cudaError_t code = count_devices(count);
+    if (code == cudaErrorInsufficientDriver) return "no NVIDIA driver, or one older than this build's CUDA";
+    if (code == cudaErrorNoDevice || (code == cudaSuccess && count == 0)) return "the driver shows no device";
+    if (code != cudaSuccess) return fmt::format("{} ({})", cudaGetErrorString(code), cudaGetErrorName(code));
+    cudaFuncAttributes attributes;
+    const cudaError_t kernel = cudaFuncGetAttributes(&attributes, reinterpret_cast<const void*>(cuda::kAddSamples));
+    (void)cudaGetLastError();
+    if (kernel == cudaSuccess) return "";
+    return fmt::format("this build has no code for the first device: {} ({})", cudaGetErrorString(kernel),
+                       cudaGetErrorName(kernel));
+}
+
+std::vector<CudaDevice> cuda_devices() {
+    int count = 0;
+    if (count_devices(count) != cudaSuccess) return {};
+    std::vector<CudaDevice> devices;
+    for (int i = 0; i < count; ++i) {
+        cudaDeviceProp properties;
+        cuda::check(cudaGetDeviceProperties(&properties, i), "asking for a device's properties");
+        devices.push_back({properties.name, properties.totalGlobalMem, properties.major, properties.minor});
     }
+    return devices;
 }
 
 }  // namespace pl

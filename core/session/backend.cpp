@@ -1,20 +1,17 @@
 #include "core/session/backend.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/kernel_row.h"
+#include "core/scene/needed_effects.h"
+
 namespace pl {
 
-PassCounters& PassCounters::operator+=(const PassCounters& other) {
-    path.segments += other.path.segments;
-    path.shadow_rays += other.path.shadow_rays;
-    path.escaped += other.path.escaped;
-    path.truncated += other.path.truncated;
-    path.zero_directions += other.path.zero_directions;
-    path.method.records += other.path.method.records;
-    path.method.lookups += other.path.method.lookups;
-    path.method.lookup_misses += other.path.method.lookup_misses;
-    paths += other.paths;
-    zero_contribution_paths += other.zero_contribution_paths;
-    invalid_samples += other.invalid_samples;
-    return *this;
+std::string kernel_name_of(std::string_view backend, MethodId method, View view, FeatureSet needed) {
+    const std::vector<std::string> effects = effect_names(kCompiledSets[covering_set(needed)]);
+    return fmt::format("{}/{}/{}", backend, view == View::Beauty ? info_of(method).name : info_of(view).name,
+                       effects.empty() ? "base" : fmt::format("{}", fmt::join(effects, "+")));
 }
 
 }  // namespace pl

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/fields/field_storage.h"
@@ -31,16 +32,6 @@ struct BackendInfo {
     std::string device;       ///< what it runs on
     std::string intersector;  ///< how rays find triangles in the uploaded scene
     int threads = 0;
-};
-
-/// Events of one pass. Integer sums: equal for every thread count.
-struct PassCounters {
-    PathCounters path;
-    std::uint64_t paths = 0;  ///< started (and finished): pixels of a picture pass, probes of a precomputation
-    std::uint64_t zero_contribution_paths = 0;
-    std::uint64_t invalid_samples = 0;
-
-    PassCounters& operator+=(const PassCounters& other);
 };
 
 /// Asks a running pass to start no further paths. Those under way are finished, because dropping them would drop
@@ -108,5 +99,8 @@ public:
     /// Name of the kernel that serves a request, as shown to people: "reinforcement/next-event-estimation".
     virtual std::string kernel_name(MethodId method, View view, FeatureSet needed) const = 0;
 };
+
+/// "cpu/reinforcement/next-event-estimation": what runs for a request, as shown to people.
+std::string kernel_name_of(std::string_view backend, MethodId method, View view, FeatureSet needed);
 
 }  // namespace pl

@@ -32,6 +32,7 @@ std::span<const MethodInfo> all_methods() { return kMethods; }
 std::span<const ViewInfo> all_views() { return kViews; }
 
 const MethodInfo& info_of(MethodId id) { return kMethods[static_cast<std::size_t>(id)]; }
+MethodId table_owner(MethodId method) { return info_of(method).uses_field ? method : MethodId::Reinforcement; }
 const ViewInfo& info_of(View id) { return kViews[static_cast<std::size_t>(id)]; }
 
 std::optional<MethodId> method_by_name(std::string_view name) {

@@ -33,6 +33,8 @@ struct ViewInfo {
 std::span<const MethodInfo> all_methods();
 std::span<const ViewInfo> all_views();
 const MethodInfo& info_of(MethodId id);
+/// The method whose tables the views of a field show: default path tracing learns nothing, it shows Reinforcement's.
+MethodId table_owner(MethodId method);
 const ViewInfo& info_of(View id);
 std::optional<MethodId> method_by_name(std::string_view name);
 std::optional<View> view_by_name(std::string_view name);

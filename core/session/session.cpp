@@ -54,9 +54,6 @@ bool fits_together(const LearnedField& field) {
 
 bool is_power_of_two(std::uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 
-/// The method whose tables the field views show: default path tracing has none of its own.
-MethodId table_owner(MethodId method) { return info_of(method).uses_field ? method : MethodId::Reinforcement; }
-
 }  // namespace
 
 Session::Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
@@ -202,13 +199,15 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
         backend_->reset_film(target, settings_.width, settings_.height);
 
     const Stopwatch watch;
+    // Never numbers that the tables were learned from: paths would meet again what they taught, and weigh it too low.
+    const bool learns = target.view == View::Beauty && info_of(target.method).learns;
     const PassCounters counters =
         backend_->run_pass({.slot = target,
                             .features = needed_features(),
                             .path = path_settings(),
                             .camera = make_camera(settings_.camera, settings_.width, settings_.height),
                             .bsdf_fraction = settings_.bsdf_fraction,
-                            .sample = state.passes,
+                            .sample = learns ? static_cast<std::uint32_t>(field().passes) : state.passes,
                             .first_pixel = state.next_pixel,
                             .stop = stop});
     state.render_seconds += watch.seconds();

@@ -11,8 +11,8 @@ PassCounters run_probe_pass(const ProbePass& pass) {
 
 }  // namespace
 
-constinit const KernelRow<PicturePass> kDefaultKernels = make_picture_kernels<DefaultMethod>();
-constinit const KernelRow<ProbePass> kProbeKernels =
-    make_kernel_row<ProbePass>([]<FeatureSet F>() { return run_probe_pass<F>; });
+constinit const PassKernels<PicturePass> kDefaultKernels = make_picture_kernels<DefaultMethod>();
+constinit const PassKernels<ProbePass> kProbeKernels =
+    make_kernel_row<PassCounters (*)(const ProbePass&)>([]<FeatureSet F>() { return run_probe_pass<F>; });
 
 }  // namespace pl

@@ -2,6 +2,6 @@
 
 namespace pl {
 
-constinit const KernelRow<PicturePass> kPrecomputedKernels = make_picture_kernels<PrecomputedMethod>();
+constinit const PassKernels<PicturePass> kPrecomputedKernels = make_picture_kernels<PrecomputedMethod>();
 
 }  // namespace pl

@@ -2,6 +2,6 @@
 
 namespace pl {
 
-constinit const KernelRow<PicturePass> kReinforcementKernels = make_picture_kernels<ReinforcementMethod>();
+constinit const PassKernels<PicturePass> kReinforcementKernels = make_picture_kernels<ReinforcementMethod>();
 
 }  // namespace pl

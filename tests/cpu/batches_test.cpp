@@ -40,13 +40,6 @@ bool same(const Outcome& a, const Outcome& b) {
            same_bits(a.tables.row_cdf, b.tables.row_cdf);
 }
 
-/// What a path counts for, besides what its steps count.
-void count_path(PassCounters& counters, Vec3f radiance, bool valid) {
-    ++counters.paths;
-    counters.zero_contribution_paths += is_black(radiance) ? 1u : 0u;
-    counters.invalid_samples += valid ? 0u : 1u;
-}
-
 constexpr std::uint32_t kPasses = 3;
 
 PathSettings path_settings(bool next_event) { return {.seed = 77, .next_event = next_event ? 1u : 0u}; }

@@ -21,6 +21,7 @@ inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr float kInvPi = 0.31830988618379067154f;
 inline constexpr float kPiOver4 = 0.78539816339744830961f;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// Unit roundoff of float: half the gap between 1 and the next float.
 inline constexpr float kRoundoff = 0x1p-24f;

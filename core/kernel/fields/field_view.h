@@ -60,8 +60,8 @@ PL_HD inline float from_fixed_point(std::int64_t sum, std::uint32_t count, float
 /// Adds one observation of the radiance that arrives at a volume through a cell. Any thread, any order.
 PL_HD inline void record(const FieldView& field, std::int32_t volume, int cell, float radiance) {
     const std::uint32_t index = field.cell_index(volume, cell);
-    atomic_add(field.pending_sum[index], to_fixed_point(radiance, field.radiance_unit));
-    atomic_add(field.pending_count[index], 1u);
+    atomic_add_counted(field.pending_sum[index], to_fixed_point(radiance, field.radiance_unit),
+                       field.pending_count[index]);
 }
 
 }  // namespace pl

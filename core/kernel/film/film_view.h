@@ -40,4 +40,10 @@ PL_HD inline Vec3f mean_radiance(const FilmPixel& pixel) {
     return Vec3f{pixel.sum * (1.0 / static_cast<double>(pixel.samples))};
 }
 
+/// The same, but NaN where every sample was invalid, so that it shows.
+PL_HD inline Vec3f mean_or_nan(const FilmPixel& pixel) {
+    const bool all_invalid = pixel.samples == 0 && pixel.invalid > 0;
+    return all_invalid ? Vec3f{kNan} : mean_radiance(pixel);
+}
+
 }  // namespace pl

@@ -52,4 +52,40 @@ struct PathCounters {
     MethodCounters method;
 };
 
+/// Events of one pass. Equal for every thread count and launch shape.
+struct PassCounters {
+    PathCounters path;
+    std::uint64_t paths = 0;  ///< started (and finished): pixels of a picture pass, probes of a precomputation
+    std::uint64_t zero_contribution_paths = 0;
+    std::uint64_t invalid_samples = 0;
+};
+
+/// Calls add(total, count) for every counter: the one list that sums go by.
+template <class Add>
+PL_HD inline void add_counters(PassCounters& totals, const PassCounters& counts, Add&& add) {
+    add(totals.path.segments, counts.path.segments);
+    add(totals.path.shadow_rays, counts.path.shadow_rays);
+    add(totals.path.escaped, counts.path.escaped);
+    add(totals.path.truncated, counts.path.truncated);
+    add(totals.path.zero_directions, counts.path.zero_directions);
+    add(totals.path.method.records, counts.path.method.records);
+    add(totals.path.method.lookups, counts.path.method.lookups);
+    add(totals.path.method.lookup_misses, counts.path.method.lookup_misses);
+    add(totals.paths, counts.paths);
+    add(totals.zero_contribution_paths, counts.zero_contribution_paths);
+    add(totals.invalid_samples, counts.invalid_samples);
+}
+
+inline PassCounters& operator+=(PassCounters& totals, const PassCounters& counts) {
+    add_counters(totals, counts, [](std::uint64_t& total, std::uint64_t count) { total += count; });
+    return totals;
+}
+
+/// A path has ended: counts it and whether it brought anything.
+PL_HD inline void count_path(PassCounters& counters, Vec3f radiance, bool valid) {
+    ++counters.paths;
+    counters.zero_contribution_paths += is_black(radiance) ? 1u : 0u;
+    counters.invalid_samples += valid ? 0u : 1u;
+}
+
 }  // namespace pl

@@ -6,20 +6,29 @@
 
 namespace pl {
 
+/// One segment of a path, with the shadow ray at its end.
 template <FeatureSet F, Method M, Intersector I>
-PL_HD inline void trace_path(const SceneView& scene, const I& intersector, const M& method,
-                             const PathSettings& settings, PathState<M>& state, PathCounters& counters) {
-    PathStatus status = PathStatus::Continues;
-    while (status == PathStatus::Continues) {
-        const Hit hit = intersector.closest_hit(state.ray);
-        const VertexNumbers numbers = draw_vertex_numbers<F>(settings, state);
-        ShadowRequest shadow;
-        status = extend_path<F>(scene, method, settings, hit, numbers, state, shadow, counters);
+PL_HD inline PathStatus trace_segment(const SceneView& scene, const I& intersector, const M& method,
+                                      const PathSettings& settings, PathState<M>& state, PathCounters& counters) {
+    const Hit hit = intersector.closest_hit(state.ray);
+    const VertexNumbers numbers = draw_vertex_numbers<F>(settings, state);
+    ShadowRequest shadow;
+    const PathStatus status = extend_path<F>(scene, method, settings, hit, numbers, state, shadow, counters);
+    if constexpr (F.has(Feature::NextEventEstimation)) {
         if (shadow.wanted) {
             ++counters.shadow_rays;
             if (!intersector.occluded(shadow.ray)) connect_light(shadow, state);
         }
     }
+    return status;
+}
+
+template <FeatureSet F, Method M, Intersector I>
+PL_HD inline void trace_path(const SceneView& scene, const I& intersector, const M& method,
+                             const PathSettings& settings, PathState<M>& state, PathCounters& counters) {
+    PathStatus status = PathStatus::Continues;
+    while (status == PathStatus::Continues)
+        status = trace_segment<F>(scene, intersector, method, settings, state, counters);
 }
 
 }  // namespace pl

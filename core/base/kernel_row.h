@@ -1,0 +1,33 @@
+// Tables of compiled kernels: one entry per set of effects. Back ends fill one row per method.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/kernel/base/features.h"
+
+namespace pl {
+
+/// One kernel per entry of kCompiledSets.
+template <class Kernel>
+using KernelRow = std::array<Kernel, kCompiledSetCount>;
+
+/// The row of what choose.operator()<F>() returns for every compiled set F.
+template <class Kernel, class Choose>
+constexpr KernelRow<Kernel> make_kernel_row(Choose choose) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+        return KernelRow<Kernel>{choose.template operator()<kCompiledSets[I]>()...};
+    }
+    (std::make_index_sequence<kCompiledSetCount>{});
+}
+
+/// The set that serves the needed effects: the smallest compiled one that covers them.
+inline std::size_t covering_set(FeatureSet needed) {
+    const int set = smallest_superset(needed);
+    if (!kCompiledSets[set].covers(needed))
+        throw Error(ErrorKind::Runtime, "no kernel is compiled for the effects that the scene needs");
+    return static_cast<std::size_t>(set);
+}
+
+}  // namespace pl

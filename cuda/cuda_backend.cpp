@@ -1,0 +1,245 @@
+#include "cuda/cuda_backend.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cuda/availability.h"
+#include "cuda/device_films.h"
+#include "cuda/launch_size.h"
+#include "cuda/runtime/launch.h"
+
+namespace pl::cuda {
+namespace {
+
+using DeviceScene = SceneStorage<DeviceArray>;
+using DeviceVolumes = VolumeStorage<DeviceArray>;
+using DeviceTables = TableStorage<DeviceArray>;
+
+int processors_of_device() {
+    int count = 0;
+    check(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, 0), "asking for the number of processors");
+    return count;
+}
+
+class CudaBackend final : public RenderBackend {
+public:
+    CudaBackend() : device_(cuda_devices().at(0)), processors_(processors_of_device()) {}
+
+    BackendInfo info() const override {
+        return {.name = "cuda", .device = device_.name, .intersector = scene_ ? "bvh" : "none", .threads = 0};
+    }
+
+    void upload_scene(std::shared_ptr<const HostScene> scene) override {
+        scene_.reset();
+        DeviceScene uploaded;
+        zip(*scene, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });
+        stream_.wait("uploading a scene");
+        scene_ = std::move(uploaded);
+    }
+
+    void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
+        tables_ = {};
+        volumes_ = {};
+        zip(*volumes, volumes_, [&](const auto& from, auto& to) { to.upload(from, stream_); });
+        stream_.wait("uploading radiance volumes");
+        shape_ = shape;
+    }
+
+    void upload_tables(MethodId method, HostTables tables) override {
+        if (volumes_.normals.size() == 0)
+            throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
+        DeviceTables uploaded;
+        zip(tables, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });
+        stream_.wait("uploading tables");
+        tables_[index_of(method)] = std::move(uploaded);
+    }
+    HostTables download_tables(MethodId method) const override {
+        HostTables tables;
+        if (!has_tables(method)) return tables;
+        zip(*tables_[index_of(method)], tables, [&](const auto& from, auto& to) { from.download(to, stream_); });
+        stream_.wait("downloading tables");
+        return tables;
+    }
+    bool has_tables(MethodId method) const override { return tables_[index_of(method)].has_value(); }
+
+    void reset_film(FilmSlot slot, int width, int height) override { films_.reset(slot, width, height, stream_); }
+    FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, stream_); }
+
+    PassCounters run_pass(const PassRequest& request) override;
+    PassCounters precompute(const PrecomputeRequest& request) override;
+    void publish(MethodId method) override;
+
+    std::string kernel_name(MethodId method, View view, FeatureSet needed) const override {
+        return kernel_name_of("cuda", method, view, needed);
+    }
+
+private:
+    static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }
+
+    const DeviceScene& existing_scene() const {
+        if (!scene_) throw Error(ErrorKind::Runtime, "CUDA back end: expected a scene, got none");
+        return *scene_;
+    }
+    DeviceTables& existing_tables(MethodId method) {
+        std::optional<DeviceTables>& tables = tables_[index_of(method)];
+        if (!tables)
+            throw Error(ErrorKind::Runtime,
+                        fmt::format("CUDA back end: expected tables of '{}', got none", info_of(method).name));
+        return *tables;
+    }
+    FieldView learned_field(MethodId method) { return field_view(shape_, volumes_, existing_tables(method)); }
+    FieldView shown_field(const FilmSlot& slot);
+
+    /// Runs launch_range(first, end) over first..end until all is done or `stop` is seen between two launches.
+    template <class LaunchRange>
+    PassCounters run_launches(LaunchSize& size, std::uint32_t first, std::uint32_t end, const StopFlag* stop,
+                              LaunchRange&& launch_range);
+
+    template <class M, class Paths>
+    void launch_paths(const KernelRow<void (*)(TraceSetup, M, Paths)>& row, FeatureSet needed,
+                      const PathSettings& path, PathRange range, const M& method, const Paths& paths);
+    void launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels);
+    void launch_view(const PassRequest& request, const PixelPaths& pixels);
+
+    CudaDevice device_;
+    int processors_ = 1;
+    Stream stream_;
+    Event launched_;
+    Event finished_;
+    std::optional<DeviceScene> scene_;
+    DeviceVolumes volumes_;
+    FieldShape shape_;
+    std::array<std::optional<DeviceTables>, kMethodCount> tables_;
+    DeviceFilms films_;
+    DeviceArray<Vec3f> samples_;  ///< what the paths of one launch bring
+    DeviceArray<std::uint32_t> claimed_{1};
+    DeviceArray<PassCounters> counters_{1};
+    PinnedMemory read_counters_{sizeof(PassCounters)};
+    std::array<LaunchSize, FilmSlot::kCount> picture_sizes_;
+    LaunchSize probe_size_;
+};
+
+template <class LaunchRange>
+PassCounters CudaBackend::run_launches(LaunchSize& size, std::uint32_t first, std::uint32_t end, const StopFlag* stop,
+                                       LaunchRange&& launch_range) {
+    PassCounters total;
+    while (first < end && !(stop != nullptr && *stop)) {
+        const std::uint32_t count = size.next(end - first);
+        counters_.clear(stream_);
+        launched_.record(stream_);
+        launch_range(PathRange{first, first + count});
+        finished_.record(stream_);
+        copy_to_host(read_counters_.data(), counters_.data(), sizeof(PassCounters), stream_);
+        stream_.wait("tracing paths");
+        total += *static_cast<const PassCounters*>(read_counters_.data());
+        size.observe(count, finished_.milliseconds_since(launched_));
+        first += count;
+    }
+    return total;
+}
+
+template <class M, class Paths>
+void CudaBackend::launch_paths(const KernelRow<void (*)(TraceSetup, M, Paths)>& row, FeatureSet needed,
+                               const PathSettings& path, PathRange range, const M& method, const Paths& paths) {
+    const auto kernel = row[covering_set(needed)];
+    claimed_.clear(stream_);
+    const TraceSetup setup{.scene = existing_scene().view(),
+                           .path = path,
+                           .range = range,
+                           .claimed = claimed_.data(),
+                           .counters = counters_.data()};
+    const std::uint32_t blocks = std::min(resident_blocks(kernel, processors_), blocks_for(range.end - range.first));
+    launch(kernel, blocks, stream_, "trace_paths", setup, method, paths);
+}
+
+void CudaBackend::launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels) {
+    const auto guided = [&](const auto& row, auto method) {
+        method.field = learned_field(request.slot.method);
+        method.bsdf_fraction = request.bsdf_fraction;
+        launch_paths(row, request.features, request.path, range, method, pixels);
+    };
+    switch (request.slot.method) {
+    case MethodId::Default:
+        launch_paths(kDefaultKernels, request.features, request.path, range, DefaultMethod{}, pixels);
+        break;
+    case MethodId::Precomputed: guided(kPrecomputedKernels, PrecomputedMethod{}); break;
+    case MethodId::Reinforcement: guided(kReinforcementKernels, ReinforcementMethod{}); break;
+    }
+}
+
+void CudaBackend::launch_view(const PassRequest& request, const PixelPaths& pixels) {
+    launch(kViewKernels[covering_set(request.features)], blocks_for(pixels.radiance.count), stream_, "show_view",
+           ViewSetup{.scene = existing_scene().view(),
+                     .path = request.path,
+                     .field = shown_field(request.slot),
+                     .view = request.slot.view,
+                     .pixels = pixels,
+                     .counters = counters_.data()});
+}
+
+PassCounters CudaBackend::run_pass(const PassRequest& request) {
+    const FilmView film = films_.view(request.slot);
+    LaunchSize& size = picture_sizes_[static_cast<std::size_t>(request.slot.index())];
+    return run_launches(size, request.first_pixel, film.pixels.count, request.stop, [&](PathRange range) {
+        const std::uint32_t count = range.end - range.first;
+        if (samples_.size() < count) samples_ = DeviceArray<Vec3f>(count);
+        const PixelPaths pixels{.camera = request.camera,
+                                .width = film.width,
+                                .height = film.height,
+                                .sample = request.sample,
+                                .first = range.first,
+                                .radiance = {samples_.data(), count}};
+        if (request.slot.view == View::Beauty)
+            launch_picture(request, range, pixels);
+        else
+            launch_view(request, pixels);
+        launch(kAddSamples, blocks_for(count), stream_, "add_samples", film, pixels.radiance, range.first);
+    });
+}
+
+PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
+    const FieldView field = learned_field(request.method);
+    const std::uint32_t probes = field.normals.count * static_cast<std::uint32_t>(field.cells.count());
+    const ProbePaths paths{.field = field, .sample = request.sample, .strata_side = request.strata_side};
+    return run_launches(probe_size_, request.first_probe, probes, request.stop, [&](PathRange range) {
+        launch_paths(kProbeKernels, request.features, request.path, range, DefaultMethod{}, paths);
+    });
+}
+
+void CudaBackend::publish(MethodId method) {
+    const FieldPublicationView field = publication_view(shape_, existing_tables(method));
+    const std::uint32_t volumes = field.mean_radiance.count;
+    for (const PublicationStep& step : kPublicationSteps) {
+        std::uint32_t count = volumes;
+        if (step.item == PublicationItem::Cell) count *= static_cast<std::uint32_t>(field.cells.count());
+        if (step.item == PublicationItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
+        launch(step.kernel, blocks_for(count), stream_, step.name, field, count);
+    }
+    stream_.wait("publishing what was learned");
+}
+
+/// What the views of a field show.
+FieldView CudaBackend::shown_field(const FilmSlot& slot) {
+    const ViewInfo& view = info_of(slot.view);
+    if (view.needs_tables) return learned_field(table_owner(slot.method));
+    if (!view.needs_volumes) return {};
+    if (volumes_.normals.size() == 0) throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes, got none");
+    DeviceTables none;
+    return field_view(shape_, volumes_, none);
+}
+
+}  // namespace
+}  // namespace pl::cuda
+
+namespace pl {
+
+std::unique_ptr<RenderBackend> make_cuda_backend() {
+    const std::string reason = cuda_unavailable_reason();
+    if (!reason.empty()) throw Error(ErrorKind::Unavailable, "CUDA: " + reason);
+    return std::make_unique<cuda::CudaBackend>();
+}
+
+}  // namespace pl

@@ -1,0 +1,73 @@
+#include "cuda/device_films.h"
+
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "cuda/runtime/launch.h"
+
+namespace pl::cuda {
+namespace {
+
+std::size_t index_of(FilmSlot slot) { return static_cast<std::size_t>(slot.index()); }
+
+}  // namespace
+
+void DeviceFilms::reset(FilmSlot slot, int width, int height, const Stream& stream) {
+    constexpr std::int64_t kMostPixels = 0xffffffff;
+    if (width <= 0 || height <= 0 || std::int64_t{width} * height > kMostPixels)
+        throw Error(ErrorKind::Usage, fmt::format("picture size {}x{}: expected 1x1 to 2^32 pixels", width, height));
+    Film& film = films_[index_of(slot)];
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    if (film.pixels.size() != pixels) {
+        film = {};  // the old memory goes before the new one comes
+        film.pixels = DeviceArray<FilmPixel>(pixels);
+    }
+    film.width = width;
+    film.height = height;
+    film.pixels.clear(stream);
+}
+
+FilmView DeviceFilms::view(FilmSlot slot) {
+    existing(slot);
+    Film& film = films_[index_of(slot)];
+    return {view_of(film.pixels), static_cast<std::uint32_t>(film.width), static_cast<std::uint32_t>(film.height)};
+}
+
+FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const {
+    const Film& film = existing(slot);
+    const auto pixels = static_cast<std::uint32_t>(film.pixels.size());
+    if (means_.size() < pixels) means_ = DeviceArray<Vec3f>(pixels);
+    if (totals_.size() == 0) totals_ = DeviceArray<FilmTotals>(1);
+    const std::size_t bytes = pixels * sizeof(Vec3f);
+    if (staging_.bytes() < bytes + sizeof(FilmTotals)) staging_ = PinnedMemory(bytes + sizeof(FilmTotals));
+
+    totals_.clear(stream);
+    const FilmView view{{film.pixels.data(), pixels},
+                        static_cast<std::uint32_t>(film.width),
+                        static_cast<std::uint32_t>(film.height)};
+    launch(kReadFilm, blocks_for(pixels), stream, "read_film", view, Span<Vec3f>{means_.data(), pixels},
+           totals_.data());
+    auto* staged = static_cast<std::byte*>(staging_.data());
+    copy_to_host(staged, means_.data(), bytes, stream);
+    copy_to_host(staged + bytes, totals_.data(), sizeof(FilmTotals), stream);
+    stream.wait("reading a film");
+
+    FilmTotals totals;
+    std::memcpy(&totals, staged + bytes, sizeof totals);
+    const auto* means = reinterpret_cast<const Vec3f*>(staged);
+    return {.width = film.width,
+            .height = film.height,
+            .mean = {means, means + pixels},
+            .samples = totals.samples,
+            .invalid = totals.invalid};
+}
+
+const DeviceFilms::Film& DeviceFilms::existing(FilmSlot slot) const {
+    const Film& film = films_[index_of(slot)];
+    if (film.pixels.size() == 0)
+        throw Error(ErrorKind::Runtime, "CUDA back end: expected a film, got none: reset it first");
+    return film;
+}
+
+}  // namespace pl::cuda

@@ -1,0 +1,40 @@
+#include "cuda/kernels/kernels.h"
+#include "cuda/kernels/lane.cuh"
+#include "cuda/runtime/launch.h"
+
+namespace pl::cuda {
+namespace {
+
+/// Apart from the paths, so that the kernels that trace hold no double arithmetic, which most devices do slowly, and
+/// so that neighbouring threads write neighbouring pixels.
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    add_samples(FilmView film, Span<const Vec3f> samples, std::uint32_t first) {
+    const std::uint32_t i = thread_number();
+    if (i < samples.count) (void)accumulate(film, first + i, samples[i]);
+}
+
+__global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Span<Vec3f> means, FilmTotals* totals) {
+    const std::uint32_t i = thread_number();
+    FilmTotals own;
+    if (i < film.pixels.count) {
+        const FilmPixel& pixel = film.pixels[i];
+        means[i] = mean_or_nan(pixel);
+        own = {pixel.samples, pixel.invalid};
+    }
+    add_up(totals->samples, own.samples);
+    add_up(totals->invalid, own.invalid);
+}
+
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    tone_map_film(FilmView film, float scale, ToneCurve curve, Span<std::uint32_t> argb) {
+    const std::uint32_t i = thread_number();
+    if (i < film.pixels.count) argb[i] = to_argb(tone_map(mean_or_nan(film.pixels[i]), scale, curve));
+}
+
+}  // namespace
+
+constinit const AddSamplesKernel kAddSamples = add_samples;
+constinit const ReadFilmKernel kReadFilm = read_film;
+constinit const ToneMapKernel kToneMap = tone_map_film;
+
+}  // namespace pl::cuda

@@ -1,0 +1,101 @@
+// What kernels are called with, and the tables of compiled ones. Host code that launches sees nothing else of them.
+#pragma once
+
+#include "core/base/kernel_row.h"
+#include "core/kernel/fields/publication.h"
+#include "core/kernel/film/film_view.h"
+#include "core/kernel/film/tonemap.h"
+#include "core/kernel/inspect/views.h"
+#include "core/kernel/integrator/probe.h"
+#include "core/kernel/methods/precomputed.h"
+#include "core/kernel/methods/reinforcement.h"
+
+namespace pl::cuda {
+
+/// Numbers of the paths of one launch: first to end, exclusive.
+struct PathRange {
+    std::uint32_t first = 0;
+    std::uint32_t end = 0;
+};
+
+/// What every kernel that traces paths needs. Threads take paths from the range until none is left.
+struct TraceSetup {
+    SceneView scene;
+    PathSettings path;
+    PathRange range;
+    std::uint32_t* claimed = nullptr;  ///< paths taken so far; cleared before the launch
+    PassCounters* counters = nullptr;  ///< added to
+};
+
+/// Paths from the camera, one per pixel; what they bring goes into `radiance`, from the first pixel of the launch on.
+struct PixelPaths {
+    PinholeCamera camera;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::uint32_t sample = 0;
+    std::uint32_t first = 0;
+    Span<Vec3f> radiance;
+};
+
+/// Paths from the volumes, one per cell; what they bring goes into the field's sums.
+struct ProbePaths {
+    FieldView field;
+    std::uint32_t sample = 0;
+    std::uint32_t strata_side = 1;
+};
+
+/// A view of the first surface; the pixels as in PixelPaths.
+struct ViewSetup {
+    SceneView scene;
+    PathSettings path;
+    FieldView field;  ///< may be empty where the view does not need it
+    View view = View::Normal;
+    PixelPaths pixels;
+    PassCounters* counters = nullptr;
+};
+
+template <class M>
+using PictureKernel = void (*)(TraceSetup, M, PixelPaths);
+using ProbeKernel = void (*)(TraceSetup, DefaultMethod, ProbePaths);
+using ViewKernel = void (*)(ViewSetup);
+
+extern const KernelRow<PictureKernel<DefaultMethod>> kDefaultKernels;
+extern const KernelRow<PictureKernel<PrecomputedMethod>> kPrecomputedKernels;
+extern const KernelRow<PictureKernel<ReinforcementMethod>> kReinforcementKernels;
+extern const KernelRow<ProbeKernel> kProbeKernels;
+extern const KernelRow<ViewKernel> kViewKernels;
+
+/// Valid samples and invalid ones of a whole film.
+struct FilmTotals {
+    std::uint64_t samples = 0;
+    std::uint64_t invalid = 0;
+};
+
+/// One thread per sample: adds the samples of a launch, whose first is that of pixel `first`, to the film.
+using AddSamplesKernel = void (*)(FilmView film, Span<const Vec3f> samples, std::uint32_t first);
+extern const AddSamplesKernel kAddSamples;
+
+/// One thread per pixel: means for display and saving (see mean_or_nan), and the film's totals.
+using ReadFilmKernel = void (*)(FilmView film, Span<Vec3f> means, FilmTotals* totals);
+extern const ReadFilmKernel kReadFilm;
+
+/// One thread per pixel: the 8-bit picture, as 0xffRRGGBB. `scale` multiplies linear values.
+using ToneMapKernel = void (*)(FilmView film, float scale, ToneCurve curve, Span<std::uint32_t> argb);
+extern const ToneMapKernel kToneMap;
+
+/// One step of publication for `count` cells, rows or volumes: one thread each.
+using PublicationKernel = void (*)(FieldPublicationView field, std::uint32_t count);
+
+/// What the steps of publish_volume() count through.
+enum class PublicationItem { Cell, Row, Volume };
+
+struct PublicationStep {
+    PublicationKernel kernel;
+    PublicationItem item;
+    const char* name;
+};
+inline constexpr int kPublicationStepCount = 6;
+/// The steps of publish_volume(), in their order.
+extern const std::array<PublicationStep, kPublicationStepCount> kPublicationSteps;
+
+}  // namespace pl::cuda

@@ -1,0 +1,8 @@
+#include "cuda/kernels/trace.cuh"
+
+namespace pl::cuda {
+
+constinit const KernelRow<ProbeKernel> kProbeKernels =
+    make_kernel_row<ProbeKernel>([]<FeatureSet F>() { return trace_paths<F.bits, DefaultMethod, ProbePaths>; });
+
+}  // namespace pl::cuda

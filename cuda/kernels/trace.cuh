@@ -1,0 +1,63 @@
+// Paths on a device. Threads stay until the range is used up: one that finishes a path takes the next while its
+// neighbours go on with theirs, so that long paths do not leave a warp idle ("regeneration").
+// [Novak et al. 2010, "Path Regeneration for Interactive Path Tracing"]
+#pragma once
+
+#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/trace_path.h"
+#include "cuda/kernels/kernels.h"
+#include "cuda/kernels/lane.cuh"
+#include "cuda/runtime/launch.h"
+
+namespace pl::cuda {
+
+template <class M>
+__device__ inline PathState<M> begin(const PixelPaths& paths, const PathSettings& settings, std::uint32_t pixel) {
+    return begin_path<M>(paths.camera, settings, paths.width, paths.height, pixel, paths.sample);
+}
+template <class M>
+__device__ inline PathState<M> begin(const ProbePaths& paths, const PathSettings& settings, std::uint32_t probe) {
+    return begin_probe(paths.field, settings, probe, paths.sample, paths.strata_side);
+}
+
+template <class M>
+__device__ inline void finish(const PixelPaths& paths, const PathState<M>& state) {
+    paths.radiance[state.pixel - paths.first] = state.radiance;
+}
+__device__ inline void finish(const ProbePaths& paths, const PathState<DefaultMethod>& state) {
+    finish_probe(paths.field, state);
+}
+
+/// The next path for a thread; false if there is none.
+template <class M, class Paths>
+__device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathState<M>& state) {
+    const std::uint32_t taken = claim(*setup.claimed);
+    if (taken >= setup.range.end - setup.range.first) return false;
+    state = begin<M>(paths, setup.path, setup.range.first + taken);
+    return true;
+}
+
+/// Template argument by bits: the compiler's launch stubs cannot name a FeatureSet.
+template <std::uint32_t kFeatureBits, Method M, class Paths>
+__global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup, M method, Paths paths) {
+    const BvhIntersector intersector{setup.scene};
+    PassCounters counters;
+    PathState<M> state;
+    bool active = start(setup, paths, state);
+    while (active) {
+        const PathStatus status = trace_segment<FeatureSet{kFeatureBits}>(setup.scene, intersector, method,
+                                                                          setup.path, state, counters.path);
+        if (status == PathStatus::Continues) continue;
+        count_path(counters, state.radiance, is_valid_radiance(state.radiance));
+        finish(paths, state);
+        active = start(setup, paths, state);
+    }
+    add_up(*setup.counters, counters);
+}
+
+template <Method M>
+constexpr KernelRow<PictureKernel<M>> make_picture_kernels() {
+    return make_kernel_row<PictureKernel<M>>([]<FeatureSet F>() { return trace_paths<F.bits, M, PixelPaths>; });
+}
+
+}  // namespace pl::cuda

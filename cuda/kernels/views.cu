@@ -1,0 +1,31 @@
+#include "cuda/kernels/kernels.h"
+#include "cuda/kernels/lane.cuh"
+#include "cuda/runtime/launch.h"
+
+namespace pl::cuda {
+namespace {
+
+template <std::uint32_t kFeatureBits>
+__global__ void __launch_bounds__(kThreadsPerBlock) show_view(ViewSetup setup) {
+    const BvhIntersector intersector{setup.scene};
+    const PixelPaths& pixels = setup.pixels;
+    const std::uint32_t i = thread_number();
+    PassCounters counters;
+    if (i < pixels.radiance.count) {
+        const Vec3f value = sample_view<FeatureSet{kFeatureBits}>(setup.view, setup.scene, intersector, setup.field,
+                                                                  pixels.camera, setup.path, pixels.width,
+                                                                  pixels.height, pixels.first + i, pixels.sample);
+        pixels.radiance[i] = value;
+        counters.paths = 1;
+        counters.path.segments = 1;
+        counters.invalid_samples = is_valid_radiance(value) ? 0 : 1;
+    }
+    add_up(*setup.counters, counters);
+}
+
+}  // namespace
+
+constinit const KernelRow<ViewKernel> kViewKernels =
+    make_kernel_row<ViewKernel>([]<FeatureSet F>() { return show_view<F.bits>; });
+
+}  // namespace pl::cuda

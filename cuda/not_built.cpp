@@ -1,0 +1,16 @@
+// Stands in for the whole back end where there is no CUDA compiler.
+#include "core/base/error.h"
+#include "cuda/availability.h"
+#include "cuda/cuda_backend.h"
+
+namespace pl {
+
+std::string cuda_unavailable_reason() { return std::string("not built: ") + PL_CUDA_MISSING; }
+
+std::vector<CudaDevice> cuda_devices() { return {}; }
+
+std::unique_ptr<RenderBackend> make_cuda_backend() {
+    throw Error(ErrorKind::Unavailable, "CUDA: " + cuda_unavailable_reason());
+}
+
+}  // namespace pl

@@ -1,0 +1,53 @@
+// DeviceArray: what Storage<Array> templates are instantiated with on a device.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "core/base/host_array.h"
+#include "cuda/runtime/memory.h"
+
+namespace pl::cuda {
+
+/// A fixed number of values on the device, reachable by kernels through view_of().
+template <class T>
+class DeviceArray {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    DeviceArray() = default;
+    /// Not cleared.
+    explicit DeviceArray(std::size_t count) : memory_(count * sizeof(T)), count_(count) {}
+
+    T* data() const { return static_cast<T*>(memory_.data()); }
+    std::size_t size() const { return count_; }
+    std::size_t bytes() const { return count_ * sizeof(T); }
+
+    /// Queued; `values` has to stay until the stream has been waited for.
+    void upload(const HostArray<T>& values, const Stream& stream) {
+        if (values.size() != count_) *this = DeviceArray(values.size());
+        copy_to_device(data(), values.data(), bytes(), stream);
+    }
+    /// Queued; `values` is complete once the stream has been waited for.
+    void download(HostArray<T>& values, const Stream& stream) const {
+        values.resize(count_);
+        copy_to_host(values.data(), data(), bytes(), stream);
+    }
+    void clear(const Stream& stream) { cuda::clear(data(), bytes(), stream); }
+
+private:
+    DeviceMemory memory_;
+    std::size_t count_ = 0;
+};
+
+template <class T>
+Span<const T> view_of(const DeviceArray<T>& array) {
+    return {array.data(), static_cast<std::uint32_t>(array.size())};
+}
+template <class T>
+Span<T> view_of(DeviceArray<T>& array) {
+    return {array.data(), static_cast<std::uint32_t>(array.size())};
+}
+
+}  // namespace pl::cuda

@@ -1,0 +1,129 @@
+// The whole CUDA back end, run on the host: films, tables and counters have the bits of the CPU back end, because both
+// run the same steps with the same random numbers. On a device rounding may differ: tests/parity looks at that.
+#include "cuda/cuda_backend.h"
+
+#include "core/kernel/base/rng.h"
+#include "tests/catch.hpp"
+#include "tests/cuda/shim/control.h"
+#include "tests/session/same_bits.h"
+#include "tests/statistical/shipped_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+RenderSettings small_settings(const SceneDescription& scene, Estimator estimator) {
+    RenderSettings settings = settings_for(scene, estimator, 31, 23);
+    settings.field.volumes = 40;
+    settings.field.bins = 64;
+    settings.field.precompute_samples = 4;
+    return settings;
+}
+
+Session make_cuda_session(const SceneDescription& scene, const RenderSettings& settings) {
+    return Session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
+}
+
+State render(Session session, std::uint32_t passes = 3) {
+    render_passes(session, passes);
+    return state_of(session);
+}
+
+}  // namespace
+
+TEST_CASE("Every method gives the bits of the CPU back end") {
+    for (const char* name : {"cornell", "door", "furnace"}) {
+        const SceneDescription scene = shipped_scene(name);
+        for (const Estimator estimator : kEstimators) {
+            INFO(name << ", " << estimator);
+            const RenderSettings settings = small_settings(scene, estimator);
+            const State expected = render(make_session(scene, settings));
+            for (const int threads : {1, 3}) {
+                shim::reset();
+                shim::set_threads(threads);
+                const State got = render(make_cuda_session(scene, settings));
+                CHECK(same_film(got, expected));
+                CHECK(same_events(got.snapshot.counters, expected.snapshot.counters));
+                CHECK(same_bits(got.tables, expected.tables));
+            }
+        }
+    }
+    CHECK(shim::live_objects() == 0);
+}
+
+TEST_CASE("Every view gives the bits of the CPU back end") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("cornell");
+    for (const ViewInfo& view : all_views())
+        for (const MethodInfo& method : all_methods()) {
+            INFO(view.name << ", " << method.name);
+            RenderSettings settings = small_settings(scene, {method.id, false});
+            settings.view = view.id;
+            const State expected = render(make_session(scene, settings));
+            const State got = render(make_cuda_session(scene, settings));
+            CHECK(same_film(got, expected));
+            CHECK(same_events(got.snapshot.counters, expected.snapshot.counters));
+        }
+}
+
+TEST_CASE("Both searches for volumes give the same bits") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
+    const State tree = render(make_cuda_session(scene, settings));
+    settings.field.lookup = Lookup::Linear;
+    CHECK(same_state(render(make_cuda_session(scene, settings)), tree));
+}
+
+TEST_CASE("Launches of any size, stopped and resumed, give the same bits") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("cornell");
+    const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true});
+    const State expected = render(make_session(scene, settings), 2);
+
+    Session session = make_cuda_session(scene, settings);
+    StopFlag stop = true;
+    CHECK(session.advance(&stop) == Progress::Stopped);
+    CHECK(session.passes() == 0);
+    render_passes(session, 2);
+    CHECK(same_state(state_of(session), expected));
+}
+
+TEST_CASE("A field moves to the device and back in mid-learning without changing a bit") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
+        const RenderSettings settings = small_settings(scene, {method, false});
+        Session session = make_session(scene, settings);
+        Session expected = make_session(scene, settings);
+        const std::shared_ptr<RenderBackend> cpu = make_cpu_backend({.threads = 2});
+        const std::shared_ptr<RenderBackend> other_cpu = make_cpu_backend({.threads = 1});
+        const std::shared_ptr<RenderBackend> cuda = make_cuda_backend();
+        session.advance();
+        expected.advance();
+        session.apply(EditBackend{cuda});
+        expected.apply(EditBackend{other_cpu});
+        CHECK(same_bits(state_of(session).tables, state_of(expected).tables));
+        render_passes(session, 2);
+        render_passes(expected, 2);
+        CHECK(same_state(state_of(session), state_of(expected)));
+        session.apply(EditBackend{cpu});
+        expected.apply(EditBackend{cpu});
+        CHECK(session.backend().name == "cpu");
+        CHECK(same_bits(state_of(session).tables, state_of(expected).tables));
+    }
+}
+
+TEST_CASE("Invalid samples are counted and shown on the device too") {
+    shim::reset();
+    SceneDescription scene = shipped_scene("furnace");
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    RenderSettings settings = small_settings(scene, {MethodId::Default, false});
+    for (MaterialDescription& material : scene.materials) material.emission = Vec3f{nan};
+    const State expected = render(make_session(scene, settings), 1);
+    const State got = render(make_cuda_session(scene, settings), 1);
+    CHECK(got.snapshot.counters.invalid_samples == expected.snapshot.counters.invalid_samples);
+    CHECK(got.snapshot.counters.invalid_samples > 0);
+    CHECK(got.snapshot.pixels[0].x != got.snapshot.pixels[0].x);
+}

@@ -1,0 +1,105 @@
+// Every call of the runtime fails in turn, once or for good: a clear error, nothing leaked, nothing hangs, and a
+// session that goes on with the CPU.
+#include "core/base/error.h"
+#include "cuda/cuda_backend.h"
+#include "tests/catch.hpp"
+#include "tests/cuda/shim/control.h"
+#include "tests/session/same_bits.h"
+#include "tests/statistical/shipped_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+RenderSettings small_settings(const SceneDescription& scene) {
+    RenderSettings settings = settings_for(scene, {MethodId::Reinforcement, false}, 9, 7);
+    settings.field.volumes = 10;
+    settings.field.bins = 16;
+    return settings;
+}
+
+/// What a person would do; the message of the error that ended it, empty if none did.
+std::string use(const SceneDescription& scene, const RenderSettings& settings) {
+    try {
+        Session session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
+        render_passes(session, 2);
+        session.apply(EditView{View::Voronoi});
+        render_passes(session, 1);
+        session.snapshot();
+        session.export_field();
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::Unavailable);
+        return error.what();
+    }
+    return "";
+}
+
+constexpr const char* kCalls[] = {
+    "cudaMalloc",           "cudaMallocHost",        "cudaMemcpyAsync", "cudaMemsetAsync",
+    "cudaLaunchKernel",     "cudaEventCreate",       "cudaEventRecord", "cudaStreamCreateWithFlags",
+    "cudaEventElapsedTime", "cudaStreamSynchronize",
+};
+
+}  // namespace
+
+TEST_CASE("Whatever call fails, the error says so and nothing leaks") {
+    const SceneDescription scene = shipped_scene("furnace");
+    const RenderSettings settings = small_settings(scene);
+    for (const std::string call : kCalls)
+        for (const bool lasting : {false, true}) {
+            int failures = 0;
+            for (int successes = 0; successes < 400; ++successes) {
+                shim::reset();
+                shim::fail(call, cudaErrorMemoryAllocation, successes, lasting);
+                const std::string error = use(scene, settings);
+                shim::reset();
+                REQUIRE(shim::live_objects() == 0);
+                if (error.empty()) break;  // the call was never reached: all of them have failed once
+                ++failures;
+                INFO(call << " number " << successes << ": " << error);
+                REQUIRE_THAT(error, contains("CUDA: ") && contains("out of memory") && contains(" failed: "));
+            }
+            INFO(call);
+            CHECK(failures > 0);
+            CHECK(failures < 400);
+        }
+}
+
+TEST_CASE("Without a device the back end says why") {
+    shim::reset();
+    shim::set_devices(0, cudaErrorInsufficientDriver);
+    std::string text;
+    try {
+        make_cuda_backend();
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::Unavailable);
+        text = error.what();
+    }
+    shim::reset();
+    CHECK_THAT(text, contains("CUDA: ") && contains("driver"));
+}
+
+TEST_CASE("The CPU takes over: what was learned is kept if it can be fetched, else learned anew") {
+    const SceneDescription scene = shipped_scene("furnace");
+    const RenderSettings settings = small_settings(scene);
+    for (const bool lost : {false, true}) {
+        shim::reset();
+        Session session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
+        render_passes(session, 2);
+        const HostTables before = state_of(session).tables;
+        shim::fail("cudaLaunchKernel", cudaErrorLaunchFailure, 0, lost);
+        CHECK_THROWS_AS(session.advance(), Error);
+
+        const std::shared_ptr<RenderBackend> cpu = make_cpu_backend({.threads = 1});
+        if (lost) CHECK_THROWS_AS(session.apply(EditBackend{cpu}), Error);
+        session.apply(EditBackend{cpu, lost});
+        CHECK(session.backend().name == "cpu");
+        CHECK(same_bits(state_of(session).tables.visits, before.visits) != lost);
+        render_passes(session, 2);
+        CHECK(session.passes() == 2);
+        CHECK(session.field_status()->passes == (lost ? 2 : 4));
+    }
+    shim::reset();
+    CHECK(shim::live_objects() == 0);
+}

@@ -1,0 +1,50 @@
+#include "cuda/launch_size.h"
+
+#include "tests/catch.hpp"
+
+using pl::cuda::LaunchSize;
+
+namespace {
+
+/// Launches a device that traces `paths_per_ms` paths in a millisecond, until the size has settled.
+LaunchSize settled(float paths_per_ms) {
+    LaunchSize size;
+    for (int i = 0; i < 50; ++i) {
+        const std::uint32_t paths = size.next(0xffffffffu);
+        size.observe(paths, static_cast<float>(paths) / paths_per_ms);
+    }
+    return size;
+}
+
+}  // namespace
+
+TEST_CASE("Launches come to last the time that was aimed at") {
+    for (const float speed : {1.0e4f, 1.0e5f, 1.0e6f}) {
+        const auto milliseconds = static_cast<float>(settled(speed).next(0xffffffffu)) / speed;
+        CHECK(milliseconds == Approx(LaunchSize::kTargetMilliseconds).epsilon(0.01));
+    }
+    CHECK(settled(1.0f).next(0xffffffffu) == LaunchSize::kLeast);
+    CHECK(settled(1.0e12f).next(0xffffffffu) == LaunchSize::kMost);
+}
+
+TEST_CASE("A rest is taken along, and never more than there is") {
+    const LaunchSize size;
+    CHECK(size.next(7) == 7);
+    CHECK(size.next(LaunchSize::kFirst + LaunchSize::kFirst / 2 - 1) ==
+          LaunchSize::kFirst + LaunchSize::kFirst / 2 - 1);
+    CHECK(size.next(LaunchSize::kFirst * 2) == LaunchSize::kFirst);
+    CHECK(size.next(0) == 0);
+}
+
+TEST_CASE("One odd measurement changes little, and small launches teach nothing") {
+    LaunchSize size = settled(1.0e5f);
+    const std::uint32_t before = size.next(0xffffffffu);
+    size.observe(before, 1.0e9f);
+    CHECK(size.next(0xffffffffu) >= before / 4 - 1);
+    size = settled(1.0e5f);
+    size.observe(before, 0.0f);
+    CHECK(size.next(0xffffffffu) <= before * 4 + 1);
+    size = settled(1.0e5f);
+    size.observe(100, 50.0f);
+    CHECK(size.next(0xffffffffu) == before);
+}

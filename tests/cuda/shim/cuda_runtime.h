@@ -1,0 +1,95 @@
+// A stand-in for the CUDA runtime: the sources of cuda/ compile against it as plain C++ and run on the host, under
+// sanitizers too. Stricter than a device where it can be: work waits in its stream until somebody waits for it, device
+// memory is separate and starts out as NaNs, and everything can be made to fail. What it cannot show: races between
+// threads of one warp, speed, and what the device compiler makes of the code.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <tuple>
+#include <utility>
+
+#define __host__
+#define __device__
+#define __global__
+#define __launch_bounds__(...)
+
+struct dim3 {
+    unsigned x = 1, y = 1, z = 1;
+    dim3() = default;
+    explicit dim3(unsigned count) : x(count) {}
+};
+
+inline thread_local dim3 blockIdx, threadIdx, blockDim, gridDim;
+
+enum cudaError_t {
+    cudaSuccess = 0,
+    cudaErrorInvalidValue = 1,
+    cudaErrorMemoryAllocation = 2,
+    cudaErrorInsufficientDriver = 35,
+    cudaErrorNoDevice = 100,
+    cudaErrorNoKernelImageForDevice = 209,
+    cudaErrorIllegalAddress = 700,
+    cudaErrorLaunchFailure = 719,
+};
+enum cudaMemcpyKind { cudaMemcpyHostToDevice = 1, cudaMemcpyDeviceToHost = 2 };
+enum cudaDeviceAttr { cudaDevAttrMultiProcessorCount = 16 };
+inline constexpr unsigned cudaStreamNonBlocking = 1;
+
+struct cudaDeviceProp {
+    char name[256];
+    std::size_t totalGlobalMem;
+    int major;
+    int minor;
+};
+struct cudaFuncAttributes {};
+
+namespace pl::shim {
+struct Queue;
+struct Mark;
+/// Queues a launch: `thread` is called for every thread of the grid.
+cudaError_t launch(dim3 grid, dim3 block, Queue* queue, std::function<void()> thread);
+}  // namespace pl::shim
+
+using cudaStream_t = pl::shim::Queue*;
+using cudaEvent_t = pl::shim::Mark*;
+
+const char* cudaGetErrorString(cudaError_t code);
+const char* cudaGetErrorName(cudaError_t code);
+cudaError_t cudaGetLastError();
+cudaError_t cudaGetDeviceCount(int* count);
+cudaError_t cudaGetDeviceProperties(cudaDeviceProp* properties, int device);
+cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int device);
+cudaError_t cudaFuncGetAttributes(cudaFuncAttributes* attributes, const void* function);
+cudaError_t cudaMalloc(void** memory, std::size_t bytes);
+cudaError_t cudaFree(void* memory);
+cudaError_t cudaMallocHost(void** memory, std::size_t bytes);
+cudaError_t cudaFreeHost(void* memory);
+cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream);
+cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t stream);
+cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned flags);
+cudaError_t cudaStreamDestroy(cudaStream_t stream);
+cudaError_t cudaStreamSynchronize(cudaStream_t stream);
+cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned flags);
+cudaError_t cudaEventCreate(cudaEvent_t* event);
+cudaError_t cudaEventDestroy(cudaEvent_t event);
+cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream);
+cudaError_t cudaEventSynchronize(cudaEvent_t event);
+cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t start, cudaEvent_t end);
+
+template <class... Parameters>
+cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, void (*)(Parameters...), int, std::size_t) {
+    *blocks = 2;
+    return cudaSuccess;
+}
+
+/// The parameters are copied when the launch is queued, as a device does.
+template <class... Parameters>
+cudaError_t cudaLaunchKernel(void (*kernel)(Parameters...), dim3 grid, dim3 block, void** arguments, std::size_t,
+                             cudaStream_t stream) {
+    auto values = [&]<std::size_t... I>(std::index_sequence<I...>) {
+        return std::tuple<Parameters...>{*static_cast<Parameters*>(arguments[I])...};
+    }
+    (std::index_sequence_for<Parameters...>{});
+    return pl::shim::launch(grid, block, stream, [kernel, values] { std::apply(kernel, values); });
+}
