@@ -23,11 +23,11 @@ RenderSettings small_settings(const SceneDescription& scene, Estimator estimator
 /// Passes per batch with which the mean of a picture has two thirds of the standard error that a comparison may
 /// have, from the measured coefficient of variation per path.
 std::uint32_t passes_for(Estimator estimator, double resolution) {
-    double variation = 4.5;
+    double variation = 6.0;
     if (estimator.method == MethodId::Default)
-        variation = estimator.next_event ? 2.8 : 6.0;
+        variation = estimator.next_event ? 3.0 : 6.5;
     else if (estimator.next_event)
-        variation = 2.8;
+        variation = 3.0;
     const double paths = std::pow(variation / (2.0 / 3.0 * resolution / 8.0), 2);
     return static_cast<std::uint32_t>(std::ceil(paths / (kBatches * kSide * kSide)));
 }
@@ -94,7 +94,7 @@ TEST_CASE("The first passes of learning agree on the door ajar") { check_first_p
 TEST_CASE("All methods agree on the Cornell box within 2 %", "[merge]") { check_agreement("cornell", 0.02); }
 TEST_CASE("All methods agree on the door ajar within 2 %", "[merge]") { check_agreement("door", 0.02); }
 TEST_CASE("The first passes of learning agree on the Cornell box within 2 %", "[merge]") {
-    check_first_passes("cornell", 512, 0.02);
+    check_first_passes("cornell", 768, 0.02);
 }
 TEST_CASE("The first passes of learning agree on the door ajar within 3 %", "[merge]") {
     check_first_passes("door", 2048, 0.03);
@@ -104,7 +104,7 @@ TEST_CASE("The first passes of learning agree on the door ajar within 3 %", "[me
 TEST_CASE("All methods agree on the Cornell box within 0.5 %", "[nightly]") { check_agreement("cornell", 0.005); }
 TEST_CASE("All methods agree on the door ajar within 0.5 %", "[nightly]") { check_agreement("door", 0.005); }
 TEST_CASE("The first passes of learning agree on the Cornell box within 0.5 %", "[nightly]") {
-    check_first_passes("cornell", 8192, 0.005);
+    check_first_passes("cornell", 12288, 0.005);
 }
 TEST_CASE("The first passes of learning agree on the door ajar within 1 %", "[nightly]") {
     check_first_passes("door", 16384, 0.01);
