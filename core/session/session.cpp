@@ -93,7 +93,7 @@ void Session::switch_backend(const EditBackend& edit) {
     if (volumes_) next.backend->upload_volumes(volumes_, shape_);
     if (!edit.abandon_old) {
         for (const MethodInfo& method : all_methods())
-            if (backend_->has_tables(method.id))
+            if (volumes_ && backend_->has_tables(method.id))  // without volumes, tables are left over from others
                 next.backend->upload_tables(method.id, backend_->download_tables(method.id));
         parked_.push_back({backend_, films_, packed_});
     }

@@ -1,11 +1,10 @@
 // What decides a bit: scene, settings and seed. Not the number of threads, the size of batches, when a pass was stopped,
 // what was rendered in between, or which compiled superset of effects ran.
-#include <thread>
-
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/shapes.h"
+#include "tests/session/interruption.h"
 #include "tests/session/same_bits.h"
 #include "tests/statistical/shipped_scenes.h"
 
@@ -58,33 +57,6 @@ TEST_CASE("A seed changes films and tables") {
         CHECK_FALSE(same_bits(other.snapshot.pixels, render(scene, settings, {.threads = 2}).snapshot.pixels));
     }
 }
-
-namespace {
-
-/// Advances once while another thread sets the stop flag after up to 4 milliseconds.
-Progress advance_interrupted(Session& session, float delay) {
-    StopFlag stop{false};
-    std::thread other([&] {
-        std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(4000.0f * delay * delay)));
-        stop = true;
-    });
-    const Progress progress = session.advance(&stop);
-    other.join();
-    return progress;
-}
-
-/// Whether the film's pass, or the slice of the radiance map, is done in part.
-bool pass_is_partial(const Session& session) {
-    const Snapshot snapshot = session.snapshot();
-    return snapshot.counters.paths % snapshot.pixels.size() != 0;
-}
-bool slice_is_partial(const Session& session) {
-    const std::optional<FieldStatus> field = session.field_status();
-    return session.settings().method == MethodId::Precomputed && field &&
-           field->records % static_cast<std::uint64_t>(field->volumes * field->bins) != 0;
-}
-
-}  // namespace
 
 // Small batches, so that a flag is seen soon. No seed decides when stops come, and what has to come out does not depend
 // on it; runs are repeated until some stops have left work in part.

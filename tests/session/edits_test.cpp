@@ -42,8 +42,9 @@ Contents contents_of(Session& session) {
 }
 
 /// A session in which every method has rendered, and precomputed or learned.
-Session used_session(const SceneDescription& scene, const RenderSettings& settings) {
-    Session session = make_session(scene, settings, 2);
+Session used_session(const SceneDescription& scene, const RenderSettings& settings,
+                     const std::shared_ptr<RenderBackend>& backend = make_cpu_backend({.threads = 2})) {
+    Session session(backend, std::make_shared<const SceneDescription>(scene), settings);
     for (const MethodInfo& method : all_methods()) {
         session.apply(EditMethod{method.id});
         render_passes(session, kPasses);
@@ -98,6 +99,7 @@ std::vector<Case> all_cases(const RenderSettings& settings) {
         {"scene",
          EditScene{std::make_shared<const SceneDescription>(brighter)},
          {.films = true, .tables = true, .volumes = true, .scene = true}},
+        {"back end", EditBackend{make_cpu_backend({.threads = 1})}, {}},
         {"restart", EditRestart{}, {.films = true}},
         {"forget", EditForget{}, {.films = true, .tables = true}},
     };
@@ -127,13 +129,15 @@ TEST_CASE("Every edit clears what the table says and keeps the rest") {
     for (const Case& c : all_cases(small_settings(scene))) {
         INFO(c.name);
         CHECK(invalidated_by(c.edit) == c.cleared);
-        Session session = used_session(scene, small_settings(scene));
+        const std::shared_ptr<RenderBackend> backend = make_cpu_backend({.threads = 2});
+        Session session = used_session(scene, small_settings(scene), backend);
         const Contents before = contents_of(session);
         REQUIRE_FALSE(all_films_empty(before));
         REQUIRE_FALSE(all_tables_empty(before));
 
         session.apply(c.edit);
         session.apply(EditView{View::Beauty});
+        session.apply(EditBackend{backend});  // pictures wait with the back end that has them
         const Contents after = contents_of(session);
         CHECK(all_films_empty(after) == c.cleared.films);
         CHECK(all_films_kept(before, after) == !c.cleared.films);

@@ -1,0 +1,310 @@
+// Another back end takes over: what was learned moves exactly, pictures wait with the back end that has them, and one
+// that fails leaves the session as it was.
+#include <functional>
+
+#include "tests/catch.hpp"
+#include "tests/io/input_error.h"
+#include "tests/kernel/shapes.h"
+#include "tests/session/interruption.h"
+#include "tests/session/same_bits.h"
+#include "tests/statistical/shipped_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+RenderSettings small_settings(const SceneDescription& scene, Estimator estimator) {
+    RenderSettings settings = settings_for(scene, estimator, 61, 47);
+    settings.field.volumes = 60;
+    settings.field.bins = 64;
+    settings.field.precompute_samples = 4;
+    return settings;
+}
+
+/// Small batches, so that a stop flag is seen soon.
+std::shared_ptr<RenderBackend> cpu_backend(int threads) {
+    return make_cpu_backend({.threads = threads, .batch_paths = 32});
+}
+
+Session session_on(std::shared_ptr<RenderBackend> backend, const SceneDescription& scene,
+                   const RenderSettings& settings) {
+    return Session(std::move(backend), std::make_shared<const SceneDescription>(scene), settings);
+}
+
+/// The CPU back end, until one of its functions is told to fail.
+class FailingBackend final : public RenderBackend {
+public:
+    enum class Failure { None, Scene, Volumes, Tables, Download, Pass };
+
+    Failure failure = Failure::None;
+
+    BackendInfo info() const override { return inner_->info(); }
+    void upload_scene(std::shared_ptr<const HostScene> scene) override {
+        check(Failure::Scene);
+        inner_->upload_scene(std::move(scene));
+    }
+    void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
+        check(Failure::Volumes);
+        inner_->upload_volumes(std::move(volumes), shape);
+    }
+    void upload_tables(MethodId method, HostTables tables) override {
+        check(Failure::Tables);
+        inner_->upload_tables(method, std::move(tables));
+    }
+    HostTables download_tables(MethodId method) const override {
+        check(Failure::Download);
+        return inner_->download_tables(method);
+    }
+    bool has_tables(MethodId method) const override { return inner_->has_tables(method); }
+    void reset_film(FilmSlot slot, int width, int height) override { inner_->reset_film(slot, width, height); }
+    FilmReading read_film(FilmSlot slot) const override { return inner_->read_film(slot); }
+    PassCounters run_pass(const PassRequest& request) override {
+        check(Failure::Pass);
+        return inner_->run_pass(request);
+    }
+    PassCounters precompute(const PrecomputeRequest& request) override { return inner_->precompute(request); }
+    void publish(MethodId method) override { inner_->publish(method); }
+    std::string kernel_name(MethodId method, View view, FeatureSet needed) const override {
+        return inner_->kernel_name(method, view, needed);
+    }
+
+private:
+    void check(Failure asked) const {
+        if (failure == asked) throw Error(ErrorKind::Unavailable, "the device is gone");
+    }
+
+    std::shared_ptr<RenderBackend> inner_ = cpu_backend(1);
+};
+using Failure = FailingBackend::Failure;
+
+std::string unavailable(const std::function<void()>& call) { return error_message(ErrorKind::Unavailable, call); }
+
+}  // namespace
+
+TEST_CASE("Another back end goes on with the same tables, on a picture of its own") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        const RenderSettings settings = small_settings(scene, estimator);
+        const auto first = cpu_backend(1);
+        const auto second = cpu_backend(7);
+        Session session = session_on(first, scene, settings);
+        Session reference = session_on(cpu_backend(2), scene, settings);
+        render_passes(session, 2);
+        render_passes(reference, 2);
+        const State parked = state_of(session);
+        CHECK(same_state(parked, state_of(reference)));
+
+        session.apply(EditBackend{second});
+        CHECK(session.backend().threads == 7);
+        CHECK(session.passes() == 0);
+        CHECK(same_bits(state_of(session).tables, parked.tables));
+        reference.apply(EditRestart{});  // a picture of its own
+        for (int pass = 0; pass < 2; ++pass) {
+            render_passes(session, 1);
+            render_passes(reference, 1);
+            CHECK(same_state(state_of(session), state_of(reference)));
+        }
+
+        const State on_second = state_of(session);
+        session.apply(EditBackend{first});
+        CHECK(same_film(parked, state_of(session)));
+        CHECK(same_events(parked.snapshot.counters, session.snapshot().counters));
+        CHECK(same_bits(state_of(session).tables, on_second.tables));
+        render_passes(session, 1);
+        CHECK(session.passes() == 3);
+        session.apply(EditBackend{second});
+        CHECK(same_film(on_second, state_of(session)));
+        CHECK(session.passes() == 2);
+    }
+}
+
+// The picture is started over at the end, so that all of it comes from what was moved about.
+TEST_CASE("A radiance map is the same however often the back end changes in the middle of it") {
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene, {MethodId::Precomputed, true});
+    Session whole = session_on(cpu_backend(2), scene, settings);
+    render_passes(whole, 1);
+    Uniforms random(1);
+    int moved = 0;
+    for (int run = 0; run < 50 && moved < 5; ++run) {
+        const std::array backends{cpu_backend(1), cpu_backend(2), cpu_backend(3)};
+        Session session = session_on(backends[0], scene, settings);
+        for (std::size_t next = 1; session.passes() == 0; ++next) {
+            advance_interrupted(session, random.next());
+            moved += slice_is_partial(session) ? 1 : 0;
+            session.apply(EditBackend{backends[next % backends.size()]});
+        }
+        session.apply(EditRestart{});
+        render_passes(session, 1);
+        CHECK(same_state(state_of(whole), state_of(session)));
+    }
+    CHECK(moved >= 5);
+}
+
+// The pass is in part when the back end changes and comes back: the picture and the sums are whole again at its end.
+TEST_CASE("A pass that waited with its back end is finished with the same bits") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        RenderSettings settings = small_settings(scene, estimator);
+        settings.width = 128;
+        Session whole = session_on(cpu_backend(2), scene, settings);
+        render_passes(whole, 3);
+        Uniforms random(1);
+        int moved = 0;
+        for (int run = 0; run < 50 && moved < 3; ++run) {
+            const auto first = cpu_backend(2);
+            const auto second = cpu_backend(1);
+            Session session = session_on(first, scene, settings);
+            while (session.passes() < 2) {
+                advance_interrupted(session, random.next());
+                if (!pass_is_partial(session)) continue;
+                ++moved;
+                const State before = state_of(session);
+                session.apply(EditBackend{second});
+                CHECK(same_bits(before.tables, state_of(session).tables));
+                session.apply(EditBackend{first});
+                CHECK(same_state(before, state_of(session)));
+            }
+            while (session.passes() < 3) session.advance();
+            CHECK(same_state(state_of(whole), state_of(session)));
+        }
+        CHECK(moved >= 3);
+    }
+}
+
+TEST_CASE("All methods move, and what is cleared is cleared everywhere") {
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene, {MethodId::Precomputed, false});
+    const auto first = cpu_backend(1);
+    Session session = session_on(first, scene, settings);
+    render_passes(session, 1);
+    session.apply(EditMethod{MethodId::Reinforcement});
+    render_passes(session, 2);
+    std::array<HostTables, kMethodCount> tables;
+    for (const MethodInfo& method : all_methods())
+        tables[static_cast<std::size_t>(method.id)] = first->download_tables(method.id);
+    const auto second = cpu_backend(2);
+    session.apply(EditBackend{second});
+    for (const MethodInfo& method : all_methods()) {
+        CHECK(second->has_tables(method.id) == method.uses_field);
+        CHECK(same_bits(tables[static_cast<std::size_t>(method.id)], second->download_tables(method.id)));
+    }
+
+    session.apply(EditForget{});
+    session.apply(EditBackend{first});
+    CHECK(session.passes() == 0);
+    render_passes(session, 1);
+    RenderSettings fresh_settings = settings;
+    fresh_settings.method = MethodId::Reinforcement;
+    Session fresh = session_on(cpu_backend(2), scene, fresh_settings);
+    render_passes(fresh, 1);
+    CHECK(same_state(state_of(fresh), state_of(session)));
+}
+
+// Volumes are placed again by the next pass, not before: until then the parked back end has tables that fit nothing.
+TEST_CASE("A field that was given up on one back end is not carried on by another") {
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
+    const auto first = cpu_backend(1);
+    const auto second = cpu_backend(2);
+    Session session = session_on(first, scene, settings);
+    render_passes(session, 2);
+    session.apply(EditBackend{second});
+    RenderSettings other = settings;
+    other.field.volumes = 30;
+    other.field.bins = 16;
+    session.apply(EditField{other.field});
+    session.apply(EditBackend{first});
+    session.apply(EditBackend{cpu_backend(3)});
+    render_passes(session, 2);
+    Session fresh = session_on(cpu_backend(2), scene, other);
+    render_passes(fresh, 2);
+    CHECK(same_state(state_of(fresh), state_of(session)));
+}
+
+TEST_CASE("Another scene reaches the back ends that wait") {
+    const SceneDescription scene = shipped_scene("door");
+    SceneDescription brighter = scene;
+    for (MaterialDescription& material : brighter.materials) material.emission *= 2.0f;
+    const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true});
+    const auto first = cpu_backend(1);
+    Session session = session_on(first, scene, settings);
+    render_passes(session, 2);
+    session.apply(EditBackend{cpu_backend(2)});
+    session.apply(EditScene{std::make_shared<const SceneDescription>(brighter)});
+    session.apply(EditBackend{first});
+    render_passes(session, 2);
+    Session fresh = session_on(cpu_backend(2), brighter, settings);
+    render_passes(fresh, 2);
+    CHECK(same_state(state_of(fresh), state_of(session)));
+}
+
+TEST_CASE("A back end that cannot take over leaves the session as it was") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Estimator estimator : kEstimators) {
+        const RenderSettings settings = small_settings(scene, estimator);
+        const bool has_tables = info_of(estimator.method).uses_field;
+        for (const Failure failure : {Failure::Scene, Failure::Volumes, Failure::Tables}) {
+            if (!has_tables && failure != Failure::Scene) continue;
+            INFO(estimator << ", failure " << static_cast<int>(failure));
+            const auto first = cpu_backend(2);
+            Session session = session_on(first, scene, settings);
+            render_passes(session, 2);
+            const State before = state_of(session);
+            const auto broken = std::make_shared<FailingBackend>();
+            broken->failure = failure;
+            CHECK_THAT(unavailable([&] { session.apply(EditBackend{broken}); }), contains("gone"));
+            CHECK(&session.backend_access() == first.get());
+            CHECK(same_state(before, state_of(session)));
+            render_passes(session, 1);
+            Session undisturbed = session_on(cpu_backend(2), scene, settings);
+            render_passes(undisturbed, 3);
+            CHECK(same_state(state_of(undisturbed), state_of(session)));
+            // It may come back to life.
+            broken->failure = Failure::None;
+            session.apply(EditBackend{broken});
+            CHECK(same_bits(state_of(session).tables, state_of(undisturbed).tables));
+        }
+    }
+}
+
+TEST_CASE("A lost back end is abandoned with what it held, and the next one starts like a new session") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        const RenderSettings settings = small_settings(scene, estimator);
+        const auto lost = std::make_shared<FailingBackend>();
+        Session session = session_on(lost, scene, settings);
+        render_passes(session, 2);
+        lost->failure = Failure::Pass;
+        CHECK_THAT(unavailable([&] { session.advance(); }), contains("gone"));
+        lost->failure = Failure::Download;
+        const auto next = cpu_backend(2);
+        if (info_of(estimator.method).uses_field)
+            CHECK_THAT(unavailable([&] { session.apply(EditBackend{next}); }), contains("gone"));
+        const SessionEdit abandon = EditBackend{.backend = next, .abandon_old = true};
+        CHECK(invalidated_by(abandon) == Invalidation{.tables = true});
+        session.apply(abandon);
+        CHECK(session.passes() == 0);
+        CHECK_FALSE(next->has_tables(estimator.method));
+        CHECK(lost.use_count() == 1);  // nobody will touch it again
+        render_passes(session, 2);
+        Session fresh = session_on(cpu_backend(1), scene, settings);
+        render_passes(fresh, 2);
+        CHECK(same_state(state_of(fresh), state_of(session)));
+    }
+}
+
+TEST_CASE("Changing to the back end that runs already changes nothing") {
+    const SceneDescription scene = shipped_scene("door");
+    const auto backend = cpu_backend(2);
+    Session session = session_on(backend, scene, small_settings(scene, {MethodId::Reinforcement, false}));
+    render_passes(session, 2);
+    const State before = state_of(session);
+    session.apply(EditBackend{backend});
+    CHECK(same_state(before, state_of(session)));
+    CHECK(session.passes() == 2);
+}

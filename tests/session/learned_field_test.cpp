@@ -1,0 +1,192 @@
+// What was learned, taken from one session to another, also through a file: going on is the same as never having moved.
+#include "core/io/field_file.h"
+#include "tests/catch.hpp"
+#include "tests/io/input_error.h"
+#include "tests/io/temporary_folder.h"
+#include "tests/kernel/shapes.h"
+#include "tests/session/interruption.h"
+#include "tests/session/same_bits.h"
+#include "tests/statistical/shipped_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+RenderSettings small_settings(const SceneDescription& scene, Estimator estimator) {
+    RenderSettings settings = settings_for(scene, estimator, 61, 47);
+    settings.field.volumes = 60;
+    settings.field.bins = 64;
+    settings.field.precompute_samples = 4;
+    return settings;
+}
+
+std::vector<Estimator> learning_estimators() {
+    std::vector<Estimator> result;
+    for (const Estimator& estimator : kEstimators)
+        if (info_of(estimator.method).uses_field) result.push_back(estimator);
+    return result;
+}
+
+LearnedField through_file(const LearnedField& field) {
+    const TemporaryFolder folder;
+    write_field(folder.path() / "field", field);
+    return read_field(folder.path() / "field");
+}
+
+bool same_field_status(const Session& a, const Session& b) {
+    const std::optional<FieldStatus> x = a.field_status();
+    const std::optional<FieldStatus> y = b.field_status();
+    return x && y && x->volumes == y->volumes && x->bins == y->bins && x->passes == y->passes &&
+           x->records == y->records && x->lookup_misses == y->lookup_misses &&
+           x->precomputed_share == y->precomputed_share;
+}
+
+}  // namespace
+
+TEST_CASE("A field that moved to another session goes on with the same bits") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Estimator estimator : learning_estimators()) {
+        INFO(estimator);
+        const RenderSettings settings = small_settings(scene, estimator);
+        Session first = make_session(scene, settings, 2);
+        render_passes(first, 3);
+        const LearnedField field = first.export_field();
+        // The other one would have had another field, and has used it.
+        RenderSettings other = settings;
+        other.field = {};
+        other.field.volumes = 20;
+        other.field.bins = 16;
+        Session second = make_session(scene, other, 1);
+        render_passes(second, 1);
+
+        first.apply(EditRestart{});
+        second.import_field(through_file(field));
+        CHECK((second.settings().field == settings.field));
+        CHECK(second.passes() == 0);
+        CHECK(same_field_status(first, second));
+        for (int pass = 0; pass < 2; ++pass) {
+            render_passes(first, 1);
+            render_passes(second, 1);
+            CHECK(same_state(state_of(first), state_of(second)));
+            CHECK(same_field_status(first, second));
+        }
+    }
+}
+
+// Stops come when they come; what has to come out does not depend on it.
+TEST_CASE("A radiance map that moves in the middle of a slice is completed with the same bits") {
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene, {MethodId::Precomputed, false});
+    Session whole = make_session(scene, settings, 2);
+    render_passes(whole, 2);
+    const CpuSettings cpu{.threads = 2, .batch_paths = 32};
+    const auto shared_scene = std::make_shared<const SceneDescription>(scene);
+    Uniforms random(1);
+    int moved = 0;
+    for (int run = 0; run < 50 && moved < 5; ++run) {
+        auto session = std::make_unique<Session>(make_cpu_backend(cpu), shared_scene, settings);
+        while (session->passes() == 0) {
+            advance_interrupted(*session, random.next());
+            if (!slice_is_partial(*session)) continue;
+            ++moved;
+            const LearnedField field = session->export_field();
+            CHECK(field.progress.next_probe > 0);
+            session = std::make_unique<Session>(make_cpu_backend(cpu), shared_scene, settings);
+            session->import_field(through_file(field));
+        }
+        session->apply(EditRestart{});
+        render_passes(*session, 2);
+        CHECK(same_state(state_of(whole), state_of(*session)));
+        CHECK(same_field_status(whole, *session));
+    }
+    CHECK(moved >= 5);
+}
+
+TEST_CASE("An imported field empties all pictures and the tables of other methods") {
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
+    Session session = make_session(scene, settings, 2);
+    render_passes(session, 2);
+    const LearnedField field = session.export_field();
+    session.apply(EditMethod{MethodId::Precomputed});
+    render_passes(session, 1);
+    session.apply(EditMethod{MethodId::Default});
+    render_passes(session, 1);
+
+    session.import_field(field);
+    for (const MethodInfo& method : all_methods()) {
+        session.apply(EditMethod{method.id});
+        CHECK(session.passes() == 0);
+        const bool is_owner = method.id == MethodId::Reinforcement;
+        CHECK(session.backend_access().has_tables(method.id) == is_owner);
+        if (is_owner) CHECK(same_bits(session.backend_access().download_tables(method.id), field.tables));
+    }
+    // The others start as in a new session.
+    session.apply(EditMethod{MethodId::Precomputed});
+    render_passes(session, 1);
+    settings.method = MethodId::Precomputed;
+    Session fresh = make_session(scene, settings, 2);
+    render_passes(fresh, 1);
+    CHECK(same_state(state_of(fresh), state_of(session)));
+}
+
+TEST_CASE("A field that does not belong to the session is refused and changes nothing") {
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
+    Session session = make_session(scene, settings, 2);
+    CHECK_THAT(error_message(ErrorKind::Usage, [&] { session.export_field(); }),
+               contains("'reinforcement' has learned nothing"));
+    render_passes(session, 2);
+    const State before = state_of(session);
+    const LearnedField good = session.export_field();
+
+    LearnedField other_scene = good;
+    other_scene.scene_hash = "0000000000000000";
+    LearnedField short_table = good;
+    short_table.tables.visits.pop_back();
+    LearnedField default_method = good;
+    default_method.method = MethodId::Default;
+    LearnedField no_volumes = good;
+    no_volumes.volumes.reset();
+    CHECK_THAT(input_error([&] { session.import_field(other_scene); }),
+               contains("another scene: expected scene hash " + good.scene_hash + ", got 0000000000000000"));
+    for (const LearnedField& field : {short_table, default_method, no_volumes})
+        CHECK_THAT(input_error([&] { session.import_field(field); }), contains("do not fit together"));
+    CHECK(same_state(before, state_of(session)));
+    CHECK((session.settings().field == settings.field));
+    render_passes(session, 1);
+    Session undisturbed = make_session(scene, settings, 2);
+    render_passes(undisturbed, 3);
+    CHECK(same_state(state_of(undisturbed), state_of(session)));
+
+    session.apply(EditMethod{MethodId::Default});
+    CHECK_THAT(error_message(ErrorKind::Usage, [&] { session.export_field(); }), contains("'default'"));
+}
+
+// With a share of 1 no direction comes from the tables, and two vertices see no roulette that asks them: only the
+// numbers decide. Paths that met the numbers again that taught the tables would be too dark by a fifth in the first
+// pass (cornell, 60 volumes), since their directions seem likelier than they are.
+TEST_CASE("A picture that starts over what was learned draws new numbers") {
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
+    settings.bsdf_fraction = 1.0f;
+    settings.max_depth = 2;
+    Session session = make_session(scene, settings, 2);
+    render_passes(session, 1);
+    const std::vector<Vec3f> first = session.snapshot().pixels;
+    const LearnedField field = session.export_field();
+
+    session.apply(EditRestart{});
+    render_passes(session, 1);
+    CHECK_FALSE(same_bits(first, session.snapshot().pixels));
+    Session other = make_session(scene, settings, 2);
+    other.import_field(field);
+    render_passes(other, 1);
+    CHECK_FALSE(same_bits(first, other.snapshot().pixels));
+
+    // What forgets the tables may draw the same ones: it is a new session.
+    session.apply(EditForget{});
+    render_passes(session, 1);
+    CHECK(same_bits(first, session.snapshot().pixels));
+}
