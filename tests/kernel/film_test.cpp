@@ -11,7 +11,6 @@ using namespace pl;
 
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSubnormal = 1e-45f;
 
 struct Film {

@@ -11,7 +11,6 @@ using namespace pl::test;
 
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr double kSteps = 16777216.0;  ///< fixed-point steps per unit
 
 /// All probabilities finite, not negative, at least the floor's share, adding up to 1.

@@ -23,7 +23,6 @@ SceneDescription good() {
     return scene;
 }
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
