@@ -5,22 +5,16 @@
 #include "tests/catch.hpp"
 #include "tests/io/input_error.h"
 #include "tests/kernel/shapes.h"
+#include "tests/session/failing_backend.h"
 #include "tests/session/interruption.h"
 #include "tests/session/same_bits.h"
+#include "tests/session/small_settings.h"
 #include "tests/statistical/shipped_scenes.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-RenderSettings small_settings(const SceneDescription& scene, Estimator estimator) {
-    RenderSettings settings = settings_for(scene, estimator, 61, 47);
-    settings.field.volumes = 60;
-    settings.field.bins = 64;
-    settings.field.precompute_samples = 4;
-    return settings;
-}
 
 /// Small batches, so that a stop flag is seen soon.
 std::shared_ptr<RenderBackend> cpu_backend(int threads) {
@@ -32,50 +26,6 @@ Session session_on(std::shared_ptr<RenderBackend> backend, const SceneDescriptio
     return Session(std::move(backend), std::make_shared<const SceneDescription>(scene), settings);
 }
 
-/// The CPU back end, until one of its functions is told to fail.
-class FailingBackend final : public RenderBackend {
-public:
-    enum class Failure { None, Scene, Volumes, Tables, Download, Pass };
-
-    Failure failure = Failure::None;
-
-    BackendInfo info() const override { return inner_->info(); }
-    void upload_scene(std::shared_ptr<const HostScene> scene) override {
-        check(Failure::Scene);
-        inner_->upload_scene(std::move(scene));
-    }
-    void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
-        check(Failure::Volumes);
-        inner_->upload_volumes(std::move(volumes), shape);
-    }
-    void upload_tables(MethodId method, HostTables tables) override {
-        check(Failure::Tables);
-        inner_->upload_tables(method, std::move(tables));
-    }
-    HostTables download_tables(MethodId method) const override {
-        check(Failure::Download);
-        return inner_->download_tables(method);
-    }
-    bool has_tables(MethodId method) const override { return inner_->has_tables(method); }
-    void reset_film(FilmSlot slot, int width, int height) override { inner_->reset_film(slot, width, height); }
-    FilmReading read_film(FilmSlot slot) const override { return inner_->read_film(slot); }
-    PassCounters run_pass(const PassRequest& request) override {
-        check(Failure::Pass);
-        return inner_->run_pass(request);
-    }
-    PassCounters precompute(const PrecomputeRequest& request) override { return inner_->precompute(request); }
-    void publish(MethodId method) override { inner_->publish(method); }
-    std::string kernel_name(MethodId method, View view, FeatureSet needed) const override {
-        return inner_->kernel_name(method, view, needed);
-    }
-
-private:
-    void check(Failure asked) const {
-        if (failure == asked) throw Error(ErrorKind::Unavailable, "the device is gone");
-    }
-
-    std::shared_ptr<RenderBackend> inner_ = cpu_backend(1);
-};
 using Failure = FailingBackend::Failure;
 
 std::string unavailable(const std::function<void()>& call) { return error_message(ErrorKind::Unavailable, call); }

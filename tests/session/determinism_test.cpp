@@ -6,20 +6,13 @@
 #include "tests/kernel/shapes.h"
 #include "tests/session/interruption.h"
 #include "tests/session/same_bits.h"
+#include "tests/session/small_settings.h"
 #include "tests/statistical/shipped_scenes.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-RenderSettings small_settings(const SceneDescription& scene, Estimator estimator) {
-    RenderSettings settings = settings_for(scene, estimator, 61, 47);
-    settings.field.volumes = 60;
-    settings.field.bins = 64;
-    settings.field.precompute_samples = 4;
-    return settings;
-}
 
 State render(const SceneDescription& scene, const RenderSettings& settings, const CpuSettings& cpu) {
     Session session(make_cpu_backend(cpu), std::make_shared<const SceneDescription>(scene), settings);
