@@ -22,8 +22,6 @@ struct Wrong {
     std::function<void(LearnedField&, HostVolumes&)> change;
 };
 
-const float kNan = std::numeric_limits<float>::quiet_NaN();
-
 std::vector<Wrong> wrong_settings() {
     using F = LearnedField;
     using V = HostVolumes;
