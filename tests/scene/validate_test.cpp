@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/kernel/base/math.h"
 #include "tests/catch.hpp"
 #include "tests/io/input_error.h"
 
