@@ -3,13 +3,33 @@
 #include "core/base/error.h"
 #include "cpu/cpu_backend.h"
 #include "cuda/availability.h"
+#include "cuda/cuda_backend.h"
 
 namespace pl {
+namespace {
+
+/// Null if CUDA is not there, or if it is and something else keeps it from working.
+std::unique_ptr<RenderBackend> cuda_if_possible() {
+    if (!cuda_unavailable_reason().empty()) return nullptr;
+    try {
+        return make_cuda_backend();
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Unavailable) throw;
+        return nullptr;
+    }
+}
+
+}  // namespace
 
 std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads) {
-    if (name == "cuda")
-        throw Error(ErrorKind::Unavailable,
-                    "--backend cuda: " + cuda_unavailable_reason() + "; 'pathlight devices' lists what there is");
+    if (name == "cuda") {
+        if (const std::string reason = cuda_unavailable_reason(); !reason.empty())
+            throw Error(ErrorKind::Unavailable,
+                        "--backend cuda: " + reason + "; 'pathlight devices' lists what there is");
+        return make_cuda_backend();
+    }
+    if (name == "auto")
+        if (auto cuda = cuda_if_possible()) return cuda;
     return make_cpu_backend({.threads = threads});
 }
 

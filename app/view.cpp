@@ -15,6 +15,7 @@
 #include "app/open_scene.h"
 #include "app/picture_file.h"
 #include "core/io/load_scene.h"
+#include "cuda/availability.h"
 #include "ui/viewer.h"
 
 namespace pl {
@@ -42,13 +43,15 @@ int viewer_threads(int asked) {
     return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 
-std::string command_of(const ViewerPicture& picture, const SceneDescription& scene, const Options& opened) {
+/// `first_backend` is what the options' choice came to.
+std::string command_of(const ViewerPicture& picture, const SceneDescription& scene, const Options& opened,
+                       const std::string& first_backend) {
     const Options defaults = scene_defaults(picture.scene, scene);
     Options shown = defaults;
     shown.output = scene.source.stem().string() + ".png";
     shown.render = picture.settings;
     shown.display = picture.display;
-    shown.backend = opened.backend;
+    shown.backend = picture.backend == first_backend ? opened.backend : picture.backend;
     shown.threads = opened.threads;
     if (picture.limits.spp > 0) shown.spp = picture.limits.spp;
     if (picture.limits.seconds > 0.0) shown.time_limit_seconds = picture.limits.seconds;
@@ -60,6 +63,7 @@ ImageMetadata metadata_of(const ViewerPicture& picture, const Snapshot& snapshot
             {"scene", picture.scene},
             {"method", std::string(info_of(snapshot.slot.method).name)},
             {"view", std::string(info_of(snapshot.slot.view).name)},
+            {"backend", picture.backend},
             {"spp", std::to_string(snapshot.passes)},
             {"command", command}};
 }
@@ -92,7 +96,22 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
     return viewer;
 }
 
-/// What the viewer asks of the program. Scenes, options and console outlive it.
+/// The first one is made here, so that one that is not there is told before a window opens.
+void add_backends(ViewerOptions& viewer, const Options& options) {
+    const int threads = viewer_threads(options.threads);
+    const auto made = std::make_shared<std::unique_ptr<RenderBackend>>(make_backend(options.backend, threads));
+    const std::string first = (*made)->info().name;
+    BackendChoice cuda{.name = "cuda", .device = "", .unavailable = cuda_unavailable_reason()};
+    if (cuda.unavailable.empty()) cuda.device = cuda_devices().front().name;
+    viewer.first_backend = first;
+    viewer.backends = {{.name = "cpu", .device = make_backend("cpu", threads)->info().device, .unavailable = ""},
+                       cuda};
+    viewer.make_backend = [made, first, threads](const std::string& name) {
+        return name == first && *made ? std::move(*made) : make_backend(name, threads);
+    };
+}
+
+/// What the viewer asks of the program. All arguments outlive it.
 void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& options, Console& console) {
     viewer.load_scene = [&](const std::string& name) {
         const auto scene = open_scene(name, console).scene;
@@ -100,11 +119,11 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
         return scene;
     };
     viewer.command_line = [&](const ViewerPicture& picture) {
-        return command_of(picture, *scenes.find(picture.scene), options);
+        return command_of(picture, *scenes.find(picture.scene), options, viewer.first_backend);
     };
     viewer.save_image = [&](const std::filesystem::path& path, const Snapshot& snapshot,
                             const ViewerPicture& picture) {
-        const std::string command = command_of(picture, *scenes.find(picture.scene), options);
+        const std::string command = command_of(picture, *scenes.find(picture.scene), options, viewer.first_backend);
         save_picture(path, snapshot, picture.display, metadata_of(picture, snapshot, command));
     };
     viewer.save_screen = [](const std::filesystem::path& path, const ScreenPixels& pixels) {
@@ -121,11 +140,8 @@ int run_view(const CommandLine& line, Console& console) {
     scenes.add(options.scene, loaded.scene);
 
     ViewerOptions viewer = viewer_options(line, options, loaded);
+    add_backends(viewer, options);
     add_functions(viewer, scenes, options, console);
-    // Made here, so that a back end that is not there is told before a window opens.
-    const auto backend = std::make_shared<std::unique_ptr<RenderBackend>>(
-        make_backend(options.backend, viewer_threads(options.threads)));
-    viewer.make_backend = [backend] { return std::move(*backend); };
     try {
         return run_viewer(viewer);
     } catch (const Error& error) {

@@ -42,6 +42,7 @@ constexpr std::array kActions{
 
     Action{Pause, ActionGroup::Render, "Space", "pause or go on", {at(SDL_SCANCODE_SPACE)}},
     Action{SinglePass, ActionGroup::Render, "N", "one pass while paused", {sign(SDLK_n)}},
+    Action{SwitchBackend, ActionGroup::Render, "B", "other back end: CPU or CUDA", {sign(SDLK_b)}},
     Action{Restart, ActionGroup::Render, "R", "restart the picture", {sign(SDLK_r)}},
     Action{Forget,
            ActionGroup::Render,

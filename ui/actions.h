@@ -26,6 +26,7 @@ enum class ActionId {
     Forget,
     Pause,
     SinglePass,
+    SwitchBackend,
     MethodDefault,
     MethodPrecomputed,
     MethodReinforcement,

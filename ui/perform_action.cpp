@@ -42,6 +42,7 @@ void perform(ViewerModel& model, ActionId action) {
     case ActionId::Forget: model.forget(); break;
     case ActionId::Pause: model.set_paused(!model.paused()); break;
     case ActionId::SinglePass: model.single_pass(); break;
+    case ActionId::SwitchBackend: model.next_backend(); break;
     case ActionId::MethodDefault: model.set_method(MethodId::Default); break;
     case ActionId::MethodPrecomputed: model.set_method(MethodId::Precomputed); break;
     case ActionId::MethodReinforcement: model.set_method(MethodId::Reinforcement); break;

@@ -9,6 +9,7 @@
 
 #include "core/scene/pack_scene.h"
 #include "core/session/snapshot.h"
+#include "ui/viewer.h"
 
 namespace pl {
 
@@ -45,6 +46,8 @@ struct WorkerStatus {
     double seconds = 0.0;  ///< work_seconds()
     std::uint64_t generation = 0;
     std::optional<FieldStatus> field;
+    std::string backend;                             ///< name of the one in use
+    std::shared_ptr<const BackendChoices> backends;  ///< never null
 };
 
 /// Something to tell the person.

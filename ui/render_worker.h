@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/session/session.h"
+#include "ui/backend_switch.h"
 #include "ui/edit_queue.h"
 #include "ui/motion_resolution.h"
 #include "ui/picture.h"
@@ -18,7 +19,9 @@
 namespace pl {
 
 struct WorkerSetup {
-    std::function<std::unique_ptr<RenderBackend>()> make_backend;
+    BackendSwitch::Make make_backend;
+    BackendChoices backends;
+    std::string first_backend;
     std::shared_ptr<const SceneDescription> scene;
     RenderSettings settings;
     SampleLimits limits;
@@ -34,6 +37,11 @@ public:
 
     /// Queues an edit and returns its number: frames that show it have at least this generation.
     std::uint64_t submit(SessionEdit edit);
+    /// Asks for another back end; returns a number like submit(). Where it cannot be had, a message says why, and all
+    /// stays as it is.
+    std::uint64_t switch_backend(const std::string& name);
+    /// The back end that was asked for last, or the one in use if that could not be had.
+    std::string wanted_backend() const;
     /// While the camera moves, pictures may be coarse; afterwards they are complete again.
     void set_moving(bool moving);
     void set_low_resolution_allowed(bool allowed);
@@ -69,13 +77,21 @@ private:
         SampleLimits limits;
         std::int32_t volume = kNoVolume;
         std::optional<Vec2f> pick;
+        std::string backend;
         std::uint64_t generation = 0;
     };
 
     void run();
+    bool start_session();
     bool take_wishes();
     bool has_work() const;
     void apply_edits(std::vector<SessionEdit> edits);
+    void apply(const SessionEdit& edit);
+    bool attempt(const std::function<void()>& step);
+    void change_backend();
+    bool take_over(const std::string& reason);
+    void backend_changed();
+    void settle_wish_for(const std::string& backend);
     void apply_size(int divider);
     void work();
     void render();
@@ -89,7 +105,7 @@ private:
     bool wants_pass() const;
     WorkerStatus make_status() const;
     void update_status();
-    void report(bool is_error, const std::string& text);
+    void report(WorkerMessage message);
 
     WorkerSetup setup_;
 
@@ -108,6 +124,7 @@ private:
     StopFlag stop_{false};
 
     // Only the render thread touches what follows.
+    BackendSwitch backends_;
     std::unique_ptr<Session> session_;
     Wishes now_;  ///< wishes as of the last look
     std::shared_ptr<const SceneDescription> scene_;

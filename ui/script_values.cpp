@@ -36,6 +36,7 @@ constexpr std::array kValues{
     Value{"state", [](const ViewerModel& m) { return std::string(name_of(m.status().state)); }},
     Value{"spp", [](const ViewerModel& m) { return fmt::format("{}", m.status().passes); }},
     Value{"learned", learned_passes},
+    Value{"backend", [](const ViewerModel& m) { return m.status().backend; }},
     Value{"nee", [](const ViewerModel& m) { return word(m.settings().next_event); }},
     Value{"exposure", [](const ViewerModel& m) { return fmt::format("{}", m.display().exposure_ev); }},
     Value{"opacity", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().cells_opacity); }},
@@ -70,6 +71,8 @@ constexpr std::array kValues{
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return fmt::format("{}", f.snapshot.passes); });
           }},
+    Value{"shown_backend",
+          [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.backend.name; }); }},
     Value{"shown_divider",
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return fmt::format("{}", f.divider); });

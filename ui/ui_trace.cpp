@@ -44,6 +44,10 @@ void UiTrace::camera_moved(double seconds, std::uint64_t generation) {
     last_move_ = seconds;
 }
 
+void UiTrace::backend_asked(double seconds, std::uint64_t generation) {
+    switches_.push_back({seconds, generation, true});
+}
+
 void UiTrace::frame_shown(double seconds, const FrameTimes& times, std::uint64_t generation) {
     work_ms_.push_back(1000.0 * times.work);
     cpu_ms_.push_back(1000.0 * times.cpu);
@@ -52,6 +56,21 @@ void UiTrace::frame_shown(double seconds, const FrameTimes& times, std::uint64_t
                  R"({{"event":"frame","frame":{},"t":{:.6f},"work_ms":{:.3f},"cpu_ms":{:.3f},"interval_ms":{:.3f})",
                  frames_++, seconds, 1000.0 * times.work, 1000.0 * times.cpu, 1000.0 * times.interval)
           << "}\n";
+    show_moves(seconds, generation);
+    show_switches(seconds, generation);
+}
+
+void UiTrace::show_switches(double seconds, std::uint64_t generation) {
+    std::erase_if(switches_, [&](const Move& change) {
+        if (change.generation > generation) return false;
+        switch_ms_.push_back(1000.0 * (seconds - change.seconds));
+        file_ << fmt::format(R"({{"event":"switch","t":{:.6f},"latency_ms":{:.3f})", seconds, switch_ms_.back())
+              << "}\n";
+        return true;
+    });
+}
+
+void UiTrace::show_moves(double seconds, std::uint64_t generation) {
     std::erase_if(waiting_, [&](const Move& move) {
         if (move.generation > generation) return false;
         const double ms = 1000.0 * (seconds - move.seconds);
@@ -67,14 +86,14 @@ void UiTrace::frame_shown(double seconds, const FrameTimes& times, std::uint64_t
 std::string UiTrace::finish() {
     file_
         << fmt::format(
-               R"({{"event":"summary","work_ms":{},"cpu_ms":{},"interval_ms":{},"first_picture_ms":{},"picture_ms":{})",
+               R"({{"event":"summary","work_ms":{},"cpu_ms":{},"interval_ms":{},"first_picture_ms":{},"picture_ms":{},"switch_ms":{})",
                statistics(work_ms_), statistics(cpu_ms_), statistics(interval_ms_), statistics(first_picture_ms_),
-               statistics(picture_ms_))
+               statistics(picture_ms_), statistics(switch_ms_))
         << "}\n";
     file_.flush();
     return line_of("UI frame, work", work_ms_) + line_of("UI frame, computing", cpu_ms_) +
            line_of("UI frame to frame", interval_ms_) + line_of("first picture after a rest", first_picture_ms_) +
-           line_of("input to picture", picture_ms_);
+           line_of("input to picture", picture_ms_) + line_of("switch of back ends", switch_ms_);
 }
 
 }  // namespace pl

@@ -24,6 +24,9 @@ public:
     /// The camera was moved now; pictures of at least this generation show it.
     void camera_moved(double seconds, std::uint64_t generation);
 
+    /// Another back end was asked for now.
+    void backend_asked(double seconds, std::uint64_t generation);
+
     /// What one frame of the window took, in seconds.
     struct FrameTimes {
         double work;      ///< from its first event to its presentation, by the clock
@@ -42,14 +45,18 @@ private:
         std::uint64_t generation;
         bool is_first;
     };
+    void show_moves(double seconds, std::uint64_t generation);
+    void show_switches(double seconds, std::uint64_t generation);
 
     std::ofstream file_;
     std::vector<Move> waiting_;
+    std::vector<Move> switches_;  ///< of the back end, whose picture is not there yet
     std::vector<double> work_ms_;
     std::vector<double> cpu_ms_;
     std::vector<double> interval_ms_;
     std::vector<double> first_picture_ms_;  ///< moves after a rest
     std::vector<double> picture_ms_;        ///< all moves
+    std::vector<double> switch_ms_;
     double last_move_ = -1.0e9;
     std::uint64_t frames_ = 0;
 };

@@ -50,7 +50,7 @@ private:
     void wait_for_events();
     void dispatch(const SDL_Event& event);
     bool needs_redraw(double now);
-    void fly(double delta);
+    void trace_inputs();
     void build_panels();
     void show();
     void do_window_wishes();
@@ -72,6 +72,7 @@ private:
     double last_shown_ = -1.0;
     std::uint64_t shown_frames_ = 0;  ///< of the render thread
     std::uint64_t traced_camera_ = 0;
+    std::uint64_t traced_backend_ = 0;
     double settle_until_ = 0.0;  ///< until then every frame is drawn
     bool idle_ = false;
     bool rested_ = true;
@@ -123,7 +124,8 @@ void Viewer::run() {
         SDL_Event event;
         while (SDL_PollEvent(&event) != 0) dispatch(event);
         model_.update(now - start_);
-        fly(delta);
+        model_.fly(input_.move_keys(), delta);
+        trace_inputs();
         last_frame_ = now;
         if (!needs_redraw(now)) continue;
 
@@ -177,11 +179,16 @@ void Viewer::dispatch(const SDL_Event& event) {
                   {image_, layout_.view, io.WantCaptureMouse, io.WantTextInput, steady_seconds() - start_});
 }
 
-void Viewer::fly(double delta) {
-    model_.fly(input_.move_keys(), delta);
-    if (trace_ && model_.camera_generation() != traced_camera_) {
+void Viewer::trace_inputs() {
+    if (!trace_) return;
+    const double now = steady_seconds() - start_;
+    if (model_.camera_generation() != traced_camera_) {
         traced_camera_ = model_.camera_generation();
-        trace_->camera_moved(steady_seconds() - start_, traced_camera_);
+        trace_->camera_moved(now, traced_camera_);
+    }
+    if (model_.backend_generation() != traced_backend_) {
+        traced_backend_ = model_.backend_generation();
+        trace_->backend_asked(now, traced_backend_);
     }
 }
 

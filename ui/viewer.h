@@ -30,9 +30,18 @@ inline double work_seconds(const Clocks& clocks) {
     return clocks.place + clocks.precompute + clocks.learn + clocks.render;
 }
 
+/// A back end that the viewer can run on, or the reason why it cannot.
+struct BackendChoice {
+    std::string name;         ///< as make_backend takes it: "cpu", "cuda"
+    std::string device;       ///< what it runs on; empty while that is not known
+    std::string unavailable;  ///< why it cannot be used; empty if it can
+};
+using BackendChoices = std::vector<BackendChoice>;
+
 /// What the viewer shows, as far as a saved file or a command line has to repeat it.
 struct ViewerPicture {
-    std::string scene;  ///< name as load_scene takes it
+    std::string scene;    ///< name as load_scene takes it
+    std::string backend;  ///< name as make_backend takes it
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
@@ -64,8 +73,12 @@ struct ViewerOptions {
     std::optional<std::filesystem::path> script;    ///< scripted input, see ui/script.h
     std::optional<std::filesystem::path> ui_trace;  ///< one JSON object per UI frame; percentiles on stderr
 
-    /// Called once, on the render thread. Should leave one hardware thread to the window where there are several.
-    std::function<std::unique_ptr<RenderBackend>()> make_backend;
+    /// In the order in which a key steps through them. One should be "cpu": it takes over when another fails.
+    BackendChoices backends{{"cpu", "", ""}};
+    std::string first_backend = "cpu";
+    /// Called on the render thread when a back end is first wanted. Throws if it is unavailable after all. Should leave
+    /// one hardware thread to the window where there are several.
+    std::function<std::unique_ptr<RenderBackend>(const std::string& name)> make_backend;
     /// Throws Error(Input) with file and line. Called on a helper thread after the start.
     std::function<std::shared_ptr<const SceneDescription>(const std::string& name)> load_scene;
     /// Writes .png (tone mapped) or .exr (linear) by suffix. Called on a helper thread.

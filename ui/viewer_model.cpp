@@ -1,7 +1,6 @@
 #include "ui/viewer_model.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -21,17 +20,13 @@ constexpr float kMaxExposureEv = 16.0f;
 
 }  // namespace
 
-std::string back_end_label(const std::string& name) {
-    std::string label = name;
-    for (char& c : label) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return label;
-}
-
 ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene,
                          const RenderSettings& settings, double load_seconds)
     : options_(options), scene_name_(options.scene_name), settings_(settings), display_(options.display),
       limits_(options.limits), controls_(settings.camera, bounds_of(*scene).diagonal()),
-      worker_({options.make_backend, scene, settings, options.limits, load_seconds}) {
+      worker_({options.make_backend, options.backends, options.first_backend, scene, settings, options.limits,
+               load_seconds}) {
+    status_ = worker_.status();
     for (const std::string& warning : scene->warnings) say(LogLevel::Warning, warning);
     note(LogLevel::Info, fmt::format("opened {}: {} triangles", scene_name_, scene->triangles.size()));
 }
@@ -59,9 +54,11 @@ void ViewerModel::update(double seconds) {
 void ViewerModel::measure_throughput() {
     const Snapshot& snapshot = frame_->snapshot;
     const double seconds = snapshot.clocks.render;
-    const bool other_film = snapshot.slot != measured_slot_ || snapshot.counters.paths < measured_paths_;
+    const bool other_film = snapshot.slot != measured_slot_ || frame_->backend.name != measured_backend_ ||
+                            snapshot.counters.paths < measured_paths_;
     if (other_film) {
         measured_slot_ = snapshot.slot;
+        measured_backend_ = frame_->backend.name;
         measured_paths_ = 0;
         measured_seconds_ = 0.0;
     }
@@ -79,7 +76,7 @@ const VolumeInspection* ViewerModel::inspection() const {
 }
 
 std::string ViewerModel::title() const {
-    const std::string back_end = frame_ ? back_end_label(frame_->backend.name) : "starting";
+    const std::string back_end = frame_ ? back_end_label(status_.backend) : "starting";
     std::string text =
         fmt::format("{} spp - {} - {} - {}", status_.passes, info_of(settings_.method).label, back_end, scene_name_);
     if (status_.state == WorkerState::Done) text = "done: " + text;
@@ -116,6 +113,28 @@ void ViewerModel::step_view(int steps) {
     const int count = static_cast<int>(all_views().size());
     const int index = (static_cast<int>(settings_.view) + steps % count + count) % count;
     set_view(all_views()[static_cast<std::size_t>(index)].id);
+}
+
+void ViewerModel::set_backend(const std::string& name) {
+    const auto& choices = *status_.backends;
+    const auto choice = std::ranges::find(choices, name, &BackendChoice::name);
+    if (choice == choices.end() || name == wanted_backend()) return;
+    if (!choice->unavailable.empty()) {
+        say(LogLevel::Warning, fmt::format("{} is unavailable: {}", back_end_label(name), choice->unavailable));
+        return;
+    }
+    backend_generation_ = worker_.switch_backend(name);
+}
+
+void ViewerModel::next_backend() {
+    const auto& choices = *status_.backends;
+    if (choices.size() < 2) {
+        say(LogLevel::Info, "there is no other back end");
+        return;
+    }
+    const auto wanted = std::ranges::find(choices, wanted_backend(), &BackendChoice::name);
+    const auto index = static_cast<std::size_t>(wanted - choices.begin());
+    set_backend(choices[(index + 1) % choices.size()].name);
 }
 
 void ViewerModel::set_next_event(bool on) {
@@ -290,85 +309,6 @@ void ViewerModel::select(std::int32_t volume) {
 void ViewerModel::deselect() {
     picked_.reset();
     select(kNoVolume);
-}
-
-// --- files -----------------------------------------------------------------------------------------------------
-
-void ViewerModel::reload() { start_loading(scene_name_, true); }
-
-void ViewerModel::open(const std::string& scene) { start_loading(scene, false); }
-
-void ViewerModel::start_loading(const std::string& name, bool keep_camera) {
-    note(LogLevel::Info, "loading " + name);
-    jobs_.push([this, name, keep_camera]() -> JobThread::Report {
-        try {
-            auto scene = options_.load_scene(name);
-            return [this, scene, name, keep_camera] { adopt_scene(scene, name, keep_camera); };
-        } catch (const std::exception& error) {
-            return [this, text = std::string(error.what())] { say(LogLevel::Error, text); };
-        }
-    });
-}
-
-void ViewerModel::adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name,
-                              bool keep_camera) {
-    deselect();
-    scene_name_ = name;
-    const CameraDescription camera = keep_camera ? controls_.camera() : scene->camera;
-    controls_ = CameraControls(scene->camera, bounds_of(*scene).diagonal());
-    controls_.set_camera(camera);
-    settings_.camera = camera;
-    for (const std::string& warning : scene->warnings) say(LogLevel::Warning, warning);
-    say(LogLevel::Info, fmt::format("opened {}: {} triangles", name, scene->triangles.size()));
-    worker_.submit(EditScene{std::move(scene)});
-    worker_.submit(EditCamera{camera});
-}
-
-void ViewerModel::save_screenshot() { save({".png"}); }
-
-void ViewerModel::save_picture() { save({".exr", ".png"}); }
-
-void ViewerModel::save(std::initializer_list<const char*> suffixes) {
-    if (!frame_ || !options_.save_image) {
-        say(LogLevel::Warning, "there is no picture to save yet");
-        return;
-    }
-    ViewerPicture shown = picture();
-    shown.settings = frame_->settings;
-    const std::string stem = fmt::format("{}-{}", file_name_part(std::filesystem::path(scene_name_).stem().string()),
-                                         info_of(shown.settings.method).name);
-    const std::filesystem::path name = names_.next(options_.screenshot_dir, stem, suffixes);
-    for (const char* suffix : suffixes) {
-        const std::filesystem::path path = name.string() + suffix;
-        jobs_.push([this, path, shown, frame = frame_]() -> JobThread::Report {
-            try {
-                options_.save_image(path, frame->snapshot, shown);
-                return [this, path] { say(LogLevel::Info, "saved " + path.string()); };
-            } catch (const std::exception& error) {
-                return [this, text = std::string(error.what())] { say(LogLevel::Error, text); };
-            }
-        });
-    }
-}
-
-std::filesystem::path ViewerModel::next_window_shot() {
-    const std::string stem = file_name_part(std::filesystem::path(scene_name_).stem().string()) + "-window";
-    return names_.next(options_.screenshot_dir, stem, {".png"}).string() + ".png";
-}
-
-void ViewerModel::save_window(ScreenPixels pixels, std::filesystem::path path) {
-    if (!options_.save_screen) {
-        say(LogLevel::Warning, "this build cannot save the window");
-        return;
-    }
-    jobs_.push([this, path, shared = std::make_shared<ScreenPixels>(std::move(pixels))]() -> JobThread::Report {
-        try {
-            options_.save_screen(path, *shared);
-            return [this, path] { say(LogLevel::Info, "saved " + path.string()); };
-        } catch (const std::exception& error) {
-            return [this, text = std::string(error.what())] { say(LogLevel::Error, text); };
-        }
-    });
 }
 
 // --- messages --------------------------------------------------------------------------------------------------

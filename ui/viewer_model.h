@@ -50,9 +50,6 @@ struct WindowState {
     bool volume_tab_asked = false;  ///< bring it to the front
 };
 
-/// "cpu" as people read it: "CPU".
-std::string back_end_label(const std::string& name);
-
 class ViewerModel {
 public:
     /// `settings` hold the final size and camera.
@@ -87,13 +84,19 @@ public:
     double mpaths_per_second() const { return mpaths_per_second_; }
     /// Number of the newest camera edit; 0 before the first.
     std::uint64_t camera_generation() const { return camera_generation_; }
+    /// The back end that was asked for last; the one in use is in status().
+    std::string wanted_backend() const { return worker_.wanted_backend(); }
+    /// Number of the newest change of back end; 0 before the first.
+    std::uint64_t backend_generation() const { return backend_generation_; }
     std::string title() const;
-    ViewerPicture picture() const { return {scene_name_, asked_settings(), display_, limits_}; }
+    ViewerPicture picture() const { return {scene_name_, status_.backend, asked_settings(), display_, limits_}; }
     std::string command_line() const;
 
     void set_method(MethodId method);
     void set_view(View view);
     void step_view(int steps);
+    void set_backend(const std::string& name);
+    void next_backend();
     void set_next_event(bool on);
     void set_max_depth(int depth);
     void set_seed(std::uint64_t seed);
@@ -158,6 +161,7 @@ private:
     double moving_until_ = -1.0;
     MethodId previous_method_ = MethodId::Default;
     std::uint64_t camera_generation_ = 0;
+    std::uint64_t backend_generation_ = 0;
     std::int32_t selected_volume_ = kNoVolume;
     std::optional<PickedPoint> picked_;
     std::vector<LogLine> log_;
@@ -167,6 +171,7 @@ private:
     WorkerStatus status_;
     double mpaths_per_second_ = 0.0;
     FilmSlot measured_slot_;
+    std::string measured_backend_;
     std::uint64_t measured_paths_ = 0;
     double measured_seconds_ = 0.0;
 

@@ -1,11 +1,14 @@
-// A back end for tests of what surrounds it: paints a value per pass, counts, and can be held inside a pass.
+// A back end for tests of what surrounds it: paints a value per pass, counts, can be held inside, and can break. Two of
+// them stand for CPU and CUDA.
 #pragma once
 
 #include <atomic>
 #include <chrono>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "core/scene/description.h"
@@ -18,35 +21,84 @@ struct FakeControl {
     std::atomic<bool> hold{false};          ///< passes stay inside until they are stopped or let go
     std::atomic<bool> inside{false};        ///< a pass is held
     std::atomic<bool> fail{false};          ///< the next pass throws
+    std::atomic<bool> fail_upload{false};   ///< the next scene does not fit
+    std::atomic<bool> fail_making{false};   ///< the next one cannot be made
+    std::atomic<bool> lost{false};          ///< every call throws
+    std::atomic<bool> hold_upload{false};   ///< a scene stays on its way until it is let go
+    std::atomic<bool> uploading{false};     ///< a scene is held
+    std::atomic<int> made{0};               ///< back ends that were made
+    std::atomic<int> alive{0};              ///< of them, those that are still there
     std::atomic<int> stopped{0};            ///< passes that saw the stop flag
     std::atomic<int> passes{0};             ///< passes that were complete
     std::atomic<int> pass_microseconds{0};  ///< of a picture of 64x64; others in proportion to their pixels
+
+    void keep_tables(std::map<MethodId, HostTables>& where, MethodId method, const HostTables& tables) {
+        const std::lock_guard lock(mutex);
+        where[method] = tables;
+    }
+    HostTables tables_in(const std::map<MethodId, HostTables>& where, MethodId method) {
+        const std::lock_guard lock(mutex);
+        const auto found = where.find(method);
+        return found != where.end() ? found->second : HostTables{};
+    }
+    std::mutex mutex;
+    std::map<MethodId, HostTables> uploaded;    ///< the last of each method that came in; read by tables_in()
+    std::map<MethodId, HostTables> downloaded;  ///< the last of each method that went out
 };
+
+inline bool same_tables(const HostTables& a, const HostTables& b) {
+    bool same = true;
+    zip(a, b, [&](const auto& left, const auto& right) { same = same && left == right; });
+    return same;
+}
 
 class FakeBackend : public RenderBackend {
 public:
-    explicit FakeBackend(std::shared_ptr<FakeControl> control) : control_(std::move(control)) {}
+    explicit FakeBackend(std::shared_ptr<FakeControl> control, std::string name = "cpu")
+        : control_(std::move(control)), name_(std::move(name)) {
+        ++control_->made;
+        ++control_->alive;
+    }
+    ~FakeBackend() override { --control_->alive; }
 
-    BackendInfo info() const override { return {"fake", "test double", "none", 1}; }
-    void upload_scene(std::shared_ptr<const HostScene>) override {}
+    BackendInfo info() const override { return {name_, "fake " + name_, "none", name_ == "cpu" ? 1 : 0}; }
+    void upload_scene(std::shared_ptr<const HostScene>) override {
+        require_device();
+        control_->uploading = control_->hold_upload.load();
+        while (control_->hold_upload) std::this_thread::sleep_for(std::chrono::microseconds(50));
+        control_->uploading = false;
+        if (control_->fail_upload.exchange(false)) throw std::runtime_error("the scene does not fit");
+    }
     void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
+        require_device();
         probes_ =
             static_cast<std::uint32_t>(volumes->normals.size()) * static_cast<std::uint32_t>(shape.cells.count());
         tables_.clear();
     }
-    void upload_tables(MethodId method, HostTables tables) override { tables_[method] = std::move(tables); }
-    HostTables download_tables(MethodId method) const override { return tables_.at(method); }
+    void upload_tables(MethodId method, HostTables tables) override {
+        require_device();
+        control_->keep_tables(control_->uploaded, method, tables);
+        tables_[method] = std::move(tables);
+    }
+    HostTables download_tables(MethodId method) const override {
+        require_device();
+        control_->keep_tables(control_->downloaded, method, tables_.at(method));
+        return tables_.at(method);
+    }
     bool has_tables(MethodId method) const override { return tables_.count(method) > 0; }
 
     void reset_film(FilmSlot slot, int width, int height) override {
+        require_device();
         films_[slot.index()] = {width, height, std::vector<Vec3f>(static_cast<std::size_t>(width * height))};
     }
     FilmReading read_film(FilmSlot slot) const override {
+        require_device();
         const Film& film = films_.at(slot.index());
         return {film.width, film.height, film.pixels, 0, 0};
     }
 
     PassCounters run_pass(const PassRequest& request) override {
+        require_device();
         if (control_->fail.exchange(false)) throw std::runtime_error("the device is gone");
         Film& film = films_.at(request.slot.index());
         const auto pixels = static_cast<std::uint32_t>(film.width * film.height);
@@ -60,16 +112,26 @@ public:
             film.pixels[i] = request.slot.view == View::Voronoi ? color_of_id(i % 7) : Vec3f{request.camera.eye.x};
         counters.paths = pixels - request.first_pixel;
         counters.path.method.records = counters.paths;
+        record(request);
         ++control_->passes;
         return counters;
     }
     PassCounters precompute(const PrecomputeRequest& request) override {
+        require_device();
         PassCounters counters;
         wait_in_pass(0, request.stop);
         if (request.stop == nullptr || !*request.stop) counters.paths = probes_ - request.first_probe;
         return counters;
     }
-    void publish(MethodId) override {}
+    /// Makes every table depend on all records so far.
+    void publish(MethodId method) override {
+        require_device();
+        HostTables& tables = tables_.at(method);
+        for (std::size_t i = 0; i < tables.radiance.size(); ++i) {
+            tables.radiance[i] += static_cast<float>(tables.pending_sum[i] % 17);
+            tables.visits[i] += tables.pending_count[i];
+        }
+    }
     std::string kernel_name(MethodId, View, FeatureSet) const override { return "fake"; }
 
 private:
@@ -78,6 +140,19 @@ private:
         int height = 0;
         std::vector<Vec3f> pixels;
     };
+
+    void require_device() const {
+        if (control_->lost) throw std::runtime_error("the device is lost");
+    }
+
+    void record(const PassRequest& request) {
+        const auto found = tables_.find(request.slot.method);
+        if (found == tables_.end() || request.slot.view != View::Beauty) return;
+        HostTables& tables = found->second;
+        const std::size_t cell = request.sample % tables.pending_sum.size();
+        tables.pending_sum[cell] += 3 + request.sample;
+        ++tables.pending_count[cell];
+    }
 
     void wait_in_pass(std::uint32_t pixels, const StopFlag* stop) {
         using namespace std::chrono;
@@ -91,9 +166,24 @@ private:
     }
 
     std::shared_ptr<FakeControl> control_;
+    std::string name_;
     std::uint32_t probes_ = 0;
     std::map<MethodId, HostTables> tables_;
     std::map<int, Film> films_;
+};
+
+/// What stands for the back ends of a program: "cpu" and "cuda".
+struct FakeDevices {
+    std::shared_ptr<FakeControl> cpu = std::make_shared<FakeControl>();
+    std::shared_ptr<FakeControl> cuda = std::make_shared<FakeControl>();
+
+    auto maker() const {
+        return [cpu = cpu, cuda = cuda](const std::string& name) -> std::unique_ptr<RenderBackend> {
+            const auto& control = name == "cpu" ? cpu : cuda;
+            if (control->fail_making.exchange(false)) throw std::runtime_error("the driver does not answer");
+            return std::make_unique<FakeBackend>(control, name);
+        };
+    }
 };
 
 /// Two facing squares: something to stand on and a light.

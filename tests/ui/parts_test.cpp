@@ -147,10 +147,15 @@ TEST_CASE("UI trace: percentiles interpolate, latencies run from a move to the p
     trace.camera_moved(1.1, 6);                        // same motion
     trace.frame_shown(1.02, {0.004, 0.003, -1.0}, 4);  // does not show them yet
     trace.frame_shown(1.05, {0.004, 0.003, 0.016}, 5);
+    trace.backend_asked(1.18, 7);
     trace.frame_shown(1.20, {0.006, 0.003, 0.016}, 7);
+    trace.backend_asked(1.30, 8);  // its picture never comes
+    trace.frame_shown(1.40, {0.006, 0.003, 0.016}, 7);
     const std::string summary = trace.finish();
     CHECK_THAT(summary, test::contains("first picture after a rest   p50   50.00 ms"));
     CHECK_THAT(summary, test::contains("input to picture             p50   75.00 ms"));
-    CHECK_THAT(summary, test::contains("n 3"));
+    CHECK_THAT(summary, test::contains("n 4"));
+    CHECK_THAT(summary, test::contains("switch of back ends          p50   20.00 ms"));
+    CHECK_THAT(summary, test::contains("max   20.00 ms   n 1"));
     std::filesystem::remove(path);
 }

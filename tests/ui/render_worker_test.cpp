@@ -1,48 +1,9 @@
 #include "core/base/error.h"
 #include "tests/catch.hpp"
-#include "tests/ui/fake_backend.h"
-#include "ui/render_worker.h"
+#include "tests/ui/worker_bench.h"
 
 using namespace pl;
 using namespace pl::test;
-
-namespace {
-
-constexpr int kSize = 64;
-
-struct Bench {
-    std::shared_ptr<FakeControl> control = std::make_shared<FakeControl>();
-
-    WorkerSetup setup(MethodId method = MethodId::Default, SampleLimits limits = {}) {
-        RenderSettings settings;
-        settings.method = method;
-        settings.width = kSize;
-        settings.height = kSize;
-        settings.camera = small_scene()->camera;
-        settings.field.volumes = 16;
-        settings.field.bins = 16;
-        return {[control = control] { return std::make_unique<FakeBackend>(control); }, small_scene(), settings,
-                limits, 0.0};
-    }
-};
-
-CameraDescription camera_at(float x) {
-    CameraDescription camera = small_scene()->camera;
-    camera.eye.x = x;
-    return camera;
-}
-
-/// The newest frame that shows this edit, once it is there.
-std::shared_ptr<const PublishedFrame> frame_of(RenderWorker& worker, std::uint64_t generation) {
-    std::shared_ptr<const PublishedFrame> frame;
-    const bool found = eventually([&] {
-        frame = worker.latest();
-        return frame && frame->generation >= generation;
-    });
-    return found ? frame : nullptr;
-}
-
-}  // namespace
 
 TEST_CASE("Render worker: publishes frames that belong together") {
     Bench bench;
@@ -54,7 +15,7 @@ TEST_CASE("Render worker: publishes frames that belong together") {
     CHECK(frame->snapshot.passes >= 1);
     CHECK(frame->snapshot.counters.paths == std::uint64_t{frame->snapshot.passes} * kSize * kSize);
     CHECK(frame->divider == 1);
-    CHECK(frame->backend.name == "fake");
+    CHECK(frame->backend.name == "cpu");
     CHECK(frame->description->name == "small");
     CHECK(frame->serial >= 1);
 }
@@ -299,7 +260,7 @@ TEST_CASE("Render worker: a failing pass is told, and the next change tries agai
 
 TEST_CASE("Render worker: a back end that cannot be made is handed to the window") {
     WorkerSetup setup = Bench{}.setup();
-    setup.make_backend = []() -> std::unique_ptr<RenderBackend> {
+    setup.make_backend = [](const std::string&) -> std::unique_ptr<RenderBackend> {
         throw Error(ErrorKind::Unavailable, "no such device");
     };
     RenderWorker worker(std::move(setup));

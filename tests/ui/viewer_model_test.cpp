@@ -13,9 +13,10 @@ using namespace pl::test;
 
 namespace {
 
-/// A model over the fake back end, with what it saves kept in memory.
+/// A model over the fake back ends, with what it saves kept in memory.
 struct Bench {
-    std::shared_ptr<FakeControl> control = std::make_shared<FakeControl>();
+    FakeDevices devices;
+    std::shared_ptr<FakeControl> control = devices.cpu;
     ViewerOptions options;
     std::mutex mutex;
     std::vector<std::filesystem::path> saved;
@@ -29,7 +30,8 @@ struct Bench {
         options.settings.field.volumes = 16;
         options.settings.field.bins = 16;
         options.screenshot_dir = std::filesystem::temp_directory_path() / "pathlight-model-test";
-        options.make_backend = [control = control] { return std::make_unique<FakeBackend>(control); };
+        options.make_backend = devices.maker();
+        options.backends = {{"cpu", "", ""}, {"cuda", "", ""}};
         options.load_scene = [](const std::string& name) -> std::shared_ptr<const SceneDescription> {
             if (name == "broken.obj") throw Error(ErrorKind::Input, "broken.obj:7: expected a number, got 'x'");
             auto scene = std::make_shared<SceneDescription>(*small_scene());
@@ -208,7 +210,7 @@ TEST_CASE("Viewer model: title and command line tell what is shown") {
     Bench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-    CHECK_THAT(model.title(), contains(" spp - Default - FAKE - small"));
+    CHECK_THAT(model.title(), contains(" spp - Default - CPU - small"));
     CHECK(model.command_line() == "pathlight render small");
     model.set_paused(true);
     REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Paused; }));
@@ -217,9 +219,66 @@ TEST_CASE("Viewer model: title and command line tell what is shown") {
 
 TEST_CASE("Viewer model: a back end that cannot be made ends the viewer with its own error") {
     Bench bench;
-    bench.options.make_backend = []() -> std::unique_ptr<RenderBackend> {
+    bench.options.make_backend = [](const std::string&) -> std::unique_ptr<RenderBackend> {
         throw Error(ErrorKind::Unavailable, "no such device");
     };
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     CHECK_THROWS_AS(bench.run_until(model, [] { return false; }), Error);
+}
+
+TEST_CASE("Viewer model: the key for back ends goes round, however fast, and title and command line follow") {
+    Bench bench;
+    bench.options.command_line = [](const ViewerPicture& picture) { return "--backend " + picture.backend; };
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    CHECK(model.wanted_backend() == "cpu");
+    for (int press = 0; press < 7; ++press) model.next_backend();
+    CHECK(model.wanted_backend() == "cuda");
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->backend.name == "cuda"; }));
+    CHECK(model.status().backend == "cuda");
+    CHECK_THAT(model.title(), contains(" - CUDA - small"));
+    CHECK(model.command_line() == "--backend cuda");
+    CHECK(script_value(model, "shown_backend") == "cuda");
+    CHECK((*model.status().backends)[1].device == "fake cuda");
+    CHECK_THAT(model.log().back().text, contains("CUDA: fake cuda"));
+    model.set_backend("cpu");
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->backend.name == "cpu"; }));
+    CHECK((*model.status().backends)[0].device == "fake cpu, 1 thread");
+}
+
+TEST_CASE("Viewer model: a back end that cannot be had is told with its reason, and nothing changes") {
+    Bench bench;
+    bench.options.backends[1].unavailable = "no driver";
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return model.status().passes >= 3; }));
+    const std::uint64_t generation = model.status().generation;
+    model.next_backend();
+    REQUIRE(model.toasts().size() == 1);
+    CHECK(model.toasts().back().level == LogLevel::Warning);
+    CHECK(model.toasts().back().text == "CUDA is unavailable: no driver");
+    CHECK(model.wanted_backend() == "cpu");
+    const std::uint32_t passes = model.status().passes;
+    REQUIRE(bench.run_until(model, [&] { return model.status().passes > passes; }));
+    CHECK(model.status().generation == generation);
+    CHECK(bench.devices.cuda->made == 0);
+
+    bench.options.backends.pop_back();
+    ViewerModel lonely(bench.options, small_scene(), bench.options.settings, 0.0);
+    lonely.next_backend();
+    CHECK(lonely.toasts().back().text == "there is no other back end");
+}
+
+TEST_CASE("Viewer model: a back end that breaks is told in a toast, and the CPU goes on") {
+    Bench bench;
+    bench.options.first_backend = "cuda";
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    bench.devices.cuda->fail = true;
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->backend.name == "cpu"; }));
+    REQUIRE_FALSE(model.toasts().empty());
+    CHECK(model.toasts().back().level == LogLevel::Error);
+    CHECK(model.toasts().back().text == "CUDA failed: the device is gone. CPU takes over");
+    CHECK(model.log().back().text == model.toasts().back().text);
+    model.next_backend();
+    CHECK(model.toasts().back().text == "CUDA is unavailable: the device is gone");
 }

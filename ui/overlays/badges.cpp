@@ -36,12 +36,13 @@ private:
 void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
     const Snapshot& snapshot = frame.snapshot;
     const View view = snapshot.slot.view;
+    const std::string back_end = back_end_label(frame.backend.name);
     if (view == View::Beauty || view == View::RadianceMap)
-        row.add(fmt::format("{}  {} spp  {}", info_of(snapshot.slot.method).label, snapshot.passes,
+        row.add(fmt::format("{}  {}  {} spp  {}", info_of(snapshot.slot.method).label, back_end, snapshot.passes,
                             short_seconds(work_seconds(snapshot.clocks))),
                 colors::kText);
     else
-        row.add(fmt::format("{}  {} spp", info_of(view).label, snapshot.passes), colors::kText);
+        row.add(fmt::format("{}  {}  {} spp", info_of(view).label, back_end, snapshot.passes), colors::kText);
     if (view == View::RadianceMap) row.add("radiance map: biased preview", colors::kWarning);
     if (view == View::RadianceMap && !info_of(snapshot.slot.method).uses_field)
         row.add("learned by Reinforcement: 3 learns on", colors::kWarning);
@@ -72,6 +73,9 @@ void draw_badges(ViewerModel& model, const Layout& layout) {
     if (model.frame() != nullptr) add_picture_badges(row, *model.frame());
     const WorkerStatus& status = model.status();
     if (status.state == WorkerState::Starting) row.add("starting", colors::kWarning);
+    const std::string wanted = model.wanted_backend();
+    if (model.frame() != nullptr && model.frame()->backend.name != wanted && status.state != WorkerState::Failed)
+        row.add("switching to " + back_end_label(wanted), colors::kWarning);
     if (model.paused()) row.add("paused", colors::kWarning);
     if (status.state == WorkerState::Done) row.add("done", colors::kGood);
     if (status.state == WorkerState::Failed) row.add("rendering failed, see the log", colors::kError);

@@ -27,16 +27,26 @@ void draw_method(ViewerModel& model) {
         model.set_next_event(next_event);
 }
 
-void draw_back_end(const ViewerModel& model) {
+/// One that cannot be had is greyed, with the reason where the others tell their device.
+void draw_back_end(ViewerModel& model) {
     if (!section("Back end", true)) return;
-    if (model.frame() == nullptr) {
-        faint_text("starting");
-        return;
+    const std::string wanted = model.wanted_backend();
+    for (const BackendChoice& choice : *model.status().backends) {
+        const bool available = choice.unavailable.empty();
+        ImGui::BeginDisabled(!available);
+        if (ImGui::RadioButton(back_end_label(choice.name).c_str(), choice.name == wanted))
+            model.set_backend(choice.name);
+        ImGui::EndDisabled();
+        if (available) tooltip("B switches. Method, camera and what was learned stay.");
+        const std::string& text = available ? choice.device : choice.unavailable;
+        if (text.empty()) continue;
+        const float label_start = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
+        ImGui::Indent(label_start);
+        faint_text(text.c_str());
+        ImGui::Unindent(label_start);
     }
-    const BackendInfo& info = model.frame()->backend;
-    text_row("Runs on", fmt::format("{}, {} {}", info.name, info.threads, info.threads == 1 ? "thread" : "threads"),
-             info.device.c_str());
-    text_row("Rays", info.intersector, "How rays find triangles in this scene.");
+    if (model.frame() != nullptr)
+        text_row("Rays", model.frame()->backend.intersector, "How rays find triangles in this scene.");
 }
 
 void draw_size(ViewerModel& model) {
@@ -173,11 +183,11 @@ void draw_settings_panel(ViewerModel& model, const Layout& layout) {
     begin_fixed_window("settings", layout.left);
     draw_run_buttons(model);
     draw_method(model);
+    draw_back_end(model);
     draw_display(model);
     draw_sampling(model);
     draw_learning(model);
     draw_camera(model);
-    draw_back_end(model);
     ImGui::End();
 }
 

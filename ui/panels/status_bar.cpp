@@ -66,7 +66,7 @@ void draw_status_bar(const ViewerModel& model, const Layout& layout) {
                                           : (state == WorkerState::Rendering ? colors::kGood : colors::kWarning));
     line.add(std::string(info_of(model.settings().method).label), "The method; keys 1, 2, 3.");
     if (model.frame() != nullptr)
-        line.add(back_end_label(model.frame()->backend.name), model.frame()->backend.device.c_str());
+        line.add(back_end_label(model.status().backend), model.frame()->backend.device.c_str());
     line.add(fmt::format("{}x{}", model.settings().width, model.settings().height), "Size of the picture.");
     line.add(samples_text(model),
              "Samples per pixel, and the time they took: placing, precomputing, learning and rendering.");

@@ -1,0 +1,49 @@
+// A render worker over fake back ends, for tests.
+#pragma once
+
+#include "tests/ui/fake_backend.h"
+#include "ui/render_worker.h"
+
+namespace pl::test {
+
+inline constexpr int kSize = 64;
+
+struct Bench {
+    FakeDevices devices;
+    std::shared_ptr<FakeControl> control = devices.cpu;
+
+    WorkerSetup setup(MethodId method = MethodId::Default, SampleLimits limits = {}) {
+        RenderSettings settings;
+        settings.method = method;
+        settings.width = kSize;
+        settings.height = kSize;
+        settings.camera = small_scene()->camera;
+        settings.field.volumes = 16;
+        settings.field.bins = 16;
+        return {.make_backend = devices.maker(),
+                .backends = {{"cpu", "", ""}, {"cuda", "", ""}},
+                .first_backend = "cpu",
+                .scene = small_scene(),
+                .settings = settings,
+                .limits = limits,
+                .load_seconds = 0.0};
+    }
+};
+
+inline CameraDescription camera_at(float x) {
+    CameraDescription camera = small_scene()->camera;
+    camera.eye.x = x;
+    return camera;
+}
+
+/// The newest frame that shows this edit, once it is there.
+inline std::shared_ptr<const PublishedFrame> frame_of(RenderWorker& worker, std::uint64_t generation) {
+    std::shared_ptr<const PublishedFrame> frame;
+    const bool found = eventually([&] {
+        frame = worker.latest();
+        return frame && frame->generation >= generation;
+    });
+    return found ? frame : nullptr;
+}
+
+}  // namespace pl::test

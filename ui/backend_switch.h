@@ -1,0 +1,65 @@
+// The back ends of one session: made when they are first wanted, kept for the way back, given up when they fail.
+// Lives on the render thread.
+#pragma once
+
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/session/session.h"
+#include "ui/published_frame.h"
+
+namespace pl {
+
+class BackendSwitch {
+public:
+    using Make = std::function<std::unique_ptr<RenderBackend>(const std::string& name)>;
+    /// The one that takes over when another fails.
+    static constexpr std::string_view kFallback = "cpu";
+
+    BackendSwitch(Make make, BackendChoices choices, std::string first);
+
+    /// Name of the back end that the session is on.
+    const std::string& current() const { return current_; }
+    bool on_fallback() const { return current_ == kFallback; }
+    /// All back ends with what is known about them by now.
+    std::shared_ptr<const BackendChoices> choices() const { return choices_; }
+
+    /// Takes the session to another back end, with all that was learned; returns what to tell. Throws if the other one
+    /// is unavailable or fails: then the session is where it was.
+    WorkerMessage switch_to(Session& session, const std::string& name);
+    /// The current back end failed for this reason and is used no more: takes the session to the fallback, with what
+    /// was learned if the failed one still hands it out. Returns what to tell. Throws if the fallback fails, too.
+    WorkerMessage take_over(Session& session, const std::string& reason);
+    /// Makes the session, on the first back end or else on the fallback; then `told` gets the reason. Throws if there
+    /// is no fallback or if it fails, too.
+    std::unique_ptr<Session>
+    start(const std::function<std::unique_ptr<Session>(std::shared_ptr<RenderBackend>)>& make,
+          const std::function<void(const WorkerMessage&)>& told);
+
+private:
+    std::shared_ptr<RenderBackend> get(const std::string& name);
+    void adopt(const std::string& name, std::shared_ptr<RenderBackend> backend);
+    void give_up(const std::string& name, const std::string& reason);
+    BackendChoice choice(const std::string& name) const;
+    void change_choice(const BackendChoice& changed);
+
+    Make make_;
+    std::shared_ptr<const BackendChoices> choices_;  ///< replaced, never changed: the window reads it
+    std::string current_;
+    std::map<std::string, std::shared_ptr<RenderBackend>> made_;
+};
+
+/// False for complaints about what was asked for or about files: another back end would say the same.
+bool is_fault_of_backend(const std::exception& error);
+
+/// "cpu" as people read it: "CPU".
+std::string back_end_label(const std::string& name);
+/// "Xeon, 15 threads"; without the threads where the back end has none.
+std::string device_text(const BackendInfo& info);
+
+}  // namespace pl

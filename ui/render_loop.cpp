@@ -1,0 +1,223 @@
+// The part of RenderWorker that runs on the render thread.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "core/base/timer.h"
+#include "ui/render_worker.h"
+
+namespace pl {
+namespace {
+
+/// The window comes first where cores are few. On Linux this is about the calling thread, and threads that the back
+/// end starts from it inherit it.
+void yield_to_the_window() {
+    constexpr int kNice = 3;
+    (void)setpriority(PRIO_PROCESS, 0, kNice);
+}
+
+/// Does the edit change which volume a pixel shows?
+bool changes_pose(const SessionEdit& edit) {
+    return std::holds_alternative<EditCamera>(edit) || std::holds_alternative<EditScene>(edit) ||
+           std::holds_alternative<EditField>(edit);
+}
+
+}  // namespace
+
+void RenderWorker::run() {
+    yield_to_the_window();
+    if (!start_session()) return;
+    while (take_wishes()) {
+        if (!attempt([this] { work(); })) failed_ = true;
+        update_status();
+    }
+    session_.reset();
+}
+
+bool RenderWorker::start_session() {
+    const auto make = [this](std::shared_ptr<RenderBackend> backend) {
+        return std::make_unique<Session>(std::move(backend), setup_.scene, setup_.settings, setup_.load_seconds);
+    };
+    try {
+        session_ = backends_.start(make, [this](const WorkerMessage& message) { report(message); });
+    } catch (...) {
+        const std::lock_guard lock(mutex_);
+        failure_ = std::current_exception();
+        status_.state = WorkerState::Failed;
+        return false;
+    }
+    settle_wish_for(setup_.first_backend);
+    return true;
+}
+
+/// Waits until there is something to do; false if the window has closed.
+bool RenderWorker::take_wishes() {
+    std::vector<SessionEdit> edits;
+    {
+        std::unique_lock lock(mutex_);
+        while (!wishes_.quit) {
+            now_ = wishes_;
+            if (!edits_.empty() || has_work()) break;
+            status_ = make_status();
+            wake_.wait(lock);
+        }
+        if (wishes_.quit) return false;
+        edits = edits_.take();
+        wishes_.pick.reset();
+        wishes_.steps = 0;
+        stop_ = false;
+    }
+    apply_edits(std::move(edits));
+    if (now_.backend != backends_.current()) change_backend();
+    const std::lock_guard lock(mutex_);
+    // A pass in motion is short and always finished: otherwise a hand that never rests would never see a picture.
+    pass_may_be_cut_ = !coarse();
+    const bool is_late = !edits_.empty() || wishes_.backend != backends_.current();
+    if (pass_may_be_cut_ && is_late) stop_ = true;  // came while nobody had decided
+    return true;
+}
+
+bool RenderWorker::has_work() const {
+    if (now_.pick || now_.backend != backends_.current()) return true;
+    if (failed_) return false;
+    const bool size_is_stale = divider_ != 1 && !coarse();
+    return size_is_stale || wants_pass() || republish_ || inspection_stale_ ||
+           now_.volume != (inspection_ ? inspection_->volume : kNoVolume) || (now_.cells && cells_pose_ != pose_);
+}
+
+void RenderWorker::apply_edits(std::vector<SessionEdit> edits) {
+    for (const SessionEdit& edit : edits) {
+        failed_ = false;
+        if (changes_pose(edit)) ++pose_;
+        pose_unseen_ = pose_unseen_ || std::holds_alternative<EditCamera>(edit);
+        inspection_stale_ = true;
+        republish_ = true;
+        attempt([&] { apply(edit); });
+    }
+}
+
+/// May be done twice, if a back end fails in between.
+void RenderWorker::apply(const SessionEdit& edit) {
+    if (const auto* scene = std::get_if<EditScene>(&edit)) {
+        scene_ = scene->scene;
+        diagonal_ = bounds_of(*scene_).diagonal();
+    }
+    if (const auto* size = std::get_if<EditSize>(&edit)) {
+        full_width_ = size->width;
+        full_height_ = size->height;
+        divider_ = 0;  // no size is right any more: work() applies the new one
+    } else {
+        session_->apply(edit);
+    }
+}
+
+/// Does a step. If a back end fails in it, another takes over and does it again. False if it cannot be done: then the
+/// reason is told.
+bool RenderWorker::attempt(const std::function<void()>& step) {
+    for (;;) {
+        try {
+            step();
+            return true;
+        } catch (const std::exception& error) {
+            if (backends_.on_fallback() || !is_fault_of_backend(error)) {
+                report({true, error.what()});
+                return false;
+            }
+            if (!take_over(error.what())) return false;
+        }
+    }
+}
+
+void RenderWorker::change_backend() {
+    const std::string wanted = now_.backend;
+    try {
+        report(backends_.switch_to(*session_, wanted));
+        backend_changed();
+    } catch (const std::exception& error) {
+        report({true, fmt::format("cannot switch to {}: {}. {} goes on", back_end_label(wanted), error.what(),
+                                  back_end_label(backends_.current()))});
+    }
+    settle_wish_for(wanted);
+}
+
+bool RenderWorker::take_over(const std::string& reason) {
+    const std::string failed = backends_.current();
+    try {
+        report(backends_.take_over(*session_, reason));
+    } catch (const std::exception& error) {
+        report({true, fmt::format("{} failed: {}. No other back end can take over: {}", back_end_label(failed),
+                                  reason, error.what())});
+        return false;
+    }
+    backend_changed();
+    settle_wish_for(failed);
+    return true;
+}
+
+void RenderWorker::backend_changed() {
+    failed_ = false;
+    inspection_stale_ = true;
+    republish_ = true;
+    motion_.reset();
+    update_status();
+}
+
+/// A wish for this back end is settled, whatever came of it; a newer one stands.
+void RenderWorker::settle_wish_for(const std::string& backend) {
+    const std::lock_guard lock(mutex_);
+    if (wishes_.backend == backend) wishes_.backend = backends_.current();
+    if (now_.backend == backend) now_.backend = backends_.current();
+}
+
+void RenderWorker::apply_size(int divider) {
+    if (divider == divider_) return;
+    divider_ = divider;
+    const int width = divided(full_width_, divider);
+    const int height = divided(full_height_, divider);
+    if (session_->settings().width == width && session_->settings().height == height) return;
+    session_->apply(EditSize{width, height});
+    ++pose_;
+}
+
+void RenderWorker::work() {
+    apply_size(coarse() ? motion_.divider_for(full_width_, full_height_) : 1);
+    if (republish_ && session_->passes() > 0) {  // a parked picture is there at once
+        refresh_inspection();
+        publish();
+    }
+    if (now_.pick) answer_pick(*now_.pick);
+    if (wants_pass()) render();
+    if (stop_) return;
+    if (now_.cells && cells_pose_ != pose_ && session_->passes() > 0) render_cells();
+    refresh_inspection();
+    if (republish_ || publish_is_due()) publish();
+}
+
+/// While the camera moves, and until the last place it came to was seen at all.
+bool RenderWorker::coarse() const { return now_.low_resolution && (now_.moving || pose_unseen_); }
+
+bool RenderWorker::wants_pass() const {
+    if (failed_) return false;
+    // Also a paused picture follows the camera: one pass for every view of the scene.
+    if (session_->passes() == 0 || now_.steps > 0) return true;
+    return !now_.paused && !limit_reached();
+}
+
+bool RenderWorker::limit_reached() const {
+    if (coarse()) return false;
+    const SampleLimits& limits = now_.limits;
+    if (limits.spp > 0 && session_->passes() >= limits.spp) return true;
+    return limits.seconds > 0.0 && work_seconds(session_->clocks()) >= limits.seconds;
+}
+
+void RenderWorker::render() {
+    const Stopwatch watch;
+    const Progress progress = session_->advance(&stop_);
+    if (progress == Progress::Rendered) {
+        if (session_->passes() == 1) republish_ = true;
+        motion_.observe(divider_, watch.seconds());
+    }
+    update_status();
+    if (now_.steps > 0 || limit_reached() || now_.paused) republish_ = true;
+}
+
+}  // namespace pl
