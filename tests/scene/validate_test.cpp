@@ -2,7 +2,6 @@
 #include "core/scene/validate.h"
 
 #include <functional>
-#include <limits>
 
 #include "core/kernel/base/math.h"
 #include "tests/catch.hpp"
@@ -23,8 +22,6 @@ SceneDescription good() {
     scene.triangles = {{.vertex = {0, 1, 2}, .normal = {0, 0, TriangleDescription::kNoNormal}, .material = 0}};
     return scene;
 }
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
