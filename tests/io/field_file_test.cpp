@@ -1,6 +1,7 @@
 // Files of learned fields: the same bits back, and a refusal for everything else.
 #include "core/io/field_file.h"
 
+#include <cstddef>
 #include <cstring>
 
 #include "core/base/hash.h"
@@ -27,7 +28,7 @@ constexpr std::size_t kChecksumBytes = 8;
 
 template <class T>
 bool same_bits(const HostArray<T>& a, const HostArray<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 bool same_bits(const HostArray<SurfacePoint>& a, const HostArray<SurfacePoint>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const SurfacePoint& p, const SurfacePoint& q) {
