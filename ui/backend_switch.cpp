@@ -43,6 +43,12 @@ std::string back_end_label(const std::string& name) {
     return label;
 }
 
+std::string reason_of(const std::exception& error, const std::string& backend) {
+    const std::string text = error.what();
+    const std::string label = back_end_label(backend) + ": ";
+    return text.starts_with(label) ? text.substr(label.size()) : text;
+}
+
 std::string device_text(const BackendInfo& info) {
     if (info.threads < 1) return info.device;
     return fmt::format("{}, {} {}", info.device, info.threads, info.threads == 1 ? "thread" : "threads");
@@ -67,9 +73,10 @@ BackendSwitch::start(const std::function<std::unique_ptr<Session>(std::shared_pt
     } catch (const std::exception& error) {
         const std::string failed = current_;
         std::unique_ptr<Session> session = start_on(std::string(kFallback));
-        give_up(failed, error.what());
-        told({true, fmt::format("{} failed: {}. {} takes over", back_end_label(failed), error.what(),
-                                back_end_label(current_))});
+        const std::string reason = reason_of(error, failed);
+        give_up(failed, reason);
+        told({true,
+              fmt::format("{} failed: {}. {} takes over", back_end_label(failed), reason, back_end_label(current_))});
         return session;
     }
 }
@@ -82,14 +89,15 @@ WorkerMessage BackendSwitch::switch_to(Session& session, const std::string& name
         session.apply(EditBackend{.backend = next});
     } catch (const std::exception& error) {
         if (name != kFallback) throw;
-        return take_over(session, error.what());
+        return take_over(session, error);
     }
     adopt(name, next);
     return {false, fmt::format("{}: {}", back_end_label(name), choice(name).device)};
 }
 
-WorkerMessage BackendSwitch::take_over(Session& session, const std::string& reason) {
+WorkerMessage BackendSwitch::take_over(Session& session, const std::exception& error) {
     const std::string failed = current_;
+    const std::string reason = reason_of(error, failed);
     const bool learned = has_learned(session);
     const std::shared_ptr<RenderBackend> next = get(std::string(kFallback));
     const bool kept = leave(session, next);

@@ -32,9 +32,9 @@ public:
     /// Takes the session to another back end, with all that was learned; returns what to tell. Throws if the other one
     /// is unavailable or fails: then the session is where it was.
     WorkerMessage switch_to(Session& session, const std::string& name);
-    /// The current back end failed for this reason and is used no more: takes the session to the fallback, with what
+    /// The current back end failed with this error and is used no more: takes the session to the fallback, with what
     /// was learned if the failed one still hands it out. Returns what to tell. Throws if the fallback fails, too.
-    WorkerMessage take_over(Session& session, const std::string& reason);
+    WorkerMessage take_over(Session& session, const std::exception& error);
     /// Makes the session, on the first back end or else on the fallback; then `told` gets the reason. Throws if there
     /// is no fallback or if it fails, too.
     std::unique_ptr<Session>
@@ -59,6 +59,8 @@ bool is_fault_of_backend(const std::exception& error);
 
 /// "cpu" as people read it: "CPU".
 std::string back_end_label(const std::string& name);
+/// What an error says, without the name of the back end that some errors begin with.
+std::string reason_of(const std::exception& error, const std::string& backend);
 /// "Xeon, 15 threads"; without the threads where the back end has none.
 std::string device_text(const BackendInfo& info);
 

@@ -122,34 +122,39 @@ bool RenderWorker::attempt(const std::function<void()>& step) {
                 report({true, error.what()});
                 return false;
             }
-            if (!take_over(error.what())) return false;
+            if (!take_over(error)) return false;
         }
     }
 }
 
+/// Messages come last: whoever reads one sees the state that it tells of.
 void RenderWorker::change_backend() {
     const std::string wanted = now_.backend;
+    WorkerMessage message;
     try {
-        report(backends_.switch_to(*session_, wanted));
+        message = backends_.switch_to(*session_, wanted);
         backend_changed();
     } catch (const std::exception& error) {
-        report({true, fmt::format("cannot switch to {}: {}. {} goes on", back_end_label(wanted), error.what(),
-                                  back_end_label(backends_.current()))});
+        message = {true, fmt::format("cannot switch to {}: {}. {} goes on", back_end_label(wanted),
+                                     reason_of(error, wanted), back_end_label(backends_.current()))};
     }
     settle_wish_for(wanted);
+    report(std::move(message));
 }
 
-bool RenderWorker::take_over(const std::string& reason) {
+bool RenderWorker::take_over(const std::exception& error) {
     const std::string failed = backends_.current();
+    WorkerMessage message;
     try {
-        report(backends_.take_over(*session_, reason));
-    } catch (const std::exception& error) {
+        message = backends_.take_over(*session_, error);
+    } catch (const std::exception& second) {
         report({true, fmt::format("{} failed: {}. No other back end can take over: {}", back_end_label(failed),
-                                  reason, error.what())});
+                                  reason_of(error, failed), second.what())});
         return false;
     }
     backend_changed();
     settle_wish_for(failed);
+    report(std::move(message));
     return true;
 }
 

@@ -89,7 +89,7 @@ private:
     void apply(const SessionEdit& edit);
     bool attempt(const std::function<void()>& step);
     void change_backend();
-    bool take_over(const std::string& reason);
+    bool take_over(const std::exception& error);
     void backend_changed();
     void settle_wish_for(const std::string& backend);
     void apply_size(int divider);

@@ -309,6 +309,12 @@ TEST_CASE("Back-end switch: complaints about what was asked for break no back en
     CHECK(is_fault_of_backend(std::bad_alloc()));
 }
 
+TEST_CASE("Back-end switch: a reason does not name its back end twice") {
+    CHECK(reason_of(Error(ErrorKind::Unavailable, "CUDA: out of memory"), "cuda") == "out of memory");
+    CHECK(reason_of(Error(ErrorKind::Unavailable, "CUDA: out of memory"), "cpu") == "CUDA: out of memory");
+    CHECK(reason_of(std::runtime_error("lost"), "cuda") == "lost");
+}
+
 TEST_CASE("Back-end switch: of many wishes in a hurry the last one counts") {
     Bench bench;
     RenderWorker worker(bench.setup(MethodId::Reinforcement));
