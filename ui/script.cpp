@@ -187,6 +187,7 @@ bool holds(const ScriptCondition& condition, const std::string& actual) {
     if (condition.op == "~") return actual.find(condition.value) != std::string::npos;
     if (condition.op == "==") return order == 0;
     if (condition.op == "!=") return order != 0;
+    if (a.has_value() != b.has_value()) return false;  // "none" is not more than 2
     if (condition.op == "<") return order < 0;
     if (condition.op == "<=") return order <= 0;
     if (condition.op == ">") return order > 0;

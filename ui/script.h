@@ -21,7 +21,7 @@ struct ScriptCondition {
     std::string value;
 };
 
-/// Numbers are compared as numbers, everything else as text.
+/// Numbers are compared as numbers, everything else as text. Between a number and a text there is no order.
 bool holds(const ScriptCondition& condition, const std::string& actual);
 
 struct ScriptCommand {

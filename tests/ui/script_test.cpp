@@ -94,4 +94,7 @@ TEST_CASE("Script: conditions compare numbers as numbers and words as words") {
     CHECK_FALSE(check("~", "x", "precomputed"));
     CHECK(check("==", "yes", "yes"));
     CHECK(check(">", "-2", "-1.5"));
+    CHECK_FALSE(check(">=", "2", "none"));
+    CHECK_FALSE(check("<", "2", "none"));
+    CHECK(check("!=", "2", "none"));
 }
