@@ -78,7 +78,7 @@ TEST_CASE("A radiance map is the same however often the back end changes in the 
     render_passes(whole, 1);
     Uniforms random(1);
     int moved = 0;
-    for (int run = 0; run < 50 && moved < 5; ++run) {
+    for (int run = 0; run < 5000 && moved < 5; ++run) {
         const std::array backends{cpu_backend(1), cpu_backend(2), cpu_backend(3)};
         Session session = session_on(backends[0], scene, settings);
         for (std::size_t next = 1; session.passes() == 0; ++next) {
@@ -104,7 +104,7 @@ TEST_CASE("A pass that waited with its back end is finished with the same bits")
         render_passes(whole, 3);
         Uniforms random(1);
         int moved = 0;
-        for (int run = 0; run < 50 && moved < 3; ++run) {
+        for (int run = 0; run < 5000 && moved < 3; ++run) {
             const auto first = cpu_backend(2);
             const auto second = cpu_backend(1);
             Session session = session_on(first, scene, settings);

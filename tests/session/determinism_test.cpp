@@ -65,7 +65,7 @@ TEST_CASE("Work that is stopped and resumed at any moment does not change a bit"
         const int wanted_slices = estimator.method == MethodId::Precomputed ? 3 : 0;
         int partial_passes = 0;
         int partial_slices = 0;
-        for (int run = 0; run < 50 && (partial_passes < 3 || partial_slices < wanted_slices); ++run) {
+        for (int run = 0; run < 5000 && (partial_passes < 3 || partial_slices < wanted_slices); ++run) {
             Session session(make_cpu_backend(cpu), std::make_shared<const SceneDescription>(scene), settings);
             while (session.passes() < 3) {
                 advance_interrupted(session, random.next());

@@ -77,7 +77,7 @@ TEST_CASE("A radiance map that moves in the middle of a slice is completed with 
     const auto shared_scene = std::make_shared<const SceneDescription>(scene);
     Uniforms random(1);
     int moved = 0;
-    for (int run = 0; run < 50 && moved < 5; ++run) {
+    for (int run = 0; run < 5000 && moved < 5; ++run) {
         auto session = std::make_unique<Session>(make_cpu_backend(cpu), shared_scene, settings);
         while (session->passes() == 0) {
             advance_interrupted(*session, random.next());

@@ -28,6 +28,8 @@ std::uint32_t passes_for(Estimator estimator, double resolution) {
         variation = estimator.next_event ? 3.0 : 6.5;
     else if (estimator.next_event)
         variation = 3.0;
+    else if (estimator.method == MethodId::Precomputed)
+        variation = 10.0;  // rare paths through cells that were thought dark weigh much
     const double paths = std::pow(variation / (2.0 / 3.0 * resolution / 8.0), 2);
     return static_cast<std::uint32_t>(std::ceil(paths / (kBatches * kSide * kSide)));
 }

@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# check_device_code.sh NVCC ROOT [--write]: what the device compiler makes of the kernels, without a device.
+#   - no contraction: not one fused multiply-add, so that a hit is the same on every back end
+#   - double arithmetic only in the exact edge test of triangles, once per ray that is traced
+#   - an effect that a set lacks has no code in its kernels: no shadow ray, no random numbers, no normals
+#   - default path tracing has no code for learning
+#   - registers, stack and spills of every kernel as in kernels.sm_90.txt, if nvcc is the version named there; --write
+#     writes that file anew
+set -euo pipefail
+nvcc=$1
+root=$2
+table=$root/tests/cuda/kernels.sm_90.txt
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+compile() {
+    "$nvcc" -std=c++20 -O3 -DNDEBUG -fmad=false --expt-relaxed-constexpr -diag-suppress=20012,445 -I"$root" \
+        -arch=sm_90 -cubin -Xptxas -v --keep --keep-dir "$work" -o "$work/$1.cubin" "$root/cuda/kernels/$1.cu" \
+        2>"$work/$1.log" || { cat "$work/$1.log"; exit 1; }
+}
+files=(default precomputed reinforcement probes views film publish)
+for file in "${files[@]}"; do compile "$file"; done
+
+failures=0
+# expect WHAT A OPERATOR B
+expect() {
+    if ! [ "$2" "$3" "$4" ]; then
+        echo "FAILED: $1: expected $2 $3 $4"
+        failures=$((failures + 1))
+    fi
+}
+# kernel FILE BITS: the PTX of the kernel of this file for one set of effects
+kernel() { awk -v tag="ILj$2E" '/\.entry /{inside = index($0, tag) > 0} inside' "$work/$1.ptx"; }
+# count FILE BITS PATTERN: in how many lines it occurs
+count() { kernel "$1" "$2" | grep -cE -- "$3" || true; }
+
+# Of film, tone mapping is for the eye only: it calls the library's power function.
+for file in default precomputed reinforcement probes views publish; do
+    expect "fused multiply-adds in $file" "$(grep -c 'fma\.' "$work/$file.ptx" || true)" -eq 0
+done
+for file in default precomputed reinforcement probes; do
+    # Sets 0: nothing, 3: smooth normals and environment, 4: light samples, 7: all. Philox' key schedule and its first
+    # multiplier show how many draws there are; doubles how many traversals.
+    size=() draws=() doubles=()
+    for bits in 0 3 4 7; do
+        size[bits]=$(kernel "$file" "$bits" | grep -cE $'^\t(@!?%p[0-9]+ )?[a-z]')
+        draws[bits]=$(count "$file" "$bits" '-766435501|3528531795')
+        doubles[bits]=$(count "$file" "$bits" '(add|sub|mul|div|sqrt)[a-z.]*\.f64')
+    done
+    expect "$file: instructions without and with normals and environment" "${size[0]}" -lt "${size[3]}"
+    expect "$file: instructions without and with light samples" "${size[0]}" -lt "${size[4]}"
+    expect "$file: instructions with some and all effects" "${size[4]}" -lt "${size[7]}"
+    expect "$file: random numbers for normals and environment" "${draws[0]}" -eq "${draws[3]}"
+    expect "$file: random numbers without and with light samples" "${draws[0]}" -lt "${draws[4]}"
+    expect "$file: double operations without and with shadow rays" "$((2 * doubles[0]))" -eq "${doubles[4]}"
+    expect "$file: double operations for one ray" "${doubles[0]}" -le 9
+    expect "$file: double operations for normals and environment" "${doubles[0]}" -eq "${doubles[3]}"
+    expect "$file: double divisions and roots" "$(count "$file" 7 '(div|sqrt)[a-z.]*\.f64')" -eq 0
+done
+expect "default: aggregated records" "$(count default 7 'match\.')" -eq 0
+expect "precomputed: aggregated records" "$(count precomputed 7 'match\.')" -eq 0
+expect "reinforcement: aggregated records" "$(count reinforcement 0 'match\.')" -gt 0
+
+# registers FILE: kernel, its set or step, registers, stack frame, bytes of spill stores and loads
+registers() {
+    awk -v file="$1" '
+        function part(names) { return match($0, names) ? substr($0, RSTART, RLENGTH) : "-" }
+        /Compiling entry function/ {
+            name = part("trace_paths|show_view|add_samples|read_film|tone_map_film|run_step")
+            set = part("ILj[0-9]E")
+            gsub(/[^0-9-]/, "", set)
+            if (name == "run_step") set = part("absorb_records|publish_mean|weigh_cell|sum_row|build_row_choice|build_row")
+        }
+        /bytes stack frame/ { stack = $1; spills = $5 + $9 }
+        /Used [0-9]+ registers/ {
+            registers = part("Used [0-9]+")
+            sub("Used ", "", registers)
+            printf "%-14s %-14s %-16s %9d %6d %6d\n", file, name, set, registers, stack, spills
+        }' "$work/$1.log"
+}
+{
+    echo "# nvcc $("$nvcc" --version | sed -n 's/.*release \([0-9.]*\),.*/\1/p'), sm_90. Made by check_device_code.sh --write"
+    printf '%-14s %-14s %-16s %9s %6s %6s\n' file kernel 'effects or step' registers stack spills
+    for file in "${files[@]}"; do registers "$file" | sort; done
+} >"$work/table"
+if [[ ${3-} == --write ]]; then
+    cp "$work/table" "$table"
+elif [[ $(head -1 "$table") == "$(head -1 "$work/table")" ]]; then
+    diff "$table" "$work/table" || { echo "FAILED: registers differ from $table"; failures=$((failures + 1)); }
+else
+    echo "registers not compared: the table is for another nvcc"
+fi
+exit $((failures > 0))
