@@ -25,16 +25,9 @@ __global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Spa
     add_up(totals->invalid, own.invalid);
 }
 
-__global__ void __launch_bounds__(kThreadsPerBlock)
-    tone_map_film(FilmView film, float scale, ToneCurve curve, Span<std::uint32_t> argb) {
-    const std::uint32_t i = thread_number();
-    if (i < film.pixels.count) argb[i] = to_argb(tone_map(mean_or_nan(film.pixels[i]), scale, curve));
-}
-
 }  // namespace
 
 constinit const AddSamplesKernel kAddSamples = add_samples;
 constinit const ReadFilmKernel kReadFilm = read_film;
-constinit const ToneMapKernel kToneMap = tone_map_film;
 
 }  // namespace pl::cuda

@@ -4,7 +4,6 @@
 #include "core/base/kernel_row.h"
 #include "core/kernel/fields/publication.h"
 #include "core/kernel/film/film_view.h"
-#include "core/kernel/film/tonemap.h"
 #include "core/kernel/inspect/views.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/precomputed.h"
@@ -78,10 +77,6 @@ extern const AddSamplesKernel kAddSamples;
 /// One thread per pixel: means for display and saving (see mean_or_nan), and the film's totals.
 using ReadFilmKernel = void (*)(FilmView film, Span<Vec3f> means, FilmTotals* totals);
 extern const ReadFilmKernel kReadFilm;
-
-/// One thread per pixel: the 8-bit picture, as 0xffRRGGBB. `scale` multiplies linear values.
-using ToneMapKernel = void (*)(FilmView film, float scale, ToneCurve curve, Span<std::uint32_t> argb);
-extern const ToneMapKernel kToneMap;
 
 /// One step of publication for `count` cells, rows or volumes: one thread each.
 using PublicationKernel = void (*)(FieldPublicationView field, std::uint32_t count);

@@ -34,8 +34,7 @@ kernel() { awk -v tag="ILj$2E" '/\.entry /{inside = index($0, tag) > 0} inside' 
 # count FILE BITS PATTERN: in how many lines it occurs
 count() { kernel "$1" "$2" | grep -cE -- "$3" || true; }
 
-# Of film, tone mapping is for the eye only: it calls the library's power function.
-for file in default precomputed reinforcement probes views publish; do
+for file in "${files[@]}"; do
     expect "fused multiply-adds in $file" "$(grep -c 'fma\.' "$work/$file.ptx" || true)" -eq 0
 done
 for file in default precomputed reinforcement probes; do
@@ -66,7 +65,7 @@ registers() {
     awk -v file="$1" '
         function part(names) { return match($0, names) ? substr($0, RSTART, RLENGTH) : "-" }
         /Compiling entry function/ {
-            name = part("trace_paths|show_view|add_samples|read_film|tone_map_film|run_step")
+            name = part("trace_paths|show_view|add_samples|read_film|run_step")
             set = part("ILj[0-9]E")
             gsub(/[^0-9-]/, "", set)
             if (name == "run_step") set = part("absorb_records|publish_mean|weigh_cell|sum_row|build_row_choice|build_row")

@@ -40,12 +40,4 @@ PL_HD inline float encode_srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
-/// Linear display value in [0,1]^3 to 8 bits per channel, sRGB-encoded, as 0xffRRGGBB.
-PL_HD inline std::uint32_t to_argb(Vec3f display) {
-    std::uint32_t argb = 0xffu;
-    for (int channel = 0; channel < 3; ++channel)
-        argb = argb << 8 | static_cast<std::uint32_t>(255.0f * encode_srgb(display[channel]) + 0.5f);
-    return argb;
-}
-
 }  // namespace pl
