@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "core/base/error.h"
 #include "cpu/parallel_for.h"
 
@@ -18,13 +16,11 @@ std::size_t index_of(FilmSlot slot) { return static_cast<std::size_t>(slot.index
 }  // namespace
 
 void FilmStore::reset(FilmSlot slot, int width, int height, int threads) {
-    constexpr std::int64_t kMostPixels = 0xffffffff;
-    if (width <= 0 || height <= 0 || std::int64_t{width} * height > kMostPixels)
-        throw Error(ErrorKind::Usage, fmt::format("picture size {}x{}: expected 1x1 to 2^32 pixels", width, height));
+    const std::size_t pixels = film_pixels(width, height);
     Film& film = films_[index_of(slot)];
     film.width = width;
     film.height = height;
-    film.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    film.pixels.resize(pixels);
     ChunkQueue queue(0, static_cast<std::uint32_t>(film.pixels.size()), kPixelChunk);
     parallel_for(threads, queue, [&](IndexRange range) {
         std::fill(film.pixels.begin() + range.begin, film.pixels.begin() + range.end, FilmPixel{});

@@ -2,8 +2,6 @@
 
 #include <cstring>
 
-#include <fmt/format.h>
-
 #include "cuda/runtime/launch.h"
 
 namespace pl::cuda {
@@ -14,11 +12,8 @@ std::size_t index_of(FilmSlot slot) { return static_cast<std::size_t>(slot.index
 }  // namespace
 
 void DeviceFilms::reset(FilmSlot slot, int width, int height, const Stream& stream) {
-    constexpr std::int64_t kMostPixels = 0xffffffff;
-    if (width <= 0 || height <= 0 || std::int64_t{width} * height > kMostPixels)
-        throw Error(ErrorKind::Usage, fmt::format("picture size {}x{}: expected 1x1 to 2^32 pixels", width, height));
+    const std::size_t pixels = film_pixels(width, height);
     Film& film = films_[index_of(slot)];
-    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (film.pixels.size() != pixels) {
         film = {};  // the old memory goes before the new one comes
         film.pixels = DeviceArray<FilmPixel>(pixels);

@@ -100,6 +100,9 @@ public:
     virtual std::string kernel_name(MethodId method, View view, FeatureSet needed) const = 0;
 };
 
+/// Pixels of a film of this size. Throws Error(Usage) if there are none, or more than kernels can number.
+std::size_t film_pixels(int width, int height);
+
 /// "cpu/reinforcement/next-event-estimation": what runs for a request, as shown to people.
 std::string kernel_name_of(std::string_view backend, MethodId method, View view, FeatureSet needed);
 
