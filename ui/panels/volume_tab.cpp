@@ -150,9 +150,10 @@ void draw_volume_tab(ViewerModel& model) {
     const VolumeInspection* volume = model.inspection();
     if (volume == nullptr) {
         model.window().hovered_cell = -1;
-        faint_text("Nothing is learned here yet. The default method learns nothing: press 2 to precompute "
-                   "the light, "
-                   "or 3 to learn it while rendering.");
+        faint_text(info_of(model.settings().method).uses_field
+                       ? "What is learned here is shown when the pass under way has ended."
+                       : "Nothing is learned here yet. The default method learns nothing: press 2 to precompute the "
+                         "light, or 3 to learn it while rendering.");
         return;
     }
     draw_choices(model.window());
