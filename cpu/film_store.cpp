@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/error.h"
 #include "cpu/parallel_for.h"
 
 namespace pl {
@@ -11,13 +10,11 @@ namespace {
 /// Pixels that a thread empties or reads at once.
 constexpr std::uint32_t kPixelChunk = 1u << 14;
 
-std::size_t index_of(FilmSlot slot) { return static_cast<std::size_t>(slot.index()); }
-
 }  // namespace
 
 void FilmStore::reset(FilmSlot slot, int width, int height, int threads) {
     const std::size_t pixels = film_pixels(width, height);
-    Film& film = films_[index_of(slot)];
+    auto& film = films_.at(slot);
     film.width = width;
     film.height = height;
     film.pixels.resize(pixels);
@@ -27,14 +24,8 @@ void FilmStore::reset(FilmSlot slot, int width, int height, int threads) {
     });
 }
 
-FilmView FilmStore::view(FilmSlot slot) {
-    existing(slot);
-    Film& film = films_[index_of(slot)];
-    return {view_of(film.pixels), static_cast<std::uint32_t>(film.width), static_cast<std::uint32_t>(film.height)};
-}
-
 FilmReading FilmStore::read(FilmSlot slot, int threads) const {
-    const Film& film = existing(slot);
+    const auto& film = films_.existing(slot);
     FilmReading reading{.width = film.width, .height = film.height, .mean = {}, .samples = 0, .invalid = 0};
     reading.mean.resize(film.pixels.size());
     std::atomic<std::uint64_t> samples{0};
@@ -54,13 +45,6 @@ FilmReading FilmStore::read(FilmSlot slot, int threads) const {
     reading.samples = samples;
     reading.invalid = invalid;
     return reading;
-}
-
-const FilmStore::Film& FilmStore::existing(FilmSlot slot) const {
-    const Film& film = films_[index_of(slot)];
-    if (film.pixels.empty())
-        throw Error(ErrorKind::Runtime, "CPU back end: expected a film, got none: reset it first");
-    return film;
 }
 
 }  // namespace pl

@@ -1,10 +1,7 @@
-// The films of a back end, by method and view; each exists only once it was asked for.
+// The films of the CPU back end.
 #pragma once
 
-#include <array>
-#include <vector>
-
-#include "core/session/backend.h"
+#include "core/session/film_slots.h"
 
 namespace pl {
 
@@ -13,19 +10,12 @@ public:
     /// Makes the film exist with this size and empties it. Throws Error if the size makes no sense.
     void reset(FilmSlot slot, int width, int height, int threads);
 
-    /// Throws Error if the film was never reset.
-    FilmView view(FilmSlot slot);
+    /// Both throw Error if the film was never reset.
+    FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
     FilmReading read(FilmSlot slot, int threads) const;
 
 private:
-    struct Film {
-        int width = 0;
-        int height = 0;
-        HostArray<FilmPixel> pixels;
-    };
-    const Film& existing(FilmSlot slot) const;
-
-    std::array<Film, FilmSlot::kCount> films_;
+    mutable FilmSlots<HostArray<FilmPixel>> films_{"CPU"};
 };
 
 }  // namespace pl

@@ -5,15 +5,10 @@
 #include "cuda/runtime/launch.h"
 
 namespace pl::cuda {
-namespace {
-
-std::size_t index_of(FilmSlot slot) { return static_cast<std::size_t>(slot.index()); }
-
-}  // namespace
 
 void DeviceFilms::reset(FilmSlot slot, int width, int height, const Stream& stream) {
     const std::size_t pixels = film_pixels(width, height);
-    Film& film = films_[index_of(slot)];
+    auto& film = films_.at(slot);
     if (film.pixels.size() != pixels) {
         film = {};  // the old memory goes before the new one comes
         film.pixels = DeviceArray<FilmPixel>(pixels);
@@ -23,14 +18,8 @@ void DeviceFilms::reset(FilmSlot slot, int width, int height, const Stream& stre
     film.pixels.clear(stream);
 }
 
-FilmView DeviceFilms::view(FilmSlot slot) {
-    existing(slot);
-    Film& film = films_[index_of(slot)];
-    return {view_of(film.pixels), static_cast<std::uint32_t>(film.width), static_cast<std::uint32_t>(film.height)};
-}
-
 FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const {
-    const Film& film = existing(slot);
+    auto& film = films_.existing(slot);
     const auto pixels = static_cast<std::uint32_t>(film.pixels.size());
     if (means_.size() < pixels) means_ = DeviceArray<Vec3f>(pixels);
     if (totals_.size() == 0) totals_ = DeviceArray<FilmTotals>(1);
@@ -38,10 +27,7 @@ FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const {
     if (staging_.bytes() < bytes + sizeof(FilmTotals)) staging_ = PinnedMemory(bytes + sizeof(FilmTotals));
 
     totals_.clear(stream);
-    const FilmView view{{film.pixels.data(), pixels},
-                        static_cast<std::uint32_t>(film.width),
-                        static_cast<std::uint32_t>(film.height)};
-    launch(kReadFilm, blocks_for(pixels), stream, "read_film", view, Span<Vec3f>{means_.data(), pixels},
+    launch(kReadFilm, blocks_for(pixels), stream, "read_film", film.view(), Span<Vec3f>{means_.data(), pixels},
            totals_.data());
     auto* staged = static_cast<std::byte*>(staging_.data());
     copy_to_host(staged, means_.data(), bytes, stream);
@@ -56,13 +42,6 @@ FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const {
             .mean = {means, means + pixels},
             .samples = totals.samples,
             .invalid = totals.invalid};
-}
-
-const DeviceFilms::Film& DeviceFilms::existing(FilmSlot slot) const {
-    const Film& film = films_[index_of(slot)];
-    if (film.pixels.size() == 0)
-        throw Error(ErrorKind::Runtime, "CUDA back end: expected a film, got none: reset it first");
-    return film;
 }
 
 }  // namespace pl::cuda

@@ -11,33 +11,19 @@ std::string allocating(const char* kind, std::size_t bytes) {
 
 }  // namespace
 
-DeviceMemory::DeviceMemory(std::size_t bytes) : bytes_(bytes) {
-    if (bytes > 0) check(cudaMalloc(&data_, bytes), allocating("device", bytes));
+void* DeviceHeap::allocate(std::size_t bytes) {
+    void* data = nullptr;
+    check(cudaMalloc(&data, bytes), allocating("device", bytes));
+    return data;
 }
-DeviceMemory::~DeviceMemory() {
-    if (data_ != nullptr) (void)cudaFree(data_);
-}
-DeviceMemory::DeviceMemory(DeviceMemory&& other) noexcept
-    : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
-DeviceMemory& DeviceMemory::operator=(DeviceMemory&& other) noexcept {
-    std::swap(data_, other.data_);
-    std::swap(bytes_, other.bytes_);
-    return *this;
-}
+void DeviceHeap::release(void* data) noexcept { (void)cudaFree(data); }
 
-PinnedMemory::PinnedMemory(std::size_t bytes) : bytes_(bytes) {
-    if (bytes > 0) check(cudaMallocHost(&data_, bytes), allocating("pinned host", bytes));
+void* PinnedHeap::allocate(std::size_t bytes) {
+    void* data = nullptr;
+    check(cudaMallocHost(&data, bytes), allocating("pinned host", bytes));
+    return data;
 }
-PinnedMemory::~PinnedMemory() {
-    if (data_ != nullptr) (void)cudaFreeHost(data_);
-}
-PinnedMemory::PinnedMemory(PinnedMemory&& other) noexcept
-    : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
-PinnedMemory& PinnedMemory::operator=(PinnedMemory&& other) noexcept {
-    std::swap(data_, other.data_);
-    std::swap(bytes_, other.bytes_);
-    return *this;
-}
+void PinnedHeap::release(void* data) noexcept { (void)cudaFreeHost(data); }
 
 void copy_to_device(void* device, const void* host, std::size_t bytes, const Stream& stream) {
     if (bytes > 0)

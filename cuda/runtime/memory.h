@@ -2,37 +2,41 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "cuda/runtime/stream.h"
 
 namespace pl::cuda {
 
-/// Bytes on the device. Plain allocations: managed memory would hide copies and can hang a card that is full.
-class DeviceMemory {
-public:
-    DeviceMemory() = default;
-    /// Not cleared. Throws Error(Unavailable) with the size if the device has no room.
-    explicit DeviceMemory(std::size_t bytes);
-    ~DeviceMemory();
-    DeviceMemory(DeviceMemory&& other) noexcept;
-    DeviceMemory& operator=(DeviceMemory&& other) noexcept;
-
-    void* data() const { return data_; }
-    std::size_t bytes() const { return bytes_; }
-
-private:
-    void* data_ = nullptr;
-    std::size_t bytes_ = 0;
+/// Memory on the device. Plain allocations: managed memory would hide copies and can hang a card that is full.
+struct DeviceHeap {
+    static void* allocate(std::size_t bytes);
+    static void release(void* data) noexcept;
 };
 
 /// Host memory that stays where it is, so that copies run beside everything else.
-class PinnedMemory {
+struct PinnedHeap {
+    static void* allocate(std::size_t bytes);
+    static void release(void* data) noexcept;
+};
+
+/// Bytes of a heap, by its only owner.
+template <class Heap>
+class OwnedMemory {
 public:
-    PinnedMemory() = default;
-    explicit PinnedMemory(std::size_t bytes);
-    ~PinnedMemory();
-    PinnedMemory(PinnedMemory&& other) noexcept;
-    PinnedMemory& operator=(PinnedMemory&& other) noexcept;
+    OwnedMemory() = default;
+    /// Not cleared. Throws Error(Unavailable) with the size if there is no room.
+    explicit OwnedMemory(std::size_t bytes) : data_(bytes > 0 ? Heap::allocate(bytes) : nullptr), bytes_(bytes) {}
+    ~OwnedMemory() {
+        if (data_ != nullptr) Heap::release(data_);
+    }
+    OwnedMemory(OwnedMemory&& other) noexcept
+        : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
+    OwnedMemory& operator=(OwnedMemory&& other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(bytes_, other.bytes_);
+        return *this;
+    }
 
     void* data() const { return data_; }
     std::size_t bytes() const { return bytes_; }
@@ -41,6 +45,9 @@ private:
     void* data_ = nullptr;
     std::size_t bytes_ = 0;
 };
+
+using DeviceMemory = OwnedMemory<DeviceHeap>;
+using PinnedMemory = OwnedMemory<PinnedHeap>;
 
 /// Queue a copy or a clearing. Both memories have to live, and the source to stay unchanged, until it is done.
 void copy_to_device(void* device, const void* host, std::size_t bytes, const Stream& stream);

@@ -82,10 +82,7 @@ struct Seen {
 template <BatchIntersector I>
 Seen check_all_rays(const HostScene& scene, const I& intersector) {
     const std::vector<Ray> rays = random_rays(scene.view(), kRays, 21);
-    RayBatch batch(kRays);
-    for (std::uint32_t i = 0; i < kRays; ++i) batch.set_ray(i, rays[i]);
-    intersector.find_closest(batch, kRays);
-    intersector.find_occluded(batch, kRays);
+    const RayBatch batch = find_all(intersector, rays);
     Seen seen;
     for (std::uint32_t i = 0; i < kRays; ++i) {
         INFO("ray " << i);

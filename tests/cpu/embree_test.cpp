@@ -79,10 +79,7 @@ struct Comparison {
 Comparison compare(const HostScene& scene, const std::vector<Ray>& rays) {
     const EmbreeIntersector embree(scene.view(), 1);
     const auto count = static_cast<std::uint32_t>(rays.size());
-    RayBatch batch(count);
-    for (std::uint32_t i = 0; i < count; ++i) batch.set_ray(i, rays[i]);
-    embree.find_closest(batch, count);
-    embree.find_occluded(batch, count);
+    const RayBatch batch = find_all(embree, rays);
     Comparison result;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Hit expected = closest_hit_by_all(scene.view(), rays[i]);

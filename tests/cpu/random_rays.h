@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/kernel/base/warp.h"
+#include "cpu/ray_batch.h"
 #include "tests/kernel/brute_force.h"
 #include "tests/kernel/shapes.h"
 
@@ -62,6 +63,17 @@ inline std::vector<Ray> random_rays(const SceneView& scene, std::size_t count, s
     std::vector<Ray> rays;
     for (std::size_t i = 0; i < count; ++i) rays.push_back(random_ray(scene, random));
     return rays;
+}
+
+/// The closest hits of all rays, and whether anything is in their way.
+template <BatchIntersector I>
+RayBatch find_all(const I& intersector, const std::vector<Ray>& rays) {
+    const auto count = static_cast<std::uint32_t>(rays.size());
+    RayBatch batch(count);
+    for (std::uint32_t i = 0; i < count; ++i) batch.set_ray(i, rays[i]);
+    intersector.find_closest(batch, count);
+    intersector.find_occluded(batch, count);
+    return batch;
 }
 
 }  // namespace pl::test

@@ -6,20 +6,13 @@
 #include "tests/catch.hpp"
 #include "tests/cuda/shim/control.h"
 #include "tests/session/same_bits.h"
+#include "tests/session/small_settings.h"
 #include "tests/statistical/shipped_scenes.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-RenderSettings small_settings(const SceneDescription& scene, Estimator estimator) {
-    RenderSettings settings = settings_for(scene, estimator, 31, 23);
-    settings.field.volumes = 40;
-    settings.field.bins = 64;
-    settings.field.precompute_samples = 4;
-    return settings;
-}
 
 Session make_cuda_session(const SceneDescription& scene, const RenderSettings& settings) {
     return Session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);

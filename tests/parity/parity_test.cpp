@@ -18,14 +18,6 @@ constexpr int kSide = 32;
 constexpr int kBatches = 64;
 constexpr double kResolution = 0.08;
 
-RenderSettings settings_of(const SceneDescription& scene, Estimator estimator, std::uint64_t seed) {
-    RenderSettings settings = settings_for(scene, estimator, kSide, kSide);
-    settings.seed = seed;
-    settings.field.volumes = 200;
-    settings.field.bins = 64;
-    return settings;
-}
-
 Session make_cuda_session(const SceneDescription& scene, const RenderSettings& settings) {
     return Session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
 }
@@ -74,8 +66,9 @@ TEST_CASE("Pictures of both back ends agree for every scene and method", "[merge
             INFO(name << ", " << estimator);
             // Furthest from the light where only chance finds it.
             const std::uint32_t passes = estimator.next_event ? 8 : 32;
-            const Picture cpu = picture_of(make_session(scene, settings_of(scene, estimator, 1)), passes);
-            const Picture cuda = picture_of(make_cuda_session(scene, settings_of(scene, estimator, 2)), passes);
+            const Picture cpu = picture_of(make_session(scene, quick_learner(scene, estimator, kSide, 1)), passes);
+            const Picture cuda =
+                picture_of(make_cuda_session(scene, quick_learner(scene, estimator, kSide, 2)), passes);
             CHECK(same_picture(cuda, cpu, kResolution));
         }
     }
@@ -87,7 +80,7 @@ TEST_CASE("Views of both back ends are equal but for rounding") {
         for (const ViewInfo& view : all_views()) {
             if (view.id == View::Beauty || view.needs_tables) continue;
             INFO(name << ", " << view.name);
-            RenderSettings settings = settings_of(scene, {MethodId::Default, false}, 1);
+            RenderSettings settings = quick_learner(scene, {MethodId::Default, false}, kSide, 1);
             settings.view = view.id;
             Session cpu = make_session(scene, settings);
             Session cuda = make_cuda_session(scene, settings);
@@ -123,7 +116,7 @@ TEST_CASE("The same seed gives the same bits on the device") {
     for (const Estimator estimator : kEstimators) {
         INFO(estimator);
         const auto render = [&] {
-            Session session = make_cuda_session(scene, settings_of(scene, estimator, 1));
+            Session session = make_cuda_session(scene, quick_learner(scene, estimator, kSide, 1));
             render_passes(session, 4);
             return state_of(session);
         };

@@ -28,6 +28,14 @@ Session session_on(std::shared_ptr<RenderBackend> backend, const SceneDescriptio
 
 using Failure = FailingBackend::Failure;
 
+/// The session's state is that of a new session after so many passes with these settings.
+void check_like_fresh(Session& session, const SceneDescription& scene, const RenderSettings& settings,
+                      std::uint32_t passes) {
+    Session fresh = session_on(cpu_backend(2), scene, settings);
+    render_passes(fresh, passes);
+    CHECK(same_state(state_of(fresh), state_of(session)));
+}
+
 std::string unavailable(const std::function<void()>& call) { return error_message(ErrorKind::Unavailable, call); }
 
 }  // namespace
@@ -170,9 +178,7 @@ TEST_CASE("A field that was given up on one back end is not carried on by anothe
     session.apply(EditBackend{first});
     session.apply(EditBackend{cpu_backend(3)});
     render_passes(session, 2);
-    Session fresh = session_on(cpu_backend(2), scene, other);
-    render_passes(fresh, 2);
-    CHECK(same_state(state_of(fresh), state_of(session)));
+    check_like_fresh(session, scene, other, 2);
 }
 
 TEST_CASE("Another scene reaches the back ends that wait") {
@@ -187,9 +193,7 @@ TEST_CASE("Another scene reaches the back ends that wait") {
     session.apply(EditScene{std::make_shared<const SceneDescription>(brighter)});
     session.apply(EditBackend{first});
     render_passes(session, 2);
-    Session fresh = session_on(cpu_backend(2), brighter, settings);
-    render_passes(fresh, 2);
-    CHECK(same_state(state_of(fresh), state_of(session)));
+    check_like_fresh(session, brighter, settings, 2);
 }
 
 TEST_CASE("A back end that cannot take over leaves the session as it was") {

@@ -4,6 +4,7 @@
 
 #include "tests/catch.hpp"
 #include "tests/session/same_bits.h"
+#include "tests/session/small_settings.h"
 #include "tests/statistical/shipped_scenes.h"
 
 using namespace pl;
@@ -13,12 +14,9 @@ namespace {
 
 constexpr std::uint32_t kPasses = 2;
 
-RenderSettings small_settings(const SceneDescription& scene) {
-    RenderSettings settings = settings_for(scene, {MethodId::Default, false}, 40, 30);
-    settings.field.volumes = 60;
-    settings.field.bins = 64;
-    settings.field.precompute_samples = 4;
-    return settings;
+/// Odd rows and columns are for the tests of pictures; here only what is kept counts.
+RenderSettings tiny_settings(const SceneDescription& scene) {
+    return small_settings(scene, {MethodId::Default, false}, 40, 30);
 }
 
 /// What can be lost, seen from outside.
@@ -126,11 +124,11 @@ RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
 
 TEST_CASE("Every edit clears what the table says and keeps the rest") {
     const SceneDescription scene = shipped_scene("door");
-    for (const Case& c : all_cases(small_settings(scene))) {
+    for (const Case& c : all_cases(tiny_settings(scene))) {
         INFO(c.name);
         CHECK(invalidated_by(c.edit) == c.cleared);
         const std::shared_ptr<RenderBackend> backend = make_cpu_backend({.threads = 2});
-        Session session = used_session(scene, small_settings(scene), backend);
+        Session session = used_session(scene, tiny_settings(scene), backend);
         const Contents before = contents_of(session);
         REQUIRE_FALSE(all_films_empty(before));
         REQUIRE_FALSE(all_tables_empty(before));
@@ -150,7 +148,7 @@ TEST_CASE("Every edit clears what the table says and keeps the rest") {
 
 TEST_CASE("An edit that clears what was learned leaves a session like a new one") {
     const SceneDescription scene = shipped_scene("door");
-    const RenderSettings settings = small_settings(scene);
+    const RenderSettings settings = tiny_settings(scene);
     for (const Case& c : all_cases(settings)) {
         if (!c.cleared.tables) continue;
         Session session = used_session(scene, settings);
@@ -173,7 +171,7 @@ TEST_CASE("An edit that clears what was learned leaves a session like a new one"
 // Default path tracing learns nothing, so a cleared film alone must already be like a new one.
 TEST_CASE("An edit that clears the films leaves default path tracing like a new session") {
     const SceneDescription scene = shipped_scene("door");
-    const RenderSettings settings = small_settings(scene);
+    const RenderSettings settings = tiny_settings(scene);
     for (const Case& c : all_cases(settings)) {
         if (!c.cleared.films || c.cleared.tables) continue;
         INFO(c.name);
@@ -190,7 +188,7 @@ TEST_CASE("An edit that clears the films leaves default path tracing like a new 
 // What a moved camera keeps is used at once: the first pass is guided by what the old view taught.
 TEST_CASE("A moved camera goes on with what was learned") {
     const SceneDescription scene = shipped_scene("door");
-    RenderSettings settings = small_settings(scene);
+    RenderSettings settings = tiny_settings(scene);
     settings.method = MethodId::Reinforcement;
     Session session = make_session(scene, settings, 2);
     render_passes(session, 8);
@@ -210,13 +208,13 @@ TEST_CASE("A moved camera goes on with what was learned") {
 
 TEST_CASE("A pass that was stopped is forgotten with its film") {
     const SceneDescription scene = shipped_scene("door");
-    Session session = make_session(scene, small_settings(scene), 2);
+    Session session = make_session(scene, tiny_settings(scene), 2);
     render_passes(session, 1);
     StopFlag stop{true};
     REQUIRE(session.advance(&stop) == Progress::Stopped);
     session.apply(EditRestart{});
     render_passes(session, 1);
-    Session fresh = make_session(scene, small_settings(scene), 2);
+    Session fresh = make_session(scene, tiny_settings(scene), 2);
     render_passes(fresh, 1);
     CHECK(same_state(state_of(fresh), state_of(session)));
 }

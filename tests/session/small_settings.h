@@ -5,8 +5,9 @@
 
 namespace pl::test {
 
-inline RenderSettings small_settings(const SceneDescription& scene, Estimator estimator) {
-    RenderSettings settings = settings_for(scene, estimator, 61, 47);
+inline RenderSettings small_settings(const SceneDescription& scene, Estimator estimator, int width = 61,
+                                     int height = 47) {
+    RenderSettings settings = settings_for(scene, estimator, width, height);
     settings.field.volumes = 60;
     settings.field.bins = 64;
     settings.field.precompute_samples = 4;

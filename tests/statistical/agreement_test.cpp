@@ -11,15 +11,6 @@ namespace {
 constexpr int kSide = 64;
 constexpr int kBatches = 64;
 
-/// Small tables are learned from few samples, so that guiding is at work within the time of a test.
-RenderSettings small_settings(const SceneDescription& scene, Estimator estimator, std::uint64_t seed) {
-    RenderSettings settings = settings_for(scene, estimator, kSide, kSide);
-    settings.seed = seed;
-    settings.field.volumes = 200;
-    settings.field.bins = 64;
-    return settings;
-}
-
 /// Passes per batch with which the mean of a picture has two thirds of the standard error that a comparison may
 /// have, from the measured coefficient of variation per path.
 std::uint32_t passes_for(Estimator estimator, double resolution) {
@@ -41,7 +32,7 @@ constexpr std::uint64_t kFirstRunSeed = 1000;
 
 /// One long run; reinforcement learns while it goes, and each pass uses what the passes before it have learned.
 Picture one_run(const SceneDescription& scene, Estimator estimator, std::uint64_t seed, double resolution) {
-    Session session = make_session(scene, small_settings(scene, estimator, seed));
+    Session session = make_session(scene, quick_learner(scene, estimator, kSide, seed));
     Picture picture(kSide, kSide);
     render_batches(session, picture, kBatches, passes_for(estimator, resolution));
     return picture;
@@ -50,7 +41,7 @@ Picture one_run(const SceneDescription& scene, Estimator estimator, std::uint64_
 /// Many runs that know nothing, one batch of four passes each: all samples come from the beginning of learning.
 Picture first_passes(const SceneDescription& scene, Estimator estimator, int runs) {
     constexpr std::uint32_t kPasses = 4;
-    Session session = make_session(scene, small_settings(scene, estimator, kSeed));
+    Session session = make_session(scene, quick_learner(scene, estimator, kSide, kSeed));
     Picture picture(kSide, kSide);
     for (int run = 0; run < runs; ++run) {
         session.apply(EditSeed{kFirstRunSeed + static_cast<std::uint64_t>(run)});

@@ -37,6 +37,17 @@ inline RenderSettings settings_for(const SceneDescription& scene, Estimator esti
     return settings;
 }
 
+/// A square picture with small tables that are learned from few samples, so that guiding is at work within the time of a
+/// test.
+inline RenderSettings quick_learner(const SceneDescription& scene, Estimator estimator, int side,
+                                    std::uint64_t seed) {
+    RenderSettings settings = settings_for(scene, estimator, side, side);
+    settings.seed = seed;
+    settings.field.volumes = 200;
+    settings.field.bins = 64;
+    return settings;
+}
+
 /// One thread by default: ctest keeps the cores busy with several tests.
 inline Session make_session(const SceneDescription& scene, const RenderSettings& settings, int threads = 1) {
     return Session(make_cpu_backend({.threads = threads}), std::make_shared<const SceneDescription>(scene), settings);

@@ -32,6 +32,13 @@ void learn_on_cuda(RenderWorker& worker) {
     REQUIRE(has_learned(worker, 10));
 }
 
+/// The device that has learned is lost while the worker rests, which nobody notices before the next order.
+void lose_resting_device(RenderWorker& worker, Bench& bench) {
+    learn_on_cuda(worker);
+    REQUIRE(rests(worker));
+    bench.devices.cuda->lost = true;
+}
+
 /// Destroys a worker on another thread, so that a test can do without its end.
 template <class Release>
 bool ends_after(std::unique_ptr<RenderWorker> worker, Release&& release) {
@@ -125,8 +132,7 @@ TEST_CASE("Back-end switch: a paused picture follows with one pass") {
     Bench bench;
     RenderWorker worker(bench.setup());
     REQUIRE(frame_of(worker, 0));
-    worker.set_paused(true);
-    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Paused; }));
+    REQUIRE(rests(worker));
     const auto frame = frame_of(worker, worker.switch_backend("cuda"));
     REQUIRE(frame);
     CHECK(frame->backend.name == "cuda");
@@ -225,10 +231,7 @@ TEST_CASE("Back-end switch: a lost device hands over nothing, and the CPU learns
 TEST_CASE("Back-end switch: an edit that finds the device lost is done by the CPU") {
     Bench bench;
     RenderWorker worker(bench.setup(MethodId::Reinforcement));
-    learn_on_cuda(worker);
-    worker.set_paused(true);
-    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Paused; }));
-    bench.devices.cuda->lost = true;
+    lose_resting_device(worker, bench);
     auto scene = std::make_shared<SceneDescription>(*small_scene());
     scene->name = "other";
     scene->camera.eye.x = 3.0f;
@@ -243,10 +246,7 @@ TEST_CASE("Back-end switch: an edit that finds the device lost is done by the CP
 TEST_CASE("Back-end switch: leaving a lost device on purpose succeeds, too") {
     Bench bench;
     RenderWorker worker(bench.setup(MethodId::Reinforcement));
-    learn_on_cuda(worker);
-    worker.set_paused(true);
-    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Paused; }));
-    bench.devices.cuda->lost = true;
+    lose_resting_device(worker, bench);
     const auto frame = frame_of(worker, worker.switch_backend("cpu"));
     REQUIRE(frame);
     CHECK(frame->backend.name == "cpu");
@@ -260,8 +260,7 @@ TEST_CASE("Back-end switch: a failure under the overlay of cells leaves method a
     setup.first_backend = "cuda";
     RenderWorker worker(std::move(setup));
     REQUIRE(has_learned(worker, 5));
-    worker.set_paused(true);
-    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Paused; }));
+    REQUIRE(rests(worker));
     bench.devices.cuda->fail = true;  // the next pass is that of the cells
     worker.set_cells_wanted(true);
     REQUIRE(is_told(worker, "CPU takes over with what was learned"));

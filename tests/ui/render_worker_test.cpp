@@ -124,8 +124,7 @@ TEST_CASE("Render worker: a pause rests, a step makes one pass, a camera gets on
     bench.control->pass_microseconds = 1000;
     RenderWorker worker(bench.setup());
     REQUIRE(frame_of(worker, 0));
-    worker.set_paused(true);
-    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Paused; }));
+    REQUIRE(rests(worker));
     const int passes = bench.control->passes;
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
     CHECK(bench.control->passes == passes);

@@ -46,4 +46,10 @@ inline std::shared_ptr<const PublishedFrame> frame_of(RenderWorker& worker, std:
     return found ? frame : nullptr;
 }
 
+/// Pauses the worker and waits until it rests.
+inline bool rests(RenderWorker& worker) {
+    worker.set_paused(true);
+    return eventually([&] { return worker.status().state == WorkerState::Paused; });
+}
+
 }  // namespace pl::test
