@@ -1,0 +1,168 @@
+// How much less noise learning leaves than default path tracing: mean squared error at equal samples and at equal time.
+// Usage: gain_bench SCENE... [KEY=NUMBER]...; keys and their defaults are in Setup. The error is measured against two
+// independent halves of a reference, (x-r1)(x-r2), whose noise drops out of the mean.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/io/load_scene.h"
+#include "core/session/session.h"
+#include "cpu/cpu_backend.h"
+#include "tests/bench/machine_load.h"
+#include "tests/bench/quartiles.h"
+
+namespace pl::bench {
+namespace {
+
+/// What the command line can change.
+struct Setup {
+    std::map<std::string, double> numbers{
+        {"spp", 128},      {"seeds", 5},  {"side", 128},       {"reference", 4096}, {"threads", 2},
+        {"volumes", 0},    {"bins", 256}, {"fraction", 0.25},  {"floor", 0.05},     {"rate", 4},
+        {"precompute", 0}, {"nee", 0},    {"megabytes", 16.0},
+    };
+    std::vector<std::string> scenes;
+
+    double operator[](const std::string& key) const { return numbers.at(key); }
+    int integer(const std::string& key) const { return static_cast<int>(numbers.at(key)); }
+};
+
+Setup parse(int argc, char** argv) {
+    Setup setup;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const std::size_t equals = word.find('=');
+        if (equals == std::string::npos) {
+            setup.scenes.push_back(word);
+            continue;
+        }
+        const auto number = setup.numbers.find(word.substr(0, equals));
+        if (number == setup.numbers.end())
+            throw Error(ErrorKind::Usage, "gain_bench: unknown key '" + word.substr(0, equals) + "'");
+        number->second = std::strtod(word.c_str() + equals + 1, nullptr);
+    }
+    if (setup.scenes.empty()) setup.scenes = {"cornell", "door"};
+    return setup;
+}
+
+RenderSettings settings_of(const Setup& setup, const SceneDescription& scene) {
+    RenderSettings settings;
+    settings.width = settings.height = setup.integer("side");
+    settings.camera = scene.camera;
+    settings.next_event = setup["nee"] != 0.0;
+    settings.bsdf_fraction = static_cast<float>(setup["fraction"]);
+    settings.field.volumes = setup.integer("volumes");
+    settings.field.bins = setup.integer("bins");
+    settings.field.budget_megabytes = setup["megabytes"];
+    settings.field.uniform_floor = static_cast<float>(setup["floor"]);
+    settings.field.rate = static_cast<LearningRate>(setup.integer("rate"));
+    if (setup["precompute"] > 0.0) settings.field.precompute_samples = setup.integer("precompute");
+    return settings;
+}
+
+struct Picture {
+    std::vector<Vec3f> pixels;
+    double seconds = 0.0;  ///< of everything that this picture needed: placing, precomputing, learning, rendering
+    double dark_share = 0.0;
+};
+
+Picture render(std::shared_ptr<const SceneDescription> scene, const RenderSettings& settings, std::uint32_t passes,
+               int threads) {
+    Session session(make_cpu_backend({.threads = threads}), std::move(scene), settings);
+    while (session.passes() < passes) session.advance();
+    const Snapshot snapshot = session.snapshot();
+    const Clocks& clocks = snapshot.clocks;
+    return {snapshot.pixels, clocks.place + clocks.precompute + clocks.learn + clocks.render,
+            static_cast<double>(snapshot.counters.zero_contribution_paths) /
+                static_cast<double>(snapshot.counters.paths)};
+}
+
+/// Mean squared error over pixels and channels; `left_out` is the share of the worst pixels that do not count.
+double squared_error(const Picture& x, const Picture& r1, const Picture& r2, double left_out) {
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < x.pixels.size(); ++i) {
+        double sum = 0.0;
+        for (int c = 0; c < 3; ++c)
+            sum += static_cast<double>(x.pixels[i][c] - r1.pixels[i][c]) *
+                   static_cast<double>(x.pixels[i][c] - r2.pixels[i][c]);
+        errors.push_back(sum / 3.0);
+    }
+    std::sort(errors.begin(), errors.end());
+    const auto kept = static_cast<std::size_t>(std::ceil((1.0 - left_out) * static_cast<double>(errors.size())));
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kept; ++i) sum += errors[i];
+    return sum / static_cast<double>(kept);
+}
+
+/// Results of one method over all seeds.
+struct Series {
+    std::vector<double> error;
+    std::vector<double> trimmed;
+    std::vector<double> seconds;
+    double dark_share = 0.0;
+};
+
+void measure(const Setup& setup, const std::string& name) {
+    const auto scene = std::make_shared<const SceneDescription>(load_scene(name, PL_SOURCE_DIR "/assets"));
+    const int threads = setup.integer("threads");
+    RenderSettings settings = settings_of(setup, *scene);
+    RenderSettings exact = settings;
+    exact.next_event = true;
+    const auto reference_passes = static_cast<std::uint32_t>(setup["reference"]);
+    exact.seed = 1001;
+    const Picture r1 = render(scene, exact, reference_passes, threads);
+    exact.seed = 1002;
+    const Picture r2 = render(scene, exact, reference_passes, threads);
+
+    std::map<MethodId, Series> results;
+    for (int seed = 1; seed <= setup.integer("seeds"); ++seed)
+        for (const MethodInfo& method : all_methods()) {
+            settings.method = method.id;
+            settings.seed = static_cast<std::uint64_t>(seed);
+            const Picture x = render(scene, settings, static_cast<std::uint32_t>(setup["spp"]), threads);
+            Series& series = results[method.id];
+            series.error.push_back(squared_error(x, r1, r2, 0.0));
+            series.trimmed.push_back(squared_error(x, r1, r2, 0.001));
+            series.seconds.push_back(x.seconds);
+            series.dark_share = x.dark_share;
+        }
+    const Series& plain = results.at(MethodId::Default);
+    for (const MethodInfo& method : all_methods()) {
+        const Series& series = results.at(method.id);
+        const double error = quartiles_of(series.error).median;
+        const double gain = quartiles_of(plain.error).median / error;
+        const double trimmed_gain = quartiles_of(plain.trimmed).median / quartiles_of(series.trimmed).median;
+        const double slowdown = quartiles_of(series.seconds).median / quartiles_of(plain.seconds).median;
+        std::printf("%-12s %-14s %10.3g %8.2f %8.2f %8.2f %8.2f %7.3f\n", name.c_str(),
+                    std::string(method.name).c_str(), error, gain, trimmed_gain, slowdown, gain / slowdown,
+                    series.dark_share);
+    }
+    std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace pl::bench
+
+int main(int argc, char** argv) {
+    try {
+        const pl::bench::Setup setup = pl::bench::parse(argc, argv);
+        for (const auto& [key, number] : setup.numbers) std::printf("%s=%g ", key.c_str(), number);
+        std::printf("\n");
+        const pl::bench::MachineLoad load;
+        std::printf("%-12s %-14s %10s %8s %8s %8s %8s %7s\n", "scene", "method", "MSE", "gain", "-0.1 %", "time",
+                    "gain/t", "dark");
+        for (const std::string& scene : setup.scenes) pl::bench::measure(setup, scene);
+        const pl::bench::MachineLoad::Shares shares = load.shares();
+        std::printf("processors busy: %.2f own, %.2f others, %.2f stolen\n", shares.own, shares.foreign,
+                    shares.stolen);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+    return 0;
+}
