@@ -65,6 +65,11 @@ std::string text_of(const SceneReport& report) {
     for (const MaterialDescription& material : scene.materials)
         text += fmt::format("           {}: reflects {}, emits {}{}\n", material.name, print_vector(material.albedo),
                             print_vector(material.emission), material.two_sided_emission ? " on both sides" : "");
+    text += fmt::format("knobs      {}\n", scene.knobs.empty() ? "none" : "");
+    for (const KnobDescription& knob : scene.knobs)
+        text +=
+            fmt::format("           {}={} (from {} to {}, default {}): {}\n", knob.name, print_float(knob.value),
+                        print_float(knob.low), print_float(knob.high), print_float(knob.default_value), knob.does);
     text += fmt::format("bounds     {} to {}\n", print_vector(report.bounds.low), print_vector(report.bounds.high));
     text += fmt::format("camera     eye {}, target {}, up {}, fov {} degrees\n", print_vector(camera.eye),
                         print_vector(camera.target), print_vector(camera.up), print_float(camera.fov_deg));
@@ -84,6 +89,13 @@ Json json_of(const SceneReport& report) {
                              {"albedo", vector_json(material.albedo)},
                              {"emission", vector_json(material.emission)},
                              {"two_sided_emission", material.two_sided_emission}});
+    Json knobs = Json::array();
+    for (const KnobDescription& knob : scene.knobs)
+        knobs.push_back({{"name", knob.name},
+                         {"value", knob.value},
+                         {"default", knob.default_value},
+                         {"range", Json::array({knob.low, knob.high})},
+                         {"does", knob.does}});
     Json effects = Json::array();
     for (const Effect& effect : report.effects) effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
     return {{"name", scene.name},
@@ -92,6 +104,7 @@ Json json_of(const SceneReport& report) {
             {"triangles", scene.triangles.size()},
             {"lights", report.packed.lights.size()},
             {"materials", materials},
+            {"knobs", knobs},
             {"bounds", {{"low", vector_json(report.bounds.low)}, {"high", vector_json(report.bounds.high)}}},
             {"camera",
              {{"eye", vector_json(scene.camera.eye)},
@@ -106,7 +119,7 @@ Json json_of(const SceneReport& report) {
 }  // namespace
 
 int run_info(const CommandLine& line, Console& console) {
-    const LoadedScene loaded = open_scene(line.options.scene, console);
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
     const Options options = resolve_options(line, *loaded.scene);
     const HostScene packed = pack_scene(*loaded.scene);
     FeatureSet needed = needed_effects(packed);

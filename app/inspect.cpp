@@ -83,7 +83,7 @@ void report(const VolumeInspection& volume, const Options& options, bool interru
 int run_inspect(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
     require_outputs(line.options);
-    const LoadedScene loaded = open_scene(line.options.scene, console);
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_inside(options);

@@ -126,6 +126,17 @@ void parse_lookup(Options& options, const std::string& text) {
     options.render.field.lookup = static_cast<Lookup>(found - kLookups.begin());
 }
 
+void parse_knobs(Options& options, const std::string& text) {
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find(',', start), text.size());
+        const std::string item = text.substr(start, end - start);
+        const std::size_t equals = item.find('=');
+        if (equals == 0 || equals == std::string::npos) fail_value("NAME=VALUE, such as opening=5", item);
+        options.knobs.emplace_back(item.substr(0, equals), parse_float(item.substr(equals + 1)));
+        start = end + 1;
+    }
+}
+
 void parse_at(Options& options, const std::string& text) {
     const std::vector<float> v = parse_floats(text, {3, 6}, "three or six numbers X,Y,Z[,NX,NY,NZ]");
     ScenePoint point{.position = {v[0], v[1], v[2]}, .normal = {}};
@@ -151,6 +162,13 @@ std::string field_method_choices() {
     for (const MethodInfo& info : all_methods())
         if (info.uses_field) names.emplace_back(info.name);
     return one_of(names);
+}
+
+std::string print_knobs(const Options& options) {
+    std::string text;
+    for (const auto& [name, value] : options.knobs)
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, print_float(value));
+    return text;
 }
 
 std::string_view tone_curve_name(ToneCurve curve) { return kCurves[static_cast<std::size_t>(curve)].name; }

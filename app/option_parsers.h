@@ -23,12 +23,15 @@ void parse_time_limit(Options& options, const std::string& text);
 void parse_window(Options& options, const std::string& text);
 void parse_picture_size(Options& options, const std::string& text);
 void parse_lookup(Options& options, const std::string& text);
+/// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
+void parse_knobs(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
 void parse_pixel(Options& options, const std::string& text);
 
 /// "precomputed or reinforcement": the methods that have something to show in views of what was learned.
 std::string field_method_choices();
 
+std::string print_knobs(const Options& options);
 std::string_view tone_curve_name(ToneCurve curve);
 std::string_view lookup_name(Lookup lookup);
 

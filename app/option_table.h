@@ -29,6 +29,7 @@ struct OptionSpec {
     std::string_view group;  ///< heading in the help; empty: not shown
     std::string_view help;
     CommandSet commands;          ///< where it may be given
+    bool repeatable = false;      ///< every one counts that is given, instead of the last one
     bool in_scene_files = false;  ///< may be a scene's setting
     /// Throws Error(Usage) "expected ..., got ..." for a value that is wrong.
     void (*parse)(Options&, const std::string& text) = nullptr;

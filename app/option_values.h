@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/scene/description.h"
 #include "core/session/settings.h"
 
 namespace pl {
@@ -30,6 +31,7 @@ struct ScenePoint {
 
 struct Options {
     std::string scene;  ///< name or path; empty if none was given
+    KnobValues knobs;   ///< of the scene, in the order given
     std::string output;
 
     RenderSettings render;  ///< final only after resolve_options(): camera and size depend on the scene

@@ -58,7 +58,13 @@ void add_option(CLI::App& app, const OptionSpec& spec, Found& found) {
             for (std::int64_t i = 0; i < times; ++i) note("");
         });
     } else {
-        app.add_option_function<std::string>(flags, note)->take_last();
+        const auto note_all = [note](const std::vector<std::string>& texts) {
+            std::for_each(texts.begin(), texts.end(), note);
+        };
+        CLI::Option* const option = app.add_option_function<std::vector<std::string>>(flags, note_all);
+        option->expected(1)->allow_extra_args(false);
+        option->multi_option_policy(spec.repeatable ? CLI::MultiOptionPolicy::TakeAll
+                                                    : CLI::MultiOptionPolicy::TakeLast);
     }
 }
 

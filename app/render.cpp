@@ -73,7 +73,7 @@ void report(const Snapshot& snapshot, const Options& options, const Json& stats,
 int run_render(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
     require_outputs(line.options);
-    const LoadedScene loaded = open_scene(line.options.scene, console);
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,

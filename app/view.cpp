@@ -43,11 +43,17 @@ int viewer_threads(int asked) {
     return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 
+/// Knobs were given for the scene that was named with them, and are not those of others.
+KnobValues knobs_of(const std::string& scene, const Options& opened) {
+    return scene == opened.scene ? opened.knobs : KnobValues{};
+}
+
 /// `first_backend` is what the options' choice came to.
 std::string command_of(const ViewerPicture& picture, const SceneDescription& scene, const Options& opened,
                        const std::string& first_backend) {
     const Options defaults = scene_defaults(picture.scene, scene);
     Options shown = defaults;
+    shown.knobs = knobs_of(picture.scene, opened);
     shown.output = scene.source.stem().string() + ".png";
     shown.render = picture.settings;
     shown.display = picture.display;
@@ -114,7 +120,7 @@ void add_backends(ViewerOptions& viewer, const Options& options) {
 /// What the viewer asks of the program. All arguments outlive it.
 void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& options, Console& console) {
     viewer.load_scene = [&](const std::string& name) {
-        const auto scene = open_scene(name, console).scene;
+        const auto scene = open_scene(name, knobs_of(name, options), console).scene;
         scenes.add(name, scene);
         return scene;
     };
@@ -134,7 +140,7 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
 }  // namespace
 
 int run_view(const CommandLine& line, Console& console) {
-    const LoadedScene loaded = open_scene(line.options.scene, console);
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
     const Options options = resolve_options(line, *loaded.scene);
     OpenedScenes scenes;
     scenes.add(options.scene, loaded.scene);

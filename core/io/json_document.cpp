@@ -136,6 +136,25 @@ private:
     int line_ = 1;
 };
 
+bool fits_float(const json& value) {
+    return value.is_number() &&
+           std::abs(value.get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
+}
+
+/// The components of a vector from an array of as many finite numbers; nothing from anything else.
+template <typename Vector>
+std::optional<Vector> read_floats(const json& value) {
+    constexpr auto kLength = static_cast<std::size_t>(Vector::length());
+    if (!value.is_array() || value.size() != kLength || !std::all_of(value.begin(), value.end(), fits_float)) {
+        return std::nullopt;
+    }
+    Vector result(0.0f);
+    for (std::size_t i = 0; i < kLength; ++i) {
+        result[static_cast<int>(i)] = value[i].get<float>();
+    }
+    return result;
+}
+
 }  // namespace
 
 std::string pointer_step(const std::string& key) {
@@ -207,11 +226,10 @@ std::optional<float> JsonDocument::number(const std::string& pointer) const {
     if (value == nullptr) {
         return std::nullopt;
     }
-    const double number = value->is_number() ? value->get<double>() : std::numeric_limits<double>::infinity();
-    if (!(std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max()))) {
+    if (!fits_float(*value)) {
         fail(pointer, "expected a number that fits in a float, got " + in_quotes(value->dump()));
     }
-    return static_cast<float>(number);
+    return value->get<float>();
 }
 
 std::optional<glm::vec3> JsonDocument::vector(const std::string& pointer) const {
@@ -219,18 +237,44 @@ std::optional<glm::vec3> JsonDocument::vector(const std::string& pointer) const 
     if (value == nullptr) {
         return std::nullopt;
     }
-    glm::vec3 result(0.0f);
-    for (int i = 0; i < 3; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        const bool fits =
-            value->is_array() && value->size() == 3 && (*value)[at].is_number() &&
-            std::abs((*value)[at].get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
-        if (!fits) {
-            fail(pointer, "expected three numbers [x, y, z], got " + in_quotes(value->dump()));
-        }
-        result[i] = (*value)[at].get<float>();
+    const auto result = read_floats<glm::vec3>(*value);
+    if (!result) {
+        fail(pointer, "expected three numbers [x, y, z], got " + in_quotes(value->dump()));
     }
     return result;
+}
+
+std::optional<glm::vec2> JsonDocument::range(const std::string& pointer) const {
+    const json* const value = find(pointer);
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    const auto result = read_floats<glm::vec2>(*value);
+    if (!result || !(result->x < result->y)) {
+        fail(pointer, "expected two numbers [low, high], low below high, got " + in_quotes(value->dump()));
+    }
+    return result;
+}
+
+std::optional<std::vector<std::string>> JsonDocument::texts(const std::string& pointer) const {
+    const json* const value = find(pointer);
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    const bool fits = value->is_array() && !value->empty() &&
+                      std::all_of(value->begin(), value->end(), [](const json& item) { return item.is_string(); });
+    if (!fits) {
+        fail(pointer, "expected texts in quotes [\"a\", ...], got " + in_quotes(value->dump()));
+    }
+    return value->get<std::vector<std::string>>();
+}
+
+std::size_t JsonDocument::array_size(const std::string& pointer) const {
+    const json* const value = find(pointer);
+    if (value != nullptr && !value->is_array()) {
+        fail(pointer, "expected an array [ ... ], got " + in_quotes(value->dump()));
+    }
+    return value == nullptr ? 0 : value->size();
 }
 
 }  // namespace pl

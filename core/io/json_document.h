@@ -34,6 +34,11 @@ public:
     std::optional<bool> boolean(const std::string& pointer) const;
     std::optional<float> number(const std::string& pointer) const;
     std::optional<glm::vec3> vector(const std::string& pointer) const;
+    /// [low, high], low below high.
+    std::optional<glm::vec2> range(const std::string& pointer) const;
+    std::optional<std::vector<std::string>> texts(const std::string& pointer) const;
+    /// Number of elements of the array at `pointer`, 0 if there is none.
+    std::size_t array_size(const std::string& pointer) const;
 
 private:
     const nlohmann::json* find(const std::string& pointer) const;

@@ -13,6 +13,7 @@
 #include "core/io/nearest_name.h"
 #include "core/io/obj.h"
 #include "core/io/scene_json.h"
+#include "core/io/scene_knobs.h"
 #include "core/scene/validate.h"
 
 namespace pl {
@@ -42,9 +43,9 @@ bool has_scenes(const fs::path& dir) {
     return fs::is_directory(dir / "scenes", ignored);
 }
 
-SceneDescription load_file(const fs::path& path) {
+SceneDescription load_file(const fs::path& path, const KnobValues& knobs) {
     if (lower_extension(path) == ".json") {
-        return load_scene_json(path);
+        return load_scene_json(path, knobs);
     }
     SceneDescription scene = load_obj(path);
     scene.name = path.stem().string();
@@ -67,7 +68,7 @@ SceneDescription load_file(const fs::path& path) {
 
 }  // namespace
 
-SceneDescription load_scene(const std::string& name_or_path, const fs::path& assets_dir) {
+SceneDescription load_scene(const std::string& name_or_path, const fs::path& assets_dir, const KnobValues& knobs) {
     const std::string extension = lower_extension(name_or_path);
     const bool is_path = extension == ".obj" || extension == ".json";
     const bool is_name = !is_path && !name_or_path.empty() && name_or_path.find('/') == std::string::npos;
@@ -75,7 +76,8 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     if (!is_path && !(is_name && is_file(path))) {
         fail_unknown(name_or_path, assets_dir);
     }
-    SceneDescription scene = load_file(path);
+    SceneDescription scene = load_file(path, knobs);
+    require_known_knobs(scene, knobs);
     validate_scene(scene);
     const glm::vec3 up = usable_up(scene.camera);
     if (up != scene.camera.up) {

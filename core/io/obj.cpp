@@ -92,8 +92,9 @@ Polygons parse(std::string clean_text, std::size_t face_count) {
 /// Fills the scene from polygons.
 class MeshBuilder {
 public:
-    MeshBuilder(SceneDescription& scene, Polygons input, const std::vector<int>& face_lines)
-        : scene_(scene), in_(std::move(input)), face_lines_(face_lines) {
+    MeshBuilder(SceneDescription& scene, Polygons input, const CheckedObj& checked, MeshGroups* groups)
+        : scene_(scene), in_(std::move(input)), face_lines_(checked.face_lines), face_groups_(checked.face_groups),
+          groups_(groups) {
         scene_.positions = std::move(in_.positions);
         scene_.triangles.reserve(in_.corners.size() - 2 * face_lines_.size());
         set_normals();
@@ -116,7 +117,7 @@ public:
             }
             for (const auto& [a, b, c] : cut.triangles) {
                 add_triangle({in_.corners[first + a], in_.corners[first + b], in_.corners[first + c]}, material,
-                             face_lines_[face]);
+                             face);
             }
         }
     }
@@ -137,7 +138,7 @@ private:
         }
     }
 
-    void add_triangle(const std::array<Polygons::Corner, 3>& corners, std::uint32_t material, int line) {
+    void add_triangle(const std::array<Polygons::Corner, 3>& corners, std::uint32_t material, std::size_t face) {
         TriangleDescription triangle;
         int normals = 0;
         int usable = 0;
@@ -150,17 +151,20 @@ private:
             usable += given && scene_.normals[corner.normal] != glm::vec3(0.0f) ? 1 : 0;
         }
         if (!has_area(triangle)) {
-            no_area_.add(line);
+            no_area_.add(face_lines_[face]);
             return;
         }
         if (normals > 0 && usable < 3) {
-            no_normal_.add(line);
+            no_normal_.add(face_lines_[face]);
         }
         if (usable < 3) {
             triangle.normal = glm::uvec3(TriangleDescription::kNoNormal);
         }
         triangle.material = material;
         scene_.triangles.push_back(triangle);
+        if (groups_ != nullptr) {
+            groups_->of_triangle.push_back(face_groups_[face]);
+        }
     }
 
     /// Whether a unit normal can be computed in floats: the squared length of the cross product is a normal float.
@@ -174,6 +178,8 @@ private:
     SceneDescription& scene_;
     Polygons in_;
     const std::vector<int>& face_lines_;
+    const std::vector<std::uint32_t>& face_groups_;
+    MeshGroups* groups_;
     Tally crossed_;
     Tally no_area_;
     Tally no_normal_;
@@ -181,7 +187,7 @@ private:
 
 }  // namespace
 
-SceneDescription load_obj(const fs::path& path) {
+SceneDescription load_obj(const fs::path& path, MeshGroups* groups) {
     CheckedObj checked = check_obj(read_text_file(path), path);
     SceneDescription scene;
     scene.source = path;
@@ -194,7 +200,10 @@ SceneDescription load_obj(const fs::path& path) {
     }
     const MaterialTable table = load_materials(scene, path, checked, input.material_names, faces_of);
 
-    MeshBuilder builder(scene, std::move(input), checked.face_lines);
+    if (groups != nullptr) {
+        *groups = {.names = checked.group_names};
+    }
+    MeshBuilder builder(scene, std::move(input), checked, groups);
     builder.add_triangles(table);
     builder.warn(path);
     if (scene.triangles.empty()) {

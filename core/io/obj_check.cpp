@@ -22,7 +22,7 @@ constexpr std::size_t kMostCorners = 65536;
 constexpr std::int64_t kMostElements = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t kNone = 0;  // OBJ indices start at 1
 
-constexpr std::array<std::string_view, 7> kWithoutEffect = {"g", "o", "s", "l", "p", "vp", "mg"};
+constexpr std::array<std::string_view, 5> kWithoutEffect = {"s", "l", "p", "vp", "mg"};
 
 /// How many of a kind there are so far, and the indices that point past them.
 struct Elements {
@@ -79,6 +79,8 @@ private:
             const std::string word = encode_name(reader_.arguments());
             result_.material_lines.try_emplace(decode_name(word), reader_.line());
             fmt::format_to(std::back_inserter(result_.text), "usemtl {}\n", word);
+        } else if (keyword == "o" || keyword == "g") {
+            group(std::string(reader_.arguments()));
         } else if (keyword == "mtllib") {
             result_.libraries.push_back({std::string(reader_.arguments()), reader_.line()});
         } else if (std::find(kWithoutEffect.begin(), kWithoutEffect.end(), keyword) == kWithoutEffect.end()) {
@@ -87,6 +89,15 @@ private:
             }
             unknown_.add(reader_.line());
         }
+    }
+
+    void group(const std::string& name) {
+        const auto next = static_cast<std::uint32_t>(result_.group_names.size());
+        const auto [entry, is_new] = group_index_.try_emplace(name, next);
+        if (is_new) {
+            result_.group_names.push_back(name);
+        }
+        group_ = entry->second;
     }
 
     void vertex() {
@@ -147,6 +158,7 @@ private:
             return;
         }
         result_.face_lines.push_back(reader_.line());
+        result_.face_groups.push_back(group_);
     }
 
     /// `v`, `v/t`, `v//n` or `v/t/n`.
@@ -214,6 +226,8 @@ private:
     const std::filesystem::path& path_;
     LineReader reader_;
     CheckedObj result_;
+    std::map<std::string, std::uint32_t> group_index_{{"", 0u}};
+    std::uint32_t group_ = 0;
     Elements vertices_{.name = "vertex"};
     Elements normals_{.name = "normal"};
     Elements texture_points_{.name = "texture point"};

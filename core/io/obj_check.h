@@ -21,7 +21,9 @@ struct MaterialLibraries {
 /// `v//n` per corner, at least three), and `usemtl` with a name encoded by encode_name().
 struct CheckedObj {
     std::string text;
-    std::vector<int> face_lines;  ///< line in the file of each `f` in `text`
+    std::vector<int> face_lines;               ///< line in the file of each `f` in `text`
+    std::vector<std::uint32_t> face_groups;    ///< of each `f` in `text`: index into `group_names`
+    std::vector<std::string> group_names{""};  ///< of `o` and `g` statements; first: faces before any
     std::vector<MaterialLibraries> libraries;
     std::map<std::string, int> material_lines;  ///< name -> line of its first `usemtl`
     std::vector<std::string> warnings;

@@ -11,6 +11,7 @@
 #include "core/io/json_document.h"
 #include "core/io/nearest_name.h"
 #include "core/io/obj.h"
+#include "core/io/scene_knobs.h"
 
 namespace pl {
 
@@ -127,9 +128,9 @@ void read_settings(const JsonDocument& file, SceneDescription& scene) {
 
 }  // namespace
 
-SceneDescription load_scene_json(const std::filesystem::path& path) {
+SceneDescription load_scene_json(const std::filesystem::path& path, const KnobValues& knobs) {
     const JsonDocument file(read_text_file(path), path);
-    file.object("", {"schema", "name", "obj", "camera", "environment", "materials", "settings"});
+    file.object("", {"schema", "name", "obj", "camera", "environment", "materials", "knobs", "settings"});
     const std::optional<std::string> schema = file.text("/schema");
     if (schema != kSchema) {
         file.fail("/schema",
@@ -139,10 +140,12 @@ SceneDescription load_scene_json(const std::filesystem::path& path) {
     if (!obj || obj->empty()) {
         file.fail("/obj", "expected the name of an OBJ file");
     }
-    SceneDescription scene = load_obj(path.parent_path() / *obj);
+    MeshGroups groups;
+    SceneDescription scene = load_obj(path.parent_path() / *obj, &groups);
     scene.source = path;
     scene.name = file.text("/name").value_or(path.stem().string());
     read_materials(file, scene);
+    read_knobs(file, scene, groups, knobs);
     read_environment(file, scene);
     read_camera(file, scene);
     read_settings(file, scene);

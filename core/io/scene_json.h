@@ -14,6 +14,6 @@ namespace pl {
 ///   materials    name of an MTL entry -> albedo [r, g, b], emission [r, g, b], two_sided_emission
 ///   settings     option name -> value, kept as text for the command line (true and false become on and off)
 /// Throws Error(Input) with file and line; an unknown key is answered with the nearest known one.
-SceneDescription load_scene_json(const std::filesystem::path& path);
+SceneDescription load_scene_json(const std::filesystem::path& path, const KnobValues& knobs = {});
 
 }  // namespace pl

@@ -37,6 +37,20 @@ struct CameraDescription {
     float fov_deg = 40.0f;
 };
 
+/// A number that a scene file offers to turn, mostly how hard the light is to find. Loading applies it: what it moves
+/// or colors is in the scene as `value` says.
+struct KnobDescription {
+    std::string name;
+    std::string does;  ///< in words, with the unit
+    float low = 0.0f;
+    float high = 0.0f;
+    float default_value = 0.0f;
+    float value = 0.0f;
+};
+
+/// Names of knobs and the values asked for; the last one of a name counts.
+using KnobValues = std::vector<std::pair<std::string, float>>;
+
 /// Everything that decides the light in the scene, and the camera it asks to be seen from.
 struct SceneDescription {
     std::string name;
@@ -47,6 +61,7 @@ struct SceneDescription {
     std::vector<MaterialDescription> materials;
     CameraDescription camera;
     glm::vec3 environment{0.0f};  ///< constant radiance of everything that no surface covers
+    std::vector<KnobDescription> knobs;
     std::vector<std::pair<std::string, std::string>> settings;  ///< option name and value the file asks for
     std::vector<std::string> warnings;                          ///< told once, by whoever loaded the scene
 };

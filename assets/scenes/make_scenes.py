@@ -1,0 +1,460 @@
+#!/usr/bin/env python3
+"""Writes the scenes of this folder that are made of boxes: NAME/NAME.obj, .mtl and .json.
+
+    make_scenes.py            write all of them
+    make_scenes.py --check    compare with what is there; the exit code is 1 if anything differs
+
+Shapes are built from `room` (a box seen from inside), `box` (seen from outside), `slab` (a polygon in the ground plane
+with a height) and `quad`. Unit: meter unless a scene says otherwise; +y is up. What stands on a surface has no face
+there, as in `cornell`; lamps hang 2 mm clear of what is behind them, so that no two surfaces coincide.
+"""
+import json
+import math
+import re
+import sys
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent
+CLEAR = 0.002  # between a lamp and the wall behind it
+BLACK = (0, 0, 0)
+
+
+def number(x):
+    text = f"{x:.6f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def turned_y(degrees, about):
+    """Rotation about the vertical axis through (x, z), counter-clockwise seen from above."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+
+    def turn(p):
+        x, z = p[0] - about[0], p[2] - about[1]
+        return (about[0] + c * x + s * z, p[1], about[1] - s * x + c * z)
+
+    return turn
+
+
+class Scene:
+    # Corners of a box by number: bit 0 is x, bit 1 is y, bit 2 is z; counter-clockwise from outside.
+    SIDES = {"left": (0, 4, 6, 2), "right": (5, 1, 3, 7), "bottom": (0, 1, 5, 4), "top": (6, 7, 3, 2),
+             "back": (1, 0, 2, 3), "front": (4, 5, 7, 6)}
+
+    def __init__(self, name, title, about, camera, materials, unit="meter", **more):
+        self.name, self.about, self.unit = name, about, unit
+        self.materials = materials
+        self.json = {"schema": "pathlight.scene/1", "name": title, "obj": f"{name}.obj",
+                     "camera": dict(zip(("eye", "target", "up", "fov_deg"), camera)), **more}
+        self.lines, self.vertices, self.triangles = [], 0, 0
+        self.transform = lambda p: p
+
+    def group(self, name, comment=None):
+        self.lines += ["", f"o {name}"] + ([f"# {comment}"] if comment else [])
+
+    def mesh(self, points, faces):
+        """Faces are (material, corner numbers from 0); the corners are shared."""
+        for p in points:
+            self.lines.append("v " + " ".join(number(x) for x in self.transform(p)))
+        last = None
+        for material, corners in faces:
+            if material != last:
+                self.lines.append(f"usemtl {material}")
+                last = material
+            self.lines.append("f " + " ".join(str(self.vertices + i + 1) for i in corners))
+            self.triangles += len(corners) - 2
+        self.vertices += len(points)
+
+    def box(self, low, high, material, without=(), inside=False):
+        """`material` is a name, or one for each side with "" for the others."""
+        points = [tuple((high if i >> k & 1 else low)[k] for k in range(3)) for i in range(8)]
+        paint = material if isinstance(material, dict) else {"": material}
+        self.mesh(points, [(paint.get(side, paint[""]), corners[::-1] if inside else corners)
+                           for side, corners in self.SIDES.items() if side not in without])
+
+    def room(self, low, high, material, without=()):
+        self.group("room")
+        self.box(low, high, material, without, inside=True)
+
+    def quad(self, corners, material):
+        self.mesh(corners, [(material, range(len(corners)))])
+
+    def slab(self, outline, bottom, top, material, without=()):
+        """`outline`: corners (x, z), counter-clockwise seen from above; edges in `without` get no face."""
+        n = len(outline)
+        points = [(x, y, z) for y in (bottom, top) for x, z in outline]
+        sides = [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n) if i not in without]
+        self.mesh(points, [(material, corners) for corners in sides] +
+                  [(material, tuple(range(n, 2 * n))), (material, tuple(reversed(range(n))))])
+
+    def knob(self, name, default, range_, does, **motions):
+        self.json.setdefault("knobs", {})[name] = {"default": default, "range": range_, "does": does, **motions}
+
+    def files(self):
+        head = [f"# {line}" for line in self.about.split("\n")]
+        obj = head + [f"# Unit: {self.unit}, +y up. Written by make_scenes.py.", f"mtllib {self.name}.mtl"] + self.lines
+        mtl = []
+        for name, (albedo, emission) in self.materials.items():
+            albedo = albedo if isinstance(albedo, tuple) else (albedo,) * 3
+            mtl += [f"newmtl {name}", "Kd " + " ".join(number(x) for x in albedo)]
+            if emission:
+                emission = emission if isinstance(emission, tuple) else (emission,) * 3
+                mtl.append("Ke " + " ".join(number(x) for x in emission))
+            mtl.append("")
+        text = json.dumps(self.json, indent=2)
+        text = re.sub(r"\[[^][{}]*\]", lambda array: re.sub(r"\s+", " ", array[0]).replace("[ ", "[").replace(" ]", "]"),
+                      text)
+        return {"obj": "\n".join(obj) + "\n", "mtl": "\n".join(mtl[:-1]) + "\n", "json": text + "\n"}
+
+
+def shelter():
+    s = Scene("shelter", "Shelter",
+              "A sealed 4 x 4 x 6 room with a roof on four pillars. Three lamps on the walls, a board in front of each.",
+              ([-1, -0.2, 0.9], [-1, 0.35, -4], [0, 1, 0], 60),
+              {"white": (0.75, None), "blue": ((0.15, 0.15, 0.75), None), "red": ((0.75, 0.15, 0.15), None),
+               "lamp": (BLACK, 8)})
+    s.room((-3, -0.95, -5), (1, 3.05, 1), "white")
+    s.group("lamps")
+    left, right, back = -3 + CLEAR, 1 - CLEAR, -5 + CLEAR
+    s.quad([(left, 0, -3), (left, 0, -4), (left, 1, -4), (left, 1, -3)], "lamp")
+    s.quad([(right, 0, -4), (right, 0, -3), (right, 1, -3), (right, 1, -4)], "lamp")
+    s.quad([(-1.5, 0, back), (-0.5, 0, back), (-0.5, 1, back), (-1.5, 1, back)], "lamp")
+    s.group("roof")
+    s.box((-2, 0.9, -4.2), (0, 1.1, -2.2), "white")
+    s.group("pillars", "from the floor to 1 cm into the roof")
+    for x in (-2, -0.2):
+        for z in (-4.2, -2.4):
+            s.box((x + 0.005, -0.95, z + 0.005), (x + 0.195, 0.91, z + 0.195), "white", ("bottom", "top"))
+    s.group("cubes")
+    s.transform = turned_y(25, (-1, -3.2))
+    s.box((-1.4, -0.95, -3.6), (-0.6, -0.15, -2.8), "blue", ("bottom",))
+    s.transform = turned_y(-20, (-1.3, -2.7))
+    s.box((-1.475, 1.1, -2.875), (-1.125, 1.45, -2.525), "red", ("bottom",))
+    s.transform = lambda p: p
+    gap = 0.3
+    s.group("left-board")
+    s.box((-3 + gap, -0.1, -4.1), (-3 + gap + 0.05, 1.1, -2.9), "white")
+    s.group("right-board")
+    s.box((1 - gap - 0.05, -0.1, -4.1), (1 - gap, 1.1, -2.9), "white")
+    s.group("back-board")
+    s.box((-1.6, -0.1, -5 + gap), (-0.4, 1.1, -5 + gap + 0.05), "white")
+    s.knob("blockers", gap, [0.05, 0.7], "distance between each lamp's wall and the board in front of it, in meters",
+           moves=[{"groups": ["left-board"], "by": [1, 0, 0]}, {"groups": ["right-board"], "by": [-1, 0, 0]},
+                  {"groups": ["back-board"], "by": [0, 0, 1]}])
+    return s
+
+
+def pillars():
+    s = Scene("pillars", "Pillars",
+              "A sealed 4 x 4 x 6 room with dark long walls. Pillars and blocks stand out of its end wall; two pillars glow.",
+              ([-1, 1, 0.4], [-1, 1, -5], [0, 1, 0], 53.1301),
+              {"dark": (0.1, None), "light": (0.9, None), "red": ((0.9, 0.15, 0.15), None), "lamp": (BLACK, 12)},
+              settings={"exposure": -1})
+    s.room((-3, -0.95, -5), (1, 3.05, 1), {"": "dark", "front": "light", "back": "light"})
+    s.group("pillars", "two columns of five, one in the middle; they have no face on the end wall")
+    for column, x in enumerate((-2.76, 0.35)):
+        for row in range(5):
+            y = -0.75 + 0.8 * row
+            glows = (column, row) in ((0, 4), (1, 0))
+            s.box((x, y, -5), (x + 0.4, y + 0.4, -3.86), "lamp" if glows else "light", ("back",))
+    s.box((-1.2, 0.85, -5), (-0.8, 1.25, -3.86), "light", ("back",))
+    s.group("blocks")
+    s.box((-2.15, -0.6, -5), (-0.95, 0.6, -3.86), "red", ("back",))
+    s.box((-1.05, 1.5, -5), (0.15, 2.7, -3.86), "light", ("back",))
+    s.knob("albedo", 0.1, [0, 0.9], "reflectance of the four long walls", albedo=["dark"])
+    return s
+
+
+def indirect():
+    s = Scene("indirect", "Cornell box, lit by its ceiling",
+              "The measured Cornell box (see ../cornell) with its light in a tray under the ceiling, facing upwards.",
+              ([278, 273, -800], [278, 273, 0], [0, 1, 0], 39.3077),
+              {"white": ((0.725, 0.71, 0.68), None), "red": ((0.63, 0.065, 0.05), None),
+               "green": ((0.14, 0.45, 0.091), None), "light": (BLACK, (17, 12, 4))}, unit="millimeter",
+              settings={"exposure": 1.5})
+    s.group("box", "right and left as seen by the camera, which looks along +z")
+    s.mesh([(552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2), (556, 548.8, 0), (556, 548.8, 559.2),
+            (0, 548.8, 559.2), (0, 548.8, 0)],
+           [("white", (0, 1, 2, 3)), ("white", (4, 5, 6, 7)), ("white", (3, 2, 6, 5)), ("green", (2, 1, 7, 6)),
+            ("red", (0, 3, 5)), ("red", (0, 5, 4))])
+    for name, top, ground in (("short_block", 165, ((130, 65), (82, 225), (240, 272), (290, 114))),
+                              ("tall_block", 330, ((423, 247), (265, 296), (314, 456), (472, 406)))):
+        s.group(name)
+        points = [(x, y, z) for y in (top, 0) for x, z in ground]
+        s.mesh(points, [("white", (0, 1, 2, 3))] +
+               [("white", (i, i + 4, (i + 1) % 4 + 4, (i + 1) % 4)) for i in range(4)])
+    s.group("shade", "an open tray, 40 high, with walls of 5; the light lies on its ground")
+    rim = 548.8 - 60
+    tray(s, (193, rim - 40, 207), (363, rim, 352), 5, "white")
+    s.group("light")
+    y = rim - 40 + 5 + 0.5
+    s.quad([(213, y, 227), (213, y, 332), (343, y, 332), (343, y, 227)], "light")
+    s.knob("gap", 60, [5, 150], "space between the shade's rim and the ceiling, in millimeters",
+           moves=[{"groups": ["shade", "light"], "by": [0, -1, 0]}])
+    return s
+
+
+def tray(s, low, high, wall, material):
+    """A box without a lid: outside, inside and the rim, in one closed body."""
+    inner_low = [low[k] + wall for k in range(3)]
+    inner_high = [high[0] - wall, high[1], high[2] - wall]
+    points = [tuple((b if i >> k & 1 else a)[k] for k in range(3))
+              for a, b in ((low, high), (inner_low, inner_high)) for i in range(8)]
+    outer = [(material, c) for side, c in Scene.SIDES.items() if side != "top"]
+    inner = [(material, tuple(i + 8 for i in c[::-1])) for side, c in Scene.SIDES.items() if side != "top"]
+    ring = Scene.SIDES["top"]
+    rim = [(material, (ring[i], ring[(i + 1) % 4], ring[(i + 1) % 4] + 8, ring[i] + 8)) for i in range(4)]
+    s.mesh(points, outer + inner + rim)
+
+
+def labyrinth():
+    s = Scene("labyrinth", "Labyrinth",
+              "A sealed corridor, 1 wide and folded twice, so four bends; a small lamp at its far end.",
+              ([-1.1, 0.85, -0.12], [0.45, 0.7, -0.75], [0, 1, 0], 75),
+              {"white": (0.9, None), "red": ((0.9, 0.55, 0.45), None), "blue": ((0.5, 0.65, 0.9), None),
+               "floor": (0.7, None), "lamp": (BLACK, 50)}, settings={"exposure": 1})
+    s.room((-1.3, 0, -3), (1.3, 1.5, 0), {"": "white", "left": "blue", "right": "red", "bottom": "floor"})
+    s.group("lamp")
+    x = 1.3 - CLEAR
+    s.quad([(x, 0.45, -2.8), (x, 0.45, -2.2), (x, 1.05, -2.2), (x, 1.05, -2.8)], "lamp")
+    gap, scales = 0.9, []
+    for i, z in enumerate((-1, -2)):
+        name, from_left = f"baffle-{i + 1}", i % 2 == 0
+        s.group(name, "from wall to passage, floor to ceiling: faces where it borders air only")
+        low, high = (-1.3, 1.3 - gap) if from_left else (-1.3 + gap, 1.3)
+        s.box((low, 0, z - 0.05), (high, 1.5, z + 0.05), "white", ("top", "bottom", "left" if from_left else "right"))
+        scales.append({"groups": [name], "about": [-1.3 if from_left else 1.3, 0, z],
+                       "by": [round(-1 / (2.6 - gap), 9), 0, 0]})
+    s.knob("gap", gap, [0.1, 2], "width of the passages from one lane to the next, in meters", scales=scales)
+    return s
+
+
+def thin_wall():
+    s = Scene("thin-wall", "Thin wall",
+              "A sealed room whose halves are parted by a thin wall, open at the camera's end. The lamp is in the right half.",
+              ([-0.6, 1.3, -0.12], [-0.3, 1.05, -4], [0, 1, 0], 82),
+              {"white": (0.75, None), "orange": ((0.8, 0.45, 0.2), None), "blue": ((0.35, 0.5, 0.8), None),
+               "lamp": (BLACK, 20)})
+    s.room((-2, 0, -4), (2, 2.5, 0), {"": "white", "left": "blue"})
+    s.group("lamp")
+    y = 2.5 - CLEAR
+    s.quad([(0.6, y, -3.2), (1.4, y, -3.2), (1.4, y, -2.4), (0.6, y, -2.4)], "lamp")
+    thickness = 0.02
+    s.group("wall", "floor to ceiling, from the end wall to 1.1 before the camera's wall")
+    s.box((-thickness / 2, 0, -4), (thickness / 2, 2.5, -1.1), "white", ("top", "bottom", "back"))
+    s.group("cube")
+    s.transform = turned_y(30, (-1, -2.6))
+    s.box((-1.3, 0, -2.9), (-0.7, 0.6, -2.3), "orange", ("bottom",))
+    s.transform = lambda p: p
+    s.knob("thickness", thickness, [0.001, 0.5], "of the wall, in meters",
+           scales=[{"groups": ["wall"], "about": [0, 0, 0], "by": [1 / thickness, 0, 0]}])
+    return s
+
+
+def two_lights():
+    s = Scene("two-lights", "Two lights",
+              "A sealed dark room; two small lamps of equal power face each other across a table.",
+              ([0, 1.5, 2.8], [0, 0.75, -1], [0, 1, 0], 55),
+              {"gray": (0.4, None), "white": (0.8, None), "housing": (0.2, None), "lamp": (BLACK, 60)})
+    s.room((-3.2, 0, -2), (3.2, 2.5, 3), "gray")
+    s.group("table", "without the face on the floor")
+    s.box((-0.4, 0, -0.8), (0.4, 0.7, 0), "white", ("bottom",))
+    s.group("ball", "an octahedron that stands clear of the table")
+    top, low, middle = 1.32, 0.72, 1.02
+    s.mesh([(0, top, -0.4), (0.3, middle, -0.4), (0, middle, -0.1), (-0.3, middle, -0.4), (0, middle, -0.7),
+            (0, low, -0.4)],
+           [("white", (0, b, a)) for a, b in ((1, 2), (2, 3), (3, 4), (4, 1))] +
+           [("white", (5, a, b)) for a, b in ((1, 2), (2, 3), (3, 4), (4, 1))])
+    separation = 3
+    for name, side in (("left", -1), ("right", 1)):
+        s.group(name + "-lamp", "it glows on the side that looks at the table")
+        x = side * separation / 2
+        low, high = sorted((x, x + side * 0.05))
+        s.box((low, 1.1, -0.525), (high, 1.35, -0.275), {"": "housing", "right" if side < 0 else "left": "lamp"})
+    s.knob("separation", separation, [1, 6], "distance between the two lamps, in meters",
+           moves=[{"groups": ["left-lamp"], "by": [-0.5, 0, 0]}, {"groups": ["right-lamp"], "by": [0.5, 0, 0]}])
+    return s
+
+
+def boxed_lights():
+    s = Scene("boxed-lights", "Boxed lights",
+              "A sealed room with twenty small boxes, a lamp at the bottom of each and a lid ajar. Three face the viewer.",
+              ([0.15, 2.1, 1.9], [0, 0.1, -0.8], [0, 1, 0], 58),
+              {"white": (0.7, None), "wood": ((0.6, 0.42, 0.25), None), "lid": ((0.3, 0.4, 0.65), None),
+               "lamp": (BLACK, 60)})
+    s.room((-2.2, 0, -2.6), (2.2, 2.4, 2), "white")
+    # Where the opening looks: + is up, b back, f to the viewer, l and r to the sides.
+    facing = ["b+lrb", "lbfb+", "brb+l", "f+blf"]
+    lid, turns = 50, []
+    for row, line in enumerate(facing):
+        for column, way in enumerate(line):
+            name = f"lid-{row + 1}{column + 1}"
+            center = (-1.6 + 0.8 * column, -2.0 + 0.8 * row)
+            turns.append(boxed_light(s, name, center, way, lid))
+    s.knob("lid", lid, [2, 120], "angle by which the lids are open, in degrees", turns=turns)
+    return s
+
+
+def boxed_light(s, name, center, way, lid):
+    """One box, its lamp and its lid; returns the turn that opens the lid further."""
+    half, wall = 0.15, 0.02
+
+    def place(p):
+        """From a box that opens upwards, with its hinge at -z, standing on the floor."""
+        x, y, z = p
+        if way != "+":  # tilt: up becomes +z, the hinge comes to the top
+            x, y, z = x, half - z, y - half
+            c, q = {"f": (1, 0), "b": (-1, 0), "r": (0, 1), "l": (0, -1)}[way]
+            x, z = c * x + q * z, -q * x + c * z
+        return (center[0] + x, 0.001 + y, center[1] + z)
+
+    s.group(name.replace("lid", "box"))
+    s.transform = place
+    tray(s, (-half, 0, -half), (half, 2 * half, half), wall, "wood")
+    s.quad([(-0.08, wall + CLEAR, 0.08), (0.08, wall + CLEAR, 0.08), (0.08, wall + CLEAR, -0.08),
+            (-0.08, wall + CLEAR, -0.08)], "lamp")
+    s.group(name)
+    hinge = (0, 2 * half + 0.001, -half)
+    c, q = math.cos(math.radians(lid)), math.sin(math.radians(lid))
+
+    def opened(p):
+        y, z = p[1] - hinge[1], p[2] - hinge[2]
+        return place((p[0], hinge[1] + c * y + q * z, hinge[2] - q * y + c * z))
+
+    s.transform = opened
+    s.box((-half, hinge[1], -half), (half, hinge[1] + 0.015, half), "lid")
+    s.transform = lambda p: p
+    origin = place((0, 0, 0))
+    along = place((-1, 0, 0))
+    return {"groups": [name], "about": [round(x, 6) for x in place(hinge)],
+            "axis": [round(along[k] - origin[k], 6) for k in range(3)], "by_deg": 1}
+
+
+def staircase():
+    s = Scene("staircase", "Staircase",
+              "Three sealed storeys of 3 meters, joined by two flights of stairs; the lamp is under the topmost ceiling.",
+              ([-1.8, 1.3, 2.2], [1.2, 1.75, -0.9], [0, 1, 0], 80),
+              {"white": (0.8, None), "wood": ((0.65, 0.4, 0.2), None), "steel": (0.5, None), "lamp": (BLACK, 60)}, settings={"exposure": 1.5})
+    s.room((-2, 0, -2.5), (2, 9, 2.5), "white")
+    s.group("lamp")
+    y = 9 - CLEAR
+    s.quad([(-1.2, y, -0.6), (1.2, y, -0.6), (1.2, y, 0.6), (-1.2, y, 0.6)], "lamp")
+    for storey, side in ((1, 1), (2, -1)):
+        top = 3 * storey
+        s.group(f"slab-{storey}", "the ceiling of a storey, with the opening of its flight; no faces on the walls")
+        outline = [(-2, 2.5), (2, 2.5), (2, 1.6), (0.7, 1.6), (0.7, -1.5), (2, -1.5), (2, -2.5), (-2, -2.5)]
+        bare = [0, 1, 5, 6, 7]
+        if side < 0:  # the mirror image runs the other way round, from the mirrored edge on
+            outline = [(-x, z) for x, z in reversed(outline)]
+            bare = sorted((6 - i) % 8 for i in bare)
+        s.slab(outline, top - 0.2, top, "white", bare)
+        flight(s, storey, side, top - 3)
+    return s
+
+
+def flight(s, storey, side, ground):
+    """Sixteen treads up along a wall, towards -z, with two posts each and a rail."""
+    s.group(f"flight-{storey}")
+    rise, run, start = 3 / 16, 0.2, 1.5
+    low, high = sorted((side * 0.8, side * 1.99))
+    post_low, post_high = sorted((side * 0.82, side * 0.85))
+    for i in range(15):
+        y, z = ground + rise * (i + 1), start - run * i
+        s.box((low, y - 0.05, z - 0.24), (high, y, z), "wood")
+        for back in (0.06, 0.16):
+            s.box((post_low, y, z - back - 0.03), (post_high, y + 0.8 + rise * back / run, z - back), "steel",
+                  ("bottom", "top"))
+    slope = rise / run
+    y0, z0, z1 = ground + rise + 0.78, start + 0.02, start - run * 15
+    y1 = y0 + slope * (z0 - z1)
+    a, b = sorted((side * 0.8, side * 0.87))
+    s.mesh([(x, y + up, z) for z, y in ((z1, y1), (z0, y0)) for up in (0, 0.06) for x in (a, b)],
+           [("steel", corners) for corners in Scene.SIDES.values()])
+
+
+def open_box():
+    s = Scene("open-box", "Open box",
+              "A box of 2 x 2 x 2, open towards the camera, with a large lamp in its ceiling: mostly direct light.",
+              ([0, 1, 2.9], [0, 1, 0], [0, 1, 0], 50),
+              {"white": (0.75, None), "red": ((0.65, 0.1, 0.08), None), "green": ((0.15, 0.5, 0.12), None),
+               "lamp": (BLACK, 4)})
+    s.room((-1, 0, -1), (1, 2, 1), {"": "white", "left": "red", "right": "green"}, ("front",))
+    s.group("lamp")
+    y = 2 - CLEAR
+    s.quad([(-0.6, y, -0.6), (0.6, y, -0.6), (0.6, y, 0.6), (-0.6, y, 0.6)], "lamp")
+    s.group("blocks")
+    s.transform = turned_y(18, (-0.35, -0.35))
+    s.box((-0.65, 0, -0.65), (-0.05, 1.2, -0.05), "white", ("bottom",))
+    s.transform = turned_y(-17, (0.4, 0.3))
+    s.box((0.12, 0, 0.02), (0.68, 0.56, 0.58), "white", ("bottom",))
+    s.transform = lambda p: p
+    return s
+
+
+def sky():
+    s = Scene("sky", "Under the sky",
+              "A ground of 40 x 40 with a few blocks under an even sky.",
+              ([3.4, 2.4, 5.8], [0.35, 0.7, 0], [0, 1, 0], 40),
+              {"ground": (0.5, None), "white": (0.8, None), "red": ((0.75, 0.2, 0.15), None),
+               "blue": ((0.2, 0.3, 0.7), None)}, environment={"radiance": [0.5, 0.65, 0.9]})
+    s.group("ground")
+    s.quad([(-20, 0, 20), (20, 0, 20), (20, 0, -20), (-20, 0, -20)], "ground")
+    s.group("blocks")
+    for material, degrees, (x, z), size, height in (("white", 20, (-0.9, -0.6), 0.5, 1.8),
+                                                    ("red", -30, (0.8, 0.2), 0.45, 0.9),
+                                                    ("blue", 40, (-0.3, 1.5), 0.3, 0.6)):
+        s.transform = turned_y(degrees, (x, z))
+        s.box((x - size, 0, z - size), (x + size, height, z + size), material, ("bottom",))
+    s.transform = lambda p: p
+    s.group("arch", "a beam on two posts, which end inside it")
+    s.box((1.6, 0, -2.2), (1.9, 1.81, -1.9), "white", ("bottom", "top"))
+    s.box((0.1, 0, -2.2), (0.4, 1.81, -1.9), "white", ("bottom", "top"))
+    s.box((-0.1, 1.8, -2.3), (2.1, 2.1, -1.8), "white")
+    return s
+
+
+def ceiling():
+    s = Scene("ceiling", "Bright ceiling",
+              "A sealed room with a table and a cupboard under one lamp as large as most of its ceiling.",
+              ([-1.6, 1.5, 1.9], [0.5, 0.7, -1.2], [0, 1, 0], 65),
+              {"white": (0.7, None), "wood": ((0.6, 0.4, 0.22), None), "green": ((0.25, 0.5, 0.3), None),
+               "lamp": (BLACK, 1.2)})
+    s.room((-2, 0, -2), (2, 2.5, 2), "white")
+    s.group("lamp")
+    y = 2.5 - CLEAR
+    s.quad([(-1.6, y, -1.6), (1.6, y, -1.6), (1.6, y, 1.6), (-1.6, y, 1.6)], "lamp")
+    s.group("table", "the legs end inside its top")
+    s.box((-0.5, 0.7, -0.9), (0.9, 0.75, 0.1), "wood")
+    for x in (-0.45, 0.79):
+        for z in (-0.85, -0.01):
+            s.box((x, 0, z), (x + 0.06, 0.71, z + 0.06), "wood", ("bottom", "top"))
+    s.group("cupboard")
+    s.box((1.3, 0, -1.9), (1.95, 1.6, -0.9), "green", ("bottom",))
+    return s
+
+
+SCENES = (shelter, pillars, indirect, labyrinth, thin_wall, two_lights, boxed_lights, staircase, open_box, sky, ceiling)
+
+
+def main():
+    check = sys.argv[1:] == ["--check"]
+    if sys.argv[1:] and not check:
+        sys.exit(__doc__)
+    different = []
+    for make in SCENES:
+        scene = make()
+        for suffix, text in scene.files().items():
+            path = FOLDER / scene.name / f"{scene.name}.{suffix}"
+            if check:
+                if not path.exists() or path.read_text(encoding="utf-8") != text:
+                    different.append(str(path))
+            else:
+                path.parent.mkdir(exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+        if not check:
+            print(f"{scene.name}: {scene.triangles} triangles")
+    if different:
+        sys.exit("not what make_scenes.py writes: " + ", ".join(different))
+
+
+if __name__ == "__main__":
+    main()
