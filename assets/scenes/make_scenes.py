@@ -376,11 +376,11 @@ def open_box():
               "A box of 2 x 2 x 2, open towards the camera, with a large lamp in its ceiling: mostly direct light.",
               ([0, 1, 2.9], [0, 1, 0], [0, 1, 0], 50),
               {"white": (0.75, None), "red": ((0.65, 0.1, 0.08), None), "green": ((0.15, 0.5, 0.12), None),
-               "lamp": (BLACK, 4)})
+               "lamp": (BLACK, 2.5)})
     s.room((-1, 0, -1), (1, 2, 1), {"": "white", "left": "red", "right": "green"}, ("front",))
     s.group("lamp")
     y = 2 - CLEAR
-    s.quad([(-0.6, y, -0.6), (0.6, y, -0.6), (0.6, y, 0.6), (-0.6, y, 0.6)], "lamp")
+    s.quad([(-0.8, y, -0.8), (0.8, y, -0.8), (0.8, y, 0.8), (-0.8, y, 0.8)], "lamp")
     s.group("blocks")
     s.transform = turned_y(18, (-0.35, -0.35))
     s.box((-0.65, 0, -0.65), (-0.05, 1.2, -0.05), "white", ("bottom",))
