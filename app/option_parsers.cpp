@@ -20,7 +20,7 @@ struct CurveName {
 };
 constexpr std::array kCurves{CurveName{ToneCurve::Clamp, "clamp"}, CurveName{ToneCurve::Reinhard, "reinhard"},
                              CurveName{ToneCurve::Aces, "aces"}};
-constexpr std::array<std::string_view, 2> kLookups{"kdtree", "linear"};  // by number
+constexpr std::array<std::string_view, 3> kLookups{"kdtree", "linear", "grid"};  // by number
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
 
 /// "a, b or c"

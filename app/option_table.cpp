@@ -180,7 +180,7 @@ const auto kTable = std::to_array<OptionSpec>({
      .commands = kSampling, .in_scene_files = true, .parse = parse_bsdf_fraction,
      .print = [](const Options& o) { return print_float(o.render.bsdf_fraction); }},
     {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,
-     .help = "How the volume of a point is found: kdtree (default), or linear, which is slow and finds the same",
+     .help = "How the volume of a point is found: grid (default), kdtree, or linear, which is slow; all find the same",
      .commands = kSampling, .parse = parse_lookup,
      .print = [](const Options& o) { return std::string(lookup_name(o.render.field.lookup)); }},
     {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kField,

@@ -14,15 +14,25 @@ struct FieldShape {
     float radiance_unit = 1.0f;
     LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = 0.05f;
-    Lookup lookup = Lookup::KdTree;
+    Lookup lookup = Lookup::Grid;
 };
 
-/// Where the volumes are, and the tree that finds them.
+/// What VolumeGridView looks into; empty unless it is used.
+template <template <class> class Array>
+struct VolumeGridStorage {
+    Array<VolumePlace> sides;
+    Array<SideGrid> grids;
+    Array<VolumePlace> cells;
+    Array<std::uint32_t> lists;
+};
+
+/// Where the volumes are, and what finds them.
 template <template <class> class Array>
 struct VolumeStorage {
     Array<SurfacePoint> sites;  ///< [volume]
     Array<Vec3f> normals;       ///< [volume]
     Array<KdNode> kd_nodes;     ///< tree order, see KdTreeView
+    VolumeGridStorage<Array> grid;
 };
 
 /// What one method learned. Layouts as in FieldView and FieldPublicationView.
@@ -37,15 +47,31 @@ struct TableStorage {
     Array<float> mean_radiance;
 };
 
+using HostVolumeGrid = VolumeGridStorage<HostArray>;
 using HostVolumes = VolumeStorage<HostArray>;
 using HostTables = TableStorage<HostArray>;
 
 /// `to` is const where nothing is written.
 template <template <class> class From, class To, class Fn>
-void zip(const VolumeStorage<From>& from, To& to, Fn&& fn) {
+void zip(const VolumeGridStorage<From>& from, To& to, Fn&& fn) {
+    fn(from.sides, to.sides);
+    fn(from.grids, to.grids);
+    fn(from.cells, to.cells);
+    fn(from.lists, to.lists);
+}
+
+/// All but the grid, which follows from the others and the scene: what files hold.
+template <template <class> class From, class To, class Fn>
+void zip_placement(const VolumeStorage<From>& from, To& to, Fn&& fn) {
     fn(from.sites, to.sites);
     fn(from.normals, to.normals);
     fn(from.kd_nodes, to.kd_nodes);
+}
+
+template <template <class> class From, class To, class Fn>
+void zip(const VolumeStorage<From>& from, To& to, Fn&& fn) {
+    zip_placement(from, to, fn);
+    zip(from.grid, to.grid, fn);
 }
 
 template <template <class> class From, class To, class Fn>
@@ -59,12 +85,21 @@ void zip(const TableStorage<From>& from, To& to, Fn&& fn) {
     fn(from.mean_radiance, to.mean_radiance);
 }
 
+template <template <class> class Array>
+VolumeGridView grid_view(const VolumeGridStorage<Array>& grid) {
+    return {.sides = view_of(grid.sides),
+            .grids = view_of(grid.grids),
+            .cells = view_of(grid.cells),
+            .lists = view_of(grid.lists)};
+}
+
 /// What kernels read and record into during a pass.
 template <template <class> class Array>
 FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes, TableStorage<Array>& tables) {
     const TableStorage<Array>& frozen = tables;
     return {.cells = shape.cells,
             .tree = {.nodes = view_of(volumes.kd_nodes), .lookup = shape.lookup},
+            .grid = grid_view(volumes.grid),
             .normals = view_of(volumes.normals),
             .sites = view_of(volumes.sites),
             .row_cdf = view_of(frozen.row_cdf),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fields/volume_grid.h"
+
 namespace pl {
 namespace {
 
@@ -21,18 +23,23 @@ float power_of_two_above(float value) {
     return std::ldexp(1.0f, std::clamp(exponent, -kMaxExponent, kMaxExponent));
 }
 
-template <class T>
-std::size_t bytes_of(const HostArray<T>& array) {
-    return array.size() * sizeof(T);
+template <class Storage>
+std::size_t bytes_of_all(const Storage& storage) {
+    std::size_t bytes = 0;
+    zip(storage, storage, [&](const auto& array, const auto&) { bytes += array.size() * sizeof array[0]; });
+    return bytes;
 }
 
 }  // namespace
 
-std::size_t bytes_per_volume(int bins) {
+std::size_t table_bytes(int bins) {
     const std::size_t per_cell = 2 * sizeof(float) + 2 * sizeof(std::uint32_t) + sizeof(std::int64_t);
-    const std::size_t placement = sizeof(SurfacePoint) + sizeof(Vec3f) + sizeof(KdNode);
     const std::size_t rows_and_mean = (static_cast<std::size_t>(side_of(bins)) + 1) * sizeof(float);
-    return placement + rows_and_mean + static_cast<std::size_t>(bins) * per_cell;
+    return rows_and_mean + static_cast<std::size_t>(bins) * per_cell;
+}
+
+std::size_t bytes_per_volume(int bins) {
+    return sizeof(SurfacePoint) + sizeof(Vec3f) + sizeof(KdNode) + kGridBytesPerVolume + table_bytes(bins);
 }
 
 int volume_count(const FieldSettings& settings) {
@@ -74,11 +81,10 @@ HostTables make_tables(const FieldShape& shape, std::size_t volumes) {
     return tables;
 }
 
+std::size_t volume_bytes(const HostVolumes& volumes) { return bytes_of_all(volumes); }
+
 std::size_t field_bytes(const HostVolumes& volumes, const HostTables& tables) {
-    return bytes_of(volumes.sites) + bytes_of(volumes.normals) + bytes_of(volumes.kd_nodes) +
-           bytes_of(tables.radiance) + bytes_of(tables.visits) + bytes_of(tables.pending_sum) +
-           bytes_of(tables.pending_count) + bytes_of(tables.row_cdf) + bytes_of(tables.column_cdf) +
-           bytes_of(tables.mean_radiance);
+    return bytes_of_all(volumes) + bytes_of_all(tables);
 }
 
 }  // namespace pl

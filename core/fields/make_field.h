@@ -10,12 +10,12 @@ namespace pl {
 
 struct FieldSettings {
     int volumes = 0;                 ///< 0: as many as the budget holds, at most kDefaultVolumes
-    double budget_megabytes = 16.0;  ///< of 10^6 bytes, all tables of one method
+    double budget_megabytes = 16.0;  ///< of 10^6 bytes, all that grows with the volumes of one method
     int bins = 256;                  ///< directions per volume, a square number from 4 to 1024
     LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = 0.05f;
     int precompute_samples = 16;  ///< paths per cell and volume, a square number
-    Lookup lookup = Lookup::KdTree;
+    Lookup lookup = Lookup::Grid;
 
     friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };
@@ -23,7 +23,11 @@ struct FieldSettings {
 /// More volumes learn slower from the same paths; about a thousand fit the second-level cache.
 inline constexpr int kDefaultVolumes = 1000;
 
-/// Bytes that one volume takes in placement, tree and tables.
+/// Bytes that one volume takes in tables.
+std::size_t table_bytes(int bins);
+
+/// Bytes that one volume takes at most: placement, tree, grid and tables. The grid counts whichever lookup is chosen,
+/// so that the number of volumes does not depend on it.
 std::size_t bytes_per_volume(int bins);
 
 /// Number of volumes that the settings ask for (before surfaces too small for their share get one of their own).
@@ -43,6 +47,9 @@ std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites);
 
 /// Tables of volumes that have learned nothing: uniform.
 HostTables make_tables(const FieldShape& shape, std::size_t volumes);
+
+/// Bytes of placement, tree and grid.
+std::size_t volume_bytes(const HostVolumes& volumes);
 
 /// Bytes of placement and tables.
 std::size_t field_bytes(const HostVolumes& volumes, const HostTables& tables);

@@ -64,7 +64,7 @@ private:
         require(s.uniform_floor >= 0.0f && s.uniform_floor <= 1.0f, "uniform share", "0 to 1", s.uniform_floor);
         require(s.precompute_samples > 0 && is_square(s.precompute_samples), "precomputed samples",
                 "a square number above 0", s.precompute_samples);
-        require(s.lookup == Lookup::KdTree || s.lookup == Lookup::Linear, "lookup", "0 or 1",
+        require(s.lookup <= Lookup::Grid, "lookup", "0 to 2",
                 static_cast<std::uint32_t>(s.lookup));
     }
 

@@ -173,7 +173,7 @@ LearnedField read_content(std::string_view content, const std::filesystem::path&
     transfer_header(reader, field);
     HostVolumes volumes;
     const auto read = [&](const auto&, auto& array) { transfer_array(reader, array); };
-    zip(volumes, volumes, read);
+    zip_placement(volumes, volumes, read);
     zip(field.tables, field.tables, read);
     if (reader.left() != 0)
         fail(path, fmt::format("damaged field: expected its end, got {} more bytes", reader.left()));
@@ -216,7 +216,7 @@ void write_field(const std::filesystem::path& path, const LearnedField& field) {
     writer.text(std::string(info_of(field.method).name));
     transfer_header(writer, field);
     const auto write = [&](const auto& array, const auto&) { transfer_array(writer, array); };
-    zip(*field.volumes, *field.volumes, write);
+    zip_placement(*field.volumes, *field.volumes, write);
     zip(field.tables, field.tables, write);
     writer.patch(kMagic.size() + sizeof kVersion, writer.bytes().size() + kChecksumBytes);
     writer.number(checksum_of(writer.bytes()));

@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
+#include "core/fields/volume_grid.h"
 #include "core/kernel/fields/direction_table.h"
 #include "core/kernel/geometry/intersector.h"
 #include "core/scene/needed_effects.h"
@@ -117,9 +118,17 @@ void Session::ensure_volumes() {
     if (volumes_) return;
     const Stopwatch watch;
     shape_ = make_field_shape(*packed_, settings_.field);
-    volumes_ = std::make_shared<const HostVolumes>(place_volumes(*packed_, settings_.field));
+    volumes_ = with_lookup(place_volumes(*packed_, settings_.field), shape_.lookup);
     backend_->upload_volumes(volumes_, shape_);
     place_seconds_ = watch.seconds();
+}
+
+/// The volumes with what the chosen lookup needs besides the tree.
+std::shared_ptr<const HostVolumes> Session::with_lookup(HostVolumes volumes, Lookup lookup) const {
+    volumes.grid = {};
+    if (lookup == Lookup::Grid)
+        volumes.grid = build_volume_grid(*packed_, volumes, backend_->info().threads);
+    return std::make_shared<const HostVolumes>(std::move(volumes));
 }
 
 void Session::ensure_tables() {
@@ -248,7 +257,7 @@ std::optional<FieldStatus> Session::field_status() const {
     const FieldProgress& state = field();
     FieldStatus status{.volumes = static_cast<int>(volumes_->normals.size()),
                        .bins = shape_.cells.count(),
-                       .bytes = volumes_->normals.size() * bytes_per_volume(shape_.cells.count()),
+                       .bytes = volume_bytes(*volumes_) + volumes_->normals.size() * table_bytes(shape_.cells.count()),
                        .passes = state.passes,
                        .records = state.records,
                        .lookup_misses = state.lookup_misses,
@@ -338,11 +347,12 @@ void Session::import_field(LearnedField learned) {
                                           ", got " + learned.scene_hash);
     if (!info_of(learned.method).uses_field || !fits_together(learned))
         throw Error(ErrorKind::Input, "the field's volumes and tables do not fit together");
-    backend_->upload_volumes(learned.volumes, learned.shape);
+    const std::shared_ptr<const HostVolumes> volumes = with_lookup(*learned.volumes, learned.shape.lookup);
+    backend_->upload_volumes(volumes, learned.shape);
     backend_->upload_tables(learned.method, std::move(learned.tables));
     settings_.field = learned.settings;
     shape_ = learned.shape;
-    volumes_ = std::move(learned.volumes);
+    volumes_ = volumes;
     fields_.fill(FieldProgress{});
     fields_[static_cast<std::size_t>(learned.method)] = learned.progress;
     clear_films();

@@ -90,6 +90,7 @@ private:
     void switch_backend(const EditBackend& edit);
     ParkedBackend unpark(const std::shared_ptr<RenderBackend>& backend);
     void ensure_volumes();
+    std::shared_ptr<const HostVolumes> with_lookup(HostVolumes volumes, Lookup lookup) const;
     void ensure_tables();
     void ensure_film(FilmSlot slot);
     void clear_films();

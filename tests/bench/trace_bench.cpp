@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/timer.h"
 #include "core/fields/make_field.h"
+#include "core/fields/volume_grid.h"
 #include "core/io/load_scene.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
@@ -49,33 +50,25 @@ public:
     Bench(const SceneDescription& description, int threads, bool next_event)
         : scene_(std::make_shared<const HostScene>(pack_scene(description))),
           camera_(make_camera(description.camera, kSize, kSize)), backend_(make_cpu_backend({.threads = threads})),
-          peer_(*scene_, kSize, kSize, threads), features_(needed_effects(*scene_)) {
+          tree_backend_(make_cpu_backend({.threads = threads})), peer_(*scene_, kSize, kSize, threads),
+          features_(needed_effects(*scene_)) {
         settings_.next_event = next_event ? 1 : 0;
         if (next_event) features_ = features_.with(Feature::NextEventEstimation);
-        backend_->upload_scene(scene_);
-        const FieldSettings field;
-        const FieldShape shape = make_field_shape(*scene_, field);
-        const auto volumes = std::make_shared<const HostVolumes>(place_volumes(*scene_, field));
-        backend_->upload_volumes(volumes, shape);
-        backend_->upload_tables(MethodId::Reinforcement, make_tables(shape, volumes->normals.size()));
-        backend_->reset_film(kDefaultFilm, kSize, kSize);
-        backend_->reset_film(kLearningFilm, kSize, kSize);
+        HostVolumes volumes = place_volumes(*scene_, {});
+        volumes.grid = build_volume_grid(*scene_, volumes, threads);
+        prepare(*backend_, volumes, Lookup::Grid);
+        prepare(*tree_backend_, volumes, Lookup::KdTree);
     }
 
     std::string intersector() const { return backend_->info().intersector; }
     Slice run_ours() {
-        return time_passes(ours_sample_, [&](std::uint32_t s) { return pass(kDefaultFilm, s); });
+        return time_passes(ours_sample_, [&](std::uint32_t s) { return pass(*backend_, kDefaultFilm, s); });
     }
     Slice run_peer() {
         return time_passes(peer_sample_, [&](std::uint32_t s) { return peer_.run_pass(camera_, settings_, s); });
     }
-    Slice run_learning() {
-        return time_passes(learning_sample_, [&](std::uint32_t s) {
-            const PassCounters counters = pass(kLearningFilm, s);
-            backend_->publish(MethodId::Reinforcement);
-            return counters;
-        });
-    }
+    Slice run_learning() { return run_learning(*backend_, learning_sample_); }
+    Slice run_learning_by_tree() { return run_learning(*tree_backend_, tree_sample_); }
     double mean_of_ours() const {
         double sum = 0.0;
         const FilmReading film = backend_->read_film(kDefaultFilm);
@@ -85,20 +78,37 @@ public:
     double mean_of_peer() const { return peer_.mean(); }
 
 private:
-    PassCounters pass(FilmSlot slot, std::uint32_t sample) {
-        return backend_->run_pass(
+    void prepare(RenderBackend& backend, const HostVolumes& volumes, Lookup lookup) {
+        const FieldShape shape = make_field_shape(*scene_, {.lookup = lookup});
+        backend.upload_scene(scene_);
+        backend.upload_volumes(std::make_shared<const HostVolumes>(volumes), shape);
+        backend.upload_tables(MethodId::Reinforcement, make_tables(shape, volumes.normals.size()));
+        backend.reset_film(kDefaultFilm, kSize, kSize);
+        backend.reset_film(kLearningFilm, kSize, kSize);
+    }
+    Slice run_learning(RenderBackend& backend, std::uint32_t& sample) {
+        return time_passes(sample, [&](std::uint32_t s) {
+            const PassCounters counters = pass(backend, kLearningFilm, s);
+            backend.publish(MethodId::Reinforcement);
+            return counters;
+        });
+    }
+    PassCounters pass(RenderBackend& backend, FilmSlot slot, std::uint32_t sample) {
+        return backend.run_pass(
             {.slot = slot, .features = features_, .path = settings_, .camera = camera_, .sample = sample});
     }
 
     std::shared_ptr<const HostScene> scene_;
     PinholeCamera camera_;
     std::unique_ptr<RenderBackend> backend_;
+    std::unique_ptr<RenderBackend> tree_backend_;
     EmbreeLoop peer_;
     FeatureSet features_;
     PathSettings settings_;
     std::uint32_t ours_sample_ = 0;
     std::uint32_t peer_sample_ = 0;
     std::uint32_t learning_sample_ = 0;
+    std::uint32_t tree_sample_ = 0;
 };
 
 void print_line(const char* label, const char* format, const std::vector<double>& values) {
@@ -114,10 +124,13 @@ void print_line(const char* label, const char* format, const std::vector<double>
 
 void compare(const SceneDescription& description, int threads, bool next_event, int pairs) {
     Bench bench(description, threads, next_event);
-    std::vector<double> ours, peer, ratio, ours_ns, peer_ns, learning_ns, learning_ratio;
+    std::vector<double> ours, peer, ratio, ours_ns, peer_ns, learning_ns, learning_ratio, tree_ns, tree_ratio;
     bench.run_ours();
     bench.run_peer();
-    for (int i = 0; i < 4; ++i) bench.run_learning();
+    for (int i = 0; i < 4; ++i) {
+        bench.run_learning();
+        bench.run_learning_by_tree();
+    }
     const MachineLoad load;
     double ours_length = 0.0;
     double peer_length = 0.0;
@@ -125,6 +138,7 @@ void compare(const SceneDescription& description, int threads, bool next_event, 
         const Slice a = bench.run_ours();
         const Slice b = bench.run_peer();
         const Slice c = bench.run_learning();
+        const Slice d = bench.run_learning_by_tree();
         ours.push_back(1e-6 * a.paths_per_second());
         peer.push_back(1e-6 * b.paths_per_second());
         ratio.push_back(a.paths_per_second() / b.paths_per_second());
@@ -132,6 +146,8 @@ void compare(const SceneDescription& description, int threads, bool next_event, 
         peer_ns.push_back(threads * b.ns_per_segment());
         learning_ns.push_back(threads * c.ns_per_segment());
         learning_ratio.push_back(c.ns_per_segment() / a.ns_per_segment());
+        tree_ns.push_back(threads * d.ns_per_segment());
+        tree_ratio.push_back(d.ns_per_segment() / a.ns_per_segment());
         ours_length = static_cast<double>(a.counters.path.segments) / static_cast<double>(a.counters.paths);
         peer_length = static_cast<double>(b.counters.path.segments) / static_cast<double>(b.counters.paths);
     }
@@ -144,6 +160,8 @@ void compare(const SceneDescription& description, int threads, bool next_event, 
     print_line("Embree loop, thread ns/segment", "%.1f", peer_ns);
     print_line("learning, thread ns/segment", "%.1f", learning_ns);
     print_line("learning / default", "%.3f", learning_ratio);
+    print_line("by the tree, thread ns/segment", "%.1f", tree_ns);
+    print_line("by the tree / default", "%.3f", tree_ratio);
     const MachineLoad::Shares shares = load.shares();
     std::printf("  processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
                 shares.stolen);

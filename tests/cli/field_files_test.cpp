@@ -76,7 +76,7 @@ TEST_CASE("a run that loads a field goes on from it") {
     }
 }
 
-TEST_CASE("field files have the same bits for any number of threads and either lookup") {
+TEST_CASE("field files have the same bits for any number of threads and any lookup") {
     const TempDir folder;
     for (const std::string& method : kMethods) {
         const auto saved = [&](const Arguments& more) {
@@ -91,14 +91,16 @@ TEST_CASE("field files have the same bits for any number of threads and either l
         // Files of a map also tell the time that it took.
         if (method == "reinforcement") CHECK(read_all(folder / "f") == field);
         CHECK(saved({"--lookup", "linear"}) == picture);
+        CHECK(saved({"--lookup", "kdtree"}) == picture);
 
-        // Loaded, either lookup goes on with the same bits, whatever the file says.
+        // Loaded, every lookup goes on with the same bits, whatever the file says.
         const auto loaded = [&](const Arguments& more) {
             run_well(render(folder / "y.pfm", joined({"--load-field", folder / "f"}, more)));
             return read_all(folder / "y.pfm");
         };
         const std::string next = loaded({});
         CHECK(loaded({"--lookup", "kdtree"}) == next);
+        CHECK(loaded({"--lookup", "grid"}) == next);
         CHECK(loaded({"--lookup", "linear", "-t", "1"}) == next);
     }
     for (const std::string view : {"voronoi", "radiance-map"}) {
@@ -106,8 +108,10 @@ TEST_CASE("field files have the same bits for any number of threads and either l
             joined(render(folder / "v.pfm", {"--method", "reinforcement", "--view", view}), kSmall);
         run_well(arguments);
         const std::string picture = read_all(folder / "v.pfm");
-        run_well(joined(arguments, {"--lookup", "linear"}));
-        CHECK(read_all(folder / "v.pfm") == picture);
+        for (const std::string lookup : {"linear", "kdtree"}) {
+            run_well(joined(arguments, {"--lookup", lookup}));
+            CHECK(read_all(folder / "v.pfm") == picture);
+        }
     }
 }
 

@@ -53,7 +53,7 @@ Options any_options(std::mt19937& random) {
     o.render.field.budget_megabytes = real(0.5f, 9000.0f);
     o.render.field.bins = whole(2, 32);
     o.render.field.bins *= o.render.field.bins;
-    o.render.field.lookup = static_cast<Lookup>(whole(0, 1));
+    o.render.field.lookup = static_cast<Lookup>(whole(0, 2));
     o.display.exposure_ev = real(-64.0f, 64.0f);
     o.display.curve = static_cast<ToneCurve>(whole(0, 2));
     if (whole(0, 1) == 1) o.spp = static_cast<std::uint32_t>(whole(1, 1000000000));

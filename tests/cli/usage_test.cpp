@@ -60,7 +60,7 @@ TEST_CASE("wrong values name the option, what is expected and what was given") {
         {{"--threads", "0"}, "--threads: expected"},
         {{"--volumes", "0"}, "--volumes: expected"},
         {{"--field-budget", "0"}, "--field-budget: expected"},
-        {{"--lookup", "kd-tree"}, "--lookup: expected kdtree or linear, got 'kd-tree' (nearest: 'kdtree')"},
+        {{"--lookup", "kd-tree"}, "--lookup: expected kdtree, linear or grid, got 'kd-tree' (nearest: 'kdtree')"},
         {{"--seed", "-1"}, "--seed: expected a whole number of at least 0"},
         {{"--seed", "18446744073709551616"}, "--seed: expected"},
     };
@@ -193,7 +193,7 @@ TEST_CASE("what is given beside a loaded field has to agree with it, but for the
         CAPTURE(wrong.words);
         CHECK_THAT(complaint_with_field(wrong.words, field), contains(wrong.message));
     }
-    CHECK(parse_with_field(loading({}), field).render.field.lookup == Lookup::KdTree);
+    CHECK(parse_with_field(loading({}), field).render.field.lookup == Lookup::Grid);
     CHECK(parse_with_field(loading({"--lookup", "linear"}), field).render.field.lookup == Lookup::Linear);
     field.settings.lookup = Lookup::Linear;
     CHECK(parse_with_field(loading({"--lookup", "kdtree"}), field).render.field.lookup == Lookup::KdTree);

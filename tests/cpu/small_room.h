@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/fields/make_field.h"
+#include "core/fields/volume_grid.h"
 #include "core/scene/needed_effects.h"
 #include "cpu/cpu_backend.h"
 #include "tests/kernel/shapes.h"
@@ -46,10 +47,14 @@ struct Room {
     PinholeCamera camera;
 
     explicit Room(const SceneDescription& description = small_room())
-        : scene(std::make_shared<const HostScene>(pack_scene(description))),
-          volumes(std::make_shared<const HostVolumes>(place_volumes(*scene, small_field()))),
+        : scene(std::make_shared<const HostScene>(pack_scene(description))), volumes(with_grid(*scene)),
           shape(make_field_shape(*scene, small_field())), camera(make_camera(description.camera, kWidth, kHeight)) {}
 
+    static std::shared_ptr<const HostVolumes> with_grid(const HostScene& scene) {
+        HostVolumes placed = place_volumes(scene, small_field());
+        placed.grid = build_volume_grid(scene, placed, 1);
+        return std::make_shared<const HostVolumes>(std::move(placed));
+    }
     HostTables empty_tables() const { return make_tables(shape, volumes->normals.size()); }
 };
 

@@ -60,13 +60,15 @@ TEST_CASE("Every view gives the bits of the CPU back end") {
         }
 }
 
-TEST_CASE("Both searches for volumes give the same bits") {
+TEST_CASE("All searches for volumes give the same bits") {
     shim::reset();
     const SceneDescription scene = shipped_scene("door");
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
-    const State tree = render(make_cuda_session(scene, settings));
-    settings.field.lookup = Lookup::Linear;
-    CHECK(same_state(render(make_cuda_session(scene, settings)), tree));
+    const State grid = render(make_cuda_session(scene, settings));
+    for (const Lookup lookup : {Lookup::KdTree, Lookup::Linear}) {
+        settings.field.lookup = lookup;
+        CHECK(same_state(render(make_cuda_session(scene, settings)), grid));
+    }
 }
 
 TEST_CASE("Launches of any size, stopped and resumed, give the same bits") {

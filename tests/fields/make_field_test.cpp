@@ -1,6 +1,7 @@
 // Sizes of a learned field, its radiance unit and its empty tables.
 #include "core/fields/make_field.h"
 
+#include "core/fields/volume_grid.h"
 #include "core/kernel/fields/direction_table.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/shapes.h"
@@ -53,9 +54,16 @@ TEST_CASE("Bytes are those of the arrays") {
         FieldSettings settings;
         settings.volumes = 50;
         settings.bins = bins;
-        const HostVolumes volumes = place_volumes(scene, settings);
+        HostVolumes volumes = place_volumes(scene, settings);
         const HostTables tables = make_tables(make_field_shape(scene, settings), volumes.sites.size());
-        CHECK(field_bytes(volumes, tables) == volumes.sites.size() * bytes_per_volume(bins));
+        const std::size_t without_grid = bytes_per_volume(bins) - kGridBytesPerVolume;
+        CHECK(field_bytes(volumes, tables) == volumes.sites.size() * without_grid);
+        CHECK(field_bytes(volumes, tables) == volume_bytes(volumes) + volumes.sites.size() * table_bytes(bins));
+        const std::size_t before = volume_bytes(volumes);
+        volumes.grid = build_volume_grid(scene, volumes, 1);
+        CHECK(volume_bytes(volumes) > before);
+        CHECK(field_bytes(volumes, tables) <=
+              volumes.sites.size() * bytes_per_volume(bins) + scene.triangles.size() * kGridBytesPerTriangle);
     }
 }
 

@@ -82,14 +82,18 @@ void run(double seconds) {
                           measure(scene, method.id, next_event, size, {}, seconds));
 
     FieldSettings many{.volumes = 20000, .budget_megabytes = 400.0};
+    const Row grid = measure(scene, MethodId::Reinforcement, false, {512, 512}, many, seconds);
+    many.lookup = Lookup::KdTree;
     const Row tree = measure(scene, MethodId::Reinforcement, false, {512, 512}, many, seconds);
     many.lookup = Lookup::Linear;
     const Row linear = measure(scene, MethodId::Reinforcement, false, {512, 512}, many, seconds);
+    print_row("512x512 reinforcement, 20000 volumes, grid", grid);
     print_row("512x512 reinforcement, 20000 volumes, tree", tree);
     print_row("512x512 reinforcement, 20000 volumes, linear", linear);
     const Row plain = measure(scene, MethodId::Default, false, {1920, 1080}, {}, seconds);
     const Row guided = measure(scene, MethodId::Precomputed, false, {1920, 1080}, {}, seconds);
-    std::printf("\nlinear search / tree, time per segment: %.1f\n", linear.ns_per_segment / tree.ns_per_segment);
+    std::printf("\ntree / grid, time per segment: %.2f\n", tree.ns_per_segment / grid.ns_per_segment);
+    std::printf("linear search / tree, time per segment: %.1f\n", linear.ns_per_segment / tree.ns_per_segment);
     std::printf("guided / default segment, 1920x1080: %.2f\n", guided.ns_per_segment / plain.ns_per_segment);
     std::printf("default at 1920x1080: %.0f passes a second\n", 1.0e3 / plain.milliseconds);
 }

@@ -5,8 +5,7 @@
 #include "core/kernel/base/atomics.h"
 #include "core/kernel/base/frame.h"
 #include "core/kernel/fields/direction_cells.h"
-#include "core/kernel/fields/volume_lookup.h"
-#include "core/kernel/scene/surface_point.h"
+#include "core/kernel/fields/volume_grid.h"
 
 namespace pl {
 
@@ -20,6 +19,7 @@ inline constexpr float kStepsPerUnit = 16777216.0f;
 struct FieldView {
     DirectionCells cells;
     KdTreeView tree;
+    VolumeGridView grid;
     Span<const Vec3f> normals;       ///< [volume], unit: the hemisphere that the cells divide
     Span<const SurfacePoint> sites;  ///< [volume], where it stands
 
@@ -35,6 +35,9 @@ struct FieldView {
 
     /// Radiance of one fixed-point unit: a power of two not below the brightest emission.
     float radiance_unit = 1.0f;
+
+    /// The volume that serves a surface point, or kNoVolume.
+    PL_HD std::int32_t volume_at(const SurfacePoint& point) const { return find_volume(tree, grid, point); }
 
     PL_HD std::int32_t volume_count() const { return static_cast<std::int32_t>(normals.count); }
 

@@ -1,5 +1,5 @@
 // Which radiance volume serves a surface point: the nearest whose normal agrees; ties go to the lowest number.
-// Both searches give the same answer for every input, which tests prove.
+// All searches give the same answer for every input, which tests prove. The grid is in volume_grid.h.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace pl {
 inline constexpr std::int32_t kNoVolume = -1;
 
 /// How the nearest volume is searched. The answer is the same, the time is not.
-enum class Lookup : std::uint32_t { KdTree, Linear };
+enum class Lookup : std::uint32_t { KdTree, Linear, Grid };
 
 /// Cosine of the largest angle between the normals of a surface point and of the volume that serves it.
 inline constexpr float kMinNormalCosine = 0.8f;
@@ -125,7 +125,7 @@ PL_HD inline void search_all(const KdTreeView& tree, Vec3f position, Vec3f norma
     for (std::uint32_t i = 0; i < tree.nodes.count; ++i) result.consider(tree.nodes[i], position, normal);
 }
 
-/// The volume that serves a surface point, or kNoVolume.
+/// The volume that serves a point of which only position and normal are known, or kNoVolume.
 PL_HD inline std::int32_t find_volume(const KdTreeView& tree, Vec3f position, Vec3f normal) {
     Nearest nearest;
     if (tree.lookup == Lookup::Linear)

@@ -60,7 +60,7 @@ PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& inte
         return emitted + material.albedo * interpolated_mean_radiance(field, surface);
     }
     case View::Voronoi: {
-        const std::int32_t volume = find_volume(field.tree, surface.position, surface.geometric_normal);
+        const std::int32_t volume = field.volume_at(surface);
         return volume == kNoVolume ? Vec3f{0.0f} : color_of_id(static_cast<std::uint32_t>(volume));
     }
     case View::Normal: return 0.5f * (surface.shading_normal + Vec3f{1.0f});

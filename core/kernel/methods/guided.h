@@ -22,7 +22,7 @@ struct GuidedSampling {
     float bsdf_fraction = 0.5f;  ///< a, in (0, 1]
 
     PL_HD GuidedVertex arrive(const SurfacePoint& surface, MethodCounters& counters) const {
-        const std::int32_t volume = find_volume(field.tree, surface.position, surface.geometric_normal);
+        const std::int32_t volume = field.volume_at(surface);
         ++counters.lookups;
         counters.lookup_misses += volume == kNoVolume ? 1u : 0u;
         return {volume};

@@ -1,0 +1,125 @@
+#include "core/fields/nearest_sets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pl {
+namespace {
+
+/// Gathering more ends in TooMany: their bisectors would take long to try.
+constexpr std::size_t kMostGathered = 160;
+
+/// Relative error of squared_distance(): difference 1, doubled by the square, product 1, two sums 2; with reserve.
+constexpr double kDistanceError = gamma_bound(8);
+
+/// Relative error of the double arithmetic here, with reserve.
+constexpr double kDoubleError = 1e-13;
+
+/// Squares of small numbers underflow: three times half of the smallest positive float, with reserve.
+constexpr double kUnderflow = 1e-40;
+
+/// Covers kDistanceError and roundings to float where distances are compared, with reserve.
+constexpr double kWiden = 1.0 + 1e-6;
+
+/// A distance that is not smaller than the exact one.
+double distance_above(float distance2) {
+    return std::sqrt(static_cast<double>(distance2) * kWiden + kUnderflow) * kWiden;
+}
+
+}  // namespace
+
+/// Collects what lies within a distance.
+struct NearestSets::Gather {
+    const KdNode* first;
+    const FlatRegion& region;
+    float limit2;
+    std::vector<Candidate>& found;
+
+    void consider(const KdNode& node, Vec3f position, Vec3f normal) {
+        const float d2 = squared_distance(position, node.position);
+        if (!(d2 <= limit2) || !normals_agree(normal, node.normal)) return;
+        const Vec3d v = Vec3d{node.position} - region.origin;
+        const double x = glm::dot(v, region.x_axis);
+        const double y = glm::dot(v, region.y_axis);
+        const double z = glm::dot(v, region.normal);
+        found.push_back({static_cast<std::uint32_t>(&node - first), node.volume, d2, x, y, z, x * x + y * y + z * z});
+        if (found.size() > kMostGathered) limit2 = -1.0f;  // ends the search
+    }
+    float limit() const { return limit2; }
+};
+
+/// Whatever is nearest of a point of the region is not further from it than what is nearest of its middle, so not
+/// further from the middle than that one plus twice the radius.
+bool NearestSets::gather(const FlatRegion& region, Vec3f normal) {
+    candidates_.clear();
+    Vec2d middle{0.0};
+    int corners = 0;
+    for (const Vec2d p : region.polygon) {
+        middle += p;
+        ++corners;
+    }
+    middle /= corners;
+    const Vec3d exact = region.origin + middle.x * region.x_axis + middle.y * region.y_axis;
+    const Vec3f center{exact};
+    double radius = 0.0;
+    for (const Vec2d p : region.polygon) radius = std::max(radius, glm::length(p - middle));
+    radius = (radius + region.thickness + glm::length(Vec3d{center} - exact)) * kWiden;
+
+    nearest_ = {};
+    if (hint_ < tree_.nodes.count) nearest_.consider(tree_.nodes[hint_], center, normal);
+    search_kd_tree(tree_, center, normal, nearest_);
+    if (nearest_.volume == kNoVolume) return true;
+    const double reach = (distance_above(nearest_.distance2) + 2.0 * radius) * kWiden;
+    const auto limit2 = static_cast<float>(reach * reach * kWiden + kUnderflow);
+    Gather result{tree_.nodes.data, region, next_float_up(limit2), candidates_};
+    search_kd_tree(tree_, center, normal, result);
+    const double farthest = reach + radius;
+    margin_ = 2.0 * (kDistanceError + kDoubleError) * farthest * farthest + kUnderflow;
+    return candidates_.size() <= kMostGathered;
+}
+
+/// Nearest first. Of several at the same place the first is the one that all searches answer.
+void NearestSets::drop_duplicates() {
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+        return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.volume < b.volume;
+    });
+    std::size_t kept = 0;
+    for (const Candidate& candidate : candidates_) {
+        bool duplicate = false;
+        for (std::size_t i = kept; i-- > 0 && candidates_[i].distance2 == candidate.distance2;)
+            duplicate =
+                duplicate || tree_.nodes[candidates_[i].node].position == tree_.nodes[candidate.node].position;
+        if (!duplicate) candidates_[kept++] = candidate;
+    }
+    candidates_.resize(kept);
+}
+
+/// Cuts the region down to where no other one is nearer by more than rounding could hide. The difference of two
+/// squared distances is linear, so that is a polygon; points off the plane see it moved a little.
+bool NearestSets::can_be_nearest(const Candidate& candidate, const FlatRegion& region) const {
+    Polygon left = region.polygon;
+    for (const Candidate& other : candidates_) {
+        if (other.node == candidate.node) continue;
+        const Vec2d difference{candidate.x - other.x, candidate.y - other.y};
+        const double off_plane = 2.0 * region.thickness * std::fabs(candidate.z - other.z);
+        left.clip(-2.0 * difference, margin_ + off_plane - (candidate.length2 - other.length2));
+        if (left.empty()) return false;
+    }
+    return true;
+}
+
+NearestSets::Answer NearestSets::find(const FlatRegion& region, Vec3f normal) {
+    nodes_.clear();
+    if (!gather(region, normal)) return Answer::TooMany;
+    if (nearest_.volume == kNoVolume) return Answer::None;
+    drop_duplicates();
+    hint_ = candidates_.front().node;
+    for (const Candidate& candidate : candidates_)
+        if (can_be_nearest(candidate, region)) nodes_.push_back(candidate.node);
+    if (nodes_.size() > kMostListed) return Answer::TooMany;
+    std::sort(nodes_.begin(), nodes_.end(),
+              [this](std::uint32_t a, std::uint32_t b) { return tree_.nodes[a].volume < tree_.nodes[b].volume; });
+    return Answer::Few;
+}
+
+}  // namespace pl

@@ -1,0 +1,317 @@
+#include "core/fields/volume_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <unordered_set>
+#include <utility>
+
+#include "core/base/work_queue.h"
+#include "core/fields/nearest_sets.h"
+#include "core/scene/triangle_planes.h"
+
+namespace pl {
+namespace {
+
+/// Sides that more volumes may serve get a grid.
+constexpr std::size_t kMostListedBySide = 6;
+
+/// Edge of a cell, in distances between volumes. Smaller ones need fewer distances and more memory.
+constexpr double kCellSize = 0.4;
+
+/// Cells and entries of lists that a side may have: some, and more for each of its volumes.
+constexpr std::uint32_t kFreeCells = 16;
+constexpr std::uint32_t kCellsPerVolume = 32;
+constexpr std::uint32_t kFreeEntries = 24;
+constexpr std::uint32_t kEntriesPerVolume = 64;
+static_assert(kGridBytesPerVolume == (kCellsPerVolume + kEntriesPerVolume) * 4);
+static_assert(kGridBytesPerTriangle ==
+              2 * (sizeof(VolumePlace) + sizeof(SideGrid) + (kFreeCells + kFreeEntries) * 4));
+
+/// Points at which the distance between volumes is estimated.
+constexpr int kProbes = 32;
+
+/// Roundoffs, of the distance from the origin, between a surface point and its triangle: 7 per coordinate.
+constexpr double kPointError = gamma_bound(16);
+/// And between where the grid's map sees a point and where that is: 3 products, 3 sums, and the rounded map.
+constexpr double kMapError = gamma_bound(32);
+/// Cells are at least so many map errors wide.
+constexpr double kMinCellErrors = 16.0;
+
+constexpr VolumePlace kSearch{VolumePlace::Kind::Search, 0};
+
+/// Places of some sides; grids, cells and lists are numbered from 0.
+struct Pieces {
+    std::vector<VolumePlace> sides;
+    std::vector<SideGrid> grids;
+    std::vector<VolumePlace> cells;
+    std::vector<std::uint32_t> lists;
+};
+
+/// A triangle with its longest edge along x, from the frame's origin on, and the opposite corner at y > 0.
+class FramedTriangle {
+public:
+    explicit FramedTriangle(const TriangleCorners& corners) {
+        int first = 0;
+        for (int i = 1; i < 3; ++i)
+            if (edge(corners, i) > edge(corners, first)) first = i;
+        base_ = edge(corners, first);
+        const Vec3d cross = corners.cross();
+        const double twice_area = glm::length(cross);
+        if (!(twice_area > 0.0) || !(base_ > 0.0)) return;
+        region_.origin = corners.p[first];
+        region_.x_axis = (corners.p[(first + 1) % 3] - region_.origin) / base_;
+        region_.normal = cross / twice_area;
+        region_.y_axis = glm::cross(region_.normal, region_.x_axis);
+        const Vec3d side = corners.p[(first + 2) % 3] - region_.origin;
+        tip_ = {glm::dot(side, region_.x_axis), glm::dot(side, region_.y_axis)};
+        const double reach = glm::length(corners.reach());
+        region_.thickness = kPointError * reach;
+        map_error_ = kMapError * reach;
+        is_flat_ = tip_.y > 0.0 && reach < static_cast<double>(kMaxCoordinate);
+    }
+
+    /// False for triangles without area, or out of the range of float.
+    bool is_flat() const { return is_flat_; }
+    double base() const { return base_; }
+    double height() const { return tip_.y; }
+    double map_error() const { return map_error_; }
+    double point_error() const { return region_.thickness; }
+    const FlatRegion& frame() const { return region_; }
+    Vec2d corner(int i) const { return i == 0 ? Vec2d{0.0} : (i == 1 ? Vec2d{base_, 0.0} : tip_); }
+    Vec2d low() const { return Vec2d{-point_error()}; }
+    Vec2d high() const { return Vec2d{base_, height()} + point_error(); }
+
+    /// The part of a rectangle where points of this triangle may be.
+    FlatRegion part(Vec2d low, Vec2d high) const {
+        FlatRegion region = region_;
+        region.polygon = Polygon::rectangle(low, high);
+        for (int i = 0; i < 3; ++i) {
+            const Vec2d along = corner((i + 1) % 3) - corner(i);
+            const Vec2d outwards = Vec2d{along.y, -along.x} / glm::length(along);
+            region.polygon.clip(outwards, glm::dot(outwards, corner(i)) + point_error());
+        }
+        return region;
+    }
+
+private:
+    static double edge(const TriangleCorners& corners, int i) {
+        return glm::length(corners.p[(i + 1) % 3] - corners.p[i]);
+    }
+
+    FlatRegion region_;
+    Vec2d tip_{0.0};
+    double base_ = 0.0;
+    double map_error_ = 0.0;
+    bool is_flat_ = false;
+};
+
+/// Works on one side after the other. One per thread.
+class SideBuilder {
+public:
+    /// `own`: volumes that stand on each side.
+    SideBuilder(const HostScene& scene, const HostVolumes& volumes, Span<const std::uint32_t> own)
+        : scene_(scene.view()), tree_{view_of(volumes.kd_nodes)}, sites_(view_of(volumes.sites)), own_(own),
+          sets_(tree_) {}
+
+    Pieces build(IndexRange sides) {
+        pieces_ = {};
+        for (std::uint32_t side = sides.begin; side < sides.end; ++side) pieces_.sides.push_back(build_side(side));
+        return std::move(pieces_);
+    }
+
+private:
+    VolumePlace build_side(std::uint32_t side) {
+        const std::uint32_t triangles = scene_.triangles.count;
+        const std::uint32_t primitive = side < triangles ? side : side - triangles;
+        const FramedTriangle triangle({scene_.positions, scene_.triangles[primitive]});
+        if (!triangle.is_flat()) return kSearch;
+        normal_ = (side < triangles ? 1.0f : -1.0f) * scene_.planes[primitive].normal;
+        most_entries_ = pieces_.lists.size() + kFreeEntries + std::size_t{kEntriesPerVolume} * own_[side];
+        const NearestSets::Answer answer = sets_.find(triangle.part(triangle.low(), triangle.high()), normal_);
+        if (answer == NearestSets::Answer::None) return {VolumePlace::Kind::Volume, VolumePlace::kMaxNumber};
+        if (answer == NearestSets::Answer::Few && sets_.nodes().size() <= kMostListedBySide) return list();
+        return grid(triangle, kFreeCells + kCellsPerVolume * own_[side]);
+    }
+
+    VolumePlace list() {
+        const std::vector<std::uint32_t>& nodes = sets_.nodes();
+        if (nodes.size() == 1) return {VolumePlace::Kind::Volume, tree_.nodes[nodes.front()].volume};
+        const auto first = static_cast<std::uint32_t>(pieces_.lists.size());
+        if (first + nodes.size() > most_entries_) return kSearch;
+        pieces_.lists.insert(pieces_.lists.end(), nodes.begin(), nodes.end());
+        pieces_.lists.back() |= kLastOfList;
+        return {VolumePlace::Kind::List, first};
+    }
+
+    /// Distance between volumes, were they on a square lattice in this plane: a disk of the mean squared distance to
+    /// the nearest one holds one.
+    double spacing(const FramedTriangle& triangle) const {
+        const FlatRegion& frame = triangle.frame();
+        double sum = 0.0;
+        for (int i = 0; i < kProbes; ++i) {
+            // Powers of the plastic number cover a square evenly; folded, the triangle.   [Roberts 2018]
+            double u = std::fmod(0.5 + i * 0.7548776662466927, 1.0);
+            double v = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
+            if (u + v > 1.0) {
+                u = 1.0 - u;
+                v = 1.0 - v;
+            }
+            const Vec2d at = u * triangle.corner(1) + v * triangle.corner(2);
+            const Vec3d point = frame.origin + at.x * frame.x_axis + at.y * frame.y_axis;
+            Nearest nearest;
+            search_kd_tree(tree_, Vec3f{point}, normal_, nearest);
+            const Vec3d away = Vec3d{sites_[static_cast<std::uint32_t>(nearest.volume)].position} - point;
+            const double height = glm::dot(away, frame.normal);
+            sum += std::max(glm::dot(away, away) - height * height, 0.0);
+        }
+        return std::sqrt(kPi * sum / kProbes);
+    }
+
+    /// Edge of a cell so that there are at most `most_cells`, and that the map's error is small against it.
+    static double cell_size(Vec2d extent, double wanted, std::uint32_t most_cells, double map_error) {
+        double size =
+            std::max({wanted, kMinCellErrors * map_error, 1e-3 * std::max(extent.x, extent.y) / most_cells});
+        while (std::ceil(extent.x / size) * std::ceil(extent.y / size) > most_cells) size *= 1.05;
+        return size;
+    }
+
+    VolumePlace grid(const FramedTriangle& triangle, std::uint32_t most_cells) {
+        const FlatRegion& frame = triangle.frame();
+        const Vec2d low = triangle.low() - triangle.map_error();
+        const Vec2d extent = triangle.high() + triangle.map_error() - low;
+        const double wanted = cell_size(extent, kCellSize * spacing(triangle), most_cells, triangle.map_error());
+        const Vec2d counts = glm::ceil(extent / wanted);
+        const Vec2d size = extent / counts;
+        const Vec2d start =
+            (-low - Vec2d{glm::dot(frame.origin, frame.x_axis), glm::dot(frame.origin, frame.y_axis)}) / size;
+        const SideGrid grid{.x_axis = Vec3f{frame.x_axis / size.x},
+                            .x_start = static_cast<float>(start.x),
+                            .y_axis = Vec3f{frame.y_axis / size.y},
+                            .y_start = static_cast<float>(start.y),
+                            .first_cell = static_cast<std::uint32_t>(pieces_.cells.size()),
+                            .columns = static_cast<std::uint32_t>(counts.x),
+                            .rows = static_cast<std::uint32_t>(counts.y)};
+        const Vec2d error{triangle.map_error()};
+        for (std::uint32_t row = 0; row < grid.rows; ++row)
+            for (std::uint32_t column = 0; column < grid.columns; ++column) {
+                const Vec2d corner = low + Vec2d{column, row} * size;
+                pieces_.cells.push_back(cell(triangle.part(corner - error, corner + size + error)));
+            }
+        pieces_.grids.push_back(grid);
+        return {VolumePlace::Kind::Grid, static_cast<std::uint32_t>(pieces_.grids.size() - 1)};
+    }
+
+    VolumePlace cell(const FlatRegion& region) {
+        if (region.polygon.empty()) return kSearch;  // no point of the triangle is there
+        return sets_.find(region, normal_) == NearestSets::Answer::Few ? list() : kSearch;
+    }
+
+    SceneView scene_;
+    KdTreeView tree_;
+    Span<const SurfacePoint> sites_;
+    Span<const std::uint32_t> own_;
+    NearestSets sets_;
+    Pieces pieces_;
+    Vec3f normal_{0.0f};            ///< of the side that is worked on
+    std::size_t most_entries_ = 0;  ///< of all lists, when this side is done
+};
+
+/// Joins pieces in order. Neighbors often have the same list: it is kept once.
+class Joiner {
+public:
+    Joiner() : known_(16, Hash{&grid_.lists}, Same{&grid_.lists}) {}
+
+    void add(const Pieces& pieces) {
+        const auto grids = static_cast<std::uint32_t>(grid_.grids.size());
+        const auto cells = static_cast<std::uint32_t>(grid_.cells.size());
+        for (const VolumePlace place : pieces.sides)
+            grid_.sides.push_back(place.kind() == VolumePlace::Kind::Grid
+                                      ? VolumePlace{VolumePlace::Kind::Grid, place.number() + grids}
+                                      : joined(place, pieces.lists));
+        for (SideGrid grid : pieces.grids) {
+            grid.first_cell += cells;
+            grid_.grids.push_back(grid);
+        }
+        for (const VolumePlace place : pieces.cells) grid_.cells.push_back(joined(place, pieces.lists));
+    }
+
+    HostVolumeGrid take() {
+        known_.clear();
+        return std::move(grid_);
+    }
+
+private:
+    using Lists = std::vector<std::uint32_t>;
+    struct Hash {
+        const Lists* lists;
+        std::size_t operator()(std::uint32_t first) const {
+            std::uint64_t hash = 0;
+            for (std::uint32_t i = first;; ++i) {
+                hash = (hash ^ (*lists)[i]) * 0x9E3779B97F4A7C15u;
+                hash ^= hash >> 32;
+                if (((*lists)[i] & kLastOfList) != 0) return hash;
+            }
+        }
+    };
+    struct Same {
+        const Lists* lists;
+        bool operator()(std::uint32_t a, std::uint32_t b) const {
+            for (;; ++a, ++b) {
+                if ((*lists)[a] != (*lists)[b]) return false;
+                if (((*lists)[a] & kLastOfList) != 0) return true;
+            }
+        }
+    };
+
+    /// The list is written behind the others, and taken back if it was there already.
+    VolumePlace joined(VolumePlace place, const Lists& lists) {
+        if (place.kind() != VolumePlace::Kind::List) return place;
+        const std::size_t first = grid_.lists.size();
+        std::uint32_t i = place.number();
+        do grid_.lists.push_back(lists[i]);
+        while ((lists[i++] & kLastOfList) == 0);
+        const auto [known, is_new] = known_.insert(static_cast<std::uint32_t>(first));
+        if (!is_new) grid_.lists.resize(first);
+        return {VolumePlace::Kind::List, *known};
+    }
+
+    HostVolumeGrid grid_;
+    std::unordered_set<std::uint32_t, Hash, Same> known_;
+};
+
+bool in_range(const HostVolumes& volumes) {
+    return std::all_of(volumes.kd_nodes.begin(), volumes.kd_nodes.end(),
+                       [](const KdNode& node) { return max_component(absolute(node.position)) < kMaxCoordinate; });
+}
+
+/// [side], fronts first.
+std::vector<std::uint32_t> count_on_sides(const HostScene& scene, const HostVolumes& volumes) {
+    const std::size_t triangles = scene.triangles.size();
+    std::vector<std::uint32_t> own(2 * triangles);
+    for (const SurfacePoint& site : volumes.sites)
+        if (site.primitive < triangles) ++own[site.primitive + (site.front ? 0 : triangles)];
+    return own;
+}
+
+}  // namespace
+
+HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volumes, int threads) {
+    if (!in_range(volumes)) return {};
+    if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const std::vector<std::uint32_t> own = count_on_sides(scene, volumes);
+    const auto sides = static_cast<std::uint32_t>(own.size());
+    const std::uint32_t chunk = std::clamp(sides / 1024u, 1u, 1024u);
+    std::vector<Pieces> pieces((sides + chunk - 1) / chunk);
+    ChunkQueue queue(0, sides, chunk);
+    run_on_plain_threads(threads, [&](int) {
+        SideBuilder builder(scene, volumes, view_of(own));
+        for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
+            pieces[range.begin / chunk] = builder.build(range);
+    });
+    Joiner joiner;
+    for (const Pieces& piece : pieces) joiner.add(piece);
+    return joiner.take();
+}
+
+}  // namespace pl

@@ -1,0 +1,147 @@
+// How long the searches for a point's radiance volume take, at points where diffuse paths hit.
+// Usage: lookup_bench [SCENE [ROUNDS]]. The searches alternate, and have to agree at every point.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/timer.h"
+#include "core/fields/make_field.h"
+#include "core/fields/volume_grid.h"
+#include "core/io/load_scene.h"
+#include "core/kernel/base/rng.h"
+#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/scene/camera.h"
+#include "core/kernel/shading/lambert.h"
+#include "core/scene/pack_scene.h"
+#include "tests/bench/machine_load.h"
+#include "tests/bench/quartiles.h"
+
+namespace pl::bench {
+namespace {
+
+constexpr std::uint32_t kPoints = 1u << 18;
+constexpr std::uint32_t kSide = 512;  ///< of the picture whose paths are followed
+constexpr std::uint32_t kMaxVertices = 8;
+
+std::vector<SurfacePoint> path_vertices(const SceneView& scene, const PinholeCamera& camera) {
+    const BvhIntersector intersector{scene};
+    std::vector<SurfacePoint> points;
+    for (std::uint32_t path = 0; points.size() < kPoints; ++path) {
+        const Rng rng{.seed = 1, .pixel = path};
+        const Vec4f u = rng.draw(0, Purpose::Scatter);
+        Ray ray = generate_ray(camera, Vec2f{u.x, u.y} * static_cast<float>(kSide), Vec2f{kSide});
+        for (std::uint32_t vertex = 1; vertex <= kMaxVertices && points.size() < kPoints; ++vertex) {
+            const Hit hit = intersector.closest_hit(ray);
+            if (!hit.found()) break;
+            points.push_back(make_surface_point<FeatureSet{}>(scene, hit, -ray.direction));
+            const Vec4f v = rng.draw(vertex, Purpose::Scatter);
+            ray = spawn_ray(points.back(), lambert_sample(points.back(), {v.x, v.y}));
+        }
+    }
+    return points;
+}
+
+struct Timing {
+    double ns = 0.0;
+    std::uint64_t checksum = 0;
+};
+
+/// One lookup per point; `stride` leaves points out, for searches that would take minutes.
+Timing time_lookups(const HostVolumes& volumes, Lookup lookup, const std::vector<SurfacePoint>& points,
+                    std::size_t stride) {
+    const KdTreeView tree{view_of(volumes.kd_nodes), lookup};
+    const VolumeGridView grid = grid_view(volumes.grid);
+    Timing timing;
+    const Stopwatch watch;
+    for (std::size_t i = 0; i < points.size(); i += stride)
+        timing.checksum += static_cast<std::uint64_t>(find_volume(tree, grid, points[i])) * (i + 1);
+    timing.ns = 1e9 * watch.seconds() / static_cast<double>((points.size() + stride - 1) / stride);
+    return timing;
+}
+
+void describe(const HostVolumes& volumes, const std::vector<SurfacePoint>& points) {
+    const VolumeGridView grid = grid_view(volumes.grid);
+    std::size_t kinds[4] = {};
+    std::size_t distances = 0;
+    for (const SurfacePoint& point : points) {
+        const VolumePlace place = grid.place_of(point);
+        ++kinds[static_cast<int>(place.kind())];
+        if (place.kind() != VolumePlace::Kind::List) continue;
+        for (std::uint32_t i = place.number();; ++i) {
+            ++distances;
+            if ((grid.lists[i] & kLastOfList) != 0) break;
+        }
+    }
+    const double all = static_cast<double>(points.size());
+    std::printf("  points: %.1f %% one volume, %.1f %% a list of %.2f, %.4f %% search the tree\n",
+                100.0 * static_cast<double>(kinds[0]) / all, 100.0 * static_cast<double>(kinds[1]) / all,
+                static_cast<double>(distances) / static_cast<double>(std::max<std::size_t>(kinds[1], 1)),
+                100.0 * static_cast<double>(kinds[3]) / all);
+}
+
+std::size_t bytes_of(const HostVolumeGrid& grid) {
+    return grid.sides.size() * sizeof(VolumePlace) + grid.grids.size() * sizeof(SideGrid) +
+           grid.cells.size() * sizeof(VolumePlace) + grid.lists.size() * sizeof(std::uint32_t);
+}
+
+bool measure(const HostScene& scene, const std::vector<SurfacePoint>& points, int count, int rounds) {
+    HostVolumes volumes = place_volumes(scene, {.volumes = count});
+    std::vector<double> build, grid_ns, tree_ns, linear_ns, ratio;
+    for (int i = 0; i < 3; ++i) {
+        const Stopwatch watch;
+        volumes.grid = build_volume_grid(scene, volumes, 2);
+        build.push_back(watch.seconds());
+    }
+    const auto volumes_size = volumes.sites.size();
+    const std::size_t bytes = bytes_of(volumes.grid);
+    std::printf("%zu volumes: built in %.4f s with two threads, %.1f kB (%.0f bytes per volume), %zu grids\n",
+                volumes_size, quartiles_of(build).median, 1e-3 * static_cast<double>(bytes),
+                static_cast<double>(bytes) / static_cast<double>(volumes_size), volumes.grid.grids.size());
+    describe(volumes, points);
+    const std::size_t stride = 1 + volumes_size / 100;
+    bool same = time_lookups(volumes, Lookup::Linear, points, stride).checksum ==
+                time_lookups(volumes, Lookup::Grid, points, stride).checksum;
+    for (int i = 0; i < rounds; ++i) {
+        const Timing grid = time_lookups(volumes, Lookup::Grid, points, 1);
+        const Timing tree = time_lookups(volumes, Lookup::KdTree, points, 1);
+        same = same && grid.checksum == tree.checksum;
+        grid_ns.push_back(grid.ns);
+        tree_ns.push_back(tree.ns);
+        linear_ns.push_back(time_lookups(volumes, Lookup::Linear, points, stride).ns);
+        ratio.push_back(tree.ns / grid.ns);
+    }
+    std::printf("  ns per lookup: grid %.1f, tree %.1f, linear %.1f; tree / grid %.2f [%.2f, %.2f]; %s\n",
+                quartiles_of(grid_ns).median, quartiles_of(tree_ns).median, quartiles_of(linear_ns).median,
+                quartiles_of(ratio).median, quartiles_of(ratio).lower, quartiles_of(ratio).upper,
+                same ? "same answers" : "ANSWERS DIFFER");
+    return same;
+}
+
+}  // namespace
+}  // namespace pl::bench
+
+int main(int count, char** arguments) try {
+    using namespace pl::bench;
+    const std::string name = count > 1 ? arguments[1] : "cornell";
+    const int rounds = count > 2 ? std::max(1, std::atoi(arguments[2])) : 9;
+    const pl::SceneDescription description = pl::load_scene(name, PL_SOURCE_DIR "/assets");
+    const pl::HostScene scene = pl::pack_scene(description);
+    const std::vector<pl::SurfacePoint> points =
+        path_vertices(scene.view(), pl::make_camera(description.camera, kSide, kSide));
+    std::printf("%s: %zu triangles, %zu points, %d rounds: medians [quartiles]\n", description.name.c_str(),
+                scene.triangles.size(), points.size(), rounds);
+    const MachineLoad load;
+    bool same = true;
+    for (const int volumes : {1000, 10000, 20000}) same = measure(scene, points, volumes, rounds) && same;
+    const MachineLoad::Shares shares = load.shares();
+    std::printf("processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
+                shares.stolen);
+    return same ? 0 : 1;
+} catch (const pl::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+}
