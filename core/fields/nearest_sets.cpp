@@ -28,14 +28,28 @@ double distance_above(float distance2) {
 
 }  // namespace
 
+/// A search that gives up.
+struct NearestSets::Effort {
+    Nearest& nearest;
+    int left;
+
+    void consider(const KdNode& node, Vec3f position, Vec3f normal) {
+        --left;
+        nearest.consider(node, position, normal);
+    }
+    float limit() const { return left > 0 ? nearest.limit() : -1.0f; }
+};
+
 /// Collects what lies within a distance.
 struct NearestSets::Gather {
     const KdNode* first;
     const FlatRegion& region;
     float limit2;
     std::vector<Candidate>& found;
+    int left;
 
     void consider(const KdNode& node, Vec3f position, Vec3f normal) {
+        if (--left <= 0) limit2 = -1.0f;
         const float d2 = squared_distance(position, node.position);
         if (!(d2 <= limit2) || !normals_agree(normal, node.normal)) return;
         const Vec3d v = Vec3d{node.position} - region.origin;
@@ -50,7 +64,7 @@ struct NearestSets::Gather {
 
 /// Whatever is nearest of a point of the region is not further from it than what is nearest of its middle, so not
 /// further from the middle than that one plus twice the radius.
-bool NearestSets::gather(const FlatRegion& region, Vec3f normal) {
+NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) {
     candidates_.clear();
     Vec2d middle{0.0};
     int corners = 0;
@@ -67,15 +81,17 @@ bool NearestSets::gather(const FlatRegion& region, Vec3f normal) {
 
     nearest_ = {};
     if (hint_ < tree_.nodes.count) nearest_.consider(tree_.nodes[hint_], center, normal);
-    search_kd_tree(tree_, center, normal, nearest_);
-    if (nearest_.volume == kNoVolume) return true;
+    Effort search{nearest_, effort_};
+    search_kd_tree(tree_, center, normal, search);
+    if (search.left <= 0) return Answer::GivenUp;
+    if (nearest_.volume == kNoVolume) return Answer::None;
     const double reach = (distance_above(nearest_.distance2) + 2.0 * radius) * kWiden;
     const auto limit2 = static_cast<float>(reach * reach * kWiden + kUnderflow);
-    Gather result{tree_.nodes.data, region, next_float_up(limit2), candidates_};
+    Gather result{tree_.nodes.data, region, next_float_up(limit2), candidates_, effort_};
     search_kd_tree(tree_, center, normal, result);
     const double farthest = reach + radius;
     margin_ = 2.0 * (kDistanceError + kDoubleError) * farthest * farthest + kUnderflow;
-    return candidates_.size() <= kMostGathered;
+    return result.left > 0 && candidates_.size() <= kMostGathered ? Answer::Few : Answer::TooMany;
 }
 
 /// Nearest first. Of several at the same place the first is the one that all searches answer.
@@ -110,8 +126,7 @@ bool NearestSets::can_be_nearest(const Candidate& candidate, const FlatRegion& r
 
 NearestSets::Answer NearestSets::find(const FlatRegion& region, Vec3f normal) {
     nodes_.clear();
-    if (!gather(region, normal)) return Answer::TooMany;
-    if (nearest_.volume == kNoVolume) return Answer::None;
+    if (const Answer answer = gather(region, normal); answer != Answer::Few) return answer;
     drop_duplicates();
     hint_ = candidates_.front().node;
     for (const Candidate& candidate : candidates_)

@@ -27,6 +27,7 @@ public:
         None,     ///< no volume has a normal that agrees
         Few,      ///< those in nodes()
         TooMany,  ///< not worth a list
+        GivenUp,  ///< it takes too long to find even one
     };
     /// Longest set that is listed.
     static constexpr std::size_t kMostListed = 24;
@@ -36,6 +37,12 @@ public:
     /// All volumes that a search from any point of the region, with this normal, may answer. The polygon must not be
     /// empty. Sets are exact up to a margin of a few roundoffs of the distances.
     Answer find(const FlatRegion& region, Vec3f normal);
+
+    /// Forgets what was found before, so that effort does not depend on it: at the start of each piece of work.
+    void restart() { hint_ = 0; }
+    /// Nodes that one search may look at: where volumes are near whose normals do not agree, as
+    /// on the outside of a closed mesh, the tree has to look at all of them.
+    void set_effort(int nodes) { effort_ = nodes; }
 
     /// Tree nodes of the last set, by ascending volume.
     const std::vector<std::uint32_t>& nodes() const { return nodes_; }
@@ -50,15 +57,17 @@ private:
         double length2;
     };
     struct Gather;
+    struct Effort;
 
-    bool gather(const FlatRegion& region, Vec3f normal);
+    Answer gather(const FlatRegion& region, Vec3f normal);
     void drop_duplicates();
     bool can_be_nearest(const Candidate& candidate, const FlatRegion& region) const;
 
     KdTreeView tree_;
     Nearest nearest_;
     std::uint32_t hint_ = 0;  ///< node that was nearest the last time
-    double margin_ = 0.0;     ///< by which squared distances may differ and still be confused by rounding
+    int effort_ = 0;
+    double margin_ = 0.0;  ///< by which squared distances may differ and still be confused by rounding
     std::vector<Candidate> candidates_;
     std::vector<std::uint32_t> nodes_;
 };

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <thread>
-#include <unordered_set>
 #include <utility>
 
 #include "core/base/work_queue.h"
+#include "core/fields/grid_pieces.h"
 #include "core/fields/nearest_sets.h"
 #include "core/scene/triangle_planes.h"
 
@@ -28,6 +28,10 @@ static_assert(kGridBytesPerVolume == (kCellsPerVolume + kEntriesPerVolume) * 4);
 static_assert(kGridBytesPerTriangle ==
               2 * (sizeof(VolumePlace) + sizeof(SideGrid) + (kFreeCells + kFreeEntries) * 4));
 
+/// Nodes that a search may look at, for sides without and with volumes of their own.
+constexpr int kEffort = 256;
+constexpr int kEffortWithVolumes = 4096;
+
 /// Points at which the distance between volumes is estimated.
 constexpr int kProbes = 32;
 
@@ -39,14 +43,6 @@ constexpr double kMapError = gamma_bound(32);
 constexpr double kMinCellErrors = 16.0;
 
 constexpr VolumePlace kSearch{VolumePlace::Kind::Search, 0};
-
-/// Places of some sides; grids, cells and lists are numbered from 0.
-struct Pieces {
-    std::vector<VolumePlace> sides;
-    std::vector<SideGrid> grids;
-    std::vector<VolumePlace> cells;
-    std::vector<std::uint32_t> lists;
-};
 
 /// A triangle with its longest edge along x, from the frame's origin on, and the opposite corner at y > 0.
 class FramedTriangle {
@@ -114,8 +110,9 @@ public:
         : scene_(scene.view()), tree_{view_of(volumes.kd_nodes)}, sites_(view_of(volumes.sites)), own_(own),
           sets_(tree_) {}
 
-    Pieces build(IndexRange sides) {
+    GridPieces build(IndexRange sides) {
         pieces_ = {};
+        sets_.restart();
         for (std::uint32_t side = sides.begin; side < sides.end; ++side) pieces_.sides.push_back(build_side(side));
         return std::move(pieces_);
     }
@@ -127,9 +124,11 @@ private:
         const FramedTriangle triangle({scene_.positions, scene_.triangles[primitive]});
         if (!triangle.is_flat()) return kSearch;
         normal_ = (side < triangles ? 1.0f : -1.0f) * scene_.planes[primitive].normal;
+        sets_.set_effort(own_[side] > 0 ? kEffortWithVolumes : kEffort);
         most_entries_ = pieces_.lists.size() + kFreeEntries + std::size_t{kEntriesPerVolume} * own_[side];
         const NearestSets::Answer answer = sets_.find(triangle.part(triangle.low(), triangle.high()), normal_);
         if (answer == NearestSets::Answer::None) return {VolumePlace::Kind::Volume, VolumePlace::kMaxNumber};
+        if (answer == NearestSets::Answer::GivenUp) return kSearch;
         if (answer == NearestSets::Answer::Few && sets_.nodes().size() <= kMostListedBySide) return list();
         return grid(triangle, kFreeCells + kCellsPerVolume * own_[side]);
     }
@@ -212,72 +211,9 @@ private:
     Span<const SurfacePoint> sites_;
     Span<const std::uint32_t> own_;
     NearestSets sets_;
-    Pieces pieces_;
+    GridPieces pieces_;
     Vec3f normal_{0.0f};            ///< of the side that is worked on
     std::size_t most_entries_ = 0;  ///< of all lists, when this side is done
-};
-
-/// Joins pieces in order. Neighbors often have the same list: it is kept once.
-class Joiner {
-public:
-    Joiner() : known_(16, Hash{&grid_.lists}, Same{&grid_.lists}) {}
-
-    void add(const Pieces& pieces) {
-        const auto grids = static_cast<std::uint32_t>(grid_.grids.size());
-        const auto cells = static_cast<std::uint32_t>(grid_.cells.size());
-        for (const VolumePlace place : pieces.sides)
-            grid_.sides.push_back(place.kind() == VolumePlace::Kind::Grid
-                                      ? VolumePlace{VolumePlace::Kind::Grid, place.number() + grids}
-                                      : joined(place, pieces.lists));
-        for (SideGrid grid : pieces.grids) {
-            grid.first_cell += cells;
-            grid_.grids.push_back(grid);
-        }
-        for (const VolumePlace place : pieces.cells) grid_.cells.push_back(joined(place, pieces.lists));
-    }
-
-    HostVolumeGrid take() {
-        known_.clear();
-        return std::move(grid_);
-    }
-
-private:
-    using Lists = std::vector<std::uint32_t>;
-    struct Hash {
-        const Lists* lists;
-        std::size_t operator()(std::uint32_t first) const {
-            std::uint64_t hash = 0;
-            for (std::uint32_t i = first;; ++i) {
-                hash = (hash ^ (*lists)[i]) * 0x9E3779B97F4A7C15u;
-                hash ^= hash >> 32;
-                if (((*lists)[i] & kLastOfList) != 0) return hash;
-            }
-        }
-    };
-    struct Same {
-        const Lists* lists;
-        bool operator()(std::uint32_t a, std::uint32_t b) const {
-            for (;; ++a, ++b) {
-                if ((*lists)[a] != (*lists)[b]) return false;
-                if (((*lists)[a] & kLastOfList) != 0) return true;
-            }
-        }
-    };
-
-    /// The list is written behind the others, and taken back if it was there already.
-    VolumePlace joined(VolumePlace place, const Lists& lists) {
-        if (place.kind() != VolumePlace::Kind::List) return place;
-        const std::size_t first = grid_.lists.size();
-        std::uint32_t i = place.number();
-        do grid_.lists.push_back(lists[i]);
-        while ((lists[i++] & kLastOfList) == 0);
-        const auto [known, is_new] = known_.insert(static_cast<std::uint32_t>(first));
-        if (!is_new) grid_.lists.resize(first);
-        return {VolumePlace::Kind::List, *known};
-    }
-
-    HostVolumeGrid grid_;
-    std::unordered_set<std::uint32_t, Hash, Same> known_;
 };
 
 bool in_range(const HostVolumes& volumes) {
@@ -302,15 +238,15 @@ HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volu
     const std::vector<std::uint32_t> own = count_on_sides(scene, volumes);
     const auto sides = static_cast<std::uint32_t>(own.size());
     const std::uint32_t chunk = std::clamp(sides / 1024u, 1u, 1024u);
-    std::vector<Pieces> pieces((sides + chunk - 1) / chunk);
+    std::vector<GridPieces> pieces((sides + chunk - 1) / chunk);
     ChunkQueue queue(0, sides, chunk);
     run_on_plain_threads(threads, [&](int) {
         SideBuilder builder(scene, volumes, view_of(own));
         for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
             pieces[range.begin / chunk] = builder.build(range);
     });
-    Joiner joiner;
-    for (const Pieces& piece : pieces) joiner.add(piece);
+    GridJoiner joiner;
+    for (const GridPieces& piece : pieces) joiner.add(piece);
     return joiner.take();
 }
 

@@ -1,4 +1,4 @@
-// The grids on triangles answer what a linear search answers, for every point that rays can find, and for stranger ones.
+// Grids on triangles answer what a linear search answers, for every point that rays can find, and for stranger ones.
 #include "core/fields/volume_grid.h"
 
 #include <algorithm>
