@@ -89,9 +89,16 @@ void parse_bins(Options& options, const std::string& text) {
 }
 
 void parse_bsdf_fraction(Options& options, const std::string& text) {
-    if (text == "learned") fail_not_yet("the share is fixed at 0.25 unless a number from 0.1 to 1 is given");
+    if (text == "learned") {
+        options.render.mixture = {};
+        return;
+    }
     const float share = static_cast<float>(parse_real(text, 0.1, 1.0));
-    options.render.bsdf_fraction = share < 0.1f ? 0.1f : share;
+    options.render.mixture = {.learned = 0, .bsdf_fraction = std::max(share, kMinBsdfFraction)};
+}
+
+std::string print_bsdf_fraction(const MixtureSettings& mixture) {
+    return mixture.learned != 0 ? "learned" : print_float(mixture.bsdf_fraction);
 }
 
 void parse_fov(Options& options, const std::string& text) {

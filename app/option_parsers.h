@@ -17,6 +17,7 @@ void parse_backend(Options& options, const std::string& text);
 void parse_tone_curve(Options& options, const std::string& text);
 void parse_bins(Options& options, const std::string& text);
 void parse_bsdf_fraction(Options& options, const std::string& text);
+std::string print_bsdf_fraction(const MixtureSettings& mixture);
 void parse_fov(Options& options, const std::string& text);
 void parse_field_budget(Options& options, const std::string& text);
 void parse_time_limit(Options& options, const std::string& text);

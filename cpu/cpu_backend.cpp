@@ -71,7 +71,7 @@ public:
                       PicturePass{.setup = setup,
                                   .tracer = *tracer_,
                                   .field = field,
-                                  .bsdf_fraction = request.bsdf_fraction,
+                                  .mixture = request.mixture,
                                   .camera = request.camera,
                                   .sample = request.sample,
                                   .film = films_.view(request.slot)});

@@ -18,7 +18,7 @@ struct PicturePass {
     PassSetup setup;
     const BatchTracer& tracer;
     FieldView field;
-    float bsdf_fraction = 0.5f;
+    MixtureSettings mixture;
     PinholeCamera camera;
     std::uint32_t sample = 0;
     FilmView film;
@@ -47,7 +47,7 @@ PassCounters run_picture_pass(const PicturePass& pass) {
     M method;
     if constexpr (std::is_base_of_v<GuidedSampling, M>) {
         method.field = pass.field;
-        method.bsdf_fraction = pass.bsdf_fraction;
+        method.mixture = pass.mixture;
     }
     const PictureWork<M> work{pass.camera, pass.sample, pass.film};
     return run_paths<F>(pass.setup, pass.tracer, method, work);

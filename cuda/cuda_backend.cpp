@@ -158,7 +158,7 @@ void CudaBackend::launch_paths(const KernelRow<void (*)(TraceSetup, M, Paths)>& 
 void CudaBackend::launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels) {
     const auto guided = [&](const auto& row, auto method) {
         method.field = learned_field(request.slot.method);
-        method.bsdf_fraction = request.bsdf_fraction;
+        method.mixture = request.mixture;
         launch_paths(row, request.features, request.path, range, method, pixels);
     };
     switch (request.slot.method) {

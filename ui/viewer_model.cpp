@@ -157,12 +157,12 @@ void ViewerModel::set_seed(std::uint64_t seed) {
     worker_.submit(EditSeed{seed});
 }
 
-void ViewerModel::set_mixture(float bsdf_fraction) {
-    const float fraction = std::clamp(bsdf_fraction, 0.1f, 1.0f);
-    if (fraction == settings_.bsdf_fraction) return;
-    settings_.bsdf_fraction = fraction;
+void ViewerModel::set_mixture(MixtureSettings mixture) {
+    mixture.bsdf_fraction = std::clamp(mixture.bsdf_fraction, kMinBsdfFraction, 1.0f);
+    if (mixture == settings_.mixture) return;
+    settings_.mixture = mixture;
     touch_motion();
-    worker_.submit(EditMixture{fraction});
+    worker_.submit(EditMixture{mixture});
 }
 
 void ViewerModel::set_field(const FieldSettings& field) {

@@ -100,7 +100,7 @@ public:
     void set_next_event(bool on);
     void set_max_depth(int depth);
     void set_seed(std::uint64_t seed);
-    void set_mixture(float bsdf_fraction);
+    void set_mixture(MixtureSettings mixture);
     void set_field(const FieldSettings& field);
     void set_size(int width, int height);
     void set_limits(const SampleLimits& limits);

@@ -4,7 +4,7 @@
 
 #include "core/base/host_array.h"
 #include "core/kernel/fields/field_view.h"
-#include "core/kernel/fields/publication.h"
+#include "core/kernel/fields/publish_volume.h"
 
 namespace pl {
 
@@ -45,6 +45,12 @@ struct TableStorage {
     Array<float> row_cdf;
     Array<float> column_cdf;
     Array<float> mean_radiance;
+    Array<float> change;
+    Array<std::int64_t> pending_slope;
+    Array<std::int64_t> pending_curvature;
+    Array<float> mixture_target;
+    Array<float> mixture_weight;
+    Array<float> bsdf_fraction;
 };
 
 using HostVolumeGrid = VolumeGridStorage<HostArray>;
@@ -83,6 +89,12 @@ void zip(const TableStorage<From>& from, To& to, Fn&& fn) {
     fn(from.row_cdf, to.row_cdf);
     fn(from.column_cdf, to.column_cdf);
     fn(from.mean_radiance, to.mean_radiance);
+    fn(from.change, to.change);
+    fn(from.pending_slope, to.pending_slope);
+    fn(from.pending_curvature, to.pending_curvature);
+    fn(from.mixture_target, to.mixture_target);
+    fn(from.mixture_weight, to.mixture_weight);
+    fn(from.bsdf_fraction, to.bsdf_fraction);
 }
 
 template <template <class> class Array>
@@ -105,8 +117,11 @@ FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volume
             .row_cdf = view_of(frozen.row_cdf),
             .column_cdf = view_of(frozen.column_cdf),
             .mean_radiance = view_of(frozen.mean_radiance),
+            .bsdf_fraction = view_of(frozen.bsdf_fraction),
             .pending_sum = view_of(tables.pending_sum),
             .pending_count = view_of(tables.pending_count),
+            .pending_slope = view_of(tables.pending_slope),
+            .pending_curvature = view_of(tables.pending_curvature),
             .radiance_unit = shape.radiance_unit};
 }
 
@@ -123,7 +138,13 @@ FieldPublicationView publication_view(const FieldShape& shape, TableStorage<Arra
             .pending_count = view_of(tables.pending_count),
             .row_cdf = view_of(tables.row_cdf),
             .column_cdf = view_of(tables.column_cdf),
-            .mean_radiance = view_of(tables.mean_radiance)};
+            .mean_radiance = view_of(tables.mean_radiance),
+            .change = view_of(tables.change),
+            .pending_slope = view_of(tables.pending_slope),
+            .pending_curvature = view_of(tables.pending_curvature),
+            .mixture_target = view_of(tables.mixture_target),
+            .mixture_weight = view_of(tables.mixture_weight),
+            .bsdf_fraction = view_of(tables.bsdf_fraction)};
 }
 
 }  // namespace pl

@@ -34,8 +34,9 @@ std::size_t bytes_of_all(const Storage& storage) {
 
 std::size_t table_bytes(int bins) {
     const std::size_t per_cell = 2 * sizeof(float) + 2 * sizeof(std::uint32_t) + sizeof(std::int64_t);
-    const std::size_t rows_and_mean = (static_cast<std::size_t>(side_of(bins)) + 1) * sizeof(float);
-    return rows_and_mean + static_cast<std::size_t>(bins) * per_cell;
+    const std::size_t rows = static_cast<std::size_t>(side_of(bins)) * sizeof(float);
+    const std::size_t per_volume = 5 * sizeof(float) + 2 * sizeof(std::int64_t);
+    return rows + per_volume + static_cast<std::size_t>(bins) * per_cell;
 }
 
 std::size_t bytes_per_volume(int bins) {
@@ -73,6 +74,12 @@ HostTables make_tables(const FieldShape& shape, std::size_t volumes) {
     tables.row_cdf.resize(volumes * side);
     tables.column_cdf.resize(cells);
     tables.mean_radiance.assign(volumes, 0.0f);
+    tables.change.assign(volumes, 0.0f);
+    tables.pending_slope.assign(volumes, 0);
+    tables.pending_curvature.assign(volumes, 0);
+    tables.mixture_target.assign(volumes, 0.0f);
+    tables.mixture_weight.assign(volumes, 0.0f);
+    tables.bsdf_fraction.assign(volumes, kInitialBsdfFraction);
     const auto uniform = [side](std::size_t i) {
         return static_cast<float>(i % side + 1) / static_cast<float>(side);
     };

@@ -104,6 +104,12 @@ private:
         size("row table", t.row_cdf, volumes * side);
         size("column table", t.column_cdf, cells);
         size("mean radiance", t.mean_radiance, volumes);
+        size("changes", t.change, volumes);
+        size("slopes of the mixture", t.pending_slope, volumes);
+        size("curvatures of the mixture", t.pending_curvature, volumes);
+        size("targets of the mixture", t.mixture_target, volumes);
+        size("weights of the mixture", t.mixture_weight, volumes);
+        size("BSDF shares", t.bsdf_fraction, volumes);
     }
 
     void progress() const {
@@ -155,9 +161,28 @@ private:
             if (t.pending_sum[i] < 0 || static_cast<double>(t.pending_sum[i]) > most)
                 fail(fmt::format("sum of cell {}", i), fmt::format("0 to {}", most), t.pending_sum[i]);
         }
-        for (std::size_t i = 0; i < t.mean_radiance.size(); ++i)
-            if (!is_amount(t.mean_radiance[i]))
-                fail(fmt::format("mean radiance of volume {}", i), "0 or more", t.mean_radiance[i]);
+        const auto amounts = [this](const char* what, const HostArray<float>& values) {
+            for (std::size_t i = 0; i < values.size(); ++i)
+                if (!is_amount(values[i])) fail(fmt::format("{} of volume {}", what, i), "0 or more", values[i]);
+        };
+        amounts("mean radiance", t.mean_radiance);
+        amounts("change", t.change);
+        amounts("weight of the mixture", t.mixture_weight);
+        for (std::size_t i = 0; i < t.bsdf_fraction.size(); ++i) mixture(i);
+    }
+
+    void mixture(std::size_t volume) const {
+        const HostTables& t = field_.tables;
+        const float share = t.bsdf_fraction[volume];
+        if (!(share >= kMinBsdfFraction && share <= kMaxBsdfFraction))
+            fail(fmt::format("BSDF share of volume {}", volume),
+                 fmt::format("{} to {}", kMinBsdfFraction, kMaxBsdfFraction), share);
+        if (!std::isfinite(t.mixture_target[volume]))
+            fail(fmt::format("target of the mixture of volume {}", volume), "a finite number",
+                 t.mixture_target[volume]);
+        if (t.pending_curvature[volume] < 0)
+            fail(fmt::format("curvature of the mixture of volume {}", volume), "0 or more",
+                 t.pending_curvature[volume]);
     }
 
     /// Each row of cumulative probabilities rises from 0 or more to exactly 1.

@@ -31,7 +31,7 @@ struct EditEstimator {
     bool next_event;
 };  ///< what paths may do
 struct EditMixture {
-    float bsdf_fraction;
+    MixtureSettings mixture;
 };
 struct EditField {
     FieldSettings field;

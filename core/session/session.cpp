@@ -30,7 +30,7 @@ struct Assign {
         settings.max_depth = edit.max_depth;
         settings.next_event = edit.next_event;
     }
-    void operator()(const EditMixture& edit) const { settings.bsdf_fraction = edit.bsdf_fraction; }
+    void operator()(const EditMixture& edit) const { settings.mixture = edit.mixture; }
     void operator()(const EditField& edit) const { settings.field = edit.field; }
     void operator()(const EditScene& edit) const { settings.camera = edit.scene->camera; }
     void operator()(const EditBackend&) const {}
@@ -161,6 +161,13 @@ PathSettings Session::path_settings() const {
             .next_event = settings_.next_event ? 1u : 0u};
 }
 
+/// Shares are learned by what paths bring, so a map that is frozen keeps the set one.
+MixtureSettings Session::mixture_of(MethodId method) const {
+    MixtureSettings mixture = settings_.mixture;
+    if (!info_of(method).learns) mixture.learned = 0;
+    return mixture;
+}
+
 bool Session::needs_precompute() const {
     const bool wanted = settings_.view == View::Beauty || info_of(settings_.view).needs_tables;
     return wanted && settings_.method == MethodId::Precomputed &&
@@ -215,7 +222,7 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
                             .features = needed_features(),
                             .path = path_settings(),
                             .camera = make_camera(settings_.camera, settings_.width, settings_.height),
-                            .bsdf_fraction = settings_.bsdf_fraction,
+                            .mixture = mixture_of(target.method),
                             .sample = learns ? static_cast<std::uint32_t>(field().passes) : state.passes,
                             .first_pixel = state.next_pixel,
                             .stop = stop});

@@ -100,6 +100,7 @@ private:
     Progress render_slot(FilmSlot slot, const StopFlag* stop);
     void publish_pass(FilmState& state);
     PathSettings path_settings() const;
+    MixtureSettings mixture_of(MethodId method) const;
 
     std::shared_ptr<RenderBackend> backend_;
     std::vector<ParkedBackend> parked_;

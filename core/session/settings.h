@@ -21,7 +21,7 @@ struct RenderSettings {
     std::uint64_t seed = 1;
     int max_depth = 64;
     bool next_event = false;
-    float bsdf_fraction = 0.25f;  ///< share of BSDF samples in the mixture of the guided methods, in [0.1, 1]
+    MixtureSettings mixture;
     FieldSettings field;
 };
 

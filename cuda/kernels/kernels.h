@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/kernel_row.h"
-#include "core/kernel/fields/publication.h"
+#include "core/kernel/fields/publish_volume.h"
 #include "core/kernel/film/film_view.h"
 #include "core/kernel/inspect/views.h"
 #include "core/kernel/integrator/probe.h"

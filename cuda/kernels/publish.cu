@@ -16,11 +16,11 @@ __global__ void __launch_bounds__(kThreadsPerBlock) run_step(FieldPublicationVie
 
 constinit const std::array<PublicationStep, kPublicationStepCount> kPublicationSteps = {{
     {run_step<absorb_records>, PublicationItem::Cell, "absorb_records"},
-    {run_step<publish_mean>, PublicationItem::Volume, "publish_mean"},
-    {run_step<weigh_cell>, PublicationItem::Cell, "weigh_cell"},
-    {run_step<sum_row>, PublicationItem::Row, "sum_row"},
+    {run_step<publish_means>, PublicationItem::Volume, "publish_means"},
+    {run_step<weigh_row>, PublicationItem::Row, "weigh_row"},
     {run_step<build_row>, PublicationItem::Row, "build_row"},
     {run_step<build_row_choice>, PublicationItem::Volume, "build_row_choice"},
+    {run_step<move_mixture>, PublicationItem::Volume, "move_mixture"},
 }};
 
 }  // namespace pl::cuda

@@ -23,7 +23,7 @@ namespace {
 struct Setup {
     std::map<std::string, double> numbers{
         {"spp", 128},      {"seeds", 5},  {"side", 128},       {"reference", 4096}, {"threads", 2},
-        {"volumes", 0},    {"bins", 256}, {"fraction", 0.25},  {"floor", 0.05},     {"rate", 4},
+        {"volumes", 0},    {"bins", 256}, {"fraction", 0},     {"floor", 0.05},     {"rate", 4},
         {"precompute", 0}, {"nee", 0},    {"megabytes", 16.0},
     };
     std::vector<std::string> scenes;
@@ -55,7 +55,8 @@ RenderSettings settings_of(const Setup& setup, const SceneDescription& scene) {
     settings.width = settings.height = setup.integer("side");
     settings.camera = scene.camera;
     settings.next_event = setup["nee"] != 0.0;
-    settings.bsdf_fraction = static_cast<float>(setup["fraction"]);
+    if (setup["fraction"] > 0.0)
+        settings.mixture = {.learned = 0, .bsdf_fraction = static_cast<float>(setup["fraction"])};
     settings.field.volumes = setup.integer("volumes");
     settings.field.bins = setup.integer("bins");
     settings.field.budget_megabytes = setup["megabytes"];

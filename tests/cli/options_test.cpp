@@ -48,7 +48,7 @@ Options any_options(std::mt19937& random) {
     o.render.seed = (std::uint64_t{random()} << 32) | random();
     o.render.max_depth = whole(1, 65536);
     o.render.next_event = whole(0, 1) == 1;
-    o.render.bsdf_fraction = real(0.1f, 1.0f);
+    if (random() % 2 == 0) o.render.mixture = {.learned = 0, .bsdf_fraction = real(0.1f, 1.0f)};
     o.render.field.volumes = whole(0, 1) * whole(1, 1000000);
     o.render.field.budget_megabytes = real(0.5f, 9000.0f);
     o.render.field.bins = whole(2, 32);
@@ -77,7 +77,7 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE(a.render.seed == b.render.seed);
     REQUIRE(a.render.max_depth == b.render.max_depth);
     REQUIRE(a.render.next_event == b.render.next_event);
-    REQUIRE(a.render.bsdf_fraction == b.render.bsdf_fraction);
+    REQUIRE(a.render.mixture == b.render.mixture);
     REQUIRE((a.render.field == b.render.field));
     REQUIRE(a.display.exposure_ev == b.display.exposure_ev);
     REQUIRE(a.display.curve == b.display.curve);

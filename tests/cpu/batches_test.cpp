@@ -80,7 +80,7 @@ Outcome batches(const Room& room, MethodId method, bool next_event, const CpuSet
                                                .features = next_event ? kLights : FeatureSet{},
                                                .path = path_settings(next_event),
                                                .camera = room.camera,
-                                               .bsdf_fraction = GuidedSampling{}.bsdf_fraction,
+                                               .mixture = GuidedSampling{}.mixture,
                                                .sample = sample});
         if (method == MethodId::Reinforcement) backend->publish(method);
     }

@@ -68,7 +68,7 @@ registers() {
             name = part("trace_paths|show_view|add_samples|read_film|run_step")
             set = part("ILj[0-9]E")
             gsub(/[^0-9-]/, "", set)
-            if (name == "run_step") set = part("absorb_records|publish_mean|weigh_cell|sum_row|build_row_choice|build_row")
+            if (name == "run_step") set = part("absorb_records|publish_means|weigh_row|build_row_choice|move_mixture|build_row")
         }
         /bytes stack frame/ { stack = $1; spills = $5 + $9 }
         /Used [0-9]+ registers/ {

@@ -71,7 +71,7 @@ TEST_CASE("Samples of the mixture follow its density") {
     for (const float fraction : {0.1f, 0.5f})
         for (const NamedWeights& hard : hard_weights(12)) {
             field.set_weights(hard.weights);
-            const GuidedSampling guided{field.view(), fraction};
+            const GuidedSampling guided{field.view(), {.learned = 0, .bsdf_fraction = fraction}};
             const std::vector<double> expected =
                 integrate_bins([&](Vec3f d) { return guided.pdf_sa({0}, surface, d); });
             double sum = 0.0;
@@ -90,7 +90,7 @@ TEST_CASE("The density of a sample is that of its direction and no weight exceed
     for (const float fraction : {0.1f, 0.5f, 0.9f, 1.0f})
         for (const NamedWeights& hard : hard_weights(16)) {
             field.set_weights(hard.weights);
-            const GuidedSampling guided{field.view(), fraction};
+            const GuidedSampling guided{field.view(), {.learned = 0, .bsdf_fraction = fraction}};
             const SurfacePoint surface = make_surface(10.0);
             Draws draw;
             double heaviest = 0.0;
@@ -110,7 +110,7 @@ TEST_CASE("The density of a sample is that of its direction and no weight exceed
 TEST_CASE("Where no volume serves the mixture is the BSDF alone") {
     TestField field(12, {Vec3f{0, 0, 1}});
     field.set_weights(hard_weights(12)[2].weights);
-    const GuidedSampling guided{field.view(), 0.5f};
+    const GuidedSampling guided{field.view(), {.learned = 0, .bsdf_fraction = 0.5f}};
     SurfacePoint surface;
     MethodCounters counters;
     CHECK(guided.arrive(surface, counters).volume == 0);
@@ -129,7 +129,7 @@ TEST_CASE("Where no volume serves the mixture is the BSDF alone") {
 TEST_CASE("A fraction of one is the BSDF alone") {
     TestField field(12);
     field.set_weights(hard_weights(12)[2].weights);
-    const GuidedSampling guided{field.view(), 1.0f};
+    const GuidedSampling guided{field.view(), {.learned = 0, .bsdf_fraction = 1.0f}};
     const SurfacePoint surface;
     Draws draw;
     for (int i = 0; i < 10000; ++i) {
@@ -145,7 +145,7 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     method.field = field.view();
     MethodCounters counters;
     const Vec3f wi = square_to_cosine_hemisphere(DirectionCells{4}.point_in_cell(9, {0.5f, 0.5f}));
-    auto memory = method.remember({0}, wi);
+    auto memory = method.remember({0}, {wi, 1.0f, 1.0f});
     CHECK(memory.volume == 0);
     CHECK(memory.cell == 9);
 
@@ -165,8 +165,9 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     method.learn(none, {.emitted = Vec3f{1.0f}}, {1}, counters);
     CHECK(counters.records == 2);
     CHECK(field.tables.pending_count[9] == 2);
-    CHECK(method.remember({kNoVolume}, wi).volume == kNoVolume);
-    CHECK(method.remember({0}, {0, 0.6f, -0.8f}).volume == kNoVolume);  // below the volume's horizon
+    CHECK(method.remember({kNoVolume}, {wi, 1.0f, 1.0f}).volume == kNoVolume);
+    CHECK(method.remember({0}, {Vec3f{0, 0.6f, -0.8f}, 1.0f, 1.0f}).volume ==
+          kNoVolume);  // below the volume's horizon
 }
 
 TEST_CASE("The precomputed method learns nothing") {
@@ -174,7 +175,7 @@ TEST_CASE("The precomputed method learns nothing") {
     PrecomputedMethod method;
     method.field = field.view();
     MethodCounters counters;
-    auto memory = method.remember({0}, {0, 0, 1});
+    auto memory = method.remember({0}, {Vec3f{0, 0, 1}, 1.0f, 1.0f});
     method.learn(memory, {.emitted = Vec3f{1.0f}}, {0}, counters);
     CHECK(counters.records == 0);
     CHECK(field.tables.pending_count == std::vector<std::uint32_t>(16, 0));

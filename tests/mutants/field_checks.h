@@ -134,7 +134,7 @@ inline Decision check_mixture_density() {
         field.tables().visits[i] = 1000;
     }
     field.publish();
-    const ReinforcementMethod method{{.field = field.view(), .bsdf_fraction = 0.3f}};
+    const ReinforcementMethod method{{.field = field.view(), .mixture = {.learned = 0, .bsdf_fraction = 0.3f}}};
     const std::int32_t volume = field.volume_at({0.5f, 0.0f, 0.5f}, {0.0f, 1.0f, 0.0f});
     const SurfacePoint& surface = field.site(volume);
     const Frame frame = field.view().frame(volume);

@@ -92,7 +92,7 @@ std::vector<Case> all_cases(const RenderSettings& settings) {
         {"seed", EditSeed{7}, {.films = true, .tables = true}},
         {"depth", EditEstimator{10, false}, {.films = true, .tables = true}},
         {"light samples", EditEstimator{64, true}, {.films = true, .tables = true}},
-        {"mixture", EditMixture{0.3f}, {.films = true}},
+        {"mixture", EditMixture{{.learned = 0, .bsdf_fraction = 0.3f}}, {.films = true}},
         {"field", EditField{field}, {.films = true, .tables = true, .volumes = true}},
         {"scene",
          EditScene{std::make_shared<const SceneDescription>(brighter)},
@@ -115,7 +115,7 @@ RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
         settings.max_depth = estimator->max_depth;
         settings.next_event = estimator->next_event;
     }
-    if (const auto* mixture = std::get_if<EditMixture>(&edit)) settings.bsdf_fraction = mixture->bsdf_fraction;
+    if (const auto* mixture = std::get_if<EditMixture>(&edit)) settings.mixture = mixture->mixture;
     if (const auto* field = std::get_if<EditField>(&edit)) settings.field = field->field;
     return settings;
 }

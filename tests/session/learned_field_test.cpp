@@ -163,7 +163,7 @@ TEST_CASE("A field that does not belong to the session is refused and changes no
 TEST_CASE("A picture that starts over what was learned draws new numbers") {
     const SceneDescription scene = shipped_scene("door");
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
-    settings.bsdf_fraction = 1.0f;
+    settings.mixture = {.learned = 0, .bsdf_fraction = 1.0f};
     settings.max_depth = 2;
     Session session = make_session(scene, settings, 2);
     render_passes(session, 1);

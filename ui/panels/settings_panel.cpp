@@ -109,11 +109,19 @@ void draw_learning(ViewerModel& model) {
         faint_text(info_of(model.settings().method).uses_field ? "nothing yet"
                                                                : "The default method learns nothing.");
     }
-    float fraction = model.settings().bsdf_fraction;
-    if (slider_row("BSDF share",
-                   "Share of directions that come from the surface's reflectance instead of the learned table.",
-                   &fraction, 0.1f, 1.0f, 0.5f, "%.2f"))
-        model.set_mixture(fraction);
+    MixtureSettings mixture = model.settings().mixture;
+    bool learned = mixture.learned != 0;
+    if (toggle_row("Learned share", "Reinforcement: each volume learns how many directions it leaves to the BSDF.",
+                   &learned)) {
+        mixture.learned = learned ? 1 : 0;
+        model.set_mixture(mixture);
+    }
+    if (slider_row(
+            "BSDF share",
+            "Share of directions that come from the surface's reflectance instead of the learned table, where it "
+            "is not learned.",
+            &mixture.bsdf_fraction, kMinBsdfFraction, 1.0f, MixtureSettings{}.bsdf_fraction, "%.2f"))
+        model.set_mixture(mixture);
     FieldSettings settings = model.settings().field;
     int volumes = settings.volumes;
     if (int_row("Volumes",

@@ -6,6 +6,9 @@
 
 namespace pl {
 
+/// Most cells to a side.
+inline constexpr int kMaxSide = 32;
+
 /// Cell (column, row) of the unit square; index = row * side + column.
 struct DirectionCells {
     int side = 16;
@@ -28,7 +31,7 @@ struct DirectionCells {
                 (static_cast<float>(cell / side) + clamp_to(u.y, kBorderGap, 1.0f - kBorderGap)) * inverse_side};
     }
 
-    /// In cells: maps and frames are off by less than 1e-6 of the square, which has at most 32 cells to a side.
+    /// In cells: maps and frames are off by less than 1e-6 of the square, which has at most kMaxSide cells to a side.
     static constexpr float kBorderGap = 0x1p-14f;
 };
 

@@ -29,9 +29,14 @@ struct FieldView {
     /// Cosine-weighted mean of the learned incident radiance (luminance): irradiance / pi. [volume]
     Span<const float> mean_radiance;
 
+    Span<const float> bsdf_fraction;  ///< learned share of the BSDF in the mixture. [volume]
+
     /// What the running pass adds. [volume][cell]
     Span<std::int64_t> pending_sum;
     Span<std::uint32_t> pending_count;
+    /// The same for the mixture, see record_mixture(). [volume]
+    Span<std::int64_t> pending_slope;
+    Span<std::int64_t> pending_curvature;
 
     /// Radiance of one fixed-point unit: a power of two not below the brightest emission.
     float radiance_unit = 1.0f;

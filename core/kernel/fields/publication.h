@@ -28,6 +28,13 @@ struct FieldPublicationView {
     Span<float> row_cdf;                ///< [volume][row]
     Span<float> column_cdf;             ///< [volume][row][column]
     Span<float> mean_radiance;          ///< [volume]
+    Span<float> change;                 ///< mean |new - old| of the cells that had records last. [volume]
+
+    Span<std::int64_t> pending_slope;      ///< emptied. [volume]
+    Span<std::int64_t> pending_curvature;  ///< emptied. [volume]
+    Span<float> mixture_target;            ///< sum of curvature times aim of the steps so far. [volume]
+    Span<float> mixture_weight;            ///< sum of their curvature. [volume]
+    Span<float> bsdf_fraction;             ///< [volume]
 };
 
 /// Share of the new mean that `fresh` new records get: 1 - (N/(N+m))^p. Written in terms of m/(N+m), because the
@@ -46,51 +53,103 @@ PL_HD inline float learned_radiance(const FieldPublicationView& field, std::uint
     return radiance > 0.0f && radiance < kInfinity ? radiance : 0.0f;
 }
 
-/// Moves the learned radiance of one cell towards the mean of its new records and empties the sums.
+/// Sum in order of number.
+PL_HD inline float sum_of(const float* values, int count) {
+    float total = 0.0f;
+    for (int i = 0; i < count; ++i) total += values[i];
+    return total;
+}
+
+/// Mark of a cell that had no record, where absorb_records() leaves how much the others have changed.
+inline constexpr float kNoChange = -1.0f;
+
+/// Moves the learned radiance of one cell towards the mean of its new records and empties the sums. Leaves in
+/// `column_cdf`, which the later steps write anew, how much the cell has changed.
 PL_HD inline void absorb_records(const FieldPublicationView& field, std::uint32_t cell) {
     const std::uint32_t fresh = field.pending_count[cell];
+    field.column_cdf[cell] = kNoChange;
     if (fresh == 0) return;
     const float mean = from_fixed_point(field.pending_sum[cell], fresh, field.radiance_unit);
     const float step = learning_step(field.visits[cell], fresh, field.rate);
     const float old = learned_radiance(field, cell);
     field.radiance[cell] = old + step * (mean - old);
+    field.column_cdf[cell] = std::fabs(field.radiance[cell] - old);
     const std::uint32_t room = 0xffffffffu - field.visits[cell];
     field.visits[cell] += min_of(fresh, room);
     field.pending_sum[cell] = 0;
     field.pending_count[cell] = 0;
 }
 
-/// Radiance that a cell is sampled by: with few visits it leans on the visit-weighted mean of its 3 x 3 neighbours,
-/// and that mean on the volume's. Never fed back into what is learned, so it can cost noise but not bias.
-PL_HD inline float smoothed_radiance(const FieldPublicationView& field, std::uint32_t first, int column, int row,
-                                     float volume_mean) {
-    constexpr float kPriorVisits = 2.0f;
-    const int side = field.cells.side;
-    float sum = kPriorVisits * volume_mean;
-    float weight = kPriorVisits;
-    for (int y = max_of(row - 1, 0); y <= min_of(row + 1, side - 1); ++y)
-        for (int x = max_of(column - 1, 0); x <= min_of(column + 1, side - 1); ++x) {
-            const std::uint32_t cell = first + static_cast<std::uint32_t>(y * side + x);
-            const float visits = min_of(static_cast<float>(field.visits[cell]), 1.0e6f);
-            sum += visits * learned_radiance(field, cell);
-            weight += visits;
+/// Means over a volume, once its cells have absorbed the pass's records: what it has learned, where cells never visited
+/// count as the mean of the others, and how much the cells with records have changed.
+PL_HD inline void publish_means(const FieldPublicationView& field, std::uint32_t volume) {
+    const auto side = static_cast<std::uint32_t>(field.cells.side);
+    float sum = 0.0f;
+    float visited = 0.0f;
+    float change = 0.0f;
+    float changed = 0.0f;
+    // Row by row: the sums of rows do not wait for each other.
+    for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row) {
+        float row_sum = 0.0f;
+        float row_visited = 0.0f;
+        float row_change = 0.0f;
+        float row_changed = 0.0f;
+        for (std::uint32_t cell = row * side; cell < (row + 1) * side; ++cell) {
+            const bool counts = field.visits[cell] > 0;
+            row_sum += counts ? learned_radiance(field, cell) : 0.0f;
+            row_visited += counts ? 1.0f : 0.0f;
+            const bool moved = field.column_cdf[cell] != kNoChange;
+            row_change += moved ? field.column_cdf[cell] : 0.0f;
+            row_changed += moved ? 1.0f : 0.0f;
         }
-    const std::uint32_t own = first + static_cast<std::uint32_t>(row * side + column);
-    const float visits = min_of(static_cast<float>(field.visits[own]), 1.0e6f);
-    return (visits * learned_radiance(field, own) + kPriorVisits * (sum / weight)) / (visits + kPriorVisits);
+        sum += row_sum;
+        visited += row_visited;
+        change += row_change;
+        changed += row_changed;
+    }
+    field.mean_radiance[volume] = visited > 0.0f ? sum / visited : 0.0f;
+    if (changed > 0.0f) field.change[volume] = change / changed;
 }
 
-/// Mean of the learned radiance over the cells; those never visited count as the mean of the others.
-PL_HD inline float mean_of_visited(const FieldPublicationView& field, std::uint32_t first) {
-    float sum = 0.0f;
-    std::uint32_t visited = 0;
-    for (int k = 0; k < field.cells.count(); ++k) {
-        const std::uint32_t cell = first + static_cast<std::uint32_t>(k);
-        if (field.visits[cell] == 0) continue;
-        sum += learned_radiance(field, cell);
-        ++visited;
+/// Visits as weights of a mean; beyond a million one record more changes nothing.
+PL_HD inline float visit_weight(const FieldPublicationView& field, std::uint32_t cell) {
+    return static_cast<float>(static_cast<std::int32_t>(min_of(field.visits[cell], 1000000u)));
+}
+
+/// Weights of one row of cells before anything is normalized, and their sum: what each cell is thought to receive.
+/// With few visits a cell leans on the visit-weighted mean of its 3 x 3 neighbours, and that mean on the volume's.
+/// Never fed back into what is learned, so it can cost noise but not bias. Rows are numbered through all volumes.
+PL_HD inline void weigh_row(const FieldPublicationView& field, std::uint32_t row) {
+    constexpr float kPriorVisits = 2.0f;
+    const int side = field.cells.side;
+    const int row_in_volume = static_cast<int>(row) % side;
+    const std::uint32_t first = row * static_cast<std::uint32_t>(side);
+    const float volume_mean = field.mean_radiance[row / static_cast<std::uint32_t>(side)];
+    // Of the row and its neighbours, column by column, with an empty column on either side.
+    float visits[kMaxSide + 2];
+    float radiance[kMaxSide + 2];  // times visits
+    visits[0] = radiance[0] = visits[side + 1] = radiance[side + 1] = 0.0f;
+    const auto add_row = [&](std::uint32_t start) {
+        for (int x = 0; x < side; ++x) {
+            const std::uint32_t cell = start + static_cast<std::uint32_t>(x);
+            const float weight = visit_weight(field, cell);
+            visits[x + 1] += weight;
+            radiance[x + 1] += weight * learned_radiance(field, cell);
+        }
+    };
+    for (int x = 0; x < side; ++x) visits[x + 1] = radiance[x + 1] = 0.0f;
+    if (row_in_volume > 0) add_row(first - static_cast<std::uint32_t>(side));
+    add_row(first);
+    if (row_in_volume + 1 < side) add_row(first + static_cast<std::uint32_t>(side));
+    for (int x = 0; x < side; ++x) {
+        const std::uint32_t cell = first + static_cast<std::uint32_t>(x);
+        const float sum = kPriorVisits * volume_mean + radiance[x] + radiance[x + 1] + radiance[x + 2];
+        const float weight = kPriorVisits + visits[x] + visits[x + 1] + visits[x + 2];
+        const float own = visit_weight(field, cell);
+        field.column_cdf[cell] =
+            (own * learned_radiance(field, cell) + kPriorVisits * (sum / weight)) / (own + kPriorVisits);
     }
-    return visited > 0 ? sum / static_cast<float>(visited) : 0.0f;
+    field.row_cdf[row] = sum_of(field.column_cdf.data + first, side);
 }
 
 /// Turns weights into inclusive cumulative probabilities ending in exactly 1. A total that is not positive and
@@ -108,44 +167,24 @@ PL_HD inline float accumulate_cdf(float* weights, int count) {
     return usable ? total : 0.0f;
 }
 
-/// Sum in order of number.
-PL_HD inline float sum_of(const float* values, int count) {
-    float total = 0.0f;
-    for (int i = 0; i < count; ++i) total += values[i];
-    return total;
-}
-
-/// Share of `weight` in `total`, mixed with an equal share of `count`; equal shares alone if the total is unusable.
-PL_HD inline float with_uniform_share(const FieldPublicationView& field, float weight, float total, int count) {
-    const float uniform = 1.0f / static_cast<float>(count);
-    const bool known = total > 0.0f && total < kInfinity;
-    return (1.0f - field.uniform_floor) * (known ? weight / total : uniform) + field.uniform_floor * uniform;
-}
-
-/// Weight of every cell before anything is normalized: what the cell is thought to receive.
-PL_HD inline void weigh_cell(const FieldPublicationView& field, std::uint32_t cell) {
-    const auto cells = static_cast<std::uint32_t>(field.cells.count());
-    const std::uint32_t volume = cell / cells;
-    const auto inside = static_cast<int>(cell % cells);
-    field.column_cdf[cell] = smoothed_radiance(field, volume * cells, inside % field.cells.side,
-                                               inside / field.cells.side, field.mean_radiance[volume]);
-}
-
-/// Total weight of one row of cells; rows are numbered through all volumes.
-PL_HD inline void sum_row(const FieldPublicationView& field, std::uint32_t row) {
-    const auto side = static_cast<std::uint32_t>(field.cells.side);
-    float sum = 0.0f;
-    for (std::uint32_t i = row * side; i < (row + 1) * side; ++i) sum += field.column_cdf[i];
-    field.row_cdf[row] = sum;
+/// Mixes weights that are parts of `total` with equal shares of it, `count` in all, for accumulate_cdf() to normalize. A
+/// total that is unusable, or too small to be divided, gives equal shares alone.
+PL_HD inline void add_uniform_share(const FieldPublicationView& field, float* weights, int n, float total,
+                                    int count) {
+    constexpr float kMinTotal = 0x1p-100f;
+    const bool known = total > kMinTotal && total < kInfinity;
+    const float own = 1.0f - field.uniform_floor;
+    const float uniform = known ? field.uniform_floor * (total / static_cast<float>(count)) : 1.0f;
+    for (int i = 0; i < n; ++i) weights[i] = known ? own * weights[i] + uniform : uniform;
 }
 
 /// Weights of one row become its cumulative probabilities, with their uniform share.
 PL_HD inline void build_row(const FieldPublicationView& field, std::uint32_t row) {
     const auto side = static_cast<std::uint32_t>(field.cells.side);
     const float total = sum_of(field.row_cdf.data + row / side * side, field.cells.side);
-    for (std::uint32_t i = row * side; i < (row + 1) * side; ++i)
-        field.column_cdf[i] = with_uniform_share(field, field.column_cdf[i], total, field.cells.count());
-    accumulate_cdf(field.column_cdf.data + row * side, field.cells.side);
+    float* weights = field.column_cdf.data + row * side;
+    add_uniform_share(field, weights, field.cells.side, total, field.cells.count());
+    accumulate_cdf(weights, field.cells.side);
 }
 
 /// Weights of a volume's rows become its cumulative probabilities.
@@ -153,27 +192,8 @@ PL_HD inline void build_row_choice(const FieldPublicationView& field, std::uint3
     const int side = field.cells.side;
     float* rows = field.row_cdf.data + volume * static_cast<std::uint32_t>(side);
     const float total = sum_of(rows, side);
-    for (int row = 0; row < side; ++row) rows[row] = with_uniform_share(field, rows[row], total, side);
+    add_uniform_share(field, rows, side, total, side);
     accumulate_cdf(rows, side);
-}
-
-/// Mean of what a volume has learned, once its cells have absorbed the pass's records.
-PL_HD inline void publish_mean(const FieldPublicationView& field, std::uint32_t volume) {
-    const auto cells = static_cast<std::uint32_t>(field.cells.count());
-    field.mean_radiance[volume] = mean_of_visited(field, volume * cells);
-}
-
-/// Publishes one volume: absorbs the pass's records and rebuilds everything derived from the learned radiance. The
-/// steps in their order; a device runs each for all volumes at once.
-PL_HD inline void publish_volume(const FieldPublicationView& field, std::uint32_t volume) {
-    const auto cells = static_cast<std::uint32_t>(field.cells.count());
-    const auto side = static_cast<std::uint32_t>(field.cells.side);
-    for (std::uint32_t cell = volume * cells; cell < (volume + 1) * cells; ++cell) absorb_records(field, cell);
-    publish_mean(field, volume);
-    for (std::uint32_t cell = volume * cells; cell < (volume + 1) * cells; ++cell) weigh_cell(field, cell);
-    for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row) sum_row(field, row);
-    for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row) build_row(field, row);
-    build_row_choice(field, volume);
 }
 
 }  // namespace pl

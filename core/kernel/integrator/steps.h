@@ -107,7 +107,7 @@ PL_HD inline PathStatus scatter(const M& method, const PathSettings& settings, c
         return PathStatus::Finished;
     }
     state.throughput *= lambert_eval(albedo, cos_i) * (1.0f / direction.pdf_sa);
-    state.memory = method.remember(vertex, direction.wi);
+    state.memory = method.remember(vertex, direction);
     state.ray = spawn_ray(surface, direction.wi);
     state.direction_pdf_sa = direction.pdf_sa;
     return PathStatus::Continues;

@@ -15,7 +15,8 @@ struct DefaultMethod {
     PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const Rng&, std::uint32_t,
                                            Vec4f u) const {
         const Vec3f wi = lambert_sample(surface, {u.y, u.z});
-        return {wi, lambert_pdf_sa(surface, wi)};
+        const float pdf = lambert_pdf_sa(surface, wi);
+        return {wi, pdf, pdf};
     }
 
     PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, Vec3f wi) const {
@@ -24,7 +25,7 @@ struct DefaultMethod {
 
     PL_HD float roulette_worth(const Vertex&, Vec3f, Vec3f, float survival, Expectation&) const { return survival; }
 
-    PL_HD Memory remember(const Vertex&, Vec3f) const { return {}; }
+    PL_HD Memory remember(const Vertex&, const DirectionSample&) const { return {}; }
     PL_HD void learn(Memory&, const Arrival&, const Vertex&, MethodCounters&) const {}
 };
 static_assert(Method<DefaultMethod>);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/kernel/fields/direction_table.h"
+#include "core/kernel/fields/mixture.h"
 #include "core/kernel/methods/method.h"
 
 namespace pl {
@@ -19,7 +20,12 @@ struct GuidedExpectation {
 /// weighs at most 1/a times what it weighs under BSDF sampling.   [Veach 1997, 9.2.4; Mueller et al. 2017]
 struct GuidedSampling {
     FieldView field;
-    float bsdf_fraction = 0.5f;  ///< a, in (0, 1]
+    MixtureSettings mixture;
+
+    /// a, in (0, 1]
+    PL_HD float bsdf_fraction(std::int32_t volume) const {
+        return mixture.learned != 0 ? field.bsdf_fraction[static_cast<std::uint32_t>(volume)] : mixture.bsdf_fraction;
+    }
 
     PL_HD GuidedVertex arrive(const SurfacePoint& surface, MethodCounters& counters) const {
         const std::int32_t volume = field.volume_at(surface);
@@ -29,17 +35,19 @@ struct GuidedSampling {
     }
 
     PL_HD float pdf_sa(const GuidedVertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
-        const float bsdf_pdf = lambert_pdf_sa(surface, wi);
-        if (vertex.volume == kNoVolume) return bsdf_pdf;
+        return mixture_pdf_sa(vertex, wi, lambert_pdf_sa(surface, wi));
+    }
+    PL_HD float mixture_pdf_sa(const GuidedVertex& vertex, Vec3f wi, float bsdf_pdf_sa) const {
+        if (vertex.volume == kNoVolume) return bsdf_pdf_sa;
         const Vec3f local = field.frame(vertex.volume).to_local(wi);
-        const float table_pdf = table_pdf_sa(DirectionTable(field, vertex.volume), local);
-        return bsdf_fraction * bsdf_pdf + (1.0f - bsdf_fraction) * table_pdf;
+        const float a = bsdf_fraction(vertex.volume);
+        return a * bsdf_pdf_sa + (1.0f - a) * table_pdf_sa(DirectionTable(field, vertex.volume), local);
     }
 
     PL_HD DirectionSample sample_direction(const GuidedVertex& vertex, const SurfacePoint& surface, const Rng& rng,
                                            std::uint32_t index, Vec4f u) const {
         Vec3f wi;
-        if (vertex.volume == kNoVolume || u.x < bsdf_fraction) {
+        if (vertex.volume == kNoVolume || u.x < bsdf_fraction(vertex.volume)) {
             wi = lambert_sample(surface, {u.y, u.z});
         } else {
             const Vec4f jitter = rng.draw(index, Purpose::CellJitter);
@@ -47,7 +55,8 @@ struct GuidedSampling {
                 sample_square(DirectionTable(field, vertex.volume), {u.y, u.z}, {jitter.x, jitter.y});
             wi = field.frame(vertex.volume).to_world(square_to_cosine_hemisphere(square));
         }
-        return {wi, pdf_sa(vertex, surface, wi)};
+        const float bsdf_pdf = lambert_pdf_sa(surface, wi);
+        return {wi, mixture_pdf_sa(vertex, wi, bsdf_pdf), bsdf_pdf};
     }
 
     /// What the path can still bring, by what is learned, as a share of what its first vertex was expected to. A

@@ -14,6 +14,7 @@ namespace pl {
 struct DirectionSample {
     Vec3f wi{0.0f};
     float pdf_sa = 0.0f;
+    float bsdf_pdf_sa = 0.0f;  ///< what BSDF sampling would have given it
 };
 
 /// What a path met at the end of its last segment, for learning. `V` of a guided method's vertex completes it.
@@ -43,7 +44,7 @@ concept Method = requires(const M& method, const typename M::Vertex& vertex, typ
     { method.arrive(surface, counters) } -> std::same_as<typename M::Vertex>;
     { method.sample_direction(vertex, surface, rng, std::uint32_t{}, u) } -> std::same_as<DirectionSample>;
     { method.pdf_sa(vertex, surface, wi) } -> std::same_as<float>;
-    { method.remember(vertex, wi) } -> std::same_as<typename M::Memory>;
+    { method.remember(vertex, DirectionSample{}) } -> std::same_as<typename M::Memory>;
     { method.roulette_worth(vertex, wi, wi, float{}, expectation) } -> std::same_as<float>;
     { method.learn(memory, arrival, vertex, counters) } -> std::same_as<void>;
 };

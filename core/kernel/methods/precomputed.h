@@ -10,7 +10,7 @@ struct PrecomputedMethod : GuidedSampling {
     using Expectation = GuidedExpectation;
     struct Memory {};
 
-    PL_HD Memory remember(const Vertex&, Vec3f) const { return {}; }
+    PL_HD Memory remember(const Vertex&, const DirectionSample&) const { return {}; }
     PL_HD void learn(Memory&, const Arrival&, const Vertex&, MethodCounters&) const {}
 };
 static_assert(Method<PrecomputedMethod>);

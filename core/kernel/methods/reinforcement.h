@@ -14,13 +14,14 @@ struct ReinforcementMethod : GuidedSampling {
     struct Memory {
         std::int32_t volume = kNoVolume;
         std::int32_t cell = 0;
+        float bsdf_ratio = 1.0f;  ///< density of BSDF sampling over that of the mixture
     };
 
-    PL_HD Memory remember(const Vertex& vertex, Vec3f wi) const {
+    PL_HD Memory remember(const Vertex& vertex, const DirectionSample& direction) const {
         if (vertex.volume == kNoVolume) return {};
-        const Vec3f local = field.frame(vertex.volume).to_local(wi);
+        const Vec3f local = field.frame(vertex.volume).to_local(direction.wi);
         if (!(local.z > 0.0f)) return {};
-        return {vertex.volume, field.cells.cell_of_direction(local)};
+        return {vertex.volume, field.cells.cell_of_direction(local), direction.bsdf_pdf_sa / direction.pdf_sa};
     }
 
     /// Expected Sarsa target T = L_e(y) + rho(y) V(y): the expectation over the next direction is the irradiance
@@ -34,6 +35,7 @@ struct ReinforcementMethod : GuidedSampling {
             target += luminance(arrival.albedo) * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
         }
         record(field, memory.volume, memory.cell, target);
+        if (mixture.learned != 0) record_mixture(field, memory.volume, memory.bsdf_ratio, target);
         ++counters.records;
     }
 };
