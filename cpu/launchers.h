@@ -18,7 +18,7 @@ struct PicturePass {
     PassSetup setup;
     const BatchTracer& tracer;
     FieldView field;
-    MixtureSettings mixture;
+    MixtureSettings mixture{};
     PinholeCamera camera;
     std::uint32_t sample = 0;
     FilmView film;

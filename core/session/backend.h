@@ -45,7 +45,7 @@ struct PassRequest {
     FeatureSet features;  ///< needed ones; the back end runs the smallest compiled superset
     PathSettings path;
     PinholeCamera camera;
-    MixtureSettings mixture;
+    MixtureSettings mixture{};
     std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel
     std::uint32_t first_pixel = 0;
     const StopFlag* stop = nullptr;

@@ -21,7 +21,7 @@ struct RenderSettings {
     std::uint64_t seed = 1;
     int max_depth = 64;
     bool next_event = false;
-    MixtureSettings mixture;
+    MixtureSettings mixture{};
     FieldSettings field;
 };
 

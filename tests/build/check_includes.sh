@@ -20,8 +20,8 @@ core/fields:  core/fields core/scene core/base core/kernel
 core/session: core/session core/scene core/fields core/base core/kernel
 core/measure: core/measure core/session core/scene core/fields core/base core/kernel
 core/io:      core/io core/session/learned_field.h core/scene core/base core/kernel
-cpu:          cpu core/session/backend.h core/scene core/fields core/base core/kernel
-cuda:         cuda core/session/backend.h core/scene core/fields core/base core/kernel
+cpu:          cpu core/session/backend.h core/session/film_slots.h core/scene core/fields core/base core/kernel
+cuda:         cuda core/session/backend.h core/session/film_slots.h core/scene core/fields core/base core/kernel
 ui:           ui core/session core/measure core/scene core/fields core/base core/kernel
 app:          app ui cpu cuda core
 '

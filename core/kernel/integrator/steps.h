@@ -80,13 +80,16 @@ PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, co
 }
 
 /// Plays Russian roulette with the method's opinion of what the path is still worth. Returns false if the path ends.
+/// An opinion may be wrong, and most are at first, so it can spare a path but not end it sooner than the reflectances
+/// alone would: weights then grow no faster than they fall by reflection, and their variance stays finite.
 template <Method M>
 PL_HD inline bool survives_roulette(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
                                     Vec3f albedo, float u, PathState<M>& state) {
     state.survival *= max_component(albedo);
     const float worth = method.roulette_worth(vertex, albedo, state.throughput, state.survival, state.expectation);
     if (state.vertices < settings.roulette_start) return true;
-    const float probability = clamp_to(worth / settings.roulette_threshold, kMinSurvival, 1.0f);
+    const float probability =
+        clamp_to(max_of(worth / settings.roulette_threshold, state.survival), kMinSurvival, 1.0f);
     if (u >= probability) return false;
     state.throughput *= 1.0f / probability;
     state.survival = min_of(state.survival / probability, 1.0f);

@@ -20,7 +20,7 @@ struct GuidedExpectation {
 /// weighs at most 1/a times what it weighs under BSDF sampling.   [Veach 1997, 9.2.4; Mueller et al. 2017]
 struct GuidedSampling {
     FieldView field;
-    MixtureSettings mixture;
+    MixtureSettings mixture{};
 
     /// a, in (0, 1]
     PL_HD float bsdf_fraction(std::int32_t volume) const {
