@@ -78,7 +78,8 @@ const auto kTable = std::to_array<OptionSpec>({
      .commands = kWithScene, .in_scene_files = true, .parse = parse_method,
      .print = [](const Options& o) { return std::string(info_of(o.render.method).name); }},
     {.name = "view", .flags = "--view", .value = "NAME", .group = kPicture,
-     .help = "What is shown: beauty, direct, radiance-map, voronoi, normal, albedo, depth (see --list-views)",
+     .help = "What is shown: beauty, direct, radiance-map, voronoi, normal, albedo, depth; numbers of what is "
+             "learned: visits, irradiance, entropy, bsdf-share, change, unvisited (see --list-views)",
      .commands = kPictures, .in_scene_files = true, .parse = parse_view,
      .print = [](const Options& o) { return std::string(info_of(o.render.view).name); }},
     {.name = "backend", .flags = "--backend", .value = "NAME", .group = kPicture,

@@ -1,6 +1,5 @@
 #include "app/picture_file.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -11,6 +10,8 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/kernel/film/heat_color.h"
+#include "core/session/shown_range.h"
 
 namespace pl {
 namespace {
@@ -19,28 +20,24 @@ namespace fs = std::filesystem;
 
 std::uint8_t to_byte(float linear) { return static_cast<std::uint8_t>(std::lround(255.0f * encode_srgb(linear))); }
 
-bool shows_radiance(View view) { return view == View::Beauty || view == View::Direct || view == View::RadianceMap; }
-
 [[noreturn]] void fail_write(const fs::path& path, const std::string& why) {
     throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
 }
 
 }  // namespace
 
-float shown_scale(const Snapshot& snapshot) {
-    if (snapshot.slot.view != View::Depth) return 1.0f;
-    float largest = 0.0f;
-    for (const Vec3f& pixel : snapshot.pixels) largest = std::max(largest, pixel.x);
-    return largest > 0.0f ? 1.0f / largest : 1.0f;
-}
-
 ByteImage display_image(const Snapshot& snapshot, const DisplaySettings& display) {
     ByteImage image{.width = snapshot.width, .height = snapshot.height, .rgb = {}};
     image.rgb.reserve(3 * snapshot.pixels.size());
     const bool radiance = shows_radiance(snapshot.slot.view);
-    const float factor = shown_scale(snapshot) * (radiance ? std::exp2(display.exposure_ev) : 1.0f);
+    const float factor = shown_range(snapshot).scale() * (radiance ? std::exp2(display.exposure_ev) : 1.0f);
     const ToneCurve curve = radiance ? display.curve : ToneCurve::Clamp;
     for (const Vec3f& pixel : snapshot.pixels) {
+        if (is_heat_map(snapshot.slot.view)) {
+            const ByteColor color = heat_color(pixel.x * factor);
+            image.rgb.insert(image.rgb.end(), {color.r, color.g, color.b});
+            continue;
+        }
         const Vec3f shown = tone_map(pixel, factor, curve);
         for (int channel = 0; channel < 3; ++channel) image.rgb.push_back(to_byte(shown[channel]));
     }

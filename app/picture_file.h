@@ -9,11 +9,8 @@
 
 namespace pl {
 
-/// Factor that brings a picture's values into what a screen can show: 1 / the largest one for depth, else 1.
-float shown_scale(const Snapshot& snapshot);
-
-/// What a screen shows of linear values: scaled, tone mapped, sRGB. Exposure and curve apply to radiance only: views
-/// of data, such as normals, are shown as they are.
+/// What a screen shows of linear values: scaled by shown_range(), tone mapped, sRGB. Exposure and curve apply to radiance
+/// only: views of data, such as normals, are shown as they are, and heat maps in the colors of heat_color().
 ByteImage display_image(const Snapshot& snapshot, const DisplaySettings& display);
 
 /// Writes .exr or .pfm linear, .png as display_image(). Throws Error: Usage for another suffix, Runtime.

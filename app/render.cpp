@@ -11,6 +11,7 @@
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/io/files.h"
+#include "core/session/shown_range.h"
 
 namespace pl {
 namespace {
@@ -36,7 +37,7 @@ void announce(const Session& session, Console& console) {
                             {"kernel", session.kernel_name()}});
 }
 
-ImageMetadata metadata_of(const Json& stats, const std::string& command, bool interrupted) {
+ImageMetadata metadata_of(const Snapshot& snapshot, const Json& stats, const std::string& command, bool interrupted) {
     ImageMetadata metadata{{"Software", "pathlight " PL_VERSION}, {"command", command}};
     if (interrupted) metadata.emplace_back("partial", "true");
     for (const char* key : {"scene", "scene_hash", "method", "view", "backend", "width", "height", "spp", "seed",
@@ -44,15 +45,18 @@ ImageMetadata metadata_of(const Json& stats, const std::string& command, bool in
         const Json& value = stats.at(key);
         metadata.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
     }
+    if (const std::string range = legend(snapshot); !range.empty()) metadata.emplace_back("range", range);
     metadata.emplace_back("seconds", print_real(stats.at("seconds").at("total").get<double>()));
     return metadata;
 }
 
 void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted, Console& console) {
     const double seconds = snapshot.clocks.total();
-    console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}\n", options.output, snapshot.width,
+    const std::string range = image_kind(options.output) == ImageKind::Png ? legend(snapshot) : "";
+    console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}{}{}\n", options.output, snapshot.width,
                                snapshot.height, info_of(snapshot.slot.method).name, info_of(snapshot.slot.view).name,
-                               snapshot.passes, seconds, interrupted ? ", partial" : ""));
+                               snapshot.passes, seconds, range.empty() ? "" : ", range ", range,
+                               interrupted ? ", partial" : ""));
     console.event("done", {{"output", options.output},
                            {"run", 1},
                            {"spp", snapshot.passes},
@@ -85,7 +89,8 @@ int run_render(const CommandLine& line, Console& console) {
     const Snapshot snapshot = session.snapshot();
     const Json stats = stats_json(session, snapshot, options);
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
-    save_picture(options.output, snapshot, options.display, metadata_of(stats, command, outcome.interrupted));
+    save_picture(options.output, snapshot, options.display,
+                 metadata_of(snapshot, stats, command, outcome.interrupted));
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted, console);

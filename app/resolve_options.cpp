@@ -91,8 +91,9 @@ void require_learning(const Options& options) {
                                                   method.name, field_method_choices()));
     if (view.id != View::Beauty && !view.needs_tables)
         throw Error(ErrorKind::Usage,
-                    fmt::format("--save-field: nothing is learned for --view {}: expected --view {} or {}", view.name,
-                                info_of(View::Beauty).name, info_of(View::RadianceMap).name));
+                    fmt::format("--save-field: nothing is learned for --view {}: expected --view {} or one of the "
+                                "learned field, such as {}",
+                                view.name, info_of(View::Beauty).name, info_of(View::RadianceMap).name));
 }
 
 void check_combinations(Command command, Options& options) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/kernel/inspect/heat_map.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/device_name.h"
 #include "cpu/film_store.h"
@@ -87,12 +88,8 @@ public:
     }
 
     void publish(MethodId method) override {
-        constexpr std::uint32_t kVolumeChunk = 16;
         const FieldPublicationView field = publication_view(shape_, existing_tables(method));
-        ChunkQueue queue(0, field.mean_radiance.count, kVolumeChunk);
-        parallel_for(settings_.threads, queue, [&](IndexRange range) {
-            for (std::uint32_t volume = range.begin; volume < range.end; ++volume) publish_volume(field, volume);
-        });
+        for_each_volume(field, [&](std::uint32_t volume) { publish_volume(field, volume); });
     }
 
     std::string kernel_name(MethodId method, View view, FeatureSet needed) const override {
@@ -121,6 +118,15 @@ private:
     }
     FieldView learned_field(MethodId method) { return field_view(shape_, *volumes_, existing_tables(method)); }
 
+    template <class Fn>
+    void for_each_volume(const FieldPublicationView& field, Fn&& fn) const {
+        constexpr std::uint32_t kVolumeChunk = 16;
+        ChunkQueue queue(0, field.mean_radiance.count, kVolumeChunk);
+        parallel_for(settings_.threads, queue, [&](IndexRange range) {
+            for (std::uint32_t volume = range.begin; volume < range.end; ++volume) fn(volume);
+        });
+    }
+
     /// What the views of a field show. Default path tracing learns nothing: it shows what Reinforcement learned.
     FieldView shown_field(const FilmSlot& slot) {
         const ViewInfo& view = info_of(slot.view);
@@ -131,11 +137,21 @@ private:
         return field_view(shape_, *volumes_, none);
     }
 
+    /// The number of every volume that a heat map shows; nothing for other views.
+    Span<const float> volume_values(const FilmSlot& slot) {
+        if (!is_heat_map(slot.view)) return {};
+        const FieldPublicationView field = publication_view(shape_, existing_tables(table_owner(slot.method)));
+        volume_values_.resize(field.mean_radiance.count);
+        for_each_volume(
+            field, [&](std::uint32_t volume) { volume_values_[volume] = volume_value(field, volume, slot.view); });
+        return view_of(std::as_const(volume_values_));
+    }
+
     PassCounters run_view(const PassSetup& setup, const PassRequest& request) {
         return launch(kViewKernels, request.features,
                       ViewPass{.setup = setup,
                                .view = request.slot.view,
-                               .field = shown_field(request.slot),
+                               .shown = {shown_field(request.slot), volume_values(request.slot)},
                                .camera = request.camera,
                                .sample = request.sample,
                                .film = films_.view(request.slot)});
@@ -147,6 +163,7 @@ private:
     std::shared_ptr<const HostVolumes> volumes_;
     FieldShape shape_;
     std::array<std::optional<HostTables>, kMethodCount> tables_;
+    HostArray<float> volume_values_;  ///< of the last heat map
     FilmStore films_;
 };
 

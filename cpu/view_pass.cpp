@@ -13,9 +13,11 @@ PassCounters run_view_pass(const ViewPass& pass) {
     parallel_for(setup.threads, queue, [&](IndexRange range) {
         pixels.fetch_add(range.end - range.begin, std::memory_order_relaxed);
         for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) {
-            const Vec3f value = sample_view<F>(pass.view, setup.scene, intersector, pass.field, pass.camera,
+            const Vec3f value = sample_view<F>(pass.view, setup.scene, intersector, pass.shown, pass.camera,
                                                setup.path, pass.film.width, pass.film.height, pixel, pass.sample);
-            if (!accumulate(pass.film, pixel, value)) invalid.fetch_add(1, std::memory_order_relaxed);
+            const bool valid = is_heat_map(pass.view) ? replace_sample(pass.film, pixel, value)
+                                                      : accumulate(pass.film, pixel, value);
+            if (!valid) invalid.fetch_add(1, std::memory_order_relaxed);
         }
     });
     PassCounters counters;

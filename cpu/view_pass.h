@@ -6,11 +6,11 @@
 
 namespace pl {
 
-/// What a kernel that shows a view is called with. `field` may be empty where the view does not need it.
+/// What a kernel that shows a view is called with. `shown` may be empty where the view does not need it.
 struct ViewPass {
     PassSetup setup;
     View view = View::Normal;
-    FieldView field;
+    ShownField shown;
     PinholeCamera camera;
     std::uint32_t sample = 0;
     FilmView film;

@@ -92,6 +92,7 @@ private:
     }
     FieldView learned_field(MethodId method) { return field_view(shape_, volumes_, existing_tables(method)); }
     FieldView shown_field(const FilmSlot& slot);
+    Span<const float> volume_values(const FilmSlot& slot);
 
     /// Runs launch_range(first, end) over first..end until all is done or `stop` is seen between two launches.
     template <class LaunchRange>
@@ -102,7 +103,7 @@ private:
     void launch_paths(const KernelRow<void (*)(TraceSetup, M, Paths)>& row, FeatureSet needed,
                       const PathSettings& path, PathRange range, const M& method, const Paths& paths);
     void launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels);
-    void launch_view(const PassRequest& request, const PixelPaths& pixels);
+    void launch_view(const PassRequest& request, const ShownField& shown, const PixelPaths& pixels);
 
     CudaDevice device_;
     int processors_ = 1;
@@ -114,7 +115,8 @@ private:
     FieldShape shape_;
     std::array<std::optional<DeviceTables>, kMethodCount> tables_;
     DeviceFilms films_;
-    DeviceArray<Vec3f> samples_;  ///< what the paths of one launch bring
+    DeviceArray<float> volume_values_;  ///< of the last heat map
+    DeviceArray<Vec3f> samples_;        ///< what the paths of one launch bring
     DeviceArray<std::uint32_t> claimed_{1};
     DeviceArray<PassCounters> counters_{1};
     PinnedMemory read_counters_{sizeof(PassCounters)};
@@ -170,11 +172,11 @@ void CudaBackend::launch_picture(const PassRequest& request, PathRange range, co
     }
 }
 
-void CudaBackend::launch_view(const PassRequest& request, const PixelPaths& pixels) {
+void CudaBackend::launch_view(const PassRequest& request, const ShownField& shown, const PixelPaths& pixels) {
     launch(kViewKernels[covering_set(request.features)], blocks_for(pixels.radiance.count), stream_, "show_view",
            ViewSetup{.scene = existing_scene().view(),
                      .path = request.path,
-                     .field = shown_field(request.slot),
+                     .shown = shown,
                      .view = request.slot.view,
                      .pixels = pixels,
                      .counters = counters_.data()});
@@ -182,6 +184,10 @@ void CudaBackend::launch_view(const PassRequest& request, const PixelPaths& pixe
 
 PassCounters CudaBackend::run_pass(const PassRequest& request) {
     const FilmView film = films_.view(request.slot);
+    const bool is_picture = request.slot.view == View::Beauty;
+    const ShownField shown =
+        is_picture ? ShownField{} : ShownField{shown_field(request.slot), volume_values(request.slot)};
+    const AddSamplesKernel add = is_heat_map(request.slot.view) ? kSetSamples : kAddSamples;
     LaunchSize& size = picture_sizes_[static_cast<std::size_t>(request.slot.index())];
     return run_launches(size, request.first_pixel, film.pixels.count, request.stop, [&](PathRange range) {
         const std::uint32_t count = range.end - range.first;
@@ -192,11 +198,11 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
                                 .sample = request.sample,
                                 .first = range.first,
                                 .radiance = {samples_.data(), count}};
-        if (request.slot.view == View::Beauty)
+        if (is_picture)
             launch_picture(request, range, pixels);
         else
-            launch_view(request, pixels);
-        launch(kAddSamples, blocks_for(count), stream_, "add_samples", film, pixels.radiance, range.first);
+            launch_view(request, shown, pixels);
+        launch(add, blocks_for(count), stream_, "add_samples", film, pixels.radiance, range.first);
     });
 }
 
@@ -229,6 +235,17 @@ FieldView CudaBackend::shown_field(const FilmSlot& slot) {
     if (volumes_.normals.size() == 0) throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes, got none");
     DeviceTables none;
     return field_view(shape_, volumes_, none);
+}
+
+/// The number of every volume that a heat map shows; nothing for other views. Ready when later launches run.
+Span<const float> CudaBackend::volume_values(const FilmSlot& slot) {
+    if (!is_heat_map(slot.view)) return {};
+    const FieldPublicationView field = publication_view(shape_, existing_tables(table_owner(slot.method)));
+    const std::uint32_t volumes = field.mean_radiance.count;
+    if (volume_values_.size() != volumes) volume_values_ = DeviceArray<float>(volumes);
+    launch(kVolumeValues, blocks_for(volumes), stream_, "volume_values", field, slot.view,
+           Span<float>{volume_values_.data(), volumes});
+    return Span<const float>{volume_values_.data(), volumes};
 }
 
 }  // namespace

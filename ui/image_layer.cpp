@@ -40,7 +40,7 @@ void ImageLayer::fill(const ViewerModel& model, const Key& key) {
     if (table_.curve() != key.display.curve) table_ = ToneTable(key.display.curve);
     CellOverlay overlay{frame.cells.get(), key.opacity, std::nullopt};
     if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_);
-    const float scale = std::exp2(key.display.exposure_ev) * frame.display_scale;
+    const float scale = std::exp2(key.display.exposure_ev) * frame.range.scale();
     write_picture(frame.snapshot, scale, table_, overlay, static_cast<std::uint32_t*>(pixels),
                   static_cast<std::size_t>(pitch_bytes) / sizeof(std::uint32_t));
     SDL_UnlockTexture(texture_);

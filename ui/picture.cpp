@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/kernel/film/heat_color.h"
+
 namespace pl {
 namespace {
 
@@ -25,6 +27,11 @@ std::uint32_t blend(std::uint32_t a, std::uint32_t b, std::uint32_t weight) {
 
 std::uint32_t display_color(Vec3f v, float scale, const ToneTable& table) {
     return is_nan(v) ? kInvalidPixel : pack(table(v.x * scale), table(v.y * scale), table(v.z * scale));
+}
+
+std::uint32_t heat_pixel(float share) {
+    const ByteColor color = heat_color(share);
+    return pack(color.r, color.g, color.b);
 }
 
 void blend_cells(const CellImage& cells, float opacity, std::uint32_t* out, std::size_t pitch) {
@@ -79,24 +86,7 @@ std::uint8_t ToneTable::operator()(float exposed) const {
 }
 
 DisplaySettings display_of(View view, const DisplaySettings& asked) {
-    switch (view) {
-    case View::Beauty:
-    case View::Direct:
-    case View::RadianceMap: return asked;
-    case View::Voronoi:
-    case View::Normal:
-    case View::Albedo:
-    case View::Depth: break;
-    }
-    return {};
-}
-
-float display_scale(const Snapshot& snapshot) {
-    if (snapshot.slot.view != View::Depth) return 1.0f;
-    float largest = 0.0f;
-    for (const Vec3f& pixel : snapshot.pixels)
-        if (pixel.x > largest && pixel.x < kInfinity) largest = pixel.x;
-    return largest > 0.0f ? 1.0f / largest : 1.0f;
+    return shows_radiance(view) ? asked : DisplaySettings{};
 }
 
 CellImage make_cell_image(const Snapshot& colors, const ToneTable& table) {
@@ -116,7 +106,10 @@ void write_picture(const Snapshot& snapshot, float scale, const ToneTable& table
     for (std::size_t y = 0; y < static_cast<std::size_t>(snapshot.height); ++y) {
         const Vec3f* row = snapshot.pixels.data() + y * width;
         std::uint32_t* target = out + y * pitch;
-        for (std::size_t x = 0; x < width; ++x) target[x] = display_color(row[x], scale, table);
+        if (is_heat_map(snapshot.slot.view))
+            for (std::size_t x = 0; x < width; ++x) target[x] = heat_pixel(row[x].x * scale);
+        else
+            for (std::size_t x = 0; x < width; ++x) target[x] = display_color(row[x], scale, table);
     }
     const CellImage* cells = overlay.cells;
     if (cells == nullptr || cells->width != snapshot.width || cells->height != snapshot.height) return;

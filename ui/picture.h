@@ -41,9 +41,6 @@ private:
 /// Exposure and curve as far as they apply to a view: data views such as normals are shown as they are.
 DisplaySettings display_of(View view, const DisplaySettings& asked);
 
-/// Factor that brings a picture's values into the range of the screen: 1 / the largest finite one for depth, else 1.
-float display_scale(const Snapshot& snapshot);
-
 /// `colors` is a picture of View::Voronoi. Both functions expect the table of ToneCurve::Clamp.
 CellImage make_cell_image(const Snapshot& colors, const ToneTable& table);
 std::uint32_t cell_color(std::int32_t volume, const ToneTable& table);
@@ -55,7 +52,8 @@ struct CellOverlay {
     std::optional<std::uint32_t> outlined;  ///< cell_color() of the cell that gets an outline
 };
 
-/// Writes ARGB8888 rows, `pitch` pixels apart. `scale` multiplies linear values: exposure and display_scale().
+/// Writes ARGB8888 rows, `pitch` pixels apart. `scale` multiplies linear values: exposure and ShownRange::scale(). Heat maps
+/// get the colors of heat_color().
 void write_picture(const Snapshot& snapshot, float scale, const ToneTable& table, const CellOverlay& overlay,
                    std::uint32_t* out, std::size_t pitch);
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/scene/pack_scene.h"
-#include "core/session/snapshot.h"
+#include "core/session/shown_range.h"
 #include "ui/viewer.h"
 
 namespace pl {
@@ -30,7 +30,7 @@ struct PublishedFrame {
     std::shared_ptr<const SceneDescription> description;
     std::shared_ptr<const HostScene> scene;
     float diagonal = 0.0f;                           ///< of the scene's bounds
-    float display_scale = 1.0f;                      ///< see display_scale() in ui/picture.h
+    ShownRange range;                                ///< of the snapshot
     std::shared_ptr<const CellImage> cells;          ///< null if not asked for, or of another camera pose
     std::shared_ptr<const VolumeInspection> volume;  ///< of the selected volume; null if there is nothing to show
 };

@@ -112,7 +112,7 @@ void RenderWorker::publish() {
     frame->description = scene_;
     frame->scene = session_->packed_scene();
     frame->diagonal = diagonal_;
-    frame->display_scale = display_scale(frame->snapshot);
+    frame->range = shown_range(frame->snapshot);
     frame->cells = cells_pose_ == pose_ && now_.cells ? cells_ : nullptr;
     frame->volume = inspection_;
     republish_ = false;

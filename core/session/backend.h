@@ -22,7 +22,6 @@ struct FilmSlot {
     View view = View::Beauty;
 
     int index() const { return static_cast<int>(method) * kViewCount + static_cast<int>(view); }
-    static constexpr int kViewCount = 7;
     static constexpr int kCount = kMethodCount * kViewCount;
     friend bool operator==(FilmSlot, FilmSlot) = default;
 };

@@ -15,7 +15,7 @@ constexpr std::array kMethods{
                "Directions guided by what the same paths have learned so far (Expected Sarsa).", true, true},
 };
 
-constexpr std::array kViews{
+constexpr std::array<ViewInfo, kViewCount> kViews{
     ViewInfo{View::Beauty, "beauty", "Beauty", "The full picture.", false, false},
     ViewInfo{View::Direct, "direct", "Direct light", "First surface, lit by shadow rays only.", false, false},
     ViewInfo{View::RadianceMap, "radiance-map", "Radiance map",
@@ -24,6 +24,16 @@ constexpr std::array kViews{
     ViewInfo{View::Normal, "normal", "Normals", "Shading normals, as 0.5 (n + 1).", false, false},
     ViewInfo{View::Albedo, "albedo", "Albedo", "Diffuse reflectance.", false, false},
     ViewInfo{View::Depth, "depth", "Depth", "Distance from the camera along the ray, in scene units.", false, false},
+    ViewInfo{View::Visits, "visits", "Visits", "Records so far in all cells of each point's volume.", true, true},
+    ViewInfo{View::Irradiance, "irradiance", "Irradiance", "Learned irradiance of each point's volume.", true, true},
+    ViewInfo{View::Entropy, "entropy", "Entropy",
+             "How undecided each volume's table is, in bits; log2 of the bins where it is uniform.", true, true},
+    ViewInfo{View::BsdfShare, "bsdf-share", "BSDF share", "Learned share of directions that the BSDF chooses.", true,
+             true},
+    ViewInfo{View::Change, "change", "Change",
+             "How much the cells of each volume last changed, relative to its mean radiance.", true, true},
+    ViewInfo{View::Unvisited, "unvisited", "Unvisited", "Share of each volume's cells that have no record.", true,
+             true},
 };
 
 }  // namespace

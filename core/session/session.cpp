@@ -126,8 +126,7 @@ void Session::ensure_volumes() {
 /// The volumes with what the chosen lookup needs besides the tree.
 std::shared_ptr<const HostVolumes> Session::with_lookup(HostVolumes volumes, Lookup lookup) const {
     volumes.grid = {};
-    if (lookup == Lookup::Grid)
-        volumes.grid = build_volume_grid(*packed_, volumes, backend_->info().threads);
+    if (lookup == Lookup::Grid) volumes.grid = build_volume_grid(*packed_, volumes, backend_->info().threads);
     return std::make_shared<const HostVolumes>(std::move(volumes));
 }
 
@@ -217,13 +216,16 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
     const Stopwatch watch;
     // Never numbers that the tables were learned from: paths would meet again what they taught, and weigh it too low.
     const bool learns = target.view == View::Beauty && info_of(target.method).learns;
+    std::uint32_t sample = learns ? static_cast<std::uint32_t>(field().passes) : state.passes;
+    // Passes of a heat map replace one another: with the same points, so that borders stand still.
+    if (is_heat_map(target.view)) sample = 0;
     const PassCounters counters =
         backend_->run_pass({.slot = target,
                             .features = needed_features(),
                             .path = path_settings(),
                             .camera = make_camera(settings_.camera, settings_.width, settings_.height),
                             .mixture = mixture_of(target.method),
-                            .sample = learns ? static_cast<std::uint32_t>(field().passes) : state.passes,
+                            .sample = sample,
                             .first_pixel = state.next_pixel,
                             .stop = stop});
     state.render_seconds += watch.seconds();
@@ -264,7 +266,8 @@ std::optional<FieldStatus> Session::field_status() const {
     const FieldProgress& state = field();
     FieldStatus status{.volumes = static_cast<int>(volumes_->normals.size()),
                        .bins = shape_.cells.count(),
-                       .bytes = volume_bytes(*volumes_) + volumes_->normals.size() * table_bytes(shape_.cells.count()),
+                       .bytes =
+                           volume_bytes(*volumes_) + volumes_->normals.size() * table_bytes(shape_.cells.count()),
                        .passes = state.passes,
                        .records = state.records,
                        .lookup_misses = state.lookup_misses,
@@ -293,6 +296,7 @@ Snapshot Session::snapshot() const {
                     .counters = state.counters,
                     .clocks = clocks(),
                     .field = field_status(),
+                    .bins = volumes_ ? shape_.cells.count() : 0,
                     .camera = settings_.camera,
                     .kernel = kernel_name()};
     if (state.allocated)

@@ -42,6 +42,7 @@ struct Snapshot {
     PassCounters counters;      ///< of this film
     Clocks clocks;
     std::optional<FieldStatus> field;
+    int bins = 0;  ///< directions per volume; 0 before volumes are placed
     CameraDescription camera;
     std::string kernel;
 };

@@ -13,6 +13,12 @@ __global__ void __launch_bounds__(kThreadsPerBlock)
     if (i < samples.count) (void)accumulate(film, first + i, samples[i]);
 }
 
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    set_samples(FilmView film, Span<const Vec3f> samples, std::uint32_t first) {
+    const std::uint32_t i = thread_number();
+    if (i < samples.count) (void)replace_sample(film, first + i, samples[i]);
+}
+
 __global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Span<Vec3f> means, FilmTotals* totals) {
     const std::uint32_t i = thread_number();
     FilmTotals own;
@@ -28,6 +34,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Spa
 }  // namespace
 
 constinit const AddSamplesKernel kAddSamples = add_samples;
+constinit const AddSamplesKernel kSetSamples = set_samples;
 constinit const ReadFilmKernel kReadFilm = read_film;
 
 }  // namespace pl::cuda

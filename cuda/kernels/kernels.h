@@ -4,7 +4,7 @@
 #include "core/base/kernel_row.h"
 #include "core/kernel/fields/publish_volume.h"
 #include "core/kernel/film/film_view.h"
-#include "core/kernel/inspect/views.h"
+#include "core/kernel/inspect/heat_map.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/precomputed.h"
 #include "core/kernel/methods/reinforcement.h"
@@ -47,7 +47,7 @@ struct ProbePaths {
 struct ViewSetup {
     SceneView scene;
     PathSettings path;
-    FieldView field;  ///< may be empty where the view does not need it
+    ShownField shown;  ///< may be empty where the view does not need it
     View view = View::Normal;
     PixelPaths pixels;
     PassCounters* counters = nullptr;
@@ -64,15 +64,21 @@ extern const KernelRow<PictureKernel<ReinforcementMethod>> kReinforcementKernels
 extern const KernelRow<ProbeKernel> kProbeKernels;
 extern const KernelRow<ViewKernel> kViewKernels;
 
+/// One thread per volume: volume_value().
+using VolumeValueKernel = void (*)(FieldPublicationView field, View view, Span<float> values);
+extern const VolumeValueKernel kVolumeValues;
+
 /// Valid samples and invalid ones of a whole film.
 struct FilmTotals {
     std::uint64_t samples = 0;
     std::uint64_t invalid = 0;
 };
 
-/// One thread per sample: adds the samples of a launch, whose first is that of pixel `first`, to the film.
+/// One thread per sample: adds the samples of a launch, whose first is that of pixel `first`, to the film, or puts them
+/// in the place of what is there.
 using AddSamplesKernel = void (*)(FilmView film, Span<const Vec3f> samples, std::uint32_t first);
 extern const AddSamplesKernel kAddSamples;
+extern const AddSamplesKernel kSetSamples;
 
 /// One thread per pixel: means for display and saving (see mean_or_nan), and the film's totals.
 using ReadFilmKernel = void (*)(FilmView film, Span<Vec3f> means, FilmTotals* totals);

@@ -12,7 +12,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(ViewSetup setup) {
     const std::uint32_t i = thread_number();
     PassCounters counters;
     if (i < pixels.radiance.count) {
-        const Vec3f value = sample_view<FeatureSet{kFeatureBits}>(setup.view, setup.scene, intersector, setup.field,
+        const Vec3f value = sample_view<FeatureSet{kFeatureBits}>(setup.view, setup.scene, intersector, setup.shown,
                                                                   pixels.camera, setup.path, pixels.width,
                                                                   pixels.height, pixels.first + i, pixels.sample);
         pixels.radiance[i] = value;
@@ -23,9 +23,16 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(ViewSetup setup) {
     add_up(*setup.counters, counters);
 }
 
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    volume_values(FieldPublicationView field, View view, Span<float> values) {
+    const std::uint32_t volume = thread_number();
+    if (volume < values.count) values[volume] = volume_value(field, volume, view);
+}
+
 }  // namespace
 
 constinit const KernelRow<ViewKernel> kViewKernels =
     make_kernel_row<ViewKernel>([]<FeatureSet F>() { return show_view<F.bits>; });
+constinit const VolumeValueKernel kVolumeValues = volume_values;
 
 }  // namespace pl::cuda

@@ -41,7 +41,7 @@ Options any_options(std::mt19937& random) {
     o.scene = "some folder/it's a $scene.json";
     o.output = "out \"1\".exr";
     o.render.method = all_methods()[static_cast<std::size_t>(whole(1, 2))].id;
-    o.render.view = all_views()[static_cast<std::size_t>(whole(0, 6))].id;
+    o.render.view = all_views()[static_cast<std::size_t>(whole(0, kViewCount - 1))].id;
     o.render.width = whole(1, 16384);
     o.render.height = whole(1, 16384);
     o.render.camera = {any_vector(random), any_vector(random), any_vector(random), real(0.001f, 179.9f)};
@@ -180,7 +180,8 @@ TEST_CASE("help, version and lists are answers, whatever else is missing") {
     CHECK_THAT(*parse_command_line({"render", "--help"}).answer, contains("--bsdf-fraction"));
     CHECK_THAT(*parse_command_line({"--version"}).answer, contains("pathlight "));
     CHECK_THAT(*parse_command_line({"--list-methods"}).answer, contains("reinforcement"));
-    CHECK_THAT(*parse_command_line({"render", "--list-views"}).answer, contains("radiance-map"));
+    CHECK_THAT(*parse_command_line({"render", "--list-views"}).answer,
+               contains("radiance-map") && contains("bsdf-share"));
     CHECK_THAT(*parse_command_line({"--list-methods", "--json"}).answer, contains("{\"schema\""));
 }
 

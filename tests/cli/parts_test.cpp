@@ -143,10 +143,13 @@ TEST_CASE("exposure and tone curve apply to radiance, not to data") {
     CHECK((invalid.rgb == std::vector<std::uint8_t>{255, 0, 255}));
 }
 
-TEST_CASE("depth is shown in units of the largest one") {
-    CHECK(shown_scale(tiny_picture(View::Depth, {Vec3f{0.0f}, Vec3f{5.0f}, Vec3f{2.0f}})) == Approx(0.2));
-    CHECK(shown_scale(tiny_picture(View::Depth, {Vec3f{0.0f}})) == 1.0f);
-    CHECK(shown_scale(tiny_picture(View::Beauty, {Vec3f{5.0f}})) == 1.0f);
+TEST_CASE("heat maps are shown in their colors, whatever the exposure") {
+    const DisplaySettings display{.exposure_ev = 3.0f, .curve = ToneCurve::Reinhard};
+    const ByteImage image =
+        display_image(tiny_picture(View::Visits, {Vec3f{0.0f}, Vec3f{20.0f}, Vec3f{10.0f}}), display);
+    CHECK((image.rgb == std::vector<std::uint8_t>{43, 23, 81, 248, 235, 122, 7, 140, 147}));
+    const ByteImage share = display_image(tiny_picture(View::Unvisited, {Vec3f{0.5f}}), display);
+    CHECK((share.rgb == std::vector<std::uint8_t>{7, 140, 147}));
 }
 
 TEST_CASE("a file that cannot be written is found out beforehand, without a trace") {

@@ -1,10 +1,13 @@
 // `pathlight render` from outside: pictures, repeatability, limits, interruption.
+#include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"
+#include "core/kernel/film/heat_color.h"
 #include "tests/catch.hpp"
 #include "tests/cli/run_program.h"
 
@@ -39,7 +42,11 @@ Arguments endless(const std::string& output) {
 }
 
 const std::vector<std::string> kMethods{"default", "precomputed", "reinforcement"};
-const std::vector<std::string> kViews{"beauty", "direct", "radiance-map", "voronoi", "normal", "albedo", "depth"};
+const std::vector<std::string> kViews{"beauty",     "direct", "radiance-map", "voronoi",    "normal",
+                                      "albedo",     "depth",  "visits",       "irradiance", "entropy",
+                                      "bsdf-share", "change", "unvisited"};
+const std::set<std::string> kLearnedViews{"radiance-map", "visits", "irradiance", "entropy",
+                                          "bsdf-share",   "change", "unvisited"};
 
 }  // namespace
 
@@ -47,7 +54,7 @@ TEST_CASE("every method renders every view") {
     const TempDir folder;
     for (const std::string& method : kMethods)
         for (const std::string& view : kViews) {
-            if (method == "default" && view == "radiance-map") continue;
+            if (method == "default" && kLearnedViews.contains(view)) continue;
             const ProgramResult result =
                 run_program({"render", "cornell", "-o", folder / "x.png", "--size", "8x8", "--spp", "2", "--method",
                              method, "--view", view, "--volumes", "50"});
@@ -59,6 +66,34 @@ TEST_CASE("every method renders every view") {
             // Something is seen, and not the same everywhere: the box fills the picture.
             CHECK(std::set<std::uint8_t>(image.rgb.begin(), image.rgb.end()).size() > 2);
         }
+}
+
+TEST_CASE("heat maps: numbers in linear files, colors and their range in PNG") {
+    const TempDir folder;
+    const Arguments entropy{"--method", "reinforcement", "--view", "entropy", "--volumes", "50", "--bins", "64"};
+    REQUIRE(run_program(render(folder / "x.exr", entropy)).code == 0);
+    const LinearImage linear = read_exr(folder / "x.exr");
+    const auto larger = [](const auto& a, const auto& b) { return a.x < b.x; };
+    const float largest = std::max_element(linear.pixels.begin(), linear.pixels.end(), larger)->x;
+    CHECK(largest > 3.0f);
+    CHECK(largest <= 6.0f);
+
+    const ProgramResult result = run_program(render(folder / "x.png", entropy));
+    CAPTURE(result.out, result.err);
+    REQUIRE(result.code == 0);
+    CHECK_THAT(result.out + result.err, contains("range 0 to 6 bits"));
+    ImageMetadata metadata;
+    const ByteImage shown = read_png8(folder / "x.png", &metadata);
+    CHECK(metadata_value(metadata, "range") == "0 to 6 bits");
+    for (std::size_t i = 0; i < linear.pixels.size(); ++i) {
+        // Red, green and blue of heat_color().
+        const ByteColor color = heat_color(linear.pixels[i].x / 6.0f);
+        REQUIRE(std::abs(shown.rgb[3 * i + 0] - color.r) <= 1);
+        REQUIRE(std::abs(shown.rgb[3 * i + 1] - color.g) <= 1);
+        REQUIRE(std::abs(shown.rgb[3 * i + 2] - color.b) <= 1);
+    }
+    const ProgramResult beauty = run_program(render(folder / "y.png"));
+    CHECK((beauty.out + beauty.err).find("range") == std::string::npos);
 }
 
 TEST_CASE("same seed, same bytes, whatever the number of threads, and another seed, other bytes") {

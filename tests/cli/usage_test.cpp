@@ -117,10 +117,10 @@ TEST_CASE("only what is learned can be saved") {
     CHECK_THAT(
         complaint(render_with({"--save-field", "f"})),
         contains("--save-field: --method default learns nothing: expected --method precomputed or reinforcement"));
-    CHECK_THAT(
-        complaint(render_with({"--save-field", "f", "--method", "precomputed", "--view", "voronoi"})),
-        contains("--save-field: nothing is learned for --view voronoi: expected --view beauty or radiance-map"));
-    for (const char* view : {"beauty", "radiance-map"})
+    CHECK_THAT(complaint(render_with({"--save-field", "f", "--method", "precomputed", "--view", "voronoi"})),
+               contains("--save-field: nothing is learned for --view voronoi: expected --view beauty or one of the "
+                        "learned field, such as radiance-map"));
+    for (const char* view : {"beauty", "radiance-map", "visits"})
         CHECK(parse(render_with({"--save-field", "f", "--method", "reinforcement", "--view", view})).save_field ==
               "f");
     CHECK(parse({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--save-field", "f"}).save_field == "f");

@@ -1,10 +1,12 @@
 // What a back end promises to a session besides its pictures: what it refuses, what it keeps, what it says.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 
 #include "core/base/error.h"
-#include "core/kernel/inspect/views.h"
+#include "core/kernel/inspect/heat_map.h"
 #include "tests/catch.hpp"
 #include "tests/cpu/small_room.h"
 
@@ -29,16 +31,29 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 TEST_CASE("Views in parallel equal views pixel by pixel") {
     const Room room;
     HostTables tables = room.empty_tables();
-    for (std::size_t i = 0; i < tables.mean_radiance.size(); ++i)
+    for (std::size_t i = 0; i < tables.mean_radiance.size(); ++i) {
         tables.mean_radiance[i] = 0.1f * static_cast<float>(i % 7);
+        tables.change[i] = 0.03f * static_cast<float>(i % 5);
+        tables.bsdf_fraction[i] = 0.2f * static_cast<float>(i % 4);
+    }
+    for (std::size_t i = 0; i < tables.visits.size(); ++i) tables.visits[i] = static_cast<std::uint32_t>(i % 11 / 3);
+    const auto side = static_cast<std::size_t>(room.shape.cells.side);
+    for (std::size_t i = 0; i < tables.row_cdf.size(); ++i)
+        if (i % side + 1 < side) tables.row_cdf[i] *= 1.0f / static_cast<float>(1 + i % 3);
     const FieldView field = field_view(room.shape, *room.volumes, tables);
     const SceneView scene = room.scene->view();
-    for (const View view :
-         {View::Direct, View::RadianceMap, View::Voronoi, View::Normal, View::Albedo, View::Depth}) {
-        INFO(info_of(view).name);
+    for (const ViewInfo& info : all_views()) {
+        const View view = info.id;
+        if (view == View::Beauty) continue;
+        INFO(info.name);
+        std::vector<float> values;
+        for (std::uint32_t volume = 0; volume < tables.mean_radiance.size(); ++volume)
+            values.push_back(volume_value(publication_view(room.shape, tables), volume, view));
+        if (is_heat_map(view)) CHECK(std::set<float>(values.begin(), values.end()).size() > 2);
+        const ShownField shown{field, view_of(std::as_const(values))};
         std::vector<Vec3f> expected;
         for (std::uint32_t pixel = 0; pixel < kWidth * kHeight; ++pixel)
-            expected.push_back(sample_view<FeatureSet{}>(view, scene, BvhIntersector{scene}, field, room.camera,
+            expected.push_back(sample_view<FeatureSet{}>(view, scene, BvhIntersector{scene}, shown, room.camera,
                                                          {.seed = 3}, kWidth, kHeight, pixel, 0));
         for (const int threads : {1, 7}) {
             const auto backend = make_backend(room, {.threads = threads});
@@ -50,6 +65,25 @@ TEST_CASE("Views in parallel equal views pixel by pixel") {
             CHECK(counters.invalid_samples == 0);
             CHECK(same_bits(expected, backend->read_film(slot).mean));
         }
+    }
+}
+
+TEST_CASE("A pass of a heat map replaces the one before") {
+    const Room room;
+    const FilmSlot slot{MethodId::Reinforcement, View::Visits};
+    const auto backend = make_backend(room, {.threads = 2});
+    backend->reset_film(slot, kWidth, kHeight);
+    CHECK_THROWS_WITH(backend->run_pass(pass_of(room, slot)), contains("tables of 'reinforcement'"));
+    const auto cells = static_cast<float>(room.shape.cells.count());
+    for (const std::uint32_t visits : {3u, 8u}) {
+        HostTables tables = room.empty_tables();
+        std::fill(tables.visits.begin(), tables.visits.end(), visits);
+        backend->upload_tables(MethodId::Reinforcement, tables);
+        backend->run_pass(pass_of(room, slot));
+        const FilmReading film = backend->read_film(slot);
+        CHECK(film.samples == kWidth * kHeight);
+        const Vec3f expected{cells * static_cast<float>(visits)};
+        CHECK(std::ranges::all_of(film.mean, [&](Vec3f value) { return value == expected; }));
     }
 }
 

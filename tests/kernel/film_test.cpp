@@ -46,6 +46,20 @@ TEST_CASE("Invalid samples are counted and dropped") {
     CHECK(mean_radiance(pixel).x == 0.5f);
 }
 
+TEST_CASE("A sample that replaces leaves nothing of those before") {
+    Film film(2);
+    accumulate(film.view(), 1, {1, 2, 4});
+    accumulate(film.view(), 1, Vec3f{kNan});
+    CHECK(replace_sample(film.view(), 1, Vec3f{3.0f}));
+    CHECK(film.pixels[1].samples == 1);
+    CHECK(film.pixels[1].invalid == 0);
+    CHECK(mean_radiance(film.pixels[1]) == Vec3f{3.0f});
+    CHECK(film.pixels[1].sum_squared_luminance == Approx(9.0));
+    CHECK_FALSE(replace_sample(film.view(), 1, Vec3f{kInfinity}));
+    CHECK(film.pixels[1].samples == 0);
+    CHECK(film.pixels[0].samples == 0);
+}
+
 TEST_CASE("A pixel without samples is black") {
     CHECK(mean_radiance(FilmPixel{}) == Vec3f{0.0f});
     Film film(1);

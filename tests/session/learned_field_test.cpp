@@ -1,5 +1,10 @@
 // What was learned, taken from one session to another, also through a file: going on is the same as never having moved.
+// And what the views show of it.
+#include <algorithm>
+#include <numeric>
+
 #include "core/io/field_file.h"
+#include "core/session/shown_range.h"
 #include "tests/catch.hpp"
 #include "tests/io/input_error.h"
 #include "tests/io/temporary_folder.h"
@@ -182,4 +187,73 @@ TEST_CASE("A picture that starts over what was learned draws new numbers") {
     session.apply(EditForget{});
     render_passes(session, 1);
     CHECK(same_bits(first, session.snapshot().pixels));
+}
+
+TEST_CASE("Heat maps show numbers of the tables as they are after the last pass") {
+    const SceneDescription scene = shipped_scene("cornell");
+    for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
+        RenderSettings settings = small_settings(scene, {method, false});
+        settings.view = View::Visits;
+        Session session = make_session(scene, settings, 2);
+        render_passes(session, 3);
+        const State state = state_of(session);
+        std::vector<float> totals;
+        for (std::size_t first = 0; first < state.tables.visits.size(); first += 64)
+            totals.push_back(std::accumulate(state.tables.visits.begin() + static_cast<std::ptrdiff_t>(first),
+                                             state.tables.visits.begin() + static_cast<std::ptrdiff_t>(first + 64),
+                                             0.0f, [](float sum, std::uint32_t n) { return sum + float(n); }));
+        std::size_t seen = 0;
+        for (const Vec3f pixel : state.snapshot.pixels) {
+            CHECK(pixel == Vec3f{pixel.x});
+            if (pixel.x == 0.0f) continue;
+            ++seen;
+            CHECK(std::ranges::find(totals, pixel.x) != totals.end());
+        }
+        CHECK(seen > state.snapshot.pixels.size() / 2);
+        CHECK(shown_range(state.snapshot).high <= *std::ranges::max_element(totals));
+        CHECK(legend(state.snapshot).find("records") != std::string::npos);
+    }
+}
+
+TEST_CASE("The range of entropy is that of the field's bins, also for a method that learns nothing") {
+    const SceneDescription scene = shipped_scene("cornell");
+    for (const MethodInfo& method : all_methods()) {
+        RenderSettings settings = small_settings(scene, {method.id, false});
+        settings.view = View::Entropy;
+        Session session = make_session(scene, settings, 2);
+        render_passes(session, 1);
+        const Snapshot snapshot = session.snapshot();
+        CHECK(legend(snapshot) == "0 to 6 bits");
+        float least = 6.0f;
+        for (const Vec3f pixel : snapshot.pixels) {
+            REQUIRE((pixel.x >= 0.0f && pixel.x <= 6.00001f));
+            if (pixel.x > 0.0f) least = std::min(least, pixel.x);
+        }
+        // Uniform where nothing was learned, else not everywhere.
+        CHECK((least < 5.9f) == method.uses_field);
+    }
+}
+
+TEST_CASE("Views tell the range of what they show") {
+    Snapshot snapshot;
+    snapshot.bins = 256;
+    const auto shown = [&](View view, const std::vector<float>& values) {
+        snapshot.slot.view = view;
+        snapshot.pixels.clear();
+        for (const float value : values) snapshot.pixels.push_back(Vec3f{value});
+        return legend(snapshot);
+    };
+    CHECK(shown(View::Beauty, {5.0f}).empty());
+    CHECK(shown(View::Voronoi, {5.0f}).empty());
+    CHECK(shown(View::Depth, {5.0f, kInfinity, kNan, 2.5f}) == "0 to 5");
+    CHECK(shown(View::Visits, {5.0f, 70.0f}) == "0 to 70 records");
+    CHECK(shown(View::Irradiance, {0.0f}) == "0 to 1 radiance x sr");
+    CHECK(shown(View::Entropy, {5.0f}) == "0 to 8 bits");
+    CHECK(shown(View::BsdfShare, {0.5f}) == "0 to 1 (share)");
+    CHECK(shown(View::Change, {0.125f}) == "0 to 0.125 of the mean");
+    CHECK(shown(View::Unvisited, {0.5f}) == "0 to 1 (share)");
+    shown(View::Depth, {5.0f, 2.5f});
+    CHECK(shown_range(snapshot).scale() == 0.2f);
+    shown(View::Depth, {1e-45f});
+    CHECK(shown_range(snapshot).scale() == 1.0f);
 }

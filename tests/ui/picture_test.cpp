@@ -109,15 +109,18 @@ TEST_CASE("Picture: exposure and curve are for radiance only") {
     const DisplaySettings asked{.exposure_ev = 2.0f, .curve = ToneCurve::Aces};
     for (const View view : {View::Beauty, View::Direct, View::RadianceMap})
         CHECK(display_of(view, asked).exposure_ev == 2.0f);
-    for (const View view : {View::Normal, View::Albedo, View::Depth, View::Voronoi}) {
+    for (const View view : {View::Normal, View::Albedo, View::Depth, View::Voronoi, View::Visits, View::Unvisited}) {
         CHECK(display_of(view, asked).exposure_ev == 0.0f);
         CHECK(display_of(view, asked).curve == ToneCurve::Clamp);
     }
-    Snapshot depth = snapshot_of(2, 1, Vec3f{5.0f});
-    CHECK(display_scale(depth) == 1.0f);
-    depth.slot.view = View::Depth;
-    depth.pixels[1] = Vec3f{kInfinity};
-    CHECK(display_scale(depth) == 0.2f);
-    depth.pixels.assign(2, Vec3f{0.0f});
-    CHECK(display_scale(depth) == 1.0f);
+}
+
+TEST_CASE("Picture: heat maps have their colors, and invalid pixels theirs") {
+    Snapshot snapshot = snapshot_of(3, 1, Vec3f{4.0f});
+    snapshot.slot.view = View::Entropy;
+    snapshot.pixels[1] = Vec3f{kNan};
+    snapshot.pixels[2] = Vec3f{8.0f};
+    std::vector<std::uint32_t> out(3);
+    write_picture(snapshot, 1.0f / 8.0f, ToneTable(ToneCurve::Clamp), {}, out.data(), 3);
+    CHECK(out == std::vector<std::uint32_t>{0xff078c93u, 0xffff00ffu, 0xfff8eb7au});
 }

@@ -129,9 +129,9 @@ TEST_CASE("Viewer model: views go round in both directions") {
     Bench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     model.step_view(-1);
-    CHECK(model.settings().view == View::Depth);
+    CHECK(model.settings().view == View::Unvisited);
     for (std::size_t i = 0; i < all_views().size(); ++i) model.step_view(1);
-    CHECK(model.settings().view == View::Depth);
+    CHECK(model.settings().view == View::Unvisited);
     model.step_view(1);
     CHECK(model.settings().view == View::Beauty);
 }

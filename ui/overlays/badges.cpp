@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/kernel/film/heat_color.h"
 #include "ui/overlays/overlays.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/widgets.h"
@@ -26,7 +27,28 @@ public:
         corner_.x += width + em(0.35f);
     }
 
+    /// The colors from the lowest to the highest number, and what they stand for.
+    void add_heat_legend(const std::string& text) {
+        const float height = ImGui::GetTextLineHeight() + 2.0f * em(0.2f);
+        const float step = em(0.5f);
+        const float width = step * static_cast<float>(kHeatSteps);
+        if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, corner_.y + height + em(0.3f)};
+        for (int i = 0; i < kHeatSteps; ++i) {
+            const float x = corner_.x + step * static_cast<float>(i);
+            const ImU32 low = heat_color_at(i);
+            const ImU32 high = heat_color_at(i + 1);
+            list_.AddRectFilledMultiColor({x, corner_.y}, {x + step, corner_.y + height}, low, high, high, low);
+        }
+        corner_.x += width + em(0.1f);
+        add(text, colors::kText);
+    }
+
 private:
+    static ImU32 heat_color_at(int step) {
+        const ByteColor color = heat_color(static_cast<float>(step) / static_cast<float>(kHeatSteps));
+        return IM_COL32(color.r, color.g, color.b, 255);
+    }
+
     ImDrawList& list_;
     ImVec2 corner_;
     float left_;
@@ -44,9 +66,10 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
     else
         row.add(fmt::format("{}  {}  {} spp", info_of(view).label, back_end, snapshot.passes), colors::kText);
     if (view == View::RadianceMap) row.add("radiance map: biased preview", colors::kWarning);
-    if (view == View::RadianceMap && !info_of(snapshot.slot.method).uses_field)
+    if (info_of(view).needs_tables && !info_of(snapshot.slot.method).uses_field)
         row.add("learned by Reinforcement: 3 learns on", colors::kWarning);
-    if (view == View::Depth) row.add(fmt::format("black 0, white {:.4g}", 1.0f / frame.display_scale), colors::kText);
+    if (view == View::Depth) row.add(fmt::format("black 0, white {:.4g}", frame.range.high), colors::kText);
+    if (is_heat_map(view)) row.add_heat_legend(legend(view, frame.range));
     if (frame.divider > 1) row.add(fmt::format("1/{} res", frame.divider), colors::kWarning);
 }
 

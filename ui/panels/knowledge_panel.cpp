@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/kernel/film/heat_color.h"
 #include "core/kernel/film/tonemap.h"
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/scene/surface_point.h"
@@ -44,20 +45,34 @@ std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const Hove
     return point;
 }
 
+/// 8-bit sRGB of a pixel's value on screen.
+std::array<int, 3> shown_code(const ViewerModel& model, const PublishedFrame& frame, Vec3f value) {
+    const View view = frame.snapshot.slot.view;
+    if (is_heat_map(view)) {
+        const ByteColor color = heat_color(value.x * frame.range.scale());
+        return {color.r, color.g, color.b};
+    }
+    const DisplaySettings display = display_of(view, model.display());
+    const Vec3f shown = tone_map(value * frame.range.scale(), std::exp2(display.exposure_ev), display.curve);
+    std::array<int, 3> code;
+    for (int i = 0; i < 3; ++i)
+        code[static_cast<std::size_t>(i)] = static_cast<int>(std::lround(255.0f * encode_srgb(shown[i])));
+    return code;
+}
+
 void draw_pixel_values(const ViewerModel& model, const PublishedFrame& frame, const HoveredPixel& pixel) {
     const Snapshot& snapshot = frame.snapshot;
     const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(snapshot.width) +
                               static_cast<std::size_t>(pixel.x);
     const Vec3f value = snapshot.pixels[index];
-    const DisplaySettings display = display_of(snapshot.slot.view, model.display());
-    const Vec3f shown = tone_map(value * frame.display_scale, std::exp2(display.exposure_ev), display.curve);
-    std::array<int, 3> code;
-    for (int i = 0; i < 3; ++i)
-        code[static_cast<std::size_t>(i)] = static_cast<int>(std::lround(255.0f * encode_srgb(shown[i])));
-
+    const std::array<int, 3> code = shown_code(model, frame, value);
     text_row("Pixel", fmt::format("{}, {} of {}x{}", pixel.x, pixel.y, snapshot.width, snapshot.height));
-    text_row("Linear RGB", radiance_text(value), "Mean of all samples before exposure and tone curve.");
-    text_row("Luminance", fmt::format("{:.5g}", luminance(value)));
+    if (is_heat_map(snapshot.slot.view)) {
+        text_row("Value", fmt::format("{:.5g}  {}", value.x, frame.range.unit), "Of the radiance volume there.");
+    } else {
+        text_row("Linear RGB", radiance_text(value), "Mean of all samples before exposure and tone curve.");
+        text_row("Luminance", fmt::format("{:.5g}", luminance(value)));
+    }
     text_row("On screen",
              fmt::format("{}  {}  {}   #{:02x}{:02x}{:02x}", code[0], code[1], code[2], code[0], code[1], code[2]),
              "8-bit sRGB after exposure and tone curve.");

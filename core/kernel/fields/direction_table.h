@@ -11,7 +11,9 @@ struct DirectionTable {
     const float* row_cdf;
     const float* column_cdf;
 
-    PL_HD DirectionTable(const FieldView& field, std::int32_t volume)
+    /// Of a FieldView or a FieldPublicationView.
+    template <class Field>
+    PL_HD DirectionTable(const Field& field, std::int32_t volume)
         : cells(field.cells), row_cdf(field.row_cdf.data + volume * field.cells.side),
           column_cdf(field.column_cdf.data + volume * field.cells.count()) {}
 

@@ -34,6 +34,12 @@ PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f ra
     return true;
 }
 
+/// Makes one sample all that a pixel holds. Returns false if the sample was invalid.
+PL_HD inline bool replace_sample(const FilmView& film, std::uint32_t pixel, Vec3f value) {
+    film.pixels[pixel] = {};
+    return accumulate(film, pixel, value);
+}
+
 /// Mean radiance of a pixel; 0 before the first sample.
 PL_HD inline Vec3f mean_radiance(const FilmPixel& pixel) {
     if (pixel.samples == 0) return Vec3f{0.0f};

@@ -8,13 +8,45 @@
 
 namespace pl {
 
-enum class View : std::uint32_t { Beauty, Direct, RadianceMap, Voronoi, Normal, Albedo, Depth };
+enum class View : std::uint32_t {
+    Beauty,
+    Direct,
+    RadianceMap,
+    Voronoi,
+    Normal,
+    Albedo,
+    Depth,
+    // Heat maps: numbers of the volume that serves a point, see volume_value().
+    Visits,
+    Irradiance,
+    Entropy,
+    BsdfShare,
+    Change,
+    Unvisited,
+};
+inline constexpr int kViewCount = 13;
+
+/// Does a view show a number per volume? Its films hold the numbers of the last pass, not a mean over passes.
+PL_HD constexpr bool is_heat_map(View view) { return view >= View::Visits; }
 
 /// Stable, well spread color of a number, in [0.15, 1] per channel.
 PL_HD inline Vec3f color_of_id(std::uint32_t id) {
     const Philox block = philox4x32({{id, 0, 0, 0}}, 0x9E3779B9u, 0xBB67AE85u);
     return Vec3f{0.15f} +
            0.85f * Vec3f{to_unit_float(block.v[0]), to_unit_float(block.v[1]), to_unit_float(block.v[2])};
+}
+
+/// What the views of a field look up.
+struct ShownField {
+    FieldView field;
+    Span<const float> volume_values;  ///< of heat maps, else empty: volume_value(). [volume]
+};
+
+/// What the views of cells and the heat maps show of a volume; 0 where there is none.
+PL_HD inline Vec3f shown_volume(View view, const ShownField& shown, std::int32_t volume) {
+    if (volume == kNoVolume) return Vec3f{0.0f};
+    const auto number = static_cast<std::uint32_t>(volume);
+    return is_heat_map(view) ? Vec3f{shown.volume_values[number]} : color_of_id(number);
 }
 
 /// The classic ray tracer: emission plus one shadow ray, no light from other surfaces.
@@ -47,9 +79,10 @@ PL_HD inline float interpolated_mean_radiance(const FieldView& field, const Surf
     return sum / weight_sum;
 }
 
-/// Value of one view at the first surface; the camera ray has missed nothing. Depth is in scene units.
+/// Value of one view at the first surface; the camera ray has missed nothing. Depth is in scene units, heat maps are
+/// numbers as they are, three times the same.
 template <Intersector I>
-PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& intersector, const FieldView& field,
+PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& intersector, const ShownField& shown,
                                 const SurfacePoint& surface, float distance, const Rng& rng) {
     const Material& material = scene.materials[surface.material];
     switch (view) {
@@ -57,29 +90,32 @@ PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& inte
     case View::Direct: return direct_radiance(scene, intersector, surface, rng);
     case View::RadianceMap: {
         const Vec3f emitted = emitted_radiance(material, surface.front);
-        return emitted + material.albedo * interpolated_mean_radiance(field, surface);
-    }
-    case View::Voronoi: {
-        const std::int32_t volume = field.volume_at(surface);
-        return volume == kNoVolume ? Vec3f{0.0f} : color_of_id(static_cast<std::uint32_t>(volume));
+        return emitted + material.albedo * interpolated_mean_radiance(shown.field, surface);
     }
     case View::Normal: return 0.5f * (surface.shading_normal + Vec3f{1.0f});
     case View::Albedo: return material.albedo;
     case View::Depth: return Vec3f{distance};
+    case View::Voronoi:
+    case View::Visits:
+    case View::Irradiance:
+    case View::Entropy:
+    case View::BsdfShare:
+    case View::Change:
+    case View::Unvisited: return shown_volume(view, shown, shown.field.volume_at(surface));
     }
     return Vec3f{0.0f};
 }
 
 /// One sample of a view for one pixel.
 template <FeatureSet F, Intersector I>
-PL_HD inline Vec3f sample_view(View view, const SceneView& scene, const I& intersector, const FieldView& field,
+PL_HD inline Vec3f sample_view(View view, const SceneView& scene, const I& intersector, const ShownField& shown,
                                const PinholeCamera& camera, const PathSettings& settings, std::uint32_t width,
                                std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
     const auto state = begin_path<DefaultMethod>(camera, settings, width, height, pixel, sample);
     const Hit hit = intersector.closest_hit(state.ray);
     if (!hit.found()) return view == View::Direct && F.has(Feature::Environment) ? scene.environment : Vec3f{0.0f};
     const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
-    return surface_view(view, scene, intersector, field, surface, hit.t, path_rng(settings, pixel, sample));
+    return surface_view(view, scene, intersector, shown, surface, hit.t, path_rng(settings, pixel, sample));
 }
 
 }  // namespace pl
