@@ -178,7 +178,7 @@ const auto kTable = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return std::to_string(o.render.field.bins); }},
     {.name = "bsdf-fraction", .flags = "--bsdf-fraction", .value = "X|learned", .group = kField,
      .help = "Share of directions that follow the surface instead of the field, 0.1 to 1; learned (default): each volume "
-             "finds its own, precomputed takes 0.25",
+             "finds its own, precomputed takes 0.5",
      .commands = kSampling, .in_scene_files = true, .parse = parse_bsdf_fraction,
      .print = [](const Options& o) { return print_bsdf_fraction(o.render.mixture); }},
     {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,

@@ -145,7 +145,7 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     method.field = field.view();
     MethodCounters counters;
     const Vec3f wi = square_to_cosine_hemisphere(DirectionCells{4}.point_in_cell(9, {0.5f, 0.5f}));
-    auto memory = method.remember({0}, {wi, 1.0f, 1.0f});
+    auto memory = method.remember({0}, method.weigh({0}, SurfacePoint{}, wi));
     CHECK(memory.volume == 0);
     CHECK(memory.cell == 9);
 
@@ -165,8 +165,8 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     method.learn(none, {.emitted = Vec3f{1.0f}}, {1}, counters);
     CHECK(counters.records == 2);
     CHECK(field.tables.pending_count[9] == 2);
-    CHECK(method.remember({kNoVolume}, {wi, 1.0f, 1.0f}).volume == kNoVolume);
-    CHECK(method.remember({0}, {Vec3f{0, 0.6f, -0.8f}, 1.0f, 1.0f}).volume ==
+    CHECK(method.remember({kNoVolume}, method.weigh({kNoVolume}, SurfacePoint{}, wi)).volume == kNoVolume);
+    CHECK(method.remember({0}, method.weigh({0}, SurfacePoint{}, {0, 0.6f, -0.8f})).volume ==
           kNoVolume);  // below the volume's horizon
 }
 

@@ -70,10 +70,16 @@ PL_HD inline float square_density(const DirectionTable& table, Vec2f square) {
     return ((1.0f - fy) * low + fy * high) * static_cast<float>(table.cells.count());
 }
 
-/// Density per steradian of a direction in the volume's frame; 0 below its horizon.
-PL_HD inline float table_pdf_sa(const DirectionTable& table, Vec3f local) {
-    if (!(local.z > 0.0f)) return 0.0f;
-    return square_density(table, cosine_hemisphere_to_square(local)) * cosine_hemisphere_pdf_sa(local.z);
+struct TableDensity {
+    float pdf_sa = 0.0f;     ///< per steradian
+    std::int32_t cell = -1;  ///< that holds the direction
+};
+
+/// Density of a direction in the volume's frame; none below its horizon.
+PL_HD inline TableDensity table_density(const DirectionTable& table, Vec3f local) {
+    if (!(local.z > 0.0f)) return {};
+    const Vec2f square = cosine_hemisphere_to_square(local);
+    return {square_density(table, square) * cosine_hemisphere_pdf_sa(local.z), table.cells.cell_of(square)};
 }
 
 }  // namespace pl

@@ -17,8 +17,8 @@ inline constexpr float kInitialBsdfFraction = 0.5f;
 
 /// How the guided methods mix.
 struct MixtureSettings {
-    std::uint32_t learned = 1;    ///< 1: each volume's own share, where the method learns while it renders
-    float bsdf_fraction = 0.25f;  ///< in [0.1, 1], for all volumes, where it is not learned
+    std::uint32_t learned = 1;   ///< 1: each volume's own share, where the method learns while it renders
+    float bsdf_fraction = 0.5f;  ///< in [0.1, 1], for all volumes, where it is not learned
 
     friend bool operator==(const MixtureSettings&, const MixtureSettings&) = default;
 };

@@ -35,13 +35,16 @@ struct GuidedSampling {
     }
 
     PL_HD float pdf_sa(const GuidedVertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
-        return mixture_pdf_sa(vertex, wi, lambert_pdf_sa(surface, wi));
+        return weigh(vertex, surface, wi).pdf_sa;
     }
-    PL_HD float mixture_pdf_sa(const GuidedVertex& vertex, Vec3f wi, float bsdf_pdf_sa) const {
-        if (vertex.volume == kNoVolume) return bsdf_pdf_sa;
+    /// The direction with all its densities, as if it had been sampled.
+    PL_HD DirectionSample weigh(const GuidedVertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
+        const float bsdf_pdf_sa = lambert_pdf_sa(surface, wi);
+        if (vertex.volume == kNoVolume) return {wi, bsdf_pdf_sa, bsdf_pdf_sa};
         const Vec3f local = field.frame(vertex.volume).to_local(wi);
+        const TableDensity table = table_density(DirectionTable(field, vertex.volume), local);
         const float a = bsdf_fraction(vertex.volume);
-        return a * bsdf_pdf_sa + (1.0f - a) * table_pdf_sa(DirectionTable(field, vertex.volume), local);
+        return {wi, a * bsdf_pdf_sa + (1.0f - a) * table.pdf_sa, bsdf_pdf_sa, table.cell};
     }
 
     PL_HD DirectionSample sample_direction(const GuidedVertex& vertex, const SurfacePoint& surface, const Rng& rng,
@@ -55,8 +58,7 @@ struct GuidedSampling {
                 sample_square(DirectionTable(field, vertex.volume), {u.y, u.z}, {jitter.x, jitter.y});
             wi = field.frame(vertex.volume).to_world(square_to_cosine_hemisphere(square));
         }
-        const float bsdf_pdf = lambert_pdf_sa(surface, wi);
-        return {wi, mixture_pdf_sa(vertex, wi, bsdf_pdf), bsdf_pdf};
+        return weigh(vertex, surface, wi);
     }
 
     /// What the path can still bring, by what is learned, as a share of what its first vertex was expected to. A

@@ -15,6 +15,7 @@ struct DirectionSample {
     Vec3f wi{0.0f};
     float pdf_sa = 0.0f;
     float bsdf_pdf_sa = 0.0f;  ///< what BSDF sampling would have given it
+    std::int32_t cell = -1;    ///< of the table that the method samples from; -1: there is none, or not that way
 };
 
 /// What a path met at the end of its last segment, for learning. `V` of a guided method's vertex completes it.

@@ -18,10 +18,8 @@ struct ReinforcementMethod : GuidedSampling {
     };
 
     PL_HD Memory remember(const Vertex& vertex, const DirectionSample& direction) const {
-        if (vertex.volume == kNoVolume) return {};
-        const Vec3f local = field.frame(vertex.volume).to_local(direction.wi);
-        if (!(local.z > 0.0f)) return {};
-        return {vertex.volume, field.cells.cell_of_direction(local), direction.bsdf_pdf_sa / direction.pdf_sa};
+        if (direction.cell < 0) return {};
+        return {vertex.volume, direction.cell, direction.bsdf_pdf_sa / direction.pdf_sa};
     }
 
     /// Expected Sarsa target T = L_e(y) + rho(y) V(y): the expectation over the next direction is the irradiance
