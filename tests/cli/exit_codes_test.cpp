@@ -1,6 +1,6 @@
 // Every exit code of the program, with the message that goes with it.
 #include "tests/catch.hpp"
-#include "tests/cli/run_program.h"
+#include "tests/cli/refusal.h"
 
 namespace pl::test {
 namespace {
@@ -91,13 +91,7 @@ TEST_CASE("2: usage") {
          "--pixel: expected a pixel of 8x8"},
         {{"inspect", "cornell", "--pixel", "1,1", "-o", folder / "x.exr"}, "expected .json, .csv or .png"},
     };
-    for (const Wrong& wrong : wrongs) {
-        const ProgramResult result = run_program(wrong.arguments);
-        CAPTURE(wrong.arguments);
-        CHECK(result.code == 2);
-        CHECK(result.out.empty());
-        CHECK_THAT(result.err, contains("error: ") && contains(wrong.message));
-    }
+    for (const Wrong& wrong : wrongs) check_refused(2, wrong.arguments, wrong.message);
     CHECK(folder.names().empty());
 }
 

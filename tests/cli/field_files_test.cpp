@@ -5,7 +5,7 @@
 
 #include "core/io/image.h"
 #include "tests/catch.hpp"
-#include "tests/cli/run_program.h"
+#include "tests/cli/refusal.h"
 
 namespace pl::test {
 namespace {
@@ -191,12 +191,7 @@ TEST_CASE("fields that do not fit are refused with the right exit code, and no p
                 {"--method", "reinforcement", "--save-field", folder / "gone/g", "--time-limit", "1000000"}),
          "gone/g: cannot be written"},
     };
-    for (const Wrong& wrong : wrongs) {
-        const ProgramResult result = run_program(wrong.arguments);
-        CAPTURE(wrong.arguments, result.err);
-        CHECK(result.code == wrong.code);
-        CHECK_THAT(result.err, contains(wrong.message));
-    }
+    for (const Wrong& wrong : wrongs) check_refused(wrong.code, wrong.arguments, wrong.message);
     CHECK((folder.names() == std::vector<std::string>{"cut", "damaged", "f", "text"}));
 }
 

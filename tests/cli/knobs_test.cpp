@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/catch.hpp"
-#include "tests/cli/run_program.h"
+#include "tests/cli/refusal.h"
 
 namespace pl::test {
 namespace {
@@ -85,12 +85,7 @@ TEST_CASE("knobs that are wrong exit with 2 and tell the range or the nearest na
         {{"info", "door", "--knob", "opening=nan"}, "--knob: expected a number"},
         {{"info", "door", "--knob", ""}, "--knob: expected NAME=VALUE"},
     };
-    for (const Wrong& wrong : wrongs) {
-        CAPTURE(wrong.arguments);
-        const ProgramResult result = run_program(wrong.arguments);
-        CHECK(result.code == 2);
-        CHECK_THAT(result.err, contains(wrong.told));
-    }
+    for (const Wrong& wrong : wrongs) check_refused(2, wrong.arguments, wrong.told);
     CHECK(folder.names().empty());
 }
 

@@ -11,14 +11,14 @@ namespace pl {
 /// Bounds of the learned share: the density never loses either of its parts.
 inline constexpr float kMinBsdfFraction = 0.1f;
 inline constexpr float kMaxBsdfFraction = 0.9f;
-/// Share of a volume that knows nothing. With at most half of the reflectance squared reaching the next vertex, the
-/// second moment of a path's weight stays finite whatever the table says.
+/// Share of a volume that knows nothing. Whatever the table says, the second moment of a path's weight grows by at most
+/// albedo^2 / a per vertex: with this share it stays finite for albedos below 0.7.
 inline constexpr float kInitialBsdfFraction = 0.5f;
 
 /// How the guided methods mix.
 struct MixtureSettings {
-    std::uint32_t learned = 1;   ///< 1: each volume's own share, where the method learns while it renders
-    float bsdf_fraction = 0.5f;  ///< in [0.1, 1], for all volumes, where it is not learned
+    std::uint32_t learned = 1;  ///< 1: each volume's own share, where the method learns while it renders
+    float bsdf_fraction = kInitialBsdfFraction;  ///< in [0.1, 1], for all volumes, where it is not learned
 
     friend bool operator==(const MixtureSettings&, const MixtureSettings&) = default;
 };
