@@ -19,6 +19,7 @@ RenderWorker::RenderWorker(WorkerSetup setup)
       scene_(setup_.scene), diagonal_(bounds_of(*setup_.scene).diagonal()), full_width_(setup_.settings.width),
       full_height_(setup_.settings.height) {
     wishes_.limits = setup_.limits;
+    wishes_.display = setup_.display;
     wishes_.backend = setup_.first_backend;
     status_.backend = setup_.first_backend;
     status_.backends = backends_.choices();
@@ -82,6 +83,26 @@ void RenderWorker::step() {
 void RenderWorker::set_limits(SampleLimits limits) {
     const std::lock_guard lock(mutex_);
     wishes_.limits = limits;
+    wake_.notify_all();
+}
+
+void RenderWorker::set_display(const DisplaySettings& display) {
+    const std::lock_guard lock(mutex_);
+    if (display == wishes_.display) return;
+    wishes_.display = display;
+    cut_for_a_frame();
+}
+
+void RenderWorker::set_values_wanted(bool wanted) {
+    const std::lock_guard lock(mutex_);
+    if (wanted == wishes_.values) return;
+    wishes_.values = wanted;
+    if (wanted) cut_for_a_frame();
+}
+
+/// A frame is wanted for what is there already. The mutex is held.
+void RenderWorker::cut_for_a_frame() {
+    if (pass_may_be_cut_ && status_.passes > 0) stop_ = true;
     wake_.notify_all();
 }
 

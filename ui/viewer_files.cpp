@@ -1,9 +1,27 @@
 // The part of ViewerModel that opens and saves. Files are read and written on the helper thread.
+#include <chrono>
+#include <thread>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "ui/viewer_model.h"
 
 namespace pl {
+namespace {
+
+/// For the numbers of a picture to come, before a failed worker is given up.
+constexpr double kSaveSeconds = 3.0;
+constexpr int kLastSaveMs = 3000;  ///< the same, when the window closes
+
+}  // namespace
+
+ViewerModel::~ViewerModel() {
+    for (int waited = 0; !unsaved_.empty() && waited < kLastSaveMs; ++waited) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        take_frame();
+    }
+}
 
 void ViewerModel::reload() { start_loading(scene_name_, true); }
 
@@ -44,14 +62,27 @@ void ViewerModel::save(std::initializer_list<const char*> suffixes) {
         say(LogLevel::Warning, "there is no picture to save yet");
         return;
     }
+    const std::string stem = fmt::format("{}-{}", file_name_part(std::filesystem::path(scene_name_).stem().string()),
+                                         info_of(frame_->settings.method).name);
+    const std::filesystem::path name = names_.next(options_.screenshot_dir, stem, suffixes);
+    for (const char* suffix : suffixes) unsaved_.push_back(name.string() + suffix);
+    save_deadline_ = now_ + kSaveSeconds;
+    worker_.set_values_wanted(true);
+    write_unsaved();
+}
+
+/// Frames bring the numbers of a picture only when they are wanted: until one does, there is nothing to write.
+void ViewerModel::write_unsaved() {
+    if (!frame_->has_values()) {
+        if (status_.state != WorkerState::Failed || now_ < save_deadline_) return;
+        unsaved_.clear();
+        say(LogLevel::Error, "the picture cannot be saved: rendering has failed");
+        return;
+    }
     ViewerPicture shown = picture();
     shown.settings = frame_->settings;
     shown.backend = frame_->backend.name;
-    const std::string stem = fmt::format("{}-{}", file_name_part(std::filesystem::path(scene_name_).stem().string()),
-                                         info_of(shown.settings.method).name);
-    const std::filesystem::path name = names_.next(options_.screenshot_dir, stem, suffixes);
-    for (const char* suffix : suffixes) {
-        const std::filesystem::path path = name.string() + suffix;
+    for (const std::filesystem::path& path : std::exchange(unsaved_, {})) {
         jobs_.push([this, path, shown, frame = frame_]() -> JobThread::Report {
             try {
                 options_.save_image(path, frame->snapshot, shown);

@@ -286,25 +286,37 @@ Clocks Session::clocks() const {
             .render = film().render_seconds};
 }
 
-Snapshot Session::snapshot() const {
+Snapshot Session::summary() const {
     const FilmState& state = film();
-    Snapshot result{.slot = slot(),
-                    .width = settings_.width,
-                    .height = settings_.height,
-                    .pixels = {},
-                    .passes = state.passes,
-                    .counters = state.counters,
-                    .clocks = clocks(),
-                    .field = field_status(),
-                    .bins = volumes_ ? shape_.cells.count() : 0,
-                    .camera = settings_.camera,
-                    .kernel = kernel_name()};
-    if (state.allocated)
+    return {.slot = slot(),
+            .width = settings_.width,
+            .height = settings_.height,
+            .pixels = {},
+            .passes = state.passes,
+            .counters = state.counters,
+            .clocks = clocks(),
+            .field = field_status(),
+            .bins = volumes_ ? shape_.cells.count() : 0,
+            .camera = settings_.camera,
+            .kernel = kernel_name()};
+}
+
+Snapshot Session::snapshot() const {
+    Snapshot result = summary();
+    if (film().allocated)
         result.pixels = backend_->read_film(slot()).mean;
     else
         result.pixels.assign(static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height),
                              Vec3f{0.0f});
     return result;
+}
+
+ShownFilm Session::show_film(const DisplaySettings& display) {
+    ensure_film(slot());
+    const View view = settings_.view;
+    const int bins = volumes_ ? shape_.cells.count() : 0;
+    const ShownRange range = shown_range(view, bins, ends_at_largest(view) ? backend_->largest_value(slot()) : 0.0f);
+    return {backend_->show_film(slot(), frame_style(view, display, range)), range};
 }
 
 VolumeInspection Session::inspect_volume(std::int32_t volume) const {

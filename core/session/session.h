@@ -8,7 +8,7 @@
 #include "core/session/backend.h"
 #include "core/session/edits.h"
 #include "core/session/learned_field.h"
-#include "core/session/snapshot.h"
+#include "core/session/shown_range.h"
 
 namespace pl {
 
@@ -17,6 +17,12 @@ enum class Progress {
     Precomputed,  ///< a slice of the radiance map; the picture has not changed
     Rendered,     ///< one more sample per pixel
     Stopped,      ///< the stop flag was seen; the next call goes on where this one ended
+};
+
+/// A film on its way to a window, and what its darkest and lightest colors stand for.
+struct ShownFilm {
+    DisplayFrame frame;
+    ShownRange range;
 };
 
 class Session {
@@ -35,6 +41,10 @@ public:
 
     /// Copy of the current film and all statistics.
     Snapshot snapshot() const;
+    /// The same without the pixels: costs nothing.
+    Snapshot summary() const;
+    /// The current film as a window shows it.
+    ShownFilm show_film(const DisplaySettings& display);
 
     /// What the current method learned at a volume. Throws Error(Usage) if it learns nothing.
     VolumeInspection inspect_volume(std::int32_t volume) const;

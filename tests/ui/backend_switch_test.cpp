@@ -105,6 +105,7 @@ TEST_CASE("Back-end switch: a camera that moved meanwhile empties the parked pic
     Bench bench;
     bench.control->pass_microseconds = 500;
     RenderWorker worker(bench.setup());
+    worker.set_values_wanted(true);
     REQUIRE(eventually([&] { return worker.status().passes >= 10; }));
     REQUIRE(frame_of(worker, worker.switch_backend("cuda")));
     REQUIRE(frame_of(worker, worker.submit(EditCamera{camera_at(2.0f)})));
