@@ -61,6 +61,12 @@ struct WorkerMessage {
     std::string text;
 };
 
+/// Answer to RenderWorker::request_learned.
+struct LearnedAnswer {
+    std::shared_ptr<const LearnedField> field;  ///< null if there is none
+    std::string reason;                         ///< why there is none
+};
+
 /// Answer to RenderWorker::request_pick.
 struct PickAnswer {
     std::optional<PickedPoint> point;

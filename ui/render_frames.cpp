@@ -71,6 +71,19 @@ void RenderWorker::answer_pick(Vec2f image_point) {
     now_.pick.reset();
 }
 
+void RenderWorker::answer_learned() {
+    LearnedAnswer answer;
+    try {
+        answer.field = std::make_shared<const LearnedField>(session_->export_field());
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Usage) throw;
+        answer.reason = error.what();
+    }
+    const std::lock_guard lock(mutex_);
+    learned_answer_ = std::move(answer);
+    now_.learned = false;
+}
+
 void RenderWorker::refresh_inspection() {
     const std::int32_t shown = inspection_ ? inspection_->volume : kNoVolume;
     const bool aged = now_seconds() - inspected_at_ > kInspectionSeconds;

@@ -18,7 +18,7 @@ void yield_to_the_window() {
 /// Does the edit change which volume a pixel shows?
 bool changes_pose(const SessionEdit& edit) {
     return std::holds_alternative<EditCamera>(edit) || std::holds_alternative<EditScene>(edit) ||
-           std::holds_alternative<EditField>(edit);
+           std::holds_alternative<EditField>(edit) || std::holds_alternative<EditLearned>(edit);
 }
 
 }  // namespace
@@ -63,6 +63,7 @@ bool RenderWorker::take_wishes() {
         if (wishes_.quit) return false;
         edits = edits_.take();
         wishes_.pick.reset();
+        wishes_.learned = false;
         wishes_.steps = 0;
         stop_ = false;
     }
@@ -79,7 +80,7 @@ bool RenderWorker::take_wishes() {
 }
 
 bool RenderWorker::has_work() const {
-    if (now_.pick || now_.backend != backends_.current()) return true;
+    if (now_.pick || now_.learned || now_.backend != backends_.current()) return true;
     if (frame_is_stale()) return true;
     if (failed_) return false;
     const bool size_is_stale = divider_ != 1 && !coarse();
@@ -193,6 +194,7 @@ void RenderWorker::work() {
         publish();
     }
     if (now_.pick) answer_pick(*now_.pick);
+    if (now_.learned) answer_learned();
     if (wants_pass()) render();
     if (stop_) return;
     if (now_.cells && cells_pose_ != pose_ && session_->passes() > 0) render_cells();

@@ -119,6 +119,12 @@ void RenderWorker::request_pick(Vec2f image_point) {
     wake_.notify_all();
 }
 
+void RenderWorker::request_learned() {
+    const std::lock_guard lock(mutex_);
+    wishes_.learned = true;
+    wake_.notify_all();
+}
+
 void RenderWorker::select_volume(std::int32_t volume) {
     const std::lock_guard lock(mutex_);
     wishes_.volume = volume;
@@ -144,6 +150,11 @@ std::vector<WorkerMessage> RenderWorker::take_messages() {
 std::optional<PickAnswer> RenderWorker::take_pick() {
     const std::lock_guard lock(mutex_);
     return std::exchange(pick_answer_, std::nullopt);
+}
+
+std::optional<LearnedAnswer> RenderWorker::take_learned() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(learned_answer_, std::nullopt);
 }
 
 std::exception_ptr RenderWorker::failure() const {

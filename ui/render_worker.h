@@ -58,6 +58,8 @@ public:
     void set_cells_wanted(bool wanted);
     /// Asks for the surface under a point of the image, in [0,1)^2 from the top left.
     void request_pick(Vec2f image_point);
+    /// Asks for what the method has learned, after the pass under way.
+    void request_learned();
     /// The volume whose inspection frames carry; kNoVolume for none.
     void select_volume(std::int32_t volume);
 
@@ -67,6 +69,7 @@ public:
     WorkerStatus status() const;
     std::vector<WorkerMessage> take_messages();
     std::optional<PickAnswer> take_pick();
+    std::optional<LearnedAnswer> take_learned();
     /// What ended the thread, or null. Only a session that cannot be made ends it.
     std::exception_ptr failure() const;
 
@@ -84,6 +87,7 @@ private:
         SampleLimits limits;
         std::int32_t volume = kNoVolume;
         std::optional<Vec2f> pick;
+        bool learned = false;
         std::string backend;
         std::uint64_t generation = 0;
     };
@@ -105,6 +109,7 @@ private:
     void render();
     void render_cells();
     void answer_pick(Vec2f image_point);
+    void answer_learned();
     void refresh_inspection();
     void publish();
     bool publish_is_due() const;
@@ -125,6 +130,7 @@ private:
     WorkerStatus status_;
     std::vector<WorkerMessage> messages_;
     std::optional<PickAnswer> pick_answer_;
+    std::optional<LearnedAnswer> learned_answer_;
     std::shared_ptr<const PublishedFrame> frame_;
     bool frame_taken_ = true;
     bool pass_may_be_cut_ = false;  ///< the pass under way is one at rest: a new camera stops it

@@ -26,6 +26,7 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       limits_(options.limits), controls_(settings.camera, bounds_of(*scene).diagonal()),
       worker_({options.make_backend, options.backends, options.first_backend, scene, settings, options.limits,
                load_seconds, options.display}) {
+    if (options.field) worker_.submit(EditLearned{options.field});
     status_ = worker_.status();
     for (const std::string& warning : scene->warnings) say(LogLevel::Warning, warning);
     note(LogLevel::Info, fmt::format("opened {}: {} triangles", scene_name_, scene->triangles.size()));
@@ -43,6 +44,7 @@ void ViewerModel::update(double seconds) {
     for (const WorkerMessage& message : worker_.take_messages())
         say(message.is_error ? LogLevel::Error : LogLevel::Info, message.text);
     take_pick();
+    take_learned();
     for (const JobThread::Report& report : jobs_.take_reports())
         if (report) report();
     std::erase_if(toasts_, [&](const Toast& toast) { return toast.until <= now_; });

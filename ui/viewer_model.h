@@ -51,6 +51,9 @@ struct WindowState {
     bool volume_tab_asked = false;  ///< bring it to the front
 };
 
+/// Of learned fields that the viewer saves.
+inline constexpr std::string_view kFieldSuffix = ".field";
+
 class ViewerModel {
 public:
     /// `settings` hold the final size and camera.
@@ -132,7 +135,12 @@ public:
     void deselect();
 
     void reload();
-    void open(const std::string& scene);
+    /// A scene, or a learned field of the scene that is open: a file that ends in kFieldSuffix.
+    void open(const std::string& file);
+    void save_field();
+    void load_field(const std::filesystem::path& path);
+    /// The newest one that was saved of this scene.
+    void load_last_field();
     void save_screenshot();
     void save_picture();
     /// What the window shows; read by the window, because only it can.
@@ -152,6 +160,10 @@ private:
     void start_loading(const std::string& name, bool keep_camera);
     void save(std::initializer_list<const char*> suffixes);
     void write_unsaved();
+    void take_learned();
+    void adopt_field(const std::shared_ptr<LearnedField>& field, const std::filesystem::path& path);
+    std::string file_stem() const;
+    void push_job(std::function<JobThread::Report()> job);
     void take_frame();
     void select(std::int32_t volume);
 

@@ -32,7 +32,8 @@ public:
             const RenderSettings& settings, double load_seconds = 0.0);
 
     /// Applies a change and clears what invalidated_by() says. Throws Error if a back end fails; if it is the new one
-    /// of EditBackend, the session stays with the old one, unchanged.
+    /// of EditBackend, the session stays with the old one, unchanged, and the new one has to be given everything anew
+    /// when it is tried again. EditLearned throws as import_field() does.
     void apply(const SessionEdit& edit);
 
     /// Does the next piece of work: a slice of precomputation if the method still needs it, else one sample for
