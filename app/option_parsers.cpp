@@ -14,13 +14,28 @@
 namespace pl {
 namespace {
 
-struct CurveName {
-    ToneCurve curve;
+constexpr std::array<std::string_view, 3> kLookups{"kdtree", "linear", "grid"};  // by number
+
+/// A value and its word.
+template <class Value>
+struct Named {
+    Value value;
     std::string_view name;
 };
-constexpr std::array kCurves{CurveName{ToneCurve::Clamp, "clamp"}, CurveName{ToneCurve::Reinhard, "reinhard"},
-                             CurveName{ToneCurve::Aces, "aces"}};
-constexpr std::array<std::string_view, 3> kLookups{"kdtree", "linear", "grid"};  // by number
+constexpr std::array kCurves{Named<ToneCurve>{ToneCurve::Clamp, "clamp"},
+                             Named<ToneCurve>{ToneCurve::Reinhard, "reinhard"},
+                             Named<ToneCurve>{ToneCurve::Aces, "aces"}};
+constexpr std::array kRates{
+    Named<LearningRate>{LearningRate::SampleMean, "mean"}, Named<LearningRate>{LearningRate::Forgetful, "forgetful"},
+    Named<LearningRate>{LearningRate::Power, "power"}, Named<LearningRate>{LearningRate::Floor, "floor"}};
+constexpr std::array kTargets{Named<LearningTarget>{LearningTarget::ExpectedSarsa, "expected-sarsa"},
+                              Named<LearningTarget>{LearningTarget::Sarsa, "sarsa"},
+                              Named<LearningTarget>{LearningTarget::MonteCarlo, "monte-carlo"}};
+constexpr std::array kLights{Named<LearnedLight>{LearnedLight::All, "all"},
+                             Named<LearnedLight>{LearnedLight::Indirect, "indirect"}};
+constexpr std::array kRoulettes{Named<RouletteRule>{RouletteRule::Spare, "spare"},
+                                Named<RouletteRule>{RouletteRule::Albedo, "albedo"},
+                                Named<RouletteRule>{RouletteRule::Field, "field"}};
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
 
 /// "a, b or c"
@@ -41,6 +56,24 @@ std::vector<std::string> names_in(const Range& range, Name name) {
 [[noreturn]] void fail_choice(const std::vector<std::string>& names, const std::string& got) {
     throw Error(ErrorKind::Usage,
                 fmt::format("expected {}, got '{}' (nearest: '{}')", one_of(names), got, nearest_name(got, names)));
+}
+
+template <class Value, std::size_t kCount>
+void parse_named(Value& value, const std::array<Named<Value>, kCount>& names, const std::string& text) {
+    for (const Named<Value>& known : names) {
+        if (known.name == text) {
+            value = known.value;
+            return;
+        }
+    }
+    fail_choice(names_in(names, [](const Named<Value>& known) { return known.name; }), text);
+}
+
+template <class Value, std::size_t kCount>
+std::string_view name_in(const std::array<Named<Value>, kCount>& names, Value value) {
+    for (const Named<Value>& known : names)
+        if (known.value == value) return known.name;
+    return "";
 }
 
 std::vector<std::string> method_names() {
@@ -72,13 +105,7 @@ void parse_backend(Options& options, const std::string& text) {
 }
 
 void parse_tone_curve(Options& options, const std::string& text) {
-    for (const CurveName& known : kCurves) {
-        if (known.name == text) {
-            options.display.curve = known.curve;
-            return;
-        }
-    }
-    fail_choice(names_in(kCurves, [](const CurveName& known) { return known.name; }), text);
+    parse_named(options.display.curve, kCurves, text);
 }
 
 void parse_bins(Options& options, const std::string& text) {
@@ -133,6 +160,19 @@ void parse_lookup(Options& options, const std::string& text) {
     options.render.field.lookup = static_cast<Lookup>(found - kLookups.begin());
 }
 
+void parse_learning_rate(Options& options, const std::string& text) {
+    parse_named(options.render.field.rate, kRates, text);
+}
+void parse_learn_target(Options& options, const std::string& text) {
+    parse_named(options.render.field.learning.target, kTargets, text);
+}
+void parse_learn_from(Options& options, const std::string& text) {
+    parse_named(options.render.field.learning.light, kLights, text);
+}
+void parse_roulette(Options& options, const std::string& text) {
+    parse_named(options.render.roulette, kRoulettes, text);
+}
+
 void parse_knobs(Options& options, const std::string& text) {
     for (std::size_t start = 0; start <= text.size();) {
         const std::size_t end = std::min(text.find(',', start), text.size());
@@ -178,7 +218,12 @@ std::string print_knobs(const Options& options) {
     return text;
 }
 
-std::string_view tone_curve_name(ToneCurve curve) { return kCurves[static_cast<std::size_t>(curve)].name; }
+std::string_view tone_curve_name(ToneCurve curve) { return name_in(kCurves, curve); }
+
+std::string_view name_of(LearningRate rate) { return name_in(kRates, rate); }
+std::string_view name_of(LearningTarget target) { return name_in(kTargets, target); }
+std::string_view name_of(LearnedLight light) { return name_in(kLights, light); }
+std::string_view name_of(RouletteRule rule) { return name_in(kRoulettes, rule); }
 
 std::string_view lookup_name(Lookup lookup) { return kLookups[static_cast<std::size_t>(lookup)]; }
 

@@ -24,6 +24,10 @@ void parse_time_limit(Options& options, const std::string& text);
 void parse_window(Options& options, const std::string& text);
 void parse_picture_size(Options& options, const std::string& text);
 void parse_lookup(Options& options, const std::string& text);
+void parse_learning_rate(Options& options, const std::string& text);
+void parse_learn_target(Options& options, const std::string& text);
+void parse_learn_from(Options& options, const std::string& text);
+void parse_roulette(Options& options, const std::string& text);
 /// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
 void parse_knobs(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
@@ -35,5 +39,9 @@ std::string field_method_choices();
 std::string print_knobs(const Options& options);
 std::string_view tone_curve_name(ToneCurve curve);
 std::string_view lookup_name(Lookup lookup);
+std::string_view name_of(LearningRate rate);
+std::string_view name_of(LearningTarget target);
+std::string_view name_of(LearnedLight light);
+std::string_view name_of(RouletteRule rule);
 
 }  // namespace pl

@@ -116,6 +116,11 @@ const auto kTable = std::to_array<OptionSpec>({
      .commands = kWithScene, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.render.next_event = parse_switch(text); },
      .print = [](const Options& o) { return std::string(o.render.next_event ? "on" : "off"); }},
+    {.name = "roulette", .flags = "--roulette", .value = "NAME", .group = kPicture,
+     .help = "What ends paths early: spare (default): the reflectances, but what is learned may spare a path; albedo: the "
+             "reflectances alone; field: what is learned alone",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_roulette,
+     .print = [](const Options& o) { return std::string(name_of(o.render.roulette)); }},
     {.name = "knob", .flags = "--knob", .value = "NAME=VALUE", .group = kPicture,
      .help = "Turn a knob of the scene; may be given several times ('info' lists them)",
      .commands = kWithScene, .repeatable = true, .parse = parse_knobs, .print = print_knobs},
@@ -181,6 +186,21 @@ const auto kTable = std::to_array<OptionSpec>({
              "finds its own, precomputed takes 0.5",
      .commands = kSampling, .in_scene_files = true, .parse = parse_bsdf_fraction,
      .print = [](const Options& o) { return print_bsdf_fraction(o.render.mixture); }},
+    {.name = "learning-rate", .flags = "--learning-rate", .value = "NAME", .group = kField,
+     .help = "How far a new record moves what is learned: forgetful (default, lets go of the early ones), mean "
+             "(1/(1+visits)), power (n^-0.7), or floor (mean, but always 0.05 at least)",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_learning_rate,
+     .print = [](const Options& o) { return std::string(name_of(o.render.field.rate)); }},
+    {.name = "learn-target", .flags = "--learn-target", .value = "NAME", .group = kField,
+     .help = "What reinforcement records: expected-sarsa (default, the mean over the next direction), sarsa (the next "
+             "direction that was drawn), or monte-carlo (the light that the path brought)",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_learn_target,
+     .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.target)); }},
+    {.name = "learn-from", .flags = "--learn-from", .value = "NAME", .group = kField,
+     .help = "With next-event estimation, what reinforcement records: all light (default), or indirect: only what light "
+             "samples do not bring",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_learn_from,
+     .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.light)); }},
     {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,
      .help = "How the volume of a point is found: grid (default), kdtree, or linear, which is slow; all find the same",
      .commands = kSampling, .parse = parse_lookup,

@@ -17,11 +17,20 @@
 namespace pl {
 namespace {
 
-const PassKernels<PicturePass>& picture_kernels(MethodId method) {
-    switch (method) {
+const PassKernels<PicturePass>& learning_kernels(LearningKernel kernel) {
+    switch (kernel) {
+    case LearningKernel::Immediate: break;
+    case LearningKernel::Late: return kSarsaKernels;
+    case LearningKernel::WholePath: return kMonteCarloKernels;
+    }
+    return kReinforcementKernels;
+}
+
+const PassKernels<PicturePass>& picture_kernels(const PassRequest& request) {
+    switch (request.slot.method) {
     case MethodId::Default: return kDefaultKernels;
     case MethodId::Precomputed: return kPrecomputedKernels;
-    case MethodId::Reinforcement: return kReinforcementKernels;
+    case MethodId::Reinforcement: return learning_kernels(kernel_for(request.learning, request.path.next_event != 0));
     }
     throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
 }
@@ -72,11 +81,12 @@ public:
         if (request.slot.view != View::Beauty) return run_view(setup, request);
         const MethodId method = request.slot.method;
         const FieldView field = info_of(method).uses_field ? learned_field(method) : FieldView{};
-        return launch(picture_kernels(method), request.features,
+        return launch(picture_kernels(request), request.features,
                       PicturePass{.setup = setup,
                                   .tracer = *tracer_,
                                   .field = field,
                                   .mixture = request.mixture,
+                                  .learning = request.learning,
                                   .camera = request.camera,
                                   .sample = request.sample,
                                   .film = films_.view(request.slot)});

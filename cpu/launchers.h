@@ -5,8 +5,10 @@
 
 #include "core/base/kernel_row.h"
 #include "core/kernel/methods/default.h"
+#include "core/kernel/methods/monte_carlo.h"
 #include "core/kernel/methods/precomputed.h"
 #include "core/kernel/methods/reinforcement.h"
+#include "core/kernel/methods/sarsa.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/path_work.h"
 #include "cpu/run_paths.h"
@@ -19,6 +21,7 @@ struct PicturePass {
     const BatchTracer& tracer;
     FieldView field;
     MixtureSettings mixture{};
+    LearningSettings learning{};
     PinholeCamera camera;
     std::uint32_t sample = 0;
     FilmView film;
@@ -40,6 +43,8 @@ using PassKernels = KernelRow<PassCounters (*)(const Pass&)>;
 extern const PassKernels<PicturePass> kDefaultKernels;
 extern const PassKernels<PicturePass> kPrecomputedKernels;
 extern const PassKernels<PicturePass> kReinforcementKernels;
+extern const PassKernels<PicturePass> kSarsaKernels;
+extern const PassKernels<PicturePass> kMonteCarloKernels;
 extern const PassKernels<ProbePass> kProbeKernels;
 
 template <FeatureSet F, Method M>
@@ -49,6 +54,7 @@ PassCounters run_picture_pass(const PicturePass& pass) {
         method.field = pass.field;
         method.mixture = pass.mixture;
     }
+    if constexpr (FollowingMethod<M>) method.learning = pass.learning;
     const PictureWork<M> work{pass.camera, pass.sample, pass.film};
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }

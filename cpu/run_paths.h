@@ -95,7 +95,8 @@ private:
     void connect() {
         intersector_.find_occluded(shadow_rays_, shadow_count_);
         for (std::uint32_t i = 0; i < shadow_count_; ++i)
-            if (!shadow_rays_.occluded(i)) connect_light(shadows_[i], states_[shadow_paths_[i]]);
+            if (!shadow_rays_.occluded(i))
+                connect_light(method_, shadows_[i], states_[shadow_paths_[i]], counters_.path);
         counters_.path.shadow_rays += shadow_count_;
     }
 
@@ -106,6 +107,7 @@ private:
                 prepare(i++);
                 continue;
             }
+            end_path(method_, states_[i], counters_.path);
             finish(states_[i]);
             if (start(source, i)) {
                 ++i;

@@ -167,12 +167,22 @@ void CudaBackend::launch_picture(const PassRequest& request, PathRange range, co
         method.mixture = request.mixture;
         launch_paths(row, request.features, request.path, range, method, pixels);
     };
+    const auto following = [&](const auto& row, auto method) {
+        method.learning = request.learning;
+        guided(row, method);
+    };
     switch (request.slot.method) {
     case MethodId::Default:
         launch_paths(kDefaultKernels, request.features, request.path, range, DefaultMethod{}, pixels);
         break;
     case MethodId::Precomputed: guided(kPrecomputedKernels, PrecomputedMethod{}); break;
-    case MethodId::Reinforcement: guided(kReinforcementKernels, ReinforcementMethod{}); break;
+    case MethodId::Reinforcement:
+        switch (kernel_for(request.learning, request.path.next_event != 0)) {
+        case LearningKernel::Immediate: guided(kReinforcementKernels, ReinforcementMethod{}); break;
+        case LearningKernel::Late: following(kSarsaKernels, SarsaMethod{}); break;
+        case LearningKernel::WholePath: following(kMonteCarloKernels, MonteCarloMethod{}); break;
+        }
+        break;
     }
 }
 

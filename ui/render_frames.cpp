@@ -113,8 +113,7 @@ void RenderWorker::publish() {
     // Until the first pass is there the window keeps the picture it has.
     if (session_->passes() == 0) return;
     republish_ = false;
-    published_display_ = now_.display;
-    published_values_ = now_.values;
+    settle_frame_wish();
     auto frame = std::make_shared<PublishedFrame>();
     ShownFilm shown = session_->show_film(now_.display);
     frame->picture = std::move(shown.frame);

@@ -190,6 +190,7 @@ void RenderWorker::apply_size(int divider) {
 void RenderWorker::work() {
     apply_size(coarse() ? motion_.divider_for(full_width_, full_height_) : 1);
     if ((republish_ || frame_is_stale()) && session_->passes() > 0) {  // a parked picture is there at once
+        settle_frame_wish();
         refresh_inspection();
         publish();
     }
@@ -200,6 +201,12 @@ void RenderWorker::work() {
     if (now_.cells && cells_pose_ != pose_ && session_->passes() > 0) render_cells();
     refresh_inspection();
     if (republish_ || publish_is_due()) publish();
+}
+
+/// Before the frame is made: one that fails is told once, not for ever.
+void RenderWorker::settle_frame_wish() {
+    published_display_ = now_.display;
+    published_values_ = now_.values;
 }
 
 /// Is what was published not what the window wants to see of the same picture?

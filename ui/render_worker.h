@@ -114,6 +114,7 @@ private:
     void publish();
     bool publish_is_due() const;
     bool frame_is_stale() const;
+    void settle_frame_wish();
     bool limit_reached() const;
     bool coarse() const;
     bool wants_pass() const;

@@ -148,7 +148,7 @@ void ViewerModel::next_backend() {
 void ViewerModel::set_next_event(bool on) {
     if (on == settings_.next_event) return;
     settings_.next_event = on;
-    worker_.submit(EditEstimator{settings_.max_depth, on});
+    submit_estimator();
     note(LogLevel::Info, on ? "next-event estimation on: pictures and tables start over"
                             : "next-event estimation off: pictures and tables start over");
 }
@@ -156,7 +156,17 @@ void ViewerModel::set_next_event(bool on) {
 void ViewerModel::set_max_depth(int depth) {
     if (depth == settings_.max_depth || depth < 1) return;
     settings_.max_depth = depth;
-    worker_.submit(EditEstimator{depth, settings_.next_event});
+    submit_estimator();
+}
+
+void ViewerModel::set_roulette(RouletteRule rule) {
+    if (rule == settings_.roulette) return;
+    settings_.roulette = rule;
+    submit_estimator();
+}
+
+void ViewerModel::submit_estimator() {
+    worker_.submit(EditEstimator{settings_.max_depth, settings_.next_event, settings_.roulette});
 }
 
 void ViewerModel::set_seed(std::uint64_t seed) {

@@ -107,6 +107,7 @@ public:
     void next_backend();
     void set_next_event(bool on);
     void set_max_depth(int depth);
+    void set_roulette(RouletteRule rule);
     void set_seed(std::uint64_t seed);
     void set_mixture(MixtureSettings mixture);
     void set_field(const FieldSettings& field);
@@ -154,6 +155,7 @@ private:
     RenderSettings asked_settings() const;
     void touch_motion();
     void submit_camera();
+    void submit_estimator();
     void take_pick();
     void measure_throughput();
     void adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name, bool keep_camera);

@@ -122,7 +122,9 @@ FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volume
             .pending_count = view_of(tables.pending_count),
             .pending_slope = view_of(tables.pending_slope),
             .pending_curvature = view_of(tables.pending_curvature),
-            .radiance_unit = shape.radiance_unit};
+            .radiance_unit = shape.radiance_unit,
+            .radiance = view_of(frozen.radiance),
+            .visits = view_of(frozen.visits)};
 }
 
 /// What publication writes between passes.

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/fields/field_storage.h"
+#include "core/kernel/methods/learning_target.h"
 #include "core/scene/scene_storage.h"
 
 namespace pl {
@@ -13,6 +14,7 @@ struct FieldSettings {
     double budget_megabytes = 16.0;  ///< of 10^6 bytes, all that grows with the volumes of one method
     int bins = 256;                  ///< directions per volume, a square number from 4 to 1024
     LearningRate rate = LearningRate::Forgetful;
+    LearningSettings learning{};
     float uniform_floor = 0.05f;
     int precompute_samples = 16;  ///< paths per cell and volume, a square number
     Lookup lookup = Lookup::Grid;

@@ -20,10 +20,10 @@ namespace {
 constexpr const char* kSchema = "pathlight.scene/1";
 
 /// Options that a scene may preset: what decides the picture, not where it goes or what is printed.
-const std::vector<std::string> kSettings = {"method",       "view",         "backend",   "threads",      "spp",
-                                            "time-limit",   "target-error", "width",     "height",       "size",
-                                            "seed",         "nee",          "max-depth", "exposure",     "tonemap",
-                                            "field-budget", "volumes",      "bins",      "bsdf-fraction"};
+const std::vector<std::string> kSettings = {
+    "method",  "view", "backend",       "threads",       "spp",          "time-limit", "target-error", "width",
+    "height",  "size", "seed",          "nee",           "max-depth",    "exposure",   "tonemap",      "field-budget",
+    "volumes", "bins", "bsdf-fraction", "learning-rate", "learn-target", "learn-from", "roulette"};
 
 void read_camera(const JsonDocument& file, SceneDescription& scene) {
     const bool given =

@@ -11,6 +11,7 @@
 #include "core/fields/field_storage.h"
 #include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/integrator/path.h"
+#include "core/kernel/methods/learning_target.h"
 #include "core/kernel/scene/camera.h"
 #include "core/scene/scene_storage.h"
 #include "core/session/methods.h"
@@ -46,6 +47,7 @@ struct PassRequest {
     PathSettings path;
     PinholeCamera camera;
     MixtureSettings mixture{};
+    LearningSettings learning{};
     std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel
     std::uint32_t first_pixel = 0;
     const StopFlag* stop = nullptr;

@@ -30,6 +30,7 @@ struct EditSeed {
 struct EditEstimator {
     int max_depth;
     bool next_event;
+    RouletteRule roulette = RouletteRule::Spare;
 };  ///< what paths may do
 struct EditMixture {
     MixtureSettings mixture;

@@ -29,6 +29,7 @@ struct Assign {
     void operator()(const EditEstimator& edit) const {
         settings.max_depth = edit.max_depth;
         settings.next_event = edit.next_event;
+        settings.roulette = edit.roulette;
     }
     void operator()(const EditMixture& edit) const { settings.mixture = edit.mixture; }
     void operator()(const EditField& edit) const { settings.field = edit.field; }
@@ -42,6 +43,9 @@ struct Assign {
 /// Paths guided by what was learned know what they are still worth, and soon end at a light: they play roulette only
 /// when little is left, so that few of them end without having found any. Others play for every loss.
 constexpr float kGuidedRouletteThreshold = 0.01f;
+/// Where what is learned decides alone: the lower end of a window of weights whose ends differ by a factor of 5, around 1.
+/// [Vorba and Krivanek 2016, section 4]
+constexpr float kFieldRouletteThreshold = 2.0f / (1.0f + 5.0f);
 
 /// Do the sizes of all arrays agree?
 bool fits_together(const LearnedField& field) {
@@ -160,9 +164,12 @@ std::string Session::kernel_name() const {
 }
 
 PathSettings Session::path_settings() const {
+    const float guided =
+        settings_.roulette == RouletteRule::Field ? kFieldRouletteThreshold : kGuidedRouletteThreshold;
     return {.seed = settings_.seed,
             .max_depth = static_cast<std::uint32_t>(settings_.max_depth),
-            .roulette_threshold = info_of(settings_.method).uses_field ? kGuidedRouletteThreshold : 1.0f,
+            .roulette_threshold = info_of(settings_.method).uses_field ? guided : 1.0f,
+            .roulette = settings_.roulette,
             .next_event = settings_.next_event ? 1u : 0u};
 }
 
@@ -231,6 +238,7 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
                             .path = path_settings(),
                             .camera = make_camera(settings_.camera, settings_.width, settings_.height),
                             .mixture = mixture_of(target.method),
+                            .learning = settings_.field.learning,
                             .sample = sample,
                             .first_pixel = state.next_pixel,
                             .stop = stop});

@@ -6,6 +6,7 @@
 #include "core/fields/make_field.h"
 #include "core/kernel/film/tonemap.h"
 #include "core/kernel/inspect/views.h"
+#include "core/kernel/integrator/path.h"
 #include "core/scene/description.h"
 #include "core/session/methods.h"
 
@@ -21,6 +22,7 @@ struct RenderSettings {
     std::uint64_t seed = 1;
     int max_depth = 64;
     bool next_event = false;
+    RouletteRule roulette = RouletteRule::Spare;
     MixtureSettings mixture{};
     FieldSettings field;
 };

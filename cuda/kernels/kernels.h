@@ -6,8 +6,10 @@
 #include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/kernel/integrator/probe.h"
+#include "core/kernel/methods/monte_carlo.h"
 #include "core/kernel/methods/precomputed.h"
 #include "core/kernel/methods/reinforcement.h"
+#include "core/kernel/methods/sarsa.h"
 
 namespace pl::cuda {
 
@@ -61,6 +63,8 @@ using ViewKernel = void (*)(ViewSetup);
 extern const KernelRow<PictureKernel<DefaultMethod>> kDefaultKernels;
 extern const KernelRow<PictureKernel<PrecomputedMethod>> kPrecomputedKernels;
 extern const KernelRow<PictureKernel<ReinforcementMethod>> kReinforcementKernels;
+extern const KernelRow<PictureKernel<SarsaMethod>> kSarsaKernels;
+extern const KernelRow<PictureKernel<MonteCarloMethod>> kMonteCarloKernels;
 extern const KernelRow<ProbeKernel> kProbeKernels;
 extern const KernelRow<ViewKernel> kViewKernels;
 

@@ -8,6 +8,7 @@
 #include "tests/session/same_bits.h"
 #include "tests/session/small_settings.h"
 #include "tests/statistical/shipped_scenes.h"
+#include "tests/statistical/variants.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -48,6 +49,17 @@ TEST_CASE("Every method gives the bits of the CPU back end") {
         }
     }
     CHECK(shim::live_objects() == 0);
+}
+
+TEST_CASE("Every target, rate and rule of roulette gives the bits of the CPU back end") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    for (const Variant& variant : kVariants) {
+        INFO(variant.name);
+        const RenderSettings settings =
+            variant.of(small_settings(scene, {MethodId::Reinforcement, variant.next_event}));
+        CHECK(same_state(render(make_cuda_session(scene, settings)), render(make_session(scene, settings))));
+    }
 }
 
 TEST_CASE("Every view gives the bits of the CPU back end") {

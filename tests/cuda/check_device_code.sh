@@ -18,7 +18,7 @@ compile() {
         -arch=sm_90 -cubin -Xptxas -v --keep --keep-dir "$work" -o "$work/$1.cubin" "$root/cuda/kernels/$1.cu" \
         2>"$work/$1.log" || { cat "$work/$1.log"; exit 1; }
 }
-files=(default precomputed reinforcement probes views film publish)
+files=(default precomputed reinforcement sarsa monte_carlo probes views film publish)
 for file in "${files[@]}"; do compile "$file"; done
 
 failures=0
@@ -37,7 +37,7 @@ count() { kernel "$1" "$2" | grep -cE -- "$3" || true; }
 for file in "${files[@]}"; do
     expect "fused multiply-adds in $file" "$(grep -c 'fma\.' "$work/$file.ptx" || true)" -eq 0
 done
-for file in default precomputed reinforcement probes; do
+for file in default precomputed reinforcement sarsa monte_carlo probes; do
     # Sets 0: nothing, 3: smooth normals and environment, 4: light samples, 7: all. Philox' key schedule and its first
     # multiplier show how many draws there are; doubles how many traversals.
     size=() draws=() doubles=()

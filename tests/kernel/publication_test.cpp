@@ -35,8 +35,18 @@ void add_records(TestField& field, std::uint32_t cell, std::uint32_t count, floa
 }
 
 double exact_step(double visits, double fresh, LearningRate rate) {
-    return 1.0 - std::pow(visits / (visits + fresh), static_cast<double>(rate));
+    const double share = fresh / (visits + fresh);
+    switch (rate) {
+    case LearningRate::SampleMean: return share;
+    case LearningRate::Power: return std::pow(share, 0.7);
+    case LearningRate::Floor: return std::max(share, static_cast<double>(kLeastStep));
+    case LearningRate::Forgetful: break;
+    }
+    return 1.0 - std::pow(visits / (visits + fresh), 4.0);
 }
+
+constexpr LearningRate kRates[] = {LearningRate::SampleMean, LearningRate::Power, LearningRate::Floor,
+                                   LearningRate::Forgetful};
 
 }  // namespace
 
@@ -81,7 +91,7 @@ TEST_CASE("The order of records does not matter") {
 }
 
 TEST_CASE("Learning rates are exact from the first visit to the last") {
-    for (const LearningRate rate : {LearningRate::SampleMean, LearningRate::Forgetful}) {
+    for (const LearningRate rate : kRates) {
         CHECK(learning_step(0, 1, rate) == 1.0f);
         CHECK(learning_step(0, 1000, rate) == 1.0f);
         for (const std::uint32_t visits : {1u, 2u, 9u, 100u, 10000u, 1000000u, 16777216u, 4000000000u})
@@ -91,9 +101,28 @@ TEST_CASE("Learning rates are exact from the first visit to the last") {
                 const double step = static_cast<double>(learning_step(visits, fresh, rate));
                 REQUIRE(step > 0.0);
                 REQUIRE(step <= 1.0);
-                REQUIRE(std::fabs(step / exact - 1.0) <= 1e-6);  // about 10 roundoffs
+                // About 10 roundoffs; of a power, those of a logarithm of up to 22 besides.
+                REQUIRE(std::fabs(step / exact - 1.0) <= (rate == LearningRate::Power ? 4e-6 : 1e-6));
             }
     }
+}
+
+// A target that jumps from 1 to 2 after many visits: what each rate has left of the jump after 40 more publications.
+TEST_CASE("Rates differ in how they follow what changes") {
+    const auto left = [](LearningRate rate) {
+        TestField field(4);
+        field.shape.rate = rate;
+        for (int pass = 0; pass < 240; ++pass) {
+            add_records(field, 3, 2, pass < 200 ? 1.0f : 2.0f);
+            field.publish();
+        }
+        return 2.0f - field.tables.radiance[3];
+    };
+    CHECK(left(LearningRate::SampleMean) == Approx(200.0 / 240.0).epsilon(1e-3));
+    CHECK(left(LearningRate::Forgetful) == Approx(std::pow(200.0 / 240.0, 4.0)).epsilon(1e-3));
+    CHECK(left(LearningRate::Floor) == Approx(std::pow(0.95, 40.0)).epsilon(1e-3));
+    CHECK(left(LearningRate::Power) < left(LearningRate::Forgetful));
+    CHECK(left(LearningRate::Power) > left(LearningRate::Floor));
 }
 
 TEST_CASE("Ten updates give the rational mean") {

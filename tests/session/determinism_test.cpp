@@ -8,6 +8,7 @@
 #include "tests/session/same_bits.h"
 #include "tests/session/small_settings.h"
 #include "tests/statistical/shipped_scenes.h"
+#include "tests/statistical/variants.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -32,6 +33,27 @@ TEST_CASE("Threads and batches do not change a bit of films, tables and counters
         CHECK(same_state(one, render(scene, settings, {.threads = 7})));
         CHECK(same_state(one, render(scene, settings, {.threads = 2, .batch_paths = 37})));
         CHECK(one.tables.radiance.empty() == !info_of(estimator.method).uses_field);
+    }
+}
+
+TEST_CASE(
+    "Every target, learned light, rate and rule of roulette has the same bits for all threads, stopped or not") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Variant& variant : kVariants) {
+        INFO(variant.name);
+        const RenderSettings settings =
+            variant.of(small_settings(scene, {MethodId::Reinforcement, variant.next_event}));
+        const State expected = render(scene, settings, {.threads = 1});
+        CHECK(same_state(expected, render(scene, settings, {.threads = 3, .batch_paths = 77})));
+        CHECK_FALSE(same_bits(
+            expected.tables,
+            render(scene, small_settings(scene, {MethodId::Reinforcement, variant.next_event}), {.threads = 2})
+                .tables));
+        Session stopped = make_session(scene, settings, 2);
+        StopFlag stop = true;
+        CHECK(stopped.advance(&stop) == Progress::Stopped);
+        render_passes(stopped, expected.snapshot.passes);
+        CHECK(same_state(expected, state_of(stopped)));
     }
 }
 

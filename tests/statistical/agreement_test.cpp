@@ -2,6 +2,7 @@
 #include "tests/catch.hpp"
 #include "tests/statistical/sessions.h"
 #include "tests/statistical/shipped_scenes.h"
+#include "tests/statistical/variants.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -73,6 +74,20 @@ void check_first_passes(const std::string& name, int runs, double resolution) {
     }
 }
 
+/// Every way of learning against default path tracing.
+void check_variants(const std::string& name, double resolution) {
+    const SceneDescription scene = shipped_scene(name);
+    const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution);
+    for (const Variant& variant : kVariants) {
+        INFO(name << ", " << variant.name);
+        const Estimator estimator{MethodId::Reinforcement, variant.next_event};
+        Session session = make_session(scene, variant.of(quick_learner(scene, estimator, kSide, kSeed)));
+        Picture picture(kSide, kSide);
+        render_batches(session, picture, kBatches, passes_for(estimator, resolution));
+        CHECK(same_picture(picture, expected, resolution));
+    }
+}
+
 }  // namespace
 
 // 64 batches of pictures of 64 x 64 pixels (16 tiles), seeds 1 and 2; alpha 1e-6 per decision and channel. The
@@ -82,11 +97,20 @@ TEST_CASE("All methods agree on the door ajar") { check_agreement("door", 0.04);
 TEST_CASE("The first passes of learning agree on the Cornell box") { check_first_passes("cornell", 128, 0.04); }
 TEST_CASE("The first passes of learning agree on the door ajar") { check_first_passes("door", 128, 0.04); }
 
+TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") { check_variants("cornell", 0.06); }
+TEST_CASE("All targets, rates and rules of roulette agree on the door ajar") { check_variants("door", 0.06); }
+
 // The same with four times the samples.
 TEST_CASE("All methods agree on the Cornell box within 2 %", "[merge]") { check_agreement("cornell", 0.02); }
 TEST_CASE("All methods agree on the door ajar within 2 %", "[merge]") { check_agreement("door", 0.02); }
 TEST_CASE("The first passes of learning agree on the Cornell box within 2 %", "[merge]") {
     check_first_passes("cornell", 768, 0.02);
+}
+TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box within 2 %", "[merge]") {
+    check_variants("cornell", 0.02);
+}
+TEST_CASE("All targets, rates and rules of roulette agree on the door ajar within 2 %", "[merge]") {
+    check_variants("door", 0.02);
 }
 TEST_CASE("The first passes of learning agree on the door ajar within 2 %", "[merge]") {
     check_first_passes("door", 768, 0.02);

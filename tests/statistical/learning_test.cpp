@@ -35,7 +35,42 @@ double mean_squared_error(const Outcome& a, const Outcome& b) {
     return sum / static_cast<double>(a.pixels.size());
 }
 
+/// What the volumes of a scene have learned on the average.
+double learned_light(const SceneDescription& scene, bool next_event, LearningSettings learning) {
+    RenderSettings settings = quick_learner(scene, {MethodId::Reinforcement, next_event}, 64, 1);
+    settings.field.learning = learning;
+    Session session = make_session(scene, settings);
+    render_passes(session, 128);
+    const HostTables tables = session.backend_access().download_tables(MethodId::Reinforcement);
+    double sum = 0.0;
+    for (const float mean : tables.mean_radiance) sum += static_cast<double>(mean);
+    return sum / static_cast<double>(tables.mean_radiance.size());
+}
+
 }  // namespace
+
+// 128 samples of 64 x 64 pixels, seed 1, 200 volumes of 64 cells. What a path brings is the reference. Targets that ask the
+// table of the next volume get its mean over all points that it serves, and over what came before: with so few volumes that
+// is up to 8 % more on these scenes. Where only indirect light is learned, most of a target comes from the light sample of
+// the very point, and the targets agree better.
+TEST_CASE("All targets learn the same light") {
+    for (const char* name : {"cornell", "door"}) {
+        const SceneDescription scene = shipped_scene(name);
+        const auto learned = [&](bool next_event, LearningTarget target, LearnedLight light) {
+            return learned_light(scene, next_event, {target, light});
+        };
+        const double all = learned(false, LearningTarget::MonteCarlo, LearnedLight::All);
+        const double indirect = learned(true, LearningTarget::MonteCarlo, LearnedLight::Indirect);
+        CHECK(indirect < 0.9 * all);
+        for (const LearningTarget target :
+             {LearningTarget::ExpectedSarsa, LearningTarget::Sarsa, LearningTarget::MonteCarlo}) {
+            INFO(name << ", target " << static_cast<int>(target));
+            CHECK(learned(false, target, LearnedLight::All) == Approx(all).epsilon(0.12));
+            CHECK(learned(true, target, LearnedLight::All) == Approx(all).epsilon(0.12));
+            CHECK(learned(true, target, LearnedLight::Indirect) == Approx(indirect).epsilon(0.03));
+        }
+    }
+}
 
 // 64 samples of 128 x 128 pixels, seeds 1 and 2.
 TEST_CASE("Guided methods have less noise than default path tracing on the door ajar") {

@@ -88,6 +88,25 @@ TEST_CASE("Render worker: the numbers behind a picture come when they are wanted
     CHECK(eventually([&] { return !worker.latest()->has_values(); }));
 }
 
+TEST_CASE("Render worker: a frame that cannot be made is told once") {
+    Bench bench;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement));
+    REQUIRE(frame_of(worker, 0));
+    worker.select_volume(0);
+    REQUIRE(rests(worker));
+    worker.take_messages();
+    bench.control->lost = true;
+    worker.set_display({.exposure_ev = 1.0f});
+    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Failed; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    CHECK(worker.take_messages().size() == 1);
+    worker.set_values_wanted(true);
+    REQUIRE(eventually([&] { return worker.take_messages().size() == 1; }));
+    bench.control->lost = false;
+    worker.submit(EditRestart{});
+    CHECK(eventually([&] { return worker.latest()->display.exposure_ev == 1.0f && worker.latest()->has_values(); }));
+}
+
 TEST_CASE("Render worker: a change stops a pass at rest, and the newest change wins") {
     Bench bench;
     RenderWorker worker(bench.setup());

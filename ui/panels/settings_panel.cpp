@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -86,6 +87,13 @@ void draw_sampling(ViewerModel& model) {
                 "Longest path in surface points, a safety net: Russian roulette does the ending. Default 64.", &depth,
                 1))
         model.set_max_depth(std::clamp(depth, 1, 1024));
+    int roulette = static_cast<int>(model.settings().roulette);
+    if (choice_row(
+            "Roulette",
+            "What ends paths early. Spare: the reflectances, but what is learned may spare a path. Field: what is "
+            "learned alone.",
+            &roulette, "Spare\0Albedo\0Field\0"))
+        model.set_roulette(static_cast<RouletteRule>(roulette));
     int seed = static_cast<int>(model.settings().seed);
     if (int_row("Seed", "Same seed, scene and settings: same picture to the bit, whatever the number of threads.",
                 &seed, 1))
@@ -99,6 +107,30 @@ void draw_run_buttons(ViewerModel& model) {
     ImGui::SameLine();
     if (ImGui::Button("Restart", {width, 0.0f})) model.restart();
     tooltip("R: clears the picture, keeps what was learned.");
+}
+
+/// What is recorded, and how far a record moves what is learned. Every change starts over.
+void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
+    constexpr std::array kRates{LearningRate::SampleMean, LearningRate::Forgetful, LearningRate::Power,
+                                LearningRate::Floor};
+    int rate = static_cast<int>(std::ranges::find(kRates, settings.rate) - kRates.begin());
+    int target = static_cast<int>(settings.learning.target);
+    int light = static_cast<int>(settings.learning.light);
+    bool changed =
+        choice_row("Learning rate",
+                   "Forgetful lets go of the early records, mean is 1/(1+visits), power n^-0.7, floor never "
+                   "falls below 0.05.",
+                   &rate, "Mean\0Forgetful\0Power\0Floor\0");
+    changed |= choice_row("Learns from",
+                          "What reinforcement records for a direction: what is expected to be reflected where "
+                          "it leads, what the next direction brings by the table, or what the path brought.",
+                          &target, "Expected Sarsa\0Sarsa\0Monte Carlo\0");
+    changed |= choice_row("Light", "With next-event estimation: all light, or only what light samples do not bring.",
+                          &light, "All\0Indirect\0");
+    if (!changed) return;
+    settings.rate = kRates[static_cast<std::size_t>(rate)];
+    settings.learning = {static_cast<LearningTarget>(target), static_cast<LearnedLight>(light)};
+    model.set_field(settings);
 }
 
 void draw_learning(ViewerModel& model) {
@@ -142,6 +174,7 @@ void draw_learning(ViewerModel& model) {
         settings.bins = (side + 2) * (side + 2);
         model.set_field(settings);
     }
+    draw_learning_targets(model, settings);
     if (wide_button("Forget what was learned", "Ctrl+Shift+R")) model.forget();
 }
 

@@ -52,6 +52,9 @@ void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
              "Paths that brought no light: what guiding makes fewer.");
     text_row("Escaped", count_text(c.path.escaped), "Paths that left the scene. 0 in a closed one.");
     text_row("Truncated", count_text(c.path.truncated), "Paths cut at the largest depth.");
+    if (c.path.method.cut_returns > 0)
+        text_row("Cut returns", count_text(c.path.method.cut_returns),
+                 "Paths too long for Monte-Carlo targets: the rest of their light is taken from the table.");
     text_row("Lost rays", count_text(c.path.zero_directions), "Sampled directions that a surface cannot reflect.");
     text_row("Invalid", count_text(c.invalid_samples),
              "Samples that were NaN, infinite or negative: dropped and counted.",

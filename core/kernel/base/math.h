@@ -68,6 +68,34 @@ PL_HD inline float cos_quarter(float x) {
     return 1.0f - 0.5f * z +
            z * z * (4.166664568298827e-2f + z * (-1.388731625493765e-3f + z * 2.443315711809948e-5f));
 }
+/// ln(x) for positive, normal x, error below 2e-7 (1 + |ln x|). Polynomial of the Cephes library.
+PL_HD inline float log_of(float x) {
+    constexpr float kRootOfHalf = 0.70710678118654752440f;
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    auto exponent = static_cast<float>(static_cast<int>(bits >> 23) - 126);
+    float mantissa = std::bit_cast<float>((bits & 0x007fffffu) | 0x3f000000u);  // in [1/2, 1)
+    if (mantissa < kRootOfHalf) {
+        mantissa += mantissa;
+        exponent -= 1.0f;
+    }
+    const float z = mantissa - 1.0f;
+    const float high = ((7.0376836292e-2f * z - 1.1514610310e-1f) * z + 1.1676998740e-1f) * z - 1.2420140846e-1f;
+    const float low = ((high * z + 1.4249322787e-1f) * z - 1.6668057665e-1f) * z + 2.0000714765e-1f;
+    const float p = (low * z - 2.4999993993e-1f) * z + 3.3333331174e-1f;
+    return (z + (p * z * z * z - 0.5f * z * z)) + exponent * 0.69314718055994530942f;
+}
+/// e^x for x in [-87, 0], relative error below 1e-6. Polynomial of the Cephes library.
+PL_HD inline float exp_of(float x) {
+    const float n = std::floor(x * 1.44269504088896341f + 0.5f);
+    const float z = (x - n * 0.693359375f) + n * 2.12194440e-4f;  // ln 2 in two parts
+    const float high = ((1.9875691500e-4f * z + 1.3981999507e-3f) * z + 8.3334519073e-3f) * z + 4.1665795894e-2f;
+    const float p = (high * z + 1.6666665459e-1f) * z + 5.0000001201e-1f;
+    const float scale = std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(n) + 127) << 23);
+    return (p * z * z + z + 1.0f) * scale;
+}
+/// x^p for x in (0, 1], normal, and p in (0, 1].
+PL_HD inline float power(float x, float p) { return exp_of(p * log_of(x)); }
+
 /// atan(x) for |x| <= 1, error below 2e-7. Polynomial of the Cephes library, odd by construction.
 PL_HD inline float atan_unit(float x) {
     const float magnitude = std::fabs(x);

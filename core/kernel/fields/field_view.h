@@ -41,6 +41,10 @@ struct FieldView {
     /// Radiance of one fixed-point unit: a power of two not below the brightest emission.
     float radiance_unit = 1.0f;
 
+    /// What the tables were made of, for targets that ask for single cells. [volume][cell]
+    Span<const float> radiance{};
+    Span<const std::uint32_t> visits{};
+
     /// The volume that serves a surface point, or kNoVolume.
     PL_HD std::int32_t volume_at(const SurfacePoint& point) const { return find_volume(tree, grid, point); }
 

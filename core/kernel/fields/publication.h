@@ -6,13 +6,20 @@
 
 namespace pl {
 
-/// How fast old targets are forgotten. With N records in a cell and m new ones the old mean keeps the share
-/// (N/(N+m))^p. p = 1 is the learning rate 1/(1+visits) of Dahm and Keller 2017; a larger p forgets the early
-/// targets, which came from tables that knew little, and still averages the noise of the later ones.
+/// How fast old targets are forgotten. With N records in a cell and m new ones the mean moves towards the new ones by a
+/// step that depends on s = m/(N+m): one over the number n of batches like this one. The numbers are those of files.
 enum class LearningRate : std::uint32_t {
-    SampleMean = 1,  ///< 1/(1+visits)
-    Forgetful = 4,   ///< p = 4
+    SampleMean = 1,  ///< s, the rate 1/(1+visits) of Dahm and Keller 2017: all targets count alike
+    /// s^0.7, the polynomial rate n^-0.7: between 1/2, where noise would stay, and 1   [Even-Dar and Mansour 2003]
+    Power = 2,
+    Floor = 3,  ///< s, but at least kLeastStep: never stops following, never free of noise
+    /// 1 - (1-s)^4: forgets the early targets, which came from tables that knew little, and still averages the noise of the
+    /// later ones
+    Forgetful = 4,
 };
+
+inline constexpr float kLeastStep = 0.05f;
+inline constexpr float kPowerRate = 0.7f;
 
 /// Everything publication writes, one row per volume.
 struct FieldPublicationView {
@@ -37,12 +44,14 @@ struct FieldPublicationView {
     Span<float> bsdf_fraction;             ///< [volume]
 };
 
-/// Share of the new mean that `fresh` new records get: 1 - (N/(N+m))^p. Written in terms of m/(N+m), because the
-/// difference from 1 would lose every digit after ten million visits.
+/// Share of the new mean that `fresh` new records get. Written in terms of m/(N+m), because a difference from 1 would lose
+/// every digit after ten million visits.
 PL_HD inline float learning_step(std::uint32_t visits, std::uint32_t fresh, LearningRate rate) {
     const auto m = static_cast<float>(fresh);
     const float share = m / (static_cast<float>(visits) + m);
     if (rate == LearningRate::SampleMean) return share;
+    if (rate == LearningRate::Floor) return max_of(share, kLeastStep);
+    if (rate == LearningRate::Power) return min_of(power(share, kPowerRate), 1.0f);
     // 1 - (1-s)^4; rounding must not carry the mean past its targets.
     return min_of(share * (4.0f + share * (-6.0f + share * (4.0f - share))), 1.0f);
 }

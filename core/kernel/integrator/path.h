@@ -9,6 +9,14 @@
 
 namespace pl {
 
+/// What Russian roulette listens to. The surfaces' reflectances are always at hand; what a guided method has learned says
+/// more, and may be wrong.
+enum class RouletteRule : std::uint32_t {
+    Spare,   ///< what is learned may spare a path, but not end it sooner than the reflectances alone would
+    Albedo,  ///< the reflectances alone
+    Field,   ///< what is learned alone, where something is   [Vorba and Krivanek 2016]
+};
+
 /// What decides a path besides scene, camera and method.
 struct PathSettings {
     std::uint64_t seed = 1;
@@ -16,7 +24,8 @@ struct PathSettings {
     std::uint32_t max_depth = 64;      ///< most surface vertices of a path; longer ones are cut and counted
     std::uint32_t roulette_start = 3;  ///< surface vertices after which Russian roulette may end a path
     float roulette_threshold = 1.0f;   ///< worth, as a share of what it was at first, below which a path has to play
-    std::uint32_t next_event = 0;      ///< 1: sample lights at every vertex, combined with the method's directions
+    RouletteRule roulette = RouletteRule::Spare;
+    std::uint32_t next_event = 0;  ///< 1: sample lights at every vertex, combined with the method's directions
 };
 
 template <class M>
@@ -71,6 +80,7 @@ PL_HD inline void add_counters(PassCounters& totals, const PassCounters& counts,
     add(totals.path.method.records, counts.path.method.records);
     add(totals.path.method.lookups, counts.path.method.lookups);
     add(totals.path.method.lookup_misses, counts.path.method.lookup_misses);
+    add(totals.path.method.cut_returns, counts.path.method.cut_returns);
     add(totals.paths, counts.paths);
     add(totals.zero_contribution_paths, counts.zero_contribution_paths);
     add(totals.invalid_samples, counts.invalid_samples);

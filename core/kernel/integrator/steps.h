@@ -52,10 +52,10 @@ PL_HD inline PathState<M> begin_path(const PinholeCamera& camera, const PathSett
 }
 
 /// Emission of the surface just met, as the path sees it. Where the previous vertex sampled lights too, the two
-/// strategies share it.
+/// strategies share it. Returns the share that the path brings.
 template <FeatureSet F, class M>
-PL_HD inline void add_emission(const SceneView& scene, const PathSettings& settings, const SurfacePoint& surface,
-                               Vec3f emitted, PathState<M>& state) {
+PL_HD inline float add_emission(const SceneView& scene, const PathSettings& settings, const SurfacePoint& surface,
+                                Vec3f emitted, PathState<M>& state) {
     float weight = 1.0f;
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (settings.next_event != 0 && state.direction_pdf_sa > 0.0f)
@@ -63,12 +63,13 @@ PL_HD inline void add_emission(const SceneView& scene, const PathSettings& setti
                                     light_pdf_sa(scene, state.ray.origin, surface, state.ray.direction));
     }
     state.radiance += weight * (state.throughput * emitted);
+    return weight;
 }
 
 /// Light sample at a vertex; `shadow.wanted` stays false if it cannot contribute.
 template <Method M>
 PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, const typename M::Vertex& vertex,
-                                     const SurfacePoint& surface, Vec3f albedo, Vec4f u, const PathState<M>& state,
+                                     const SurfacePoint& surface, Vec3f albedo, Vec4f u, PathState<M>& state,
                                      ShadowRequest& shadow) {
     const DirectLight sample = sample_direct_light(scene, surface, {u.x, u.y, u.z});
     if (!(sample.pdf_sa > 0.0f)) return;
@@ -77,23 +78,34 @@ PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, co
     shadow.contribution =
         state.throughput * lambert_eval(albedo, sample.cos_i) * sample.emitted * (weight / sample.pdf_sa);
     shadow.wanted = true;
+    if constexpr (FollowingMethod<M>)
+        method.request_light(state.memory,
+                             lambert_eval(albedo, sample.cos_i) * sample.emitted * (weight / sample.pdf_sa));
 }
 
-/// Plays Russian roulette with the method's opinion of what the path is still worth. Returns false if the path ends.
-/// An opinion may be wrong, and most are at first, so it can spare a path but not end it sooner than the reflectances
-/// alone would: weights then grow no faster than they fall by reflection, and their variance stays finite.
+/// Chance of going on. An opinion may be wrong, and most are at first, so by RouletteRule::Spare it can spare a path but not
+/// end it sooner than the reflectances alone would: weights then grow no faster than they fall by reflection, and their
+/// variance stays finite. RouletteRule::Field trusts the opinion.
+PL_HD inline float survival_probability(const PathSettings& settings, float worth, float survival) {
+    float wanted = survival;
+    if (settings.roulette == RouletteRule::Spare) wanted = max_of(worth / settings.roulette_threshold, survival);
+    if (settings.roulette == RouletteRule::Field) wanted = worth / settings.roulette_threshold;
+    return clamp_to(wanted, kMinSurvival, 1.0f);
+}
+
+/// Plays Russian roulette with the method's opinion of what the path is still worth. Returns 0 if the path ends, else the
+/// weight of those that go on.
 template <Method M>
-PL_HD inline bool survives_roulette(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
-                                    Vec3f albedo, float u, PathState<M>& state) {
+PL_HD inline float play_roulette(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
+                                 Vec3f albedo, float u, PathState<M>& state) {
     state.survival *= max_component(albedo);
     const float worth = method.roulette_worth(vertex, albedo, state.throughput, state.survival, state.expectation);
-    if (state.vertices < settings.roulette_start) return true;
-    const float probability =
-        clamp_to(max_of(worth / settings.roulette_threshold, state.survival), kMinSurvival, 1.0f);
-    if (u >= probability) return false;
+    if (state.vertices < settings.roulette_start) return 1.0f;
+    const float probability = survival_probability(settings, worth, state.survival);
+    if (u >= probability) return 0.0f;
     state.throughput *= 1.0f / probability;
     state.survival = min_of(state.survival / probability, 1.0f);
-    return true;
+    return 1.0f / probability;
 }
 
 /// Decides whether the path goes on, chooses the next direction and moves the path's ray there.
@@ -101,16 +113,25 @@ template <Method M>
 PL_HD inline PathStatus scatter(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
                                 const SurfacePoint& surface, Vec3f albedo, Vec4f u, PathState<M>& state,
                                 PathCounters& counters) {
-    if (!survives_roulette(method, settings, vertex, albedo, u.w, state)) return PathStatus::Finished;
+    const float roulette_weight = play_roulette(method, settings, vertex, albedo, u.w, state);
+    if (roulette_weight == 0.0f) {
+        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
+        return PathStatus::Finished;
+    }
     const Rng rng = path_rng(settings, state.pixel, state.sample);
     const DirectionSample direction = method.sample_direction(vertex, surface, rng, state.vertices, u);
     const float cos_i = reflection_cosine(surface, direction.wi);
     if (!(direction.pdf_sa > 0.0f) || cos_i == 0.0f) {
         ++counters.zero_directions;
+        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
         return PathStatus::Finished;
     }
-    state.throughput *= lambert_eval(albedo, cos_i) * (1.0f / direction.pdf_sa);
-    state.memory = method.remember(vertex, direction);
+    const Vec3f weight = lambert_eval(albedo, cos_i) * (1.0f / direction.pdf_sa);
+    state.throughput *= weight;
+    if constexpr (FollowingMethod<M>)
+        method.depart(state.memory, vertex, {roulette_weight * weight, albedo, direction}, counters.method);
+    else
+        state.memory = method.remember(vertex, direction);
     state.ray = spawn_ray(surface, direction.wi);
     state.direction_pdf_sa = direction.pdf_sa;
     return PathStatus::Continues;
@@ -134,16 +155,19 @@ PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, con
     const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
     const Material& material = scene.materials[surface.material];
     const Vec3f emitted = emitted_radiance(material, surface.front);
-    if (!is_black(emitted)) add_emission<F>(scene, settings, surface, emitted, state);
+    float light_share = 1.0f;
+    if (!is_black(emitted)) light_share = add_emission<F>(scene, settings, surface, emitted, state);
 
     typename M::Vertex vertex{};
     if (material.reflects()) vertex = method.arrive(surface, counters.method);
-    method.learn(state.memory, {.emitted = emitted, .albedo = material.albedo}, vertex, counters.method);
+    method.learn(state.memory, {.emitted = emitted, .albedo = material.albedo, .light_share = light_share}, vertex,
+                 counters.method);
 
     ++state.vertices;
     if (!material.reflects()) return PathStatus::Finished;
     if (state.vertices >= settings.max_depth) {
         ++counters.truncated;
+        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
         return PathStatus::Finished;
     }
     if constexpr (F.has(Feature::NextEventEstimation)) {
@@ -154,9 +178,17 @@ PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, con
 }
 
 /// Adds a light sample whose shadow ray found nothing in between.
-template <class M>
-PL_HD inline void connect_light(const ShadowRequest& shadow, PathState<M>& state) {
+template <Method M>
+PL_HD inline void connect_light(const M& method, const ShadowRequest& shadow, PathState<M>& state,
+                                PathCounters& counters) {
     state.radiance += shadow.contribution;
+    if constexpr (FollowingMethod<M>) method.receive_light(state.memory, counters.method);
+}
+
+/// The path is over, and so is its last shadow ray: what can be learned only from whole paths is learned.
+template <Method M>
+PL_HD inline void end_path(const M& method, PathState<M>& state, PathCounters& counters) {
+    if constexpr (FollowingMethod<M>) method.finish(state.memory, counters.method);
 }
 
 }  // namespace pl

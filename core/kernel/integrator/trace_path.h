@@ -17,9 +17,10 @@ PL_HD inline PathStatus trace_segment(const SceneView& scene, const I& intersect
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (shadow.wanted) {
             ++counters.shadow_rays;
-            if (!intersector.occluded(shadow.ray)) connect_light(shadow, state);
+            if (!intersector.occluded(shadow.ray)) connect_light(method, shadow, state, counters);
         }
     }
+    if (status == PathStatus::Finished) end_path(method, state, counters);
     return status;
 }
 

@@ -22,6 +22,15 @@ struct DirectionSample {
 struct Arrival {
     Vec3f emitted{0.0f};  ///< radiance emitted towards the previous vertex (or the environment's)
     Vec3f albedo{0.0f};   ///< reflectance of the surface met; 0 on a miss
+    /// Share of the emission that the path's direction brings; light samples at the previous vertex bring the rest.
+    float light_share = 1.0f;
+};
+
+/// How a path went on from a vertex.
+struct Departure {
+    Vec3f weight{0.0f};  ///< BSDF x cosine / pdf, and roulette's
+    Vec3f albedo{0.0f};  ///< of the surface
+    DirectionSample direction;
 };
 
 /// Events a method reports; the driver adds them up.
@@ -29,6 +38,7 @@ struct MethodCounters {
     std::uint64_t records = 0;
     std::uint64_t lookups = 0;
     std::uint64_t lookup_misses = 0;
+    std::uint64_t cut_returns = 0;  ///< paths that were too long to be remembered to their end
 };
 
 /// `Vertex` is what a method knows about the surface point a path stands on; `Memory` is what it keeps until the
@@ -48,6 +58,21 @@ concept Method = requires(const M& method, const typename M::Vertex& vertex, typ
     { method.remember(vertex, DirectionSample{}) } -> std::same_as<typename M::Memory>;
     { method.roulette_worth(vertex, wi, wi, float{}, expectation) } -> std::same_as<float>;
     { method.learn(memory, arrival, vertex, counters) } -> std::same_as<void>;
+};
+
+/// Methods that learn from more than where the last direction led. Their Memory follows the path; instead of remember(),
+/// the integrator calls depart() where a vertex is left, and stop() where a path ends at one by chance. request_light() gets
+/// what the surface would reflect of the light sample there, receive_light() follows if nothing is in between, also after
+/// depart(). finish() comes last, once per path.
+template <class M>
+concept FollowingMethod = Method<M> &&
+    requires(const M& method, typename M::Memory& memory, const typename M::Vertex& vertex, Vec3f reflected,
+             const Departure& departure, MethodCounters& counters) {
+    method.request_light(memory, reflected);
+    method.receive_light(memory, counters);
+    method.depart(memory, vertex, departure, counters);
+    method.stop(memory, counters);
+    method.finish(memory, counters);
 };
 
 }  // namespace pl

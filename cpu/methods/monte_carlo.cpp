@@ -1,0 +1,7 @@
+#include "cpu/launchers.h"
+
+namespace pl {
+
+constinit const PassKernels<PicturePass> kMonteCarloKernels = make_picture_kernels<MonteCarloMethod>();
+
+}  // namespace pl

@@ -1,0 +1,7 @@
+#include "cpu/launchers.h"
+
+namespace pl {
+
+constinit const PassKernels<PicturePass> kSarsaKernels = make_picture_kernels<SarsaMethod>();
+
+}  // namespace pl

@@ -1,0 +1,8 @@
+#include "cuda/kernels/trace.cuh"
+
+namespace pl::cuda {
+
+constinit const KernelRow<PictureKernel<MonteCarloMethod>> kMonteCarloKernels =
+    make_picture_kernels<MonteCarloMethod>();
+
+}  // namespace pl::cuda

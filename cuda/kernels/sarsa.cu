@@ -1,0 +1,7 @@
+#include "cuda/kernels/trace.cuh"
+
+namespace pl::cuda {
+
+constinit const KernelRow<PictureKernel<SarsaMethod>> kSarsaKernels = make_picture_kernels<SarsaMethod>();
+
+}  // namespace pl::cuda

@@ -1,0 +1,41 @@
+// The ways of learning and of ending paths that are no default.
+#pragma once
+
+#include "core/session/settings.h"
+
+namespace pl::test {
+
+struct Variant {
+    const char* name;
+    bool next_event;
+    LearningRate rate = LearningRate::Forgetful;
+    LearningSettings learning{};
+    RouletteRule roulette = RouletteRule::Spare;
+
+    RenderSettings of(RenderSettings settings) const {
+        settings.field.rate = rate;
+        settings.field.learning = learning;
+        settings.roulette = roulette;
+        return settings;
+    }
+};
+
+inline constexpr Variant kVariants[] = {
+    {"rate mean", false, LearningRate::SampleMean},
+    {"rate power", false, LearningRate::Power},
+    {"rate floor", false, LearningRate::Floor},
+    {"Sarsa", false, LearningRate::Forgetful, {LearningTarget::Sarsa, LearnedLight::All}},
+    {"Monte Carlo", false, LearningRate::Forgetful, {LearningTarget::MonteCarlo, LearnedLight::All}},
+    {"Sarsa, light samples", true, LearningRate::Forgetful, {LearningTarget::Sarsa, LearnedLight::All}},
+    {"Monte Carlo, light samples", true, LearningRate::Forgetful, {LearningTarget::MonteCarlo, LearnedLight::All}},
+    {"Expected Sarsa, indirect",
+     true,
+     LearningRate::Forgetful,
+     {LearningTarget::ExpectedSarsa, LearnedLight::Indirect}},
+    {"Sarsa, indirect", true, LearningRate::Forgetful, {LearningTarget::Sarsa, LearnedLight::Indirect}},
+    {"Monte Carlo, indirect", true, LearningRate::Forgetful, {LearningTarget::MonteCarlo, LearnedLight::Indirect}},
+    {"roulette by albedo", false, LearningRate::Forgetful, {}, RouletteRule::Albedo},
+    {"roulette by field", false, LearningRate::Forgetful, {}, RouletteRule::Field},
+};
+
+}  // namespace pl::test
