@@ -18,12 +18,16 @@ constexpr std::array kCommands{
                 "Opens the viewer (default scene: cornell). The word 'view' may be left out."},
     CommandInfo{Command::Render, "render", "SCENE -o IMAGE", "Makes a picture without a display."},
     CommandInfo{Command::Info, "info", "SCENE", "Tells what a scene holds and which kernel serves it."},
-    CommandInfo{Command::Devices, "devices", "", "Lists the back ends, and why one is unavailable."},
+    CommandInfo{Command::Devices, "devices", "", "Lists the back ends, and why one is unavailable.", Inputs::Nothing},
     CommandInfo{Command::Inspect, "inspect", "SCENE (--at X,Y,Z[,NX,NY,NZ] | --pixel X,Y) -o FILE",
                 "Trains, then writes what was learned at a point.\n"
                 "Training takes --spp samples per pixel with method reinforcement; method precomputed\n"
                 "only computes its radiance map. The suffix decides what is written: .json, .csv (one\n"
                 "row per direction cell) or .png (the hemisphere as an equal-area disc)."},
+    CommandInfo{Command::Compare, "compare", "IMAGE REFERENCE",
+                "Tells how far a picture is from another, in all metrics.\n"
+                "Both are linear: .exr or .pfm.",
+                Inputs::Pictures},
 };
 
 constexpr std::string_view kScene =
@@ -37,8 +41,6 @@ constexpr std::string_view kExitCodes =
 
 constexpr std::size_t kHelpColumn = 32;
 constexpr std::size_t kLineWidth = 110;
-
-const CommandInfo& info_of_command(Command command) { return kCommands[static_cast<std::size_t>(command)]; }
 
 /// "-t,--threads" as "-t, --threads N".
 std::string option_head(const OptionSpec& spec) {
@@ -95,7 +97,9 @@ std::string options_help(Command command) {
 
 std::span<const CommandInfo> all_commands() { return kCommands; }
 
-std::string_view command_name(Command command) { return info_of_command(command).name; }
+const CommandInfo& info_of(Command command) { return kCommands[static_cast<std::size_t>(command)]; }
+
+std::string_view command_name(Command command) { return info_of(command).name; }
 
 std::string program_help() {
     std::string text = "Pathlight, an interactive path tracer that learns where light comes from.\n\nUsage:\n";
@@ -113,8 +117,8 @@ std::string program_help() {
 }
 
 std::string command_help(Command command) {
-    const CommandInfo& info = info_of_command(command);
-    const std::string scene = command == Command::Devices ? "" : fmt::format("\n{}", kScene);
+    const CommandInfo& info = info_of(command);
+    const std::string scene = info.inputs == Inputs::Scene ? fmt::format("\n{}", kScene) : "";
     return fmt::format("{}\n\nUsage: pathlight {} {} [OPTIONS]\n{}{}\n{}", info.summary, info.name, info.arguments,
                        scene, options_help(command), kExitCodes);
 }

@@ -119,6 +119,12 @@ void parse_time_limit(Options& options, const std::string& text) {
     options.time_limit_seconds = seconds;
 }
 
+void parse_target_error(Options& options, const std::string& text) {
+    const double error = parse_real(text, 0.0, 1.0e30);
+    if (!(error > 0.0)) fail_value("an error above 0", text);
+    options.target_error = error;
+}
+
 void parse_window(Options& options, const std::string& text) { options.window = parse_size(text); }
 
 void parse_picture_size(Options& options, const std::string& text) {

@@ -21,6 +21,7 @@ std::string print_bsdf_fraction(const MixtureSettings& mixture);
 void parse_fov(Options& options, const std::string& text);
 void parse_field_budget(Options& options, const std::string& text);
 void parse_time_limit(Options& options, const std::string& text);
+void parse_target_error(Options& options, const std::string& text);
 void parse_window(Options& options, const std::string& text);
 void parse_picture_size(Options& options, const std::string& text);
 void parse_lookup(Options& options, const std::string& text);

@@ -12,18 +12,21 @@
 namespace pl {
 namespace {
 
-constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Info, Command::Devices, Command::Inspect);
+constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Info, Command::Devices, Command::Inspect,
+                                 Command::Compare);
 constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Info, Command::Inspect);
 constexpr CommandSet kSampling(Command::View, Command::Render, Command::Inspect);
 constexpr CommandSet kPictures(Command::View, Command::Render);
-constexpr CommandSet kHeadless(Command::Render, Command::Info, Command::Devices, Command::Inspect);
+constexpr CommandSet kHeadless(Command::Render, Command::Info, Command::Devices, Command::Inspect, Command::Compare);
 constexpr CommandSet kFiles(Command::Render, Command::Inspect);
 constexpr CommandSet kView(Command::View);
 constexpr CommandSet kInspect(Command::Inspect);
+constexpr CommandSet kCompare(Command::Compare);
 
 constexpr std::string_view kOutput = "Output";
 constexpr std::string_view kPicture = "Picture";
 constexpr std::string_view kStop = "When to stop (the first one that is met)";
+constexpr std::string_view kOutcome = "Outcome";
 constexpr std::string_view kCamera = "Camera";
 constexpr std::string_view kField = "Learned field";
 constexpr std::string_view kPlace = "What to inspect";
@@ -141,6 +144,9 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kHidden, .help = "",
      .commands = kSampling, .in_scene_files = true,
      .parse = [](Options&, Text) { fail_not_yet("stop by --spp or --time-limit"); }},
+    {.name = "target-error", .flags = "--target-error", .value = "X", .group = kOutcome,
+     .help = "Exit with 5 if relMSE is above this",
+     .commands = kCompare, .parse = parse_target_error},
 
     {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical}; goes "

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -13,7 +14,7 @@
 
 namespace pl {
 
-enum class Command : std::uint32_t { View, Render, Info, Devices, Inspect };
+enum class Command : std::uint32_t { View, Render, Info, Devices, Inspect, Compare };
 
 /// Which of the camera's parts were given; the rest is the scene's.
 struct CameraChoice {
@@ -30,8 +31,9 @@ struct ScenePoint {
 };
 
 struct Options {
-    std::string scene;  ///< name or path; empty if none was given
-    KnobValues knobs;   ///< of the scene, in the order given
+    std::string scene;                ///< name or path; empty if none was given
+    std::vector<std::string> inputs;  ///< of subcommands that take something else than one scene, in the order given
+    KnobValues knobs;                 ///< of the scene, in the order given
     std::string output;
 
     RenderSettings render;  ///< final only after resolve_options(): camera and size depend on the scene
@@ -40,8 +42,9 @@ struct Options {
     int threads = 0;  ///< 0: all
     std::optional<std::uint32_t> spp;
     std::optional<double> time_limit_seconds;
-    int width = 0;   ///< 0: not given
-    int height = 0;  ///< 0: not given
+    std::optional<double> target_error;  ///< of Metrics::relmse
+    int width = 0;                       ///< 0: not given
+    int height = 0;                      ///< 0: not given
     CameraChoice camera;
 
     std::string load_field;  ///< file to go on from

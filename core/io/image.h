@@ -45,6 +45,9 @@ void write_pfm(const std::filesystem::path& path, const LinearImage& image);
 /// Metadata become tEXt chunks; names are cut to the 79 bytes that PNG allows.
 void write_png8(const std::filesystem::path& path, const ByteImage& image, const ImageMetadata& metadata = {});
 
+/// The text of the first entry of this name; empty if there is none.
+std::string text_of(const ImageMetadata& metadata, const std::string& name);
+
 // Readers throw Error(Input): missing, not of this kind, truncated. `metadata` receives what the writers stored.
 
 /// Scanline files with channels R, G and B of any pixel type.
@@ -52,6 +55,9 @@ LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata 
 
 /// Color files ("PF") of either byte order.
 LinearImage read_pfm(const std::filesystem::path& path);
+
+/// Either of them, by suffix; 8-bit pictures are refused: what is tone mapped and clipped measures nothing.
+LinearImage read_linear(const std::filesystem::path& path, ImageMetadata* metadata = nullptr);
 
 ByteImage read_png8(const std::filesystem::path& path, ImageMetadata* metadata = nullptr);
 
