@@ -24,10 +24,17 @@ constexpr std::array kCommands{
                 "Training takes --spp samples per pixel with method reinforcement; method precomputed\n"
                 "only computes its radiance map. The suffix decides what is written: .json, .csv (one\n"
                 "row per direction cell) or .png (the hemisphere as an equal-area disc)."},
-    CommandInfo{Command::Compare, "compare", "IMAGE REFERENCE",
-                "Tells how far a picture is from another, in all metrics.\n"
-                "Both are linear: .exr or .pfm.",
-                Inputs::Pictures},
+    CommandInfo{
+        Command::Compare, "compare", "IMAGE REFERENCE",
+        "Tells how far a picture is from another, in all metrics.\n"
+        "Both are linear: .exr or .pfm. REFERENCE may be a folder of 'pathlight reference': it then has to hold the\n"
+        "reference of just the scene, camera, size, lights and depth that an .exr of 'pathlight render' shows.",
+        Inputs::Pictures},
+    CommandInfo{
+        Command::Reference, "reference", "SCENE -o DIR",
+        "Makes a converged picture in two independent halves, found again by what it shows.\n"
+        "What was made before is gone on with: after an interruption, or for more samples. Paths are chosen by\n"
+        "method default with next-event estimation unless other is given; the converged picture is the same."},
 };
 
 constexpr std::string_view kScene =

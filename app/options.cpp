@@ -126,11 +126,14 @@ std::optional<std::string> answer_to(Command command, const Found& found, bool j
 
 void require_complete(Command command, const Options& options) {
     const bool needs_file = command == Command::Render || command == Command::Inspect;
-    if (options.scene.empty() && (needs_file || command == Command::Info))
+    const bool needs_folder = command == Command::Reference;
+    if (options.scene.empty() && (needs_file || needs_folder || command == Command::Info))
         fail(fmt::format("'{}' needs a SCENE: a name ({}), an .obj file or a scene .json file", command_name(command),
                          fmt::join(list_scenes(find_assets_dir()), ", ")));
     if (options.output.empty() && needs_file)
         fail(fmt::format("'{}' needs a file to write: -o FILE", command_name(command)));
+    if (options.output.empty() && needs_folder)
+        fail(fmt::format("'{}' needs a folder to write to: -o DIR", command_name(command)));
     if (command == Command::Inspect && options.at.has_value() == options.pixel.has_value())
         fail("'inspect' needs a place: either --at X,Y,Z[,NX,NY,NZ] or --pixel X,Y");
     if (command == Command::Compare && options.inputs.size() != 2)

@@ -1,6 +1,5 @@
 // The words: parsing, precedence, and the way back to a command line.
 #include <algorithm>
-
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -188,7 +187,7 @@ TEST_CASE("help, version and lists are answers, whatever else is missing") {
 }
 
 TEST_CASE("every option that can be given is in the help of its subcommand") {
-    for (const char* command : {"view", "render", "info", "devices", "inspect", "compare"}) {
+    for (const char* command : {"view", "render", "info", "devices", "inspect", "compare", "reference"}) {
         const std::string help = *parse_command_line({command, "--help"}).answer;
         const Command id = parse_command_line({command, "--help"}).command;
         for (const OptionSpec& spec : option_table()) {

@@ -1,4 +1,4 @@
-#include "app/metrics_json.h"
+#include "app/measure/metrics_json.h"
 
 #include <cmath>
 
