@@ -10,7 +10,7 @@
 namespace pl {
 
 /// What a subcommand works on.
-enum class Inputs { Nothing, Scene, Pictures };
+enum class Inputs { Nothing, Scene, Scenes, Pictures };
 
 struct CommandInfo {
     Command id;

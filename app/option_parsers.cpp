@@ -43,6 +43,16 @@ std::vector<std::string> names_in(const Range& range, Name name) {
                 fmt::format("expected {}, got '{}' (nearest: '{}')", one_of(names), got, nearest_name(got, names)));
 }
 
+std::vector<std::string> split_at_commas(const std::string& text) {
+    std::vector<std::string> items;
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find(',', start), text.size());
+        items.push_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    return items;
+}
+
 std::vector<std::string> method_names() {
     return names_in(all_methods(), [](const MethodInfo& info) { return info.name; });
 }
@@ -57,6 +67,28 @@ void parse_method(Options& options, const std::string& text) {
     const auto id = method_by_name(text);
     if (!id) fail_choice(method_names(), text);
     options.render.method = *id;
+}
+
+void parse_methods(Options& options, const std::string& text) {
+    options.methods.clear();
+    if (text == "all") return;
+    for (const std::string& name : split_at_commas(text)) {
+        const auto id = method_by_name(name);
+        if (!id) fail_choice(method_names(), name);
+        if (std::find(options.methods.begin(), options.methods.end(), *id) == options.methods.end())
+            options.methods.push_back(*id);
+    }
+}
+
+void parse_backends(Options& options, const std::string& text) {
+    options.backends.clear();
+    if (text == "auto") return;
+    for (const std::string& name : split_at_commas(text)) {
+        parse_backend(options, name);
+        if (name == "auto") fail_value("cpu, cuda or both with a comma between; or auto alone", text);
+        if (std::find(options.backends.begin(), options.backends.end(), name) == options.backends.end())
+            options.backends.push_back(name);
+    }
 }
 
 void parse_view(Options& options, const std::string& text) {
@@ -140,13 +172,10 @@ void parse_lookup(Options& options, const std::string& text) {
 }
 
 void parse_knobs(Options& options, const std::string& text) {
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t end = std::min(text.find(',', start), text.size());
-        const std::string item = text.substr(start, end - start);
+    for (const std::string& item : split_at_commas(text)) {
         const std::size_t equals = item.find('=');
         if (equals == 0 || equals == std::string::npos) fail_value("NAME=VALUE, such as opening=5", item);
         options.knobs.emplace_back(item.substr(0, equals), parse_float(item.substr(equals + 1)));
-        start = end + 1;
     }
 }
 

@@ -12,6 +12,9 @@ namespace pl {
 [[noreturn]] void fail_not_yet(std::string_view what);
 
 void parse_method(Options& options, const std::string& text);
+/// "NAME,NAME..." or "all".
+void parse_methods(Options& options, const std::string& text);
+void parse_backends(Options& options, const std::string& text);
 void parse_view(Options& options, const std::string& text);
 void parse_backend(Options& options, const std::string& text);
 void parse_tone_curve(Options& options, const std::string& text);

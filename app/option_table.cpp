@@ -13,22 +13,25 @@ namespace pl {
 namespace {
 
 using enum Command;
-constexpr CommandSet kEverywhere(View, Render, Info, Devices, Inspect, Compare, Reference);
-constexpr CommandSet kWithScene(View, Render, Info, Inspect, Reference);
-constexpr CommandSet kPaths(View, Render, Inspect, Reference);
+constexpr CommandSet kEverywhere(View, Render, Info, Devices, Inspect, Compare, Reference, Bench);
+constexpr CommandSet kWithScene(View, Render, Info, Inspect, Reference, Bench);
+constexpr CommandSet kOneMethod(View, Render, Info, Inspect, Reference);
+constexpr CommandSet kPaths(View, Render, Inspect, Reference, Bench);
 constexpr CommandSet kSampling(View, Render, Inspect);
 constexpr CommandSet kPictures(View, Render);
-constexpr CommandSet kHeadless(Render, Info, Devices, Inspect, Compare, Reference);
+constexpr CommandSet kHeadless(Render, Info, Devices, Inspect, Compare, Reference, Bench);
 constexpr CommandSet kFiles(Render, Inspect);
-constexpr CommandSet kWorking(Render, Inspect, Reference);
+constexpr CommandSet kWorking(Render, Inspect, Reference, Bench);
 constexpr CommandSet kView(View);
 constexpr CommandSet kInspect(Inspect);
 constexpr CommandSet kCompare(Compare);
 constexpr CommandSet kReference(Reference);
+constexpr CommandSet kBench(Bench);
 
 constexpr std::string_view kOutput = "Output";
 constexpr std::string_view kPicture = "Picture";
 constexpr std::string_view kStop = "When to stop (the first one that is met)";
+constexpr std::string_view kCompared = "What is compared";
 constexpr std::string_view kOutcome = "Outcome";
 constexpr std::string_view kCamera = "Camera";
 constexpr std::string_view kField = "Learned field";
@@ -74,6 +77,9 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
      .help = "Folder of references; it may hold others",
      .commands = kReference, .parse = parse_text<&Options::output>},
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
+     .help = "Folder of this bench; one that was interrupted goes on",
+     .commands = kBench, .parse = parse_text<&Options::output>},
     {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
      .help = "Write counts and timings as JSON",
      .commands = kFiles, .parse = parse_text<&Options::stats_file>},
@@ -88,8 +94,36 @@ const auto kTable = std::to_array<OptionSpec>({
 
     {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,
      .help = "How directions are chosen: default, precomputed, reinforcement (see --list-methods)",
-     .commands = kWithScene, .in_scene_files = true, .parse = parse_method,
+     .commands = kOneMethod, .in_scene_files = true, .parse = parse_method,
      .print = [](const Options& o) { return std::string(info_of(o.render.method).name); }},
+    {.name = "method", .flags = "--method", .value = "NAME,..", .group = kCompared,
+     .help = "Methods to compare, with commas between (default: all); the first one is what the others are held against",
+     .commands = kBench, .parse = parse_methods},
+    {.name = "backend", .flags = "--backend", .value = "NAME,..", .group = kCompared,
+     .help = "Back ends to compare: cpu, cuda (default: all that are available)",
+     .commands = kBench, .parse = parse_backends},
+    {.name = "seeds", .flags = "--seeds", .value = "N", .group = kCompared,
+     .help = "Runs of each method on each scene and back end (default 10); intervals need at least 5",
+     .commands = kBench,
+     .parse = [](Options& o, Text text) { o.seeds = static_cast<int>(parse_whole(text, 1, 100000)); }},
+    {.name = "reference", .flags = "--reference", .value = "DIR", .group = kCompared,
+     .help = "Folder of references; one that is missing there is refused (default: DIR/references, made as needed)",
+     .commands = kBench, .parse = parse_text<&Options::reference_folder>},
+    {.name = "reference-spp", .flags = "--reference-spp", .value = "N", .group = kCompared,
+     .help = "Samples per pixel in each half of references made here (default 4096)",
+     .commands = kBench,
+     .parse = [](Options& o, Text text) {
+         o.reference_spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000));
+     }},
+    {.name = "gate", .flags = "--gate", .value = "FILE", .group = kOutcome,
+     .help = "Exit with 5 if a method is slower to the same error than in this earlier results.json: by more than the "
+             "tolerance even at the near end of its interval",
+     .commands = kBench, .parse = parse_text<&Options::gate>},
+    {.name = "tolerance", .flags = "--tolerance", .value = "PERCENT", .group = kOutcome,
+     .help = "Of the gate (default 10)",
+     .commands = kBench,
+     .parse = [](Options& o, Text text) { o.tolerance_percent = parse_real(text, 0.0, 1.0e6); }},
+
     {.name = "view", .flags = "--view", .value = "NAME", .group = kPicture,
      .help = "What is shown: beauty, direct, radiance-map, voronoi, normal, albedo, depth; numbers of what is "
              "learned: visits, irradiance, entropy, bsdf-share, change, unvisited (see --list-views)",
@@ -97,7 +131,7 @@ const auto kTable = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return std::string(info_of(o.render.view).name); }},
     {.name = "backend", .flags = "--backend", .value = "NAME", .group = kPicture,
      .help = "What computes: auto, cpu, cuda",
-     .commands = kWithScene, .in_scene_files = true, .parse = parse_backend,
+     .commands = kOneMethod, .in_scene_files = true, .parse = parse_backend,
      .print = [](const Options& o) { return o.backend; }},
     {.name = "threads", .flags = "-t,--threads", .value = "N", .group = kPicture,
      .help = "CPU threads (default: all); the picture does not depend on it",
@@ -150,6 +184,14 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel in each half (default 4096 unless a time limit is given)",
      .commands = kReference, .parse = parse_spp},
+    {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
+     .help = "Samples per pixel of a run (default 64 unless a time limit or a target error is given)",
+     .commands = kBench, .parse = parse_spp,
+     .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
+    {.name = "target-error", .flags = "--target-error", .value = "X", .group = kStop,
+     .help = "A relMSE at which runs end; how long they took to it is told",
+     .commands = kBench, .parse = parse_target_error,
+     .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
     {.name = "time-limit", .flags = "--time-limit", .value = "SECONDS", .group = kStop,
      .help = "Of work after loading, looked at after every sample per pixel; at least one is made",
      .commands = kPaths, .in_scene_files = true, .parse = parse_time_limit,

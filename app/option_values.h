@@ -14,7 +14,7 @@
 
 namespace pl {
 
-enum class Command : std::uint32_t { View, Render, Info, Devices, Inspect, Compare, Reference };
+enum class Command : std::uint32_t { View, Render, Info, Devices, Inspect, Compare, Reference, Bench };
 
 /// Which of the camera's parts were given; the rest is the scene's.
 struct CameraChoice {
@@ -47,6 +47,14 @@ struct Options {
     int height = 0;                      ///< 0: not given
     CameraChoice camera;
 
+    std::vector<MethodId> methods;       ///< bench: all to compare; empty: every one
+    std::vector<std::string> backends;   ///< bench: empty: all that are available
+    int seeds = 10;                      ///< bench: runs of each method, back end and scene
+    std::uint32_t reference_spp = 4096;  ///< bench: samples per pixel in each half of references that it makes
+    std::string reference_folder;        ///< bench: empty: its own
+    std::string gate;                    ///< bench: results to hold the new ones against
+    double tolerance_percent = 10.0;     ///< bench: how much slower than the gate's is not a failure
+
     std::string load_field;  ///< file to go on from
     std::string save_field;  ///< file for what was learned
 
@@ -69,7 +77,7 @@ struct Options {
     std::uint32_t spp_limit() const {
         constexpr std::uint32_t kDefaultSpp = 64;
         constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
-        return spp.value_or(time_limit_seconds ? kNever : kDefaultSpp);
+        return spp.value_or(time_limit_seconds || target_error ? kNever : kDefaultSpp);
     }
 };
 

@@ -81,6 +81,7 @@ void add_options(CLI::App& app, Command command, Found& found) {
     switch (info_of(command).inputs) {
     case Inputs::Nothing: break;
     case Inputs::Scene: app.add_option("SCENE,--scene", found.scene)->take_last(); break;
+    case Inputs::Scenes:
     case Inputs::Pictures: app.add_option("INPUTS", found.inputs)->expected(-1); break;
     }
 }
@@ -126,8 +127,8 @@ std::optional<std::string> answer_to(Command command, const Found& found, bool j
 
 void require_complete(Command command, const Options& options) {
     const bool needs_file = command == Command::Render || command == Command::Inspect;
-    const bool needs_folder = command == Command::Reference;
-    if (options.scene.empty() && (needs_file || needs_folder || command == Command::Info))
+    const bool needs_folder = command == Command::Reference || command == Command::Bench;
+    if (options.scene.empty() && options.inputs.empty() && (needs_file || needs_folder || command == Command::Info))
         fail(fmt::format("'{}' needs a SCENE: a name ({}), an .obj file or a scene .json file", command_name(command),
                          fmt::join(list_scenes(find_assets_dir()), ", ")));
     if (options.output.empty() && needs_file)

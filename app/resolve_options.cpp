@@ -122,14 +122,19 @@ void settle_inspection(const CommandLine& line, Options& options) {
     options.render.method = MethodId::Reinforcement;
 }
 
+/// What a scene asks for to look well is no limit of a measurement.
+void forget_scene_limits(const CommandLine& line, Options& options) {
+    if (!is_given(line, "time-limit")) options.time_limit_seconds.reset();
+    if (!is_given(line, "spp")) options.spp.reset();
+}
+
 /// A reference is a picture of the light, whatever the scene prefers to show, and has its own default of samples.
 void settle_reference(const CommandLine& line, Options& options) {
     options.render.view = View::Beauty;
     constexpr std::uint32_t kReferenceSpp = 4096;
     if (!is_given(line, "method")) options.render.method = MethodId::Default;
     if (!is_given(line, "nee")) options.render.next_event = true;
-    if (!is_given(line, "time-limit")) options.time_limit_seconds.reset();
-    if (!is_given(line, "spp")) options.spp.reset();
+    forget_scene_limits(line, options);
     if (!options.spp && !options.time_limit_seconds) options.spp = kReferenceSpp;
 }
 
@@ -153,6 +158,10 @@ Options resolve_options(const CommandLine& line, const SceneDescription& scene, 
     settle_camera(options);
     if (line.command == Command::Inspect) settle_inspection(line, options);
     if (line.command == Command::Reference) settle_reference(line, options);
+    if (line.command == Command::Bench) {
+        options.render.view = View::Beauty;
+        forget_scene_limits(line, options);
+    }
     check_combinations(line.command, options);
     return options;
 }
