@@ -42,6 +42,10 @@ constexpr std::array kCommands{
         "building and measuring are not in it. An interrupted bench goes on with the same command. 'report'\n"
         "makes a page of the folder.",
         Inputs::Scenes},
+    CommandInfo{Command::Report, "report", "DIR",
+                "Makes one HTML page of a bench folder, and its plots as SVG and PNG.\n"
+                "The page needs nothing else: it can be handed over.",
+                Inputs::Folder},
 };
 
 constexpr std::string_view kScene =

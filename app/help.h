@@ -10,7 +10,7 @@
 namespace pl {
 
 /// What a subcommand works on.
-enum class Inputs { Nothing, Scene, Scenes, Pictures };
+enum class Inputs { Nothing, Scene, Scenes, Pictures, Folder };
 
 struct CommandInfo {
     Command id;

@@ -27,6 +27,7 @@ int run(const std::vector<std::string>& arguments, Console& console) {
     case Command::Inspect: return run_inspect(line, console);
     case Command::Compare: return run_compare(line, console);
     case Command::Bench: return run_bench(line, console);
+    case Command::Report: return run_report(line, console);
     case Command::Reference: return run_reference(line, console);
     }
     return static_cast<int>(ErrorKind::Usage);

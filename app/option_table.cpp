@@ -13,13 +13,13 @@ namespace pl {
 namespace {
 
 using enum Command;
-constexpr CommandSet kEverywhere(View, Render, Info, Devices, Inspect, Compare, Reference, Bench);
+constexpr CommandSet kEverywhere(View, Render, Info, Devices, Inspect, Compare, Reference, Bench, Report);
 constexpr CommandSet kWithScene(View, Render, Info, Inspect, Reference, Bench);
 constexpr CommandSet kOneMethod(View, Render, Info, Inspect, Reference);
 constexpr CommandSet kPaths(View, Render, Inspect, Reference, Bench);
 constexpr CommandSet kSampling(View, Render, Inspect);
 constexpr CommandSet kPictures(View, Render);
-constexpr CommandSet kHeadless(Render, Info, Devices, Inspect, Compare, Reference, Bench);
+constexpr CommandSet kHeadless(Render, Info, Devices, Inspect, Compare, Reference, Bench, Report);
 constexpr CommandSet kFiles(Render, Inspect);
 constexpr CommandSet kWorking(Render, Inspect, Reference, Bench);
 constexpr CommandSet kView(View);

@@ -82,6 +82,7 @@ void add_options(CLI::App& app, Command command, Found& found) {
     case Inputs::Nothing: break;
     case Inputs::Scene: app.add_option("SCENE,--scene", found.scene)->take_last(); break;
     case Inputs::Scenes:
+    case Inputs::Folder:
     case Inputs::Pictures: app.add_option("INPUTS", found.inputs)->expected(-1); break;
     }
 }
@@ -137,6 +138,8 @@ void require_complete(Command command, const Options& options) {
         fail(fmt::format("'{}' needs a folder to write to: -o DIR", command_name(command)));
     if (command == Command::Inspect && options.at.has_value() == options.pixel.has_value())
         fail("'inspect' needs a place: either --at X,Y,Z[,NX,NY,NZ] or --pixel X,Y");
+    if (command == Command::Report && options.inputs.size() != 1)
+        fail(fmt::format("'report' needs one folder of 'bench', DIR: got {}", options.inputs.size()));
     if (command == Command::Compare && options.inputs.size() != 2)
         fail(fmt::format("'compare' needs two pictures, IMAGE REFERENCE: got {}", options.inputs.size()));
 }

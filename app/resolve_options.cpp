@@ -138,6 +138,8 @@ void settle_reference(const CommandLine& line, Options& options) {
     if (!options.spp && !options.time_limit_seconds) options.spp = kReferenceSpp;
 }
 
+}  // namespace
+
 std::string shell_word(const std::string& text) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,+:@%=";
     if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
@@ -145,8 +147,6 @@ std::string shell_word(const std::string& text) {
     for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return quoted + "'";
 }
-
-}  // namespace
 
 Options resolve_options(const CommandLine& line, const SceneDescription& scene, const LearnedField* loaded) {
     Options options;

@@ -1,5 +1,6 @@
 // `pathlight bench`: accuracy against time, for methods x back ends x scenes x seeds.
 #include <algorithm>
+#include <ctime>
 #include <map>
 #include <random>
 #include <set>
@@ -36,6 +37,25 @@ struct PlannedRun {
     bool warm_up = false;
 };
 
+/// The shell command that repeats a bench in any folder.
+std::string command_of(const CommandLine& line) {
+    std::string text = "pathlight bench";
+    for (const std::string& input : line.options.inputs) text += " " + shell_word(input);
+    for (const GivenOption& given : line.given)
+        if (given.spec->name != "output" && given.spec->name != "gate")
+            text += fmt::format(" --{}{}{}", given.spec->name, given.text.empty() ? "" : " ",
+                                given.text.empty() ? "" : shell_word(given.text));
+    return text + " -o DIR";
+}
+
+std::string utc_date() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    return {text, std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M UTC", &parts)};
+}
+
 class Bench {
 public:
     Bench(const CommandLine& line, Console& console) : line_(line), console_(console), folder_(line.options.output) {
@@ -53,10 +73,15 @@ public:
         const Json plan = plan_json();
         folder_.adopt_plan(plan);
         const bool complete = make_references() && make_runs();
-        const std::vector<BenchRun> runs = folder_.all_runs();
-        BenchResults results{.plan = plan, .runs = runs, .summary = {}, .complete = complete};
-        results.summary = summarize(runs, method_order(plan));
-        write_results(folder_, plan, runs, results.summary, complete);
+        BenchResults results{.plan = plan,
+                             .command = command_of(line_),
+                             .date = utc_date(),
+                             .references = references_json(),
+                             .runs = folder_.all_runs(),
+                             .summary = {},
+                             .complete = complete};
+        results.summary = summarize(results.runs, method_order(plan));
+        write_results(folder_, results);
         return report(results);
     }
 
@@ -129,6 +154,28 @@ private:
         return true;
     }
 
+    Json references_json() const {
+        Json references = Json::object();
+        for (const BenchScene& scene : scenes_) {
+            if (!scene.reference) continue;
+            const auto& [first, second] = scene.reference->halves;
+            references[scene.name] = {{"spp", Json::array({first.spp, second.spp})},
+                                      {"noise_relmse", scene.reference->noise().relmse}};
+        }
+        return references;
+    }
+
+    /// For the report, which shows it beside the others.
+    void save_reference_pictures() const {
+        for (const BenchScene& scene : scenes_) {
+            const auto& [first, second] = scene.reference->halves;
+            folder_.save_reference_picture(scene.name, {.width = first.image.width,
+                                                        .height = first.image.height,
+                                                        .pixels = weighted_mean(first.image.pixels, first.spp,
+                                                                                second.image.pixels, second.spp)});
+        }
+    }
+
     BenchCell cell_of(const PlannedRun& run) const {
         return {scenes_[run.scene].name, std::string(info_of(run.method).name), run.backend};
     }
@@ -166,6 +213,7 @@ private:
 
     /// False if interrupted; what was finished is on disk then.
     bool make_runs() {
+        save_reference_pictures();
         const std::vector<PlannedRun> runs = remaining_runs();
         ProgressDisplay progress(console_, !line_.options.no_progress && !line_.options.quiet);
         for (std::size_t i = 0; i < runs.size(); ++i) {

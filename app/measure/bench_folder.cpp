@@ -80,4 +80,12 @@ void BenchFolder::save_picture(const BenchCell& cell, const RunPoint& point, con
               ExrNumbers::Half);
 }
 
+fs::path BenchFolder::reference_picture_path(const std::string& scene) const {
+    return path_ / "pictures" / fmt::format("{}-reference.exr", scene);
+}
+
+void BenchFolder::save_reference_picture(const std::string& scene, const LinearImage& picture) const {
+    write_exr(reference_picture_path(scene), picture, {{"scene", scene}}, ExrNumbers::Half);
+}
+
 }  // namespace pl

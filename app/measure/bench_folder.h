@@ -31,6 +31,9 @@ public:
     void save_picture(const BenchCell& cell, const RunPoint& point, const LinearImage& picture) const;
     std::filesystem::path picture_path(const BenchCell& cell, std::uint32_t spp) const;
 
+    void save_reference_picture(const std::string& scene, const LinearImage& picture) const;
+    std::filesystem::path reference_picture_path(const std::string& scene) const;
+
 private:
     std::filesystem::path run_path(const BenchCell& cell, const std::string& which) const;
 

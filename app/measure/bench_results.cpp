@@ -153,31 +153,40 @@ std::string interval_text(const Interval& interval, std::size_t runs) {
 
 std::vector<std::string> method_order(const Json& plan) { return plan.at("methods").get<std::vector<std::string>>(); }
 
-void write_results(const BenchFolder& folder, const Json& plan, const std::vector<BenchRun>& runs,
-                   const BenchSummary& summary, bool complete) {
-    Json run_rows = Json::array();
-    for (const BenchRun& run : runs) run_rows.push_back(run_json(run));
+void write_results(const BenchFolder& folder, const BenchResults& results) {
+    Json runs = Json::array();
+    for (const BenchRun& run : results.runs) runs.push_back(run_json(run));
     write_json_file(folder.path() / "results.json",
                     {{"schema", kResultsSchema},
                      {"version", PL_VERSION},
-                     {"complete", complete},
+                     {"complete", results.complete},
+                     {"command", results.command},
+                     {"date", results.date},
                      {"definitions",
                       {{"metrics", metric_definitions()},
                        {"charged_seconds", "place + precompute + learn + render, on the steady clock of the host"},
+                       {"noise", "relmse of the picture's own noise, from two halves of its passes"},
                        {"intervals", "95 %, Student on logarithms over runs; ratios by Welch"}}},
-                     {"plan", plan},
-                     {"summary", summary_json(summary)},
-                     {"comparisons", comparisons_json(summary)},
-                     {"runs", run_rows}});
-    write_text_file_atomic(folder.path() / "series.csv", series_csv(runs));
-    write_text_file_atomic(folder.path() / "summary.csv", summary_csv(summary));
-    write_text_file_atomic(folder.path() / "summary.md", summary_markdown(summary));
+                     {"plan", results.plan},
+                     {"references", results.references},
+                     {"summary", summary_json(results.summary)},
+                     {"comparisons", comparisons_json(results.summary)},
+                     {"runs", runs}});
+    write_text_file_atomic(folder.path() / "series.csv", series_csv(results.runs));
+    write_text_file_atomic(folder.path() / "summary.csv", summary_csv(results.summary));
+    write_text_file_atomic(folder.path() / "summary.md", summary_markdown(results.summary));
 }
 
 BenchResults read_results(const std::filesystem::path& file) {
     const Json json = read_json_file(file, kResultsSchema);
     return read_members(file, [&] {
-        BenchResults results{.plan = json.at("plan"), .runs = {}, .summary = {}, .complete = json.at("complete")};
+        BenchResults results{.plan = json.at("plan"),
+                             .command = json.at("command"),
+                             .date = json.at("date"),
+                             .references = json.at("references"),
+                             .runs = {},
+                             .summary = {},
+                             .complete = json.at("complete")};
         for (const Json& run : json.at("runs")) results.runs.push_back(run_from_json(run));
         results.summary = summarize(results.runs, method_order(results.plan));
         return results;

@@ -6,19 +6,19 @@
 
 namespace pl {
 
-/// Writes results.json, series.csv, summary.csv and summary.md. `plan` is repeated in the first; `complete` says
-/// whether all planned runs are in.
-void write_results(const BenchFolder& folder, const Json& plan, const std::vector<BenchRun>& runs,
-                   const BenchSummary& summary, bool complete);
-
-/// What write_results() has written.
 struct BenchResults {
     Json plan;
+    std::string command;  ///< that repeats the bench
+    std::string date;     ///< of its end, UTC
+    Json references;      ///< by scene: samples per pixel of the halves, and their noise
     std::vector<BenchRun> runs;
-    BenchSummary summary;
-    bool complete = false;
+    BenchSummary summary;   ///< of the runs
+    bool complete = false;  ///< all planned runs are in
 };
-/// Throws Error(Input).
+
+/// Writes results.json, series.csv, summary.csv and summary.md.
+void write_results(const BenchFolder& folder, const BenchResults& results);
+/// What write_results() has written to results.json. Throws Error(Input).
 BenchResults read_results(const std::filesystem::path& file);
 
 /// [value, low, high]; not finite numbers are null.

@@ -91,7 +91,11 @@ TEST_CASE("a bench leaves everything it knows") {
     CHECK(lines_of(read_all(folder / "b/summary.csv")).size() == 1 + 3);
     CHECK_THAT(read_all(folder / "b/summary.md"), contains("only 2 runs: no interval"));
     // Pictures of the first seed, as half floats: a digit in a thousand of what the reference has.
-    CHECK(std::distance(fs::directory_iterator(folder / "b/pictures"), fs::directory_iterator{}) == 3 * 4);
+    CHECK(std::distance(fs::directory_iterator(folder / "b/pictures"), fs::directory_iterator{}) == 3 * 4 + 1);
+    CHECK(read_exr(folder / "b/pictures/cornell-reference.exr").height == 16);
+    CHECK(results.at("references").at("cornell").at("spp") == json::array({32, 32}));
+    CHECK_THAT(results.at("command").get<std::string>(),
+               contains("pathlight bench cornell --backend cpu") && contains("--seeds 2"));
     CHECK(read_exr(folder / "b/pictures/cornell-default-cpu-8.exr").width == 16);
 }
 

@@ -94,8 +94,6 @@ TEST_CASE("what a later version will have is refused by name") {
     for (const char* word : {"--save-field", "--load-field"})
         CHECK_THAT(complaint({"view", "s", word, "f"}),
                    contains(std::string(word) + ": this version does not have it") && contains("'render'"));
-    for (const char* command : {"report"})
-        CHECK_THAT(complaint({command, "x"}), contains("unknown subcommand '" + std::string(command) + "'"));
 }
 
 TEST_CASE("unknown words name the nearest one") {
