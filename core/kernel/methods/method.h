@@ -33,13 +33,14 @@ struct MethodCounters {
 
 /// `Vertex` is what a method knows about the surface point a path stands on; `Memory` is what it keeps until the
 /// next vertex is reached; `Expectation` is what it keeps of the path's start, to judge what the path is still worth.
-/// Methods that learn nothing have empty ones, which cost no byte of path state.
+/// `Record` is one observation on its way into the tables: learn() makes it, commit() adds it, any thread at any time
+/// before the pass ends. Methods that learn nothing have empty ones, which cost no byte of path state.
 ///
 /// roulette_worth(vertex, albedo, throughput, survival, expectation): what the path can still bring, as a share of
 /// what it could at its first vertex: Russian roulette is played on it. Called once per vertex. `survival` is the product of the
 /// albedos, divided by the chances of earlier roulettes.
 template <class M>
-concept Method = requires(const M& method, const typename M::Vertex& vertex, typename M::Memory& memory,
+concept Method = requires(const M& method, const typename M::Vertex& vertex, const typename M::Memory& memory,
                           const SurfacePoint& surface, const Rng& rng, Vec3f wi, Vec4f u, const Arrival& arrival,
                           MethodCounters& counters, typename M::Expectation& expectation) {
     { method.arrive(surface, counters) } -> std::same_as<typename M::Vertex>;
@@ -47,7 +48,8 @@ concept Method = requires(const M& method, const typename M::Vertex& vertex, typ
     { method.pdf_sa(vertex, surface, wi) } -> std::same_as<float>;
     { method.remember(vertex, DirectionSample{}) } -> std::same_as<typename M::Memory>;
     { method.roulette_worth(vertex, wi, wi, float{}, expectation) } -> std::same_as<float>;
-    { method.learn(memory, arrival, vertex, counters) } -> std::same_as<void>;
+    { method.learn(memory, arrival, vertex, counters) } -> std::same_as<typename M::Record>;
+    { method.commit(typename M::Record{}) } -> std::same_as<void>;
 };
 
 }  // namespace pl
