@@ -1,52 +1,19 @@
 // `pathlight bench`: accuracy against time, for methods x back ends x scenes x seeds.
 #include <algorithm>
 #include <ctime>
-#include <map>
-#include <random>
+#include <functional>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "app/commands.h"
-#include "app/json_file.h"
-#include "app/make_backend.h"
+#include "app/measure/bench_plan.h"
 #include "app/measure/gate.h"
 #include "app/measure/make_reference.h"
-#include "app/open_scene.h"
-#include "app/picture_file.h"
 #include "app/progress.h"
 
 namespace pl {
 namespace {
-
-/// Of the shuffled order of runs: recorded, so that a bench can be repeated in the same order.
-constexpr std::uint64_t kOrderSeed = 1;
-
-struct BenchScene {
-    std::string name;  ///< of its file
-    LoadedScene loaded;
-    Options options;
-    std::shared_ptr<const Reference> reference;
-};
-
-struct PlannedRun {
-    std::size_t scene = 0;
-    MethodId method = MethodId::Default;
-    std::string backend;
-    std::uint64_t seed = 1;
-    bool warm_up = false;
-};
-
-/// The shell command that repeats a bench in any folder.
-std::string command_of(const CommandLine& line) {
-    std::string text = "pathlight bench";
-    for (const std::string& input : line.options.inputs) text += " " + shell_word(input);
-    for (const GivenOption& given : line.given)
-        if (given.spec->name != "output" && given.spec->name != "gate")
-            text += fmt::format(" --{}{}{}", given.spec->name, given.text.empty() ? "" : " ",
-                                given.text.empty() ? "" : shell_word(given.text));
-    return text + " -o DIR";
-}
 
 std::string utc_date() {
     const std::time_t now = std::time(nullptr);
@@ -58,23 +25,18 @@ std::string utc_date() {
 
 class Bench {
 public:
-    Bench(const CommandLine& line, Console& console) : line_(line), console_(console), folder_(line.options.output) {
-        open_scenes();
-        methods_ = line.options.methods;
-        if (methods_.empty())
-            for (const MethodInfo& info : all_methods()) methods_.push_back(info.id);
-        names_ = line.options.backends.empty() ? available_backends() : line.options.backends;
-        for (const std::string& name : names_) backends_[name] = make_backend(name, line.options.threads);
+    Bench(const CommandLine& line, Console& console)
+        : line_(line), console_(console), folder_(line.options.output), plan_(make_bench_plan(line, console)) {
         if (!line.options.reference_folder.empty()) find_references();
         if (!line.options.gate.empty()) earlier_ = read_results(line.options.gate);
     }
 
     int run() {
-        const Json plan = plan_json();
+        const Json plan = plan_.json();
         folder_.adopt_plan(plan);
         const bool complete = make_references() && make_runs();
         BenchResults results{.plan = plan,
-                             .command = command_of(line_),
+                             .command = repeating_command(line_),
                              .date = utc_date(),
                              .references = references_json(),
                              .runs = folder_.all_runs(),
@@ -86,52 +48,10 @@ public:
     }
 
 private:
-    void open_scenes() {
-        std::set<std::string> names;
-        for (const std::string& input : line_.options.inputs) {
-            CommandLine line = line_;
-            line.options.scene = input;
-            BenchScene scene{.name = {},
-                             .loaded = open_scene(input, line_.options.knobs, console_),
-                             .options = {},
-                             .reference = {}};
-            scene.options = resolve_options(line, *scene.loaded.scene);
-            scene.name = scene.loaded.scene->source.stem().string();
-            if (!names.insert(scene.name).second)
-                throw Error(ErrorKind::Usage,
-                            fmt::format("'bench' tells scenes apart by name: expected each once, got '{}' twice",
-                                        scene.name));
-            scenes_.push_back(std::move(scene));
-        }
-    }
-
-    /// What decides the numbers of a bench; runs of another plan are not its own.
-    Json plan_json() const {
-        Json scenes = Json::array();
-        for (const BenchScene& scene : scenes_) {
-            Json settings = Json::object();
-            for (const OptionSpec& spec : option_table())
-                if (spec.print != nullptr && spec.commands.has(Command::Bench) && spec.name != "seed")
-                    settings[std::string(spec.name)] = spec.print(scene.options);
-            scenes.push_back({{"name", scene.name},
-                              {"scene", scene.options.scene},
-                              {"picture_hash", content_of(*scene.loaded.scene, scene.options.render).picture_hash},
-                              {"settings", settings}});
-        }
-        Json methods = Json::array();
-        for (const MethodId method : methods_) methods.push_back(info_of(method).name);
-        Json devices = Json::object();
-        for (const auto& [name, backend] : backends_)
-            devices[name] = {{"device", backend->info().device}, {"threads", backend->info().threads}};
-        return {{"schema", kPlanSchema},        {"version", PL_VERSION},   {"scenes", scenes},
-                {"methods", methods},           {"backends", devices},     {"first_seed", line_.options.render.seed},
-                {"seeds", line_.options.seeds}, {"order_seed", kOrderSeed}};
-    }
-
     /// From the folder that was given; nothing is made there.
     void find_references() {
         const ReferenceStore store(line_.options.reference_folder);
-        for (BenchScene& scene : scenes_)
+        for (BenchScene& scene : plan_.scenes)
             scene.reference = std::make_shared<const Reference>(
                 store.require(content_of(*scene.loaded.scene, scene.options.render)));
     }
@@ -139,14 +59,14 @@ private:
     /// In the bench's own folder. False if interrupted.
     bool make_references() {
         const ReferenceStore store(folder_.references());
-        for (BenchScene& scene : scenes_) {
+        for (BenchScene& scene : plan_.scenes) {
             if (scene.reference) continue;
             Options options = scene.options;
             options.spp = options.reference_spp;
             options.time_limit_seconds.reset();
             options.render.method = MethodId::Default;
             options.render.next_event = true;
-            Session session(backends_.at(names_.front()), scene.loaded.scene, options.render);
+            Session session(plan_.backends.at(plan_.backend_names.front()), scene.loaded.scene, options.render);
             ReferenceOutcome outcome = make_reference(session, options, store, interrupt_, console_);
             if (outcome.interrupted) return false;
             scene.reference = std::make_shared<const Reference>(std::move(outcome.reference));
@@ -156,7 +76,7 @@ private:
 
     Json references_json() const {
         Json references = Json::object();
-        for (const BenchScene& scene : scenes_) {
+        for (const BenchScene& scene : plan_.scenes) {
             if (!scene.reference) continue;
             const auto& [first, second] = scene.reference->halves;
             references[scene.name] = {{"spp", Json::array({first.spp, second.spp})},
@@ -167,7 +87,7 @@ private:
 
     /// For the report, which shows it beside the others.
     void save_reference_pictures() const {
-        for (const BenchScene& scene : scenes_) {
+        for (const BenchScene& scene : plan_.scenes) {
             const auto& [first, second] = scene.reference->halves;
             folder_.save_reference_picture(scene.name, {.width = first.image.width,
                                                         .height = first.image.height,
@@ -176,39 +96,22 @@ private:
         }
     }
 
-    BenchCell cell_of(const PlannedRun& run) const {
-        return {scenes_[run.scene].name, std::string(info_of(run.method).name), run.backend};
-    }
-
-    /// What is still to do: blocks of one seed each, shuffled within, so that slow changes of the machine fall on all
-    /// cells alike; before them a warm-up of every cell that has anything left.
+    /// What is still to do, block by block; before it a warm-up of every cell that has anything left.
     std::vector<PlannedRun> remaining_runs() const {
         std::vector<PlannedRun> blocks;
         std::vector<PlannedRun> warm_ups;
         std::set<BenchCell> warmed;
-        for (int block = 0; block < line_.options.seeds; ++block) {
-            for (const PlannedRun& run : shuffled_block(block)) {
-                if (folder_.load_run(cell_of(run), run.seed)) continue;
+        for (int block = 0; block < plan_.seeds; ++block) {
+            for (const PlannedRun& run : plan_.shuffled_block(block)) {
+                if (folder_.load_run(plan_.cell_of(run), run.seed)) continue;
                 blocks.push_back(run);
-                if (!warmed.insert(cell_of(run)).second) continue;
+                if (!warmed.insert(plan_.cell_of(run)).second) continue;
                 warm_ups.push_back(run);
                 warm_ups.back().warm_up = true;
             }
         }
         warm_ups.insert(warm_ups.end(), blocks.begin(), blocks.end());
         return warm_ups;
-    }
-
-    std::vector<PlannedRun> shuffled_block(int block) const {
-        std::vector<PlannedRun> runs;
-        for (std::size_t scene = 0; scene < scenes_.size(); ++scene)
-            for (const MethodId method : methods_)
-                for (const std::string& backend : names_)
-                    runs.push_back({scene, method, backend,
-                                    line_.options.render.seed + static_cast<std::uint64_t>(block), false});
-        std::mt19937_64 generator(kOrderSeed + static_cast<std::uint64_t>(block));
-        for (std::size_t i = runs.size(); i > 1; --i) std::swap(runs[i - 1], runs[generator() % i]);
-        return runs;
     }
 
     /// False if interrupted; what was finished is on disk then.
@@ -218,12 +121,12 @@ private:
         ProgressDisplay progress(console_, !line_.options.no_progress && !line_.options.quiet);
         for (std::size_t i = 0; i < runs.size(); ++i) {
             const auto show = [&](const Session& session) {
-                const double share = share_done(session, scenes_[runs[i].scene].options);
+                const double share = share_done(session, plan_.scenes[runs[i].scene].options);
                 progress.show({.activity = "bench",
                                .share = (static_cast<double>(i) + share) / static_cast<double>(runs.size()),
                                .spp = session.passes(),
                                .detail = fmt::format("run {} of {}: {}, seed {}{}", i + 1, runs.size(),
-                                                     cell_of(runs[i]).title(), runs[i].seed,
+                                                     plan_.cell_of(runs[i]).title(), runs[i].seed,
                                                      runs[i].warm_up ? " (warm-up)" : "")});
             };
             if (interrupt_.raised() || !make_run(runs[i], show)) return false;
@@ -239,20 +142,20 @@ private:
     }
 
     bool make_run(const PlannedRun& planned, const std::function<void(const Session&)>& show) {
-        const BenchScene& scene = scenes_[planned.scene];
+        const BenchScene& scene = plan_.scenes[planned.scene];
         RenderSettings settings = scene.options.render;
         settings.method = planned.method;
         settings.seed = planned.seed;
-        const std::shared_ptr<RenderBackend>& backend = backends_.at(planned.backend);
+        const std::shared_ptr<RenderBackend>& backend = plan_.backends.at(planned.backend);
         Session session(backend, scene.loaded.scene, settings, scene.loaded.load_seconds);
-        BenchRun run{.cell = cell_of(planned),
+        BenchRun run{.cell = plan_.cell_of(planned),
                      .seed = planned.seed,
                      .warm_up = planned.warm_up,
                      .device = backend->info().device,
                      .threads = backend->info().threads,
                      .series = {}};
         RunObserver observer{.on_point = {}, .on_work = show};
-        if (!planned.warm_up && planned.seed == line_.options.render.seed)
+        if (!planned.warm_up && planned.seed == plan_.first_seed)
             observer.on_point = [&](const RunPoint& point, const Snapshot& snapshot) {
                 folder_.save_picture(run.cell, point,
                                      {.width = snapshot.width, .height = snapshot.height, .pixels = snapshot.pixels});
@@ -307,10 +210,7 @@ private:
     Console& console_;
     InterruptGuard interrupt_;
     BenchFolder folder_;
-    std::vector<BenchScene> scenes_;
-    std::vector<MethodId> methods_;
-    std::vector<std::string> names_;  ///< of back ends
-    std::map<std::string, std::shared_ptr<RenderBackend>> backends_;
+    BenchPlan plan_;
     std::optional<BenchResults> earlier_;
 };
 
