@@ -19,8 +19,8 @@ void require_same_sizes(std::initializer_list<Pixels> pictures) {
 
 double channel_mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3.0; }
 
-/// v / (scale^2 + kEpsilon) by channel, averaged.
-double relative(const Vec3d& v, const Vec3d& scale) { return channel_mean(v / (scale * scale + Vec3d(kEpsilon))); }
+/// What makes a square relative, by channel.
+Vec3d relative_weight(const Vec3d& scale) { return Vec3d(1.0) / (scale * scale + Vec3d(kEpsilon)); }
 
 /// Means over square blocks of pixels, of which the error of their mean follows.
 class BlockMeans {
@@ -79,7 +79,7 @@ Noise estimate_noise(const PictureHalves& halves) {
         const Vec3d b{halves.second[i]};
         const Vec3d square = 0.25 * (a - b) * (a - b);
         noise.mse += channel_mean(square);
-        noise.relmse += relative(square, 0.5 * (a + b));
+        noise.relmse += channel_mean(square * relative_weight(0.5 * (a + b)));
         ++noise.pixels;
     }
     if (noise.pixels > 0) {
@@ -108,10 +108,11 @@ ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& refer
         const Vec3d a{picture.first[i]}, b{picture.second[i]};
         const Vec3d r1{reference.first[i]}, r2{reference.second[i]};
         const Vec3d x = 0.5 * (a + b), r = 0.5 * (r1 + r2);
-        parts.error += relative((x - r1) * (x - r2), r);
-        parts.variance += relative(0.25 * (a - b) * (a - b), r);
-        parts.reference_noise += relative(0.25 * (r1 - r2) * (r1 - r2), r);
-        squared_bias.add(i, relative((a - r1) * (b - r2), r));
+        const Vec3d weight = relative_weight(r);
+        parts.error += channel_mean(weight * (x - r1) * (x - r2));
+        parts.variance += channel_mean(weight * 0.25 * (a - b) * (a - b));
+        parts.reference_noise += channel_mean(weight * 0.25 * (r1 - r2) * (r1 - r2));
+        squared_bias.add(i, channel_mean(weight * (a - r1) * (b - r2)));
         difference.add(i, luminance_of(x - r));
         reference_luminance += luminance_of(r);
         ++parts.pixels;

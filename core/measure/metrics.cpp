@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -16,24 +18,49 @@ void require_same_size(Pixels picture, Pixels reference) {
                                           " pixels as the reference has, got " + std::to_string(picture.size()));
 }
 
-/// Mean of all but the `share` largest values; reorders them.
-double trimmed_mean(std::vector<double>& values, double share) {
-    if (values.empty()) return 0.0;
-    const auto kept = static_cast<std::ptrdiff_t>(std::ceil((1.0 - share) * static_cast<double>(values.size())));
-    if (kept < static_cast<std::ptrdiff_t>(values.size()))
-        std::nth_element(values.begin(), values.begin() + kept, values.end());
-    double sum = 0.0;
-    for (std::ptrdiff_t i = 0; i < kept; ++i) sum += values[static_cast<std::size_t>(i)];
-    return sum / static_cast<double>(kept);
+std::size_t trimmed_count(std::size_t pixels) {
+    const auto kept = static_cast<std::size_t>(std::ceil((1.0 - kTrimmedShare) * static_cast<double>(pixels)));
+    return pixels - kept;
 }
+
+/// A sum whose largest terms are kept apart, so that one of them, however large, costs the others no digit.
+class TrimmedSum {
+public:
+    explicit TrimmedSum(std::size_t most_left_out) : most_left_out_(most_left_out) {
+        largest_.reserve(most_left_out + 1);
+    }
+
+    void add(double term) {
+        if (largest_.size() == most_left_out_ && (largest_.empty() || term <= largest_.front())) {
+            rest_ += term;
+            return;
+        }
+        largest_.push_back(term);
+        std::push_heap(largest_.begin(), largest_.end(), std::greater<>());
+        if (largest_.size() <= most_left_out_) return;
+        std::pop_heap(largest_.begin(), largest_.end(), std::greater<>());
+        rest_ += largest_.back();
+        largest_.pop_back();
+    }
+
+    /// Without the `left_out` largest terms; at most as many as were kept apart.
+    double sum(std::size_t left_out) const {
+        std::vector<double> descending = largest_;
+        std::sort(descending.begin(), descending.end(), std::greater<>());
+        return std::accumulate(descending.rbegin(), descending.rend() - static_cast<std::ptrdiff_t>(left_out), rest_);
+    }
+
+private:
+    std::size_t most_left_out_;
+    std::vector<double> largest_;  ///< a heap with the smallest in front
+    double rest_ = 0.0;
+};
 
 /// Sums over pixels on the way to Metrics.
 class ErrorSums {
 public:
-    explicit ErrorSums(std::size_t pixels) {
-        squares_.reserve(pixels);
-        relative_squares_.reserve(pixels);
-    }
+    explicit ErrorSums(std::size_t pixels)
+        : squares_(trimmed_count(pixels)), relative_squares_(trimmed_count(pixels)) {}
 
     /// `square` is (x-r)^2 by channel, or what stands for it.
     void add(const Vec3d& x, const Vec3d& r, const Vec3d& square) {
@@ -46,20 +73,22 @@ public:
             absolute_ += distance / (std::fabs(r[c]) + kEpsilon);
             symmetric_ += 2.0 * distance / (std::fabs(x[c]) + std::fabs(r[c]) + kEpsilon);
         }
-        squares_.push_back(plain / 3.0);
-        relative_squares_.push_back(relative / 3.0);
+        squares_.add(plain / 3.0);
+        relative_squares_.add(relative / 3.0);
+        ++pixels_;
         difference_ += luminance_of(x - r);
         reference_ += luminance_of(r);
     }
 
     Metrics finish(std::size_t invalid, std::size_t invalid_reference) {
-        Metrics m{.pixels = squares_.size(), .invalid = invalid, .invalid_reference = invalid_reference};
+        Metrics m{.pixels = pixels_, .invalid = invalid, .invalid_reference = invalid_reference};
         if (m.pixels == 0) return m;
         const auto n = static_cast<double>(m.pixels);
-        m.mse = trimmed_mean(squares_, 0.0);
-        m.relmse = trimmed_mean(relative_squares_, 0.0);
-        m.mse_trimmed = trimmed_mean(squares_, kTrimmedShare);
-        m.relmse_trimmed = trimmed_mean(relative_squares_, kTrimmedShare);
+        const std::size_t left_out = trimmed_count(m.pixels);
+        m.mse = squares_.sum(0) / n;
+        m.relmse = relative_squares_.sum(0) / n;
+        m.mse_trimmed = squares_.sum(left_out) / static_cast<double>(m.pixels - left_out);
+        m.relmse_trimmed = relative_squares_.sum(left_out) / static_cast<double>(m.pixels - left_out);
         m.rmse = std::sqrt(std::max(m.mse, 0.0));
         m.mape = absolute_ / (3.0 * n);
         m.smape = symmetric_ / (3.0 * n);
@@ -70,8 +99,9 @@ public:
     }
 
 private:
-    std::vector<double> squares_;
-    std::vector<double> relative_squares_;
+    TrimmedSum squares_;
+    TrimmedSum relative_squares_;
+    std::size_t pixels_ = 0;
     double absolute_ = 0.0;
     double symmetric_ = 0.0;
     double difference_ = 0.0;

@@ -56,11 +56,13 @@ public:
         const Snapshot snapshot = session.snapshot();
         if (spp == middle()) halves_.add(0, snapshot.pixels, spp);
         if (spp == next_) finish_step(snapshot);
-        if (over || spp == last_) {
+        const bool measured = over || spp == last_;
+        if (measured) {
             measure(snapshot);
             over = over || (limits_.target_error && series_.points.back().metrics.relmse <= *limits_.target_error);
         }
         series_.measure_seconds += watch.seconds();
+        if (observer_.on_point && measured) observer_.on_point(series_.points.back(), snapshot);
         return over;
     }
 
@@ -90,7 +92,6 @@ private:
             point.signed_bias = parts_.signed_bias;
         }
         series_.points.push_back(point);
-        if (observer_.on_point) observer_.on_point(point, snapshot);
     }
 
     void take_halves_apart(int width) {

@@ -37,7 +37,7 @@ struct RunPoint {
 
 struct RunSeries {
     std::vector<RunPoint> points;
-    double measure_seconds = 0.0;  ///< spent on measuring: not charged
+    double measure_seconds = 0.0;  ///< spent on measuring, without observers: not charged
 
     Curve error_over_time() const;
     Curve error_over_samples() const;

@@ -117,9 +117,9 @@ TEST_CASE("time spent on measuring is on no clock") {
                                                 .on_work = {}});
     const double wall = watch.seconds();
     CHECK(points == 4);
-    CHECK(series->measure_seconds >= 0.8);
+    CHECK(series->measure_seconds > 0.0);
     const Clocks& clocks = series->points.back().clocks;
-    CHECK(charged_seconds(clocks) <= wall - series->measure_seconds);
+    CHECK(charged_seconds(clocks) <= wall - series->measure_seconds - 4 * 0.2);
     CHECK(charged_seconds(clocks) == clocks.place + clocks.precompute + clocks.learn + clocks.render);
     CHECK(clocks.place > 0.0);
     CHECK(clocks.learn > 0.0);
