@@ -9,15 +9,11 @@
 #include "core/io/field_file.h"
 
 namespace pl {
-namespace {
-
-std::string summary(const LearnedField& field) {
-    return fmt::format("{}, {} volumes, {} directions, {} passes, {} records", info_of(field.method).name,
-                       field.volumes->normals.size(), field.shape.cells.count(), field.progress.passes,
-                       field.progress.records);
+void fit_to_run(LearnedField& field, const FieldSettings& settings) {
+    field.progress.precompute_seconds = 0.0;
+    field.settings.lookup = settings.lookup;
+    field.shape.lookup = settings.lookup;
 }
-
-}  // namespace
 
 FieldFiles::FieldFiles(const Options& given) {
     if (given.load_field.empty()) return;
@@ -26,14 +22,26 @@ FieldFiles::FieldFiles(const Options& given) {
     load_seconds_ = watch.seconds();
 }
 
+std::shared_ptr<const LearnedField> FieldFiles::take(const SceneDescription& scene, const Options& options) {
+    if (!loaded_) return nullptr;
+    const auto field = std::make_shared<LearnedField>(std::move(*loaded_));
+    loaded_.reset();
+    fit_to_run(*field, options.render.field);
+    try {
+        require_learned_in(scene, *field);
+    } catch (const Error& error) {
+        throw Error(error.kind(), fmt::format("{}: {}", options.load_field, error.what()));
+    }
+    return field;
+}
+
 void FieldFiles::hand_over(Session& session, const Options& options, Console& console) {
     if (!loaded_) return;
     LearnedField field = std::move(*loaded_);
     loaded_.reset();
-    console.log().detail(fmt::format("{}: {}", options.load_field, summary(field)));
-    earlier_precompute_seconds_ = std::exchange(field.progress.precompute_seconds, 0.0);
-    field.settings.lookup = options.render.field.lookup;
-    field.shape.lookup = options.render.field.lookup;
+    console.log().detail(fmt::format("{}: {}", options.load_field, summary_of(field)));
+    earlier_precompute_seconds_ = field.progress.precompute_seconds;
+    fit_to_run(field, options.render.field);
     try {
         session.import_field(std::move(field));
     } catch (const Error& error) {
@@ -46,7 +54,7 @@ void FieldFiles::save(const Session& session, const Options& options, Console& c
     LearnedField field = session.export_field();
     field.progress.precompute_seconds += earlier_precompute_seconds_;
     write_field(options.save_field, field);
-    console.remark(fmt::format("{}: {}\n", options.save_field, summary(field)));
+    console.remark(fmt::format("{}: {}\n", options.save_field, summary_of(field)));
     console.event("field", {{"output", options.save_field},
                             {"volumes", field.volumes->normals.size()},
                             {"passes", field.progress.passes},

@@ -9,6 +9,9 @@
 
 namespace pl {
 
+/// What a loaded field takes from the present run: clocks that start at zero, and the way to look volumes up.
+void fit_to_run(LearnedField& field, const FieldSettings& settings);
+
 class FieldFiles {
 public:
     /// Reads the field that the options ask for, if any. Throws Error(Input).
@@ -18,6 +21,8 @@ public:
     const LearnedField* loaded() const { return loaded_ ? &*loaded_ : nullptr; }
     double load_seconds() const { return load_seconds_; }
 
+    /// What was loaded, for a session to come; null if nothing was. Throws Error(Input) if it was learned in another scene.
+    std::shared_ptr<const LearnedField> take(const SceneDescription& scene, const Options& options);
     /// Gives the session what was loaded. Its clocks start at zero: they tell the time of this run.
     /// Throws Error(Input) if it was learned in another scene.
     void hand_over(Session& session, const Options& options, Console& console);

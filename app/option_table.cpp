@@ -61,8 +61,8 @@ void parse_spp(Options& options, const std::string& text) {
     options.spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000));
 }
 
-void refuse_field_files(Options&, const std::string&) {
-    fail_not_yet("the viewer keeps what it learns until it closes; 'render' and 'inspect' save and load it");
+void refuse_save_field(Options&, const std::string&) {
+    throw Error(ErrorKind::Usage, "the viewer saves what was learned when Ctrl+Shift+S is pressed");
 }
 
 using Text = const std::string&;
@@ -249,15 +249,13 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kField,
      .help = "Go on from a field that was saved for this scene: it brings method, volumes, bins and what was learned. "
              "Timings count this run only. 'inspect' then trains only if --spp or --time-limit is given",
-     .commands = kFiles, .parse = parse_text<&Options::load_field>,
+     .commands = kSampling, .parse = parse_text<&Options::load_field>,
      .print = [](const Options& o) { return o.load_field; }},
     {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kField,
      .help = "Write what was learned, also when interrupted; a run that loads it goes on exactly there",
      .commands = kFiles, .parse = parse_text<&Options::save_field>},
-    {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kHidden, .help = "",
-     .commands = kView, .parse = refuse_field_files},
     {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kHidden, .help = "",
-     .commands = kView, .parse = refuse_field_files},
+     .commands = kView, .parse = refuse_save_field},
 
     {.name = "json", .flags = "--json", .value = "", .group = kMessages,
      .help = "One JSON object per line on standard output instead of text",

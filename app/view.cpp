@@ -11,9 +11,11 @@
 
 #include <fmt/format.h>
 
+#include "app/field_files.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/picture_file.h"
+#include "core/io/field_file.h"
 #include "core/io/load_scene.h"
 #include "cuda/availability.h"
 #include "ui/viewer.h"
@@ -132,6 +134,17 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
         const std::string command = command_of(picture, *scenes.find(picture.scene), options, viewer.first_backend);
         save_picture(path, snapshot, picture.display, metadata_of(picture, snapshot, command));
     };
+    viewer.load_field = [&](const std::filesystem::path& path, const std::string& scene) {
+        const auto field = std::make_shared<LearnedField>(read_field(path));
+        try {
+            require_learned_in(*scenes.find(scene), *field);
+        } catch (const Error& error) {
+            throw Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
+        }
+        fit_to_run(*field, options.render.field);
+        return field;
+    };
+    viewer.save_field = write_field;
     viewer.save_screen = [](const std::filesystem::path& path, const ScreenPixels& pixels) {
         write_png8(path, {.width = pixels.width, .height = pixels.height, .rgb = pixels.rgb});
     };
@@ -141,13 +154,15 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
 
 int run_view(const CommandLine& line, Console& console) {
     const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
-    const Options options = resolve_options(line, *loaded.scene);
+    FieldFiles fields(line.options);
+    const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     OpenedScenes scenes;
     scenes.add(options.scene, loaded.scene);
 
     ViewerOptions viewer = viewer_options(line, options, loaded);
     add_backends(viewer, options);
     add_functions(viewer, scenes, options, console);
+    viewer.field = fields.take(*loaded.scene, options);
     try {
         return run_viewer(viewer);
     } catch (const Error& error) {

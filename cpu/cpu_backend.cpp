@@ -62,6 +62,10 @@ public:
         films_.reset(slot, width, height, settings_.threads);
     }
     FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, settings_.threads); }
+    DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override {
+        return films_.show(slot, style, settings_.threads);
+    }
+    float largest_value(FilmSlot slot) override { return films_.largest_value(slot, settings_.threads); }
 
     PassCounters run_pass(const PassRequest& request) override {
         const PassSetup setup = make_setup(request.path, request.first_pixel, request.stop);

@@ -47,4 +47,29 @@ FilmReading FilmStore::read(FilmSlot slot, int threads) const {
     return reading;
 }
 
+DisplayFrame FilmStore::show(FilmSlot slot, const FrameStyle& style, int threads) {
+    const auto& film = films_.existing(slot);
+    if (table_.curve() != style.curve) table_ = ToneTable(style.curve);
+    const auto pixels = std::make_shared<std::vector<std::uint32_t>>(film.pixels.size());
+    ChunkQueue queue(0, static_cast<std::uint32_t>(film.pixels.size()), kPixelChunk);
+    parallel_for(threads, queue, [&](IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i)
+            (*pixels)[i] = frame_pixel(mean_or_nan(film.pixels[i]), style, table_.view());
+    });
+    return {film.width, film.height, [pixels] { return pixels->data(); }};
+}
+
+float FilmStore::largest_value(FilmSlot slot, int threads) {
+    const auto& film = films_.existing(slot);
+    std::atomic<float> largest{0.0f};
+    ChunkQueue queue(0, static_cast<std::uint32_t>(film.pixels.size()), kPixelChunk);
+    parallel_for(threads, queue, [&](IndexRange range) {
+        float own = 0.0f;
+        for (std::uint32_t i = range.begin; i < range.end; ++i) own = max_of(own, range_value(film.pixels[i]));
+        float seen = largest;
+        while (seen < own && !largest.compare_exchange_weak(seen, own)) continue;
+    });
+    return largest;
+}
+
 }  // namespace pl

@@ -10,12 +10,15 @@ public:
     /// Makes the film exist with this size and empties it. Throws Error if the size makes no sense.
     void reset(FilmSlot slot, int width, int height, int threads);
 
-    /// Both throw Error if the film was never reset.
+    /// All of these throw Error if the film was never reset.
     FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
     FilmReading read(FilmSlot slot, int threads) const;
+    DisplayFrame show(FilmSlot slot, const FrameStyle& style, int threads);
+    float largest_value(FilmSlot slot, int threads);
 
 private:
     mutable FilmSlots<HostArray<FilmPixel>> films_{"CPU"};
+    ToneTable table_{ToneCurve::Clamp};  ///< of the last frame
 };
 
 }  // namespace pl

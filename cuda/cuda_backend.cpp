@@ -67,6 +67,10 @@ public:
 
     void reset_film(FilmSlot slot, int width, int height) override { films_.reset(slot, width, height, stream_); }
     FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, stream_); }
+    DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override {
+        return films_.show(slot, style, stream_);
+    }
+    float largest_value(FilmSlot slot) override { return films_.largest_value(slot, stream_); }
 
     PassCounters run_pass(const PassRequest& request) override;
     PassCounters precompute(const PrecomputeRequest& request) override;

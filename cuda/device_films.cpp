@@ -44,4 +44,23 @@ FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const {
             .invalid = totals.invalid};
 }
 
+DisplayFrame DeviceFilms::show(FilmSlot slot, const FrameStyle& style, const Stream& stream) {
+    auto& film = films_.existing(slot);
+    return frames_.start(film.view(), style, stream);
+}
+
+float DeviceFilms::largest_value(FilmSlot slot, const Stream& stream) {
+    auto& film = films_.existing(slot);
+    if (largest_.size() == 0) largest_ = DeviceArray<std::uint32_t>(1);
+    if (staging_.bytes() < sizeof(float)) staging_ = PinnedMemory(sizeof(float));
+    largest_.clear(stream);
+    launch(kLargestValue, blocks_for(static_cast<std::uint32_t>(film.pixels.size())), stream, "largest_value",
+           film.view(), largest_.data());
+    copy_to_host(staging_.data(), largest_.data(), sizeof(float), stream);
+    stream.wait("looking for a film's largest value");
+    float largest = 0.0f;
+    std::memcpy(&largest, staging_.data(), sizeof largest);
+    return largest;
+}
+
 }  // namespace pl::cuda

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/session/film_slots.h"
+#include "cuda/frame_copies.h"
 #include "cuda/kernels/kernels.h"
-#include "cuda/runtime/device_array.h"
 
 namespace pl::cuda {
 
@@ -12,9 +12,12 @@ public:
     /// Makes the film exist with this size and empties it. Throws Error if the size makes no sense or does not fit.
     void reset(FilmSlot slot, int width, int height, const Stream& stream);
 
-    /// Both throw Error if the film was never reset.
+    /// All of these throw Error if the film was never reset.
     FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
     FilmReading read(FilmSlot slot, const Stream& stream) const;
+    /// The frame is made in `stream` and travels in one of its own.
+    DisplayFrame show(FilmSlot slot, const FrameStyle& style, const Stream& stream);
+    float largest_value(FilmSlot slot, const Stream& stream);
 
 private:
     mutable FilmSlots<DeviceArray<FilmPixel>> films_{"CUDA"};
@@ -22,6 +25,8 @@ private:
     mutable DeviceArray<Vec3f> means_;
     mutable DeviceArray<FilmTotals> totals_;
     mutable PinnedMemory staging_;
+    DeviceArray<std::uint32_t> largest_;
+    FrameCopies frames_;
 };
 
 }  // namespace pl::cuda

@@ -78,6 +78,8 @@ constexpr std::array kActions{
            "save the whole window as PNG",
            {at(SDL_SCANCODE_F12, kShift)}},
     Action{Save, ActionGroup::File, "Ctrl+S", "save the picture as EXR and PNG", {sign(SDLK_s, kCtrl)}},
+    Action{SaveField, ActionGroup::File, "Ctrl+Shift+S", "save what was learned", {sign(SDLK_s, kCtrlShift)}},
+    Action{LoadField, ActionGroup::File, "Ctrl+L", "go on from what was saved last", {sign(SDLK_l, kCtrl)}},
     Action{CopyCommand, ActionGroup::File, "Ctrl+C", "copy as command line", {sign(SDLK_c, kCtrl)}},
     Action{Quit, ActionGroup::File, "Ctrl+Q", "quit", {sign(SDLK_q, kCtrl)}},
 };
@@ -87,7 +89,7 @@ constexpr std::array kMouseActions{
     MouseAction{"right hold", "look around, pointer hidden"},
     MouseAction{"wheel", "speed"},
     MouseAction{"left click", "select the radiance volume there"},
-    MouseAction{"drop a file", "open an .obj or .json scene"},
+    MouseAction{"drop a file", "open an .obj or .json scene, or a saved .field"},
 };
 
 std::string code(const std::string& keys) {

@@ -46,6 +46,8 @@ enum class ActionId {
     Screenshot,
     ScreenshotWithPanels,
     Save,
+    SaveField,
+    LoadField,
     CopyCommand,
     Cancel,
     Quit,

@@ -20,7 +20,7 @@ bool has_learned(Session& session) {
 bool leave(Session& session, const std::shared_ptr<RenderBackend>& next) {
     if (has_learned(session)) {
         try {
-            session.apply(EditBackend{.backend = next});
+            session.apply(EditBackend{.backend = next, .forget_old = true});
             return true;
         } catch (const std::exception&) {
             // The old one cannot hand out its tables, or the next one cannot be set up: the second try tells which.
@@ -88,8 +88,9 @@ WorkerMessage BackendSwitch::switch_to(Session& session, const std::string& name
     try {
         session.apply(EditBackend{.backend = next});
     } catch (const std::exception& error) {
-        if (name != kFallback) throw;
-        return take_over(session, error);
+        if (name == kFallback) return take_over(session, error);
+        made_.erase(name);  // next time from the start: nobody knows what it still holds
+        throw;
     }
     adopt(name, next);
     return {false, fmt::format("{}: {}", back_end_label(name), choice(name).device)};
@@ -117,6 +118,7 @@ std::shared_ptr<RenderBackend> BackendSwitch::get(const std::string& name) {
 void BackendSwitch::adopt(const std::string& name, std::shared_ptr<RenderBackend> backend) {
     BackendChoice known = choice(name);
     known.device = device_text(backend->info());
+    known.failed.clear();
     change_choice(known);
     made_[name] = std::move(backend);
     current_ = name;
@@ -125,7 +127,7 @@ void BackendSwitch::adopt(const std::string& name, std::shared_ptr<RenderBackend
 void BackendSwitch::give_up(const std::string& name, const std::string& reason) {
     made_.erase(name);
     BackendChoice failed = choice(name);
-    failed.unavailable = reason;
+    failed.failed = reason;
     change_choice(failed);
 }
 

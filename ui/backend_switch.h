@@ -1,4 +1,5 @@
-// The back ends of one session: made when they are first wanted, kept for the way back, given up when they fail.
+// The back ends of one session: made when they are first wanted, kept for the way back, given up when they fail, and
+// made anew when one that failed is asked for again.
 // Lives on the render thread.
 #pragma once
 
@@ -30,9 +31,9 @@ public:
     std::shared_ptr<const BackendChoices> choices() const { return choices_; }
 
     /// Takes the session to another back end, with all that was learned; returns what to tell. Throws if the other one
-    /// is unavailable or fails: then the session is where it was.
+    /// is unavailable or fails: then the session is where it was, and the next try makes the other one anew.
     WorkerMessage switch_to(Session& session, const std::string& name);
-    /// The current back end failed with this error and is used no more: takes the session to the fallback, with what
+    /// The current back end failed with this error and is given up: takes the session to the fallback, with what
     /// was learned if the failed one still hands it out. Returns what to tell. Throws if the fallback fails, too.
     WorkerMessage take_over(Session& session, const std::exception& error);
     /// Makes the session, on the first back end or else on the fallback; then `told` gets the reason. Throws if there

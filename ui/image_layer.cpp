@@ -1,7 +1,5 @@
 #include "ui/image_layer.h"
 
-#include <cmath>
-
 #include <SDL.h>
 
 #include "core/base/error.h"
@@ -34,14 +32,17 @@ void ImageLayer::ensure_texture(int width, int height) {
 
 void ImageLayer::fill(const ViewerModel& model, const Key& key) {
     const PublishedFrame& frame = *model.frame();
+    try {
+        (void)frame.picture.pixels();  // before the texture is locked, whose old pixels are lost then
+    } catch (const Error&) {
+        return;  // the device is lost: the render thread finds out, tells it, and sends frames of another one
+    }
     void* pixels = nullptr;
     int pitch_bytes = 0;
     if (SDL_LockTexture(texture_, nullptr, &pixels, &pitch_bytes) != 0) return;
-    if (table_.curve() != key.display.curve) table_ = ToneTable(key.display.curve);
     CellOverlay overlay{frame.cells.get(), key.opacity, std::nullopt};
-    if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_);
-    const float scale = std::exp2(key.display.exposure_ev) * frame.range.scale();
-    write_picture(frame.snapshot, scale, table_, overlay, static_cast<std::uint32_t*>(pixels),
+    if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_.view());
+    write_picture(frame.picture, overlay, static_cast<std::uint32_t*>(pixels),
                   static_cast<std::size_t>(pitch_bytes) / sizeof(std::uint32_t));
     SDL_UnlockTexture(texture_);
 }
@@ -50,8 +51,8 @@ void ImageLayer::draw(const ViewerModel& model, const Rect& image) {
     if (model.frame() == nullptr) return;
     const Snapshot& snapshot = model.frame()->snapshot;
     ensure_texture(snapshot.width, snapshot.height);
-    const Key key{model.frame()->serial, display_of(snapshot.slot.view, model.display()),
-                  model.window().cells ? model.window().cells_opacity : 0.0f, model.selected_volume()};
+    const Key key{model.frame()->serial, model.window().cells ? model.window().cells_opacity : 0.0f,
+                  model.selected_volume()};
     if (!(key == key_)) {
         fill(model, key);
         key_ = key;

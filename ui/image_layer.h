@@ -29,14 +29,10 @@ private:
     /// All that decides the texture's pixels.
     struct Key {
         std::uint64_t serial = 0;  ///< of the frame
-        DisplaySettings display;
         float opacity = 0.0f;
         std::int32_t selected = kNoVolume;
 
-        friend bool operator==(const Key& a, const Key& b) {
-            return a.serial == b.serial && a.display.exposure_ev == b.display.exposure_ev &&
-                   a.display.curve == b.display.curve && a.opacity == b.opacity && a.selected == b.selected;
-        }
+        friend bool operator==(const Key&, const Key&) = default;
     };
 
     void ensure_texture(int width, int height);
@@ -47,7 +43,6 @@ private:
     int width_ = 0;
     int height_ = 0;
     Key key_;
-    ToneTable table_{ToneCurve::Clamp};
     ToneTable cell_table_{ToneCurve::Clamp};
 };
 

@@ -62,6 +62,8 @@ void perform(ViewerModel& model, ActionId action) {
     case ActionId::Screenshot: model.save_screenshot(); break;
     case ActionId::ScreenshotWithPanels: window.window_shot_asked = true; break;
     case ActionId::Save: model.save_picture(); break;
+    case ActionId::SaveField: model.save_field(); break;
+    case ActionId::LoadField: model.load_last_field(); break;
     case ActionId::CopyCommand: copy_command(model); break;
     case ActionId::Cancel: model.cancel(); break;
     case ActionId::Quit: window.quit_asked = true; break;

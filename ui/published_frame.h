@@ -21,7 +21,9 @@ struct CellImage {
 };
 
 struct PublishedFrame {
-    Snapshot snapshot;
+    DisplayFrame picture;  ///< what is shown, as `display` asked for it; may still be on its way
+    DisplaySettings display;
+    Snapshot snapshot;             ///< with pixels only if has_values()
     RenderSettings settings;       ///< width and height are those of the full picture
     std::uint64_t serial = 0;      ///< number of the frame, from 1
     std::uint64_t generation = 0;  ///< of the newest edit that this picture shows
@@ -33,6 +35,9 @@ struct PublishedFrame {
     ShownRange range;                                ///< of the snapshot
     std::shared_ptr<const CellImage> cells;          ///< null if not asked for, or of another camera pose
     std::shared_ptr<const VolumeInspection> volume;  ///< of the selected volume; null if there is nothing to show
+
+    /// Are the numbers behind the picture there too?
+    bool has_values() const { return !snapshot.pixels.empty(); }
 };
 
 enum class WorkerState { Starting, Rendering, Precomputing, Paused, Done, Failed };
@@ -54,6 +59,12 @@ struct WorkerStatus {
 struct WorkerMessage {
     bool is_error = false;
     std::string text;
+};
+
+/// Answer to RenderWorker::request_learned.
+struct LearnedAnswer {
+    std::shared_ptr<const LearnedField> field;  ///< null if there is none
+    std::string reason;                         ///< why there is none
 };
 
 /// Answer to RenderWorker::request_pick.

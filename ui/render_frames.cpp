@@ -54,7 +54,7 @@ void RenderWorker::render_cells() {
     session_->apply(EditView{View::Voronoi});
     const Progress progress = session_->advance(&stop_);
     if (progress != Progress::Rendered) return;
-    cells_ = std::make_shared<CellImage>(make_cell_image(session_->snapshot(), cell_table_));
+    cells_ = std::make_shared<CellImage>(make_cell_image(session_->show_film({}).frame));
     cells_pose_ = pose_;
     republish_ = true;
 }
@@ -69,6 +69,19 @@ void RenderWorker::answer_pick(Vec2f image_point) {
     const std::lock_guard lock(mutex_);
     pick_answer_ = answer;
     now_.pick.reset();
+}
+
+void RenderWorker::answer_learned() {
+    LearnedAnswer answer;
+    try {
+        answer.field = std::make_shared<const LearnedField>(session_->export_field());
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Usage) throw;
+        answer.reason = error.what();
+    }
+    const std::lock_guard lock(mutex_);
+    learned_answer_ = std::move(answer);
+    now_.learned = false;
 }
 
 void RenderWorker::refresh_inspection() {
@@ -99,8 +112,15 @@ bool RenderWorker::publish_is_due() const {
 void RenderWorker::publish() {
     // Until the first pass is there the window keeps the picture it has.
     if (session_->passes() == 0) return;
+    republish_ = false;
+    published_display_ = now_.display;
+    published_values_ = now_.values;
     auto frame = std::make_shared<PublishedFrame>();
-    frame->snapshot = session_->snapshot();
+    ShownFilm shown = session_->show_film(now_.display);
+    frame->picture = std::move(shown.frame);
+    frame->range = std::move(shown.range);
+    frame->display = now_.display;
+    frame->snapshot = now_.values ? session_->snapshot() : session_->summary();
     frame->settings = session_->settings();
     frame->settings.width = full_width_;
     frame->settings.height = full_height_;
@@ -112,10 +132,8 @@ void RenderWorker::publish() {
     frame->description = scene_;
     frame->scene = session_->packed_scene();
     frame->diagonal = diagonal_;
-    frame->range = shown_range(frame->snapshot);
     frame->cells = cells_pose_ == pose_ && now_.cells ? cells_ : nullptr;
     frame->volume = inspection_;
-    republish_ = false;
     pose_unseen_ = false;
     published_at_ = now_seconds();
     published_passes_ = frame->snapshot.passes;

@@ -18,7 +18,7 @@ void yield_to_the_window() {
 /// Does the edit change which volume a pixel shows?
 bool changes_pose(const SessionEdit& edit) {
     return std::holds_alternative<EditCamera>(edit) || std::holds_alternative<EditScene>(edit) ||
-           std::holds_alternative<EditField>(edit);
+           std::holds_alternative<EditField>(edit) || std::holds_alternative<EditLearned>(edit);
 }
 
 }  // namespace
@@ -63,6 +63,7 @@ bool RenderWorker::take_wishes() {
         if (wishes_.quit) return false;
         edits = edits_.take();
         wishes_.pick.reset();
+        wishes_.learned = false;
         wishes_.steps = 0;
         stop_ = false;
     }
@@ -71,13 +72,16 @@ bool RenderWorker::take_wishes() {
     const std::lock_guard lock(mutex_);
     // A pass in motion is short and always finished: otherwise a hand that never rests would never see a picture.
     pass_may_be_cut_ = !coarse();
-    const bool is_late = !edits_.empty() || wishes_.backend != backends_.current();
+    const bool other_frame = wishes_.display != now_.display || (wishes_.values && !now_.values);
+    const bool is_late =
+        !edits_.empty() || wishes_.backend != backends_.current() || (other_frame && status_.passes > 0);
     if (pass_may_be_cut_ && is_late) stop_ = true;  // came while nobody had decided
     return true;
 }
 
 bool RenderWorker::has_work() const {
-    if (now_.pick || now_.backend != backends_.current()) return true;
+    if (now_.pick || now_.learned || now_.backend != backends_.current()) return true;
+    if (frame_is_stale()) return true;
     if (failed_) return false;
     const bool size_is_stale = divider_ != 1 && !coarse();
     return size_is_stale || wants_pass() || republish_ || inspection_stale_ ||
@@ -185,16 +189,23 @@ void RenderWorker::apply_size(int divider) {
 
 void RenderWorker::work() {
     apply_size(coarse() ? motion_.divider_for(full_width_, full_height_) : 1);
-    if (republish_ && session_->passes() > 0) {  // a parked picture is there at once
+    if ((republish_ || frame_is_stale()) && session_->passes() > 0) {  // a parked picture is there at once
         refresh_inspection();
         publish();
     }
     if (now_.pick) answer_pick(*now_.pick);
+    if (now_.learned) answer_learned();
     if (wants_pass()) render();
     if (stop_) return;
     if (now_.cells && cells_pose_ != pose_ && session_->passes() > 0) render_cells();
     refresh_inspection();
     if (republish_ || publish_is_due()) publish();
+}
+
+/// Is what was published not what the window wants to see of the same picture?
+bool RenderWorker::frame_is_stale() const {
+    if (session_->passes() == 0) return false;
+    return now_.display != published_display_ || (now_.values && !published_values_);
 }
 
 /// While the camera moves, and until the last place it came to was seen at all.

@@ -19,6 +19,7 @@ RenderWorker::RenderWorker(WorkerSetup setup)
       scene_(setup_.scene), diagonal_(bounds_of(*setup_.scene).diagonal()), full_width_(setup_.settings.width),
       full_height_(setup_.settings.height) {
     wishes_.limits = setup_.limits;
+    wishes_.display = setup_.display;
     wishes_.backend = setup_.first_backend;
     status_.backend = setup_.first_backend;
     status_.backends = backends_.choices();
@@ -85,6 +86,26 @@ void RenderWorker::set_limits(SampleLimits limits) {
     wake_.notify_all();
 }
 
+void RenderWorker::set_display(const DisplaySettings& display) {
+    const std::lock_guard lock(mutex_);
+    if (display == wishes_.display) return;
+    wishes_.display = display;
+    cut_for_a_frame();
+}
+
+void RenderWorker::set_values_wanted(bool wanted) {
+    const std::lock_guard lock(mutex_);
+    if (wanted == wishes_.values) return;
+    wishes_.values = wanted;
+    if (wanted) cut_for_a_frame();
+}
+
+/// A frame is wanted for what is there already. The mutex is held.
+void RenderWorker::cut_for_a_frame() {
+    if (pass_may_be_cut_ && status_.passes > 0) stop_ = true;
+    wake_.notify_all();
+}
+
 void RenderWorker::set_cells_wanted(bool wanted) {
     const std::lock_guard lock(mutex_);
     wishes_.cells = wanted;
@@ -95,6 +116,12 @@ void RenderWorker::request_pick(Vec2f image_point) {
     const std::lock_guard lock(mutex_);
     wishes_.pick = image_point;
     if (pass_may_be_cut_) stop_ = true;
+    wake_.notify_all();
+}
+
+void RenderWorker::request_learned() {
+    const std::lock_guard lock(mutex_);
+    wishes_.learned = true;
     wake_.notify_all();
 }
 
@@ -123,6 +150,11 @@ std::vector<WorkerMessage> RenderWorker::take_messages() {
 std::optional<PickAnswer> RenderWorker::take_pick() {
     const std::lock_guard lock(mutex_);
     return std::exchange(pick_answer_, std::nullopt);
+}
+
+std::optional<LearnedAnswer> RenderWorker::take_learned() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(learned_answer_, std::nullopt);
 }
 
 std::exception_ptr RenderWorker::failure() const {

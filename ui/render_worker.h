@@ -26,6 +26,7 @@ struct WorkerSetup {
     RenderSettings settings;
     SampleLimits limits;
     double load_seconds = 0.0;
+    DisplaySettings display{};
 };
 
 class RenderWorker {
@@ -49,10 +50,16 @@ public:
     /// One more pass while paused.
     void step();
     void set_limits(SampleLimits limits);
+    /// How frames are shown from now on; interrupts a pass at rest, which then goes on where it was.
+    void set_display(const DisplaySettings& display);
+    /// Whether frames carry the numbers behind the picture, which take their time to fetch from a device.
+    void set_values_wanted(bool wanted);
     /// Whether frames carry the image of the volumes' cells.
     void set_cells_wanted(bool wanted);
     /// Asks for the surface under a point of the image, in [0,1)^2 from the top left.
     void request_pick(Vec2f image_point);
+    /// Asks for what the method has learned, after the pass under way.
+    void request_learned();
     /// The volume whose inspection frames carry; kNoVolume for none.
     void select_volume(std::int32_t volume);
 
@@ -62,6 +69,7 @@ public:
     WorkerStatus status() const;
     std::vector<WorkerMessage> take_messages();
     std::optional<PickAnswer> take_pick();
+    std::optional<LearnedAnswer> take_learned();
     /// What ended the thread, or null. Only a session that cannot be made ends it.
     std::exception_ptr failure() const;
 
@@ -73,10 +81,13 @@ private:
         bool paused = false;
         bool low_resolution = true;
         bool cells = false;
+        bool values = false;
+        DisplaySettings display;
         int steps = 0;
         SampleLimits limits;
         std::int32_t volume = kNoVolume;
         std::optional<Vec2f> pick;
+        bool learned = false;
         std::string backend;
         std::uint64_t generation = 0;
     };
@@ -93,13 +104,16 @@ private:
     void backend_changed();
     void settle_wish_for(const std::string& backend);
     void apply_size(int divider);
+    void cut_for_a_frame();
     void work();
     void render();
     void render_cells();
     void answer_pick(Vec2f image_point);
+    void answer_learned();
     void refresh_inspection();
     void publish();
     bool publish_is_due() const;
+    bool frame_is_stale() const;
     bool limit_reached() const;
     bool coarse() const;
     bool wants_pass() const;
@@ -116,6 +130,7 @@ private:
     WorkerStatus status_;
     std::vector<WorkerMessage> messages_;
     std::optional<PickAnswer> pick_answer_;
+    std::optional<LearnedAnswer> learned_answer_;
     std::shared_ptr<const PublishedFrame> frame_;
     bool frame_taken_ = true;
     bool pass_may_be_cut_ = false;  ///< the pass under way is one at rest: a new camera stops it
@@ -136,7 +151,6 @@ private:
     std::uint64_t pose_ = 1;        ///< grows with everything that changes which cell a pixel sees
     std::uint64_t cells_pose_ = 0;  ///< pose that cells_ shows
     std::shared_ptr<const CellImage> cells_;
-    ToneTable cell_table_{ToneCurve::Clamp};
     std::shared_ptr<const VolumeInspection> inspection_;
     bool inspection_stale_ = false;
     bool pose_unseen_ = false;  ///< the camera went to a place that no frame shows yet
@@ -145,6 +159,8 @@ private:
     double inspected_at_ = 0.0;
     double published_at_ = 0.0;
     std::uint32_t published_passes_ = 0;
+    DisplaySettings published_display_;
+    bool published_values_ = false;
 
     std::thread thread_;  ///< last: starts when all else is there
 };

@@ -205,6 +205,7 @@ bool Viewer::needs_redraw(double now) {
 void Viewer::build_panels() {
     layout_ = current_layout();
     image_ = image_layer_.place(model_, layout_.view);
+    model_.window().values_shown = false;  // the tab sets it again if it shows some
     if (layout_.panels) {
         std::optional<HoveredPixel> hovered;
         const PublishedFrame* frame = model_.frame();

@@ -12,6 +12,7 @@
 
 #include "core/scene/description.h"
 #include "core/session/backend.h"
+#include "core/session/learned_field.h"
 #include "core/session/settings.h"
 #include "core/session/snapshot.h"
 
@@ -30,11 +31,12 @@ inline double work_seconds(const Clocks& clocks) {
     return clocks.place + clocks.precompute + clocks.learn + clocks.render;
 }
 
-/// A back end that the viewer can run on, or the reason why it cannot.
+/// A back end that the viewer can run on, or the reason why it cannot; one that failed may be tried again.
 struct BackendChoice {
     std::string name;         ///< as make_backend takes it: "cpu", "cuda"
     std::string device;       ///< what it runs on; empty while that is not known
     std::string unavailable;  ///< why it cannot be used; empty if it can
+    std::string failed{};     ///< what it broke down with when it was used last; empty if it did not
 };
 using BackendChoices = std::vector<BackendChoice>;
 
@@ -61,9 +63,10 @@ struct ViewerOptions {
     std::string scene_name;  ///< what load_scene is called with at the start
     /// The scene if it is loaded already; else it is loaded before the window opens.
     std::shared_ptr<const SceneDescription> scene;
-    double load_seconds = 0.0;      ///< of `scene`
-    bool camera_from_scene = true;  ///< start from the scene's camera instead of settings.camera
-    bool size_from_window = true;   ///< settings.width : height is a shape only; the window decides the size
+    double load_seconds = 0.0;                  ///< of `scene`
+    std::shared_ptr<const LearnedField> field;  ///< to go on from; null for none. `settings` fit it
+    bool camera_from_scene = true;              ///< start from the scene's camera instead of settings.camera
+    bool size_from_window = true;  ///< settings.width : height is a shape only; the window decides the size
 
     int width = 1440;  ///< of the window
     int height = 900;
@@ -83,6 +86,9 @@ struct ViewerOptions {
     std::function<std::shared_ptr<const SceneDescription>(const std::string& name)> load_scene;
     /// Writes .png (tone mapped) or .exr (linear) by suffix. Called on a helper thread.
     std::function<void(const std::filesystem::path&, const Snapshot&, const ViewerPicture&)> save_image;
+    /// Throws Error(Input) for a file that is none, or of another scene. Both called on a helper thread.
+    std::function<std::shared_ptr<LearnedField>(const std::filesystem::path&, const std::string& scene)> load_field;
+    std::function<void(const std::filesystem::path&, const LearnedField&)> save_field;
     /// Writes what the window shows, panels included.
     std::function<void(const std::filesystem::path&, const ScreenPixels&)> save_screen;
     /// The shell command that renders what is shown.

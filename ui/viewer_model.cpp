@@ -25,7 +25,8 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
     : options_(options), scene_name_(options.scene_name), settings_(settings), display_(options.display),
       limits_(options.limits), controls_(settings.camera, bounds_of(*scene).diagonal()),
       worker_({options.make_backend, options.backends, options.first_backend, scene, settings, options.limits,
-               load_seconds}) {
+               load_seconds, options.display}) {
+    if (options.field) worker_.submit(EditLearned{options.field});
     status_ = worker_.status();
     for (const std::string& warning : scene->warnings) say(LogLevel::Warning, warning);
     note(LogLevel::Info, fmt::format("opened {}: {} triangles", scene_name_, scene->triangles.size()));
@@ -38,17 +39,24 @@ void ViewerModel::update(double seconds) {
         moving_ = false;
         worker_.set_moving(false);
     }
-    if (auto latest = worker_.latest(); latest != frame_) {
-        frame_ = std::move(latest);
-        measure_throughput();
-    }
+    take_frame();
     status_ = worker_.status();
     for (const WorkerMessage& message : worker_.take_messages())
         say(message.is_error ? LogLevel::Error : LogLevel::Info, message.text);
     take_pick();
+    take_learned();
     for (const JobThread::Report& report : jobs_.take_reports())
         if (report) report();
     std::erase_if(toasts_, [&](const Toast& toast) { return toast.until <= now_; });
+}
+
+void ViewerModel::take_frame() {
+    if (auto latest = worker_.latest(); latest != frame_) {
+        frame_ = std::move(latest);
+        measure_throughput();
+    }
+    if (!unsaved_.empty()) write_unsaved();
+    worker_.set_values_wanted(window_.values_shown || !unsaved_.empty());
 }
 
 void ViewerModel::measure_throughput() {
@@ -222,9 +230,15 @@ void ViewerModel::cancel_precomputation() {
 
 // --- display ---------------------------------------------------------------------------------------------------
 
-void ViewerModel::set_exposure(float ev) { display_.exposure_ev = std::clamp(ev, -kMaxExposureEv, kMaxExposureEv); }
+void ViewerModel::set_exposure(float ev) {
+    display_.exposure_ev = std::clamp(ev, -kMaxExposureEv, kMaxExposureEv);
+    worker_.set_display(display_);
+}
 
-void ViewerModel::set_curve(ToneCurve curve) { display_.curve = curve; }
+void ViewerModel::set_curve(ToneCurve curve) {
+    display_.curve = curve;
+    worker_.set_display(display_);
+}
 
 void ViewerModel::set_cells(bool on) {
     window_.cells = on;

@@ -42,6 +42,7 @@ struct WindowState {
     CellQuantity quantity = CellQuantity::Radiance;
     ColorScale scale = ColorScale::Logarithmic;  ///< a lamp is brighter than all the rest together
     int hovered_cell = -1;                       ///< of the selected volume's disk
+    bool values_shown = false;                   ///< the numbers of a pixel
     double speed_shown_until = 0.0;
     bool full_screen_asked = false;
     bool window_shot_asked = false;
@@ -50,11 +51,18 @@ struct WindowState {
     bool volume_tab_asked = false;  ///< bring it to the front
 };
 
+/// Of learned fields that the viewer saves.
+inline constexpr std::string_view kFieldSuffix = ".field";
+
 class ViewerModel {
 public:
     /// `settings` hold the final size and camera.
     ViewerModel(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene,
                 const RenderSettings& settings, double load_seconds);
+    /// Waits a moment for the numbers of a picture that was asked to be saved; it is written then.
+    ~ViewerModel();
+    ViewerModel(const ViewerModel&) = delete;
+    ViewerModel& operator=(const ViewerModel&) = delete;
 
     /// Once per frame of the window: takes what the other threads have, ends motion, drops old messages.
     /// Throws what ended the render thread.
@@ -74,7 +82,7 @@ public:
     const WindowState& window() const { return window_; }
     bool paused() const { return paused_; }
     bool moving() const { return moving_; }
-    bool busy() const { return jobs_.pending() > 0; }
+    bool busy() const { return jobs_.pending() > 0 || !unsaved_.empty(); }
     double now() const { return now_; }
     std::int32_t selected_volume() const { return selected_volume_; }
     const std::optional<PickedPoint>& picked() const { return picked_; }
@@ -127,7 +135,12 @@ public:
     void deselect();
 
     void reload();
-    void open(const std::string& scene);
+    /// A scene, or a learned field of the scene that is open: a file that ends in kFieldSuffix.
+    void open(const std::string& file);
+    void save_field();
+    void load_field(const std::filesystem::path& path);
+    /// The newest one that was saved of this scene.
+    void load_last_field();
     void save_screenshot();
     void save_picture();
     /// What the window shows; read by the window, because only it can.
@@ -146,6 +159,12 @@ private:
     void adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name, bool keep_camera);
     void start_loading(const std::string& name, bool keep_camera);
     void save(std::initializer_list<const char*> suffixes);
+    void write_unsaved();
+    void take_learned();
+    void adopt_field(const std::shared_ptr<LearnedField>& field, const std::filesystem::path& path);
+    std::string file_stem() const;
+    void push_job(std::function<JobThread::Report()> job);
+    void take_frame();
     void select(std::int32_t volume);
 
     const ViewerOptions& options_;
@@ -167,6 +186,8 @@ private:
     std::vector<LogLine> log_;
     std::vector<Toast> toasts_;
     NumberedNames names_;
+    std::vector<std::filesystem::path> unsaved_;  ///< waiting for a frame with values
+    double save_deadline_ = 0.0;
     std::shared_ptr<const PublishedFrame> frame_;
     WorkerStatus status_;
     double mpaths_per_second_ = 0.0;

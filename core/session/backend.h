@@ -2,13 +2,14 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/fields/field_storage.h"
-#include "core/kernel/film/film_view.h"
+#include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/integrator/path.h"
 #include "core/kernel/scene/camera.h"
 #include "core/scene/scene_storage.h"
@@ -69,6 +70,15 @@ struct FilmReading {
     std::uint64_t invalid = 0;
 };
 
+/// A film as a window shows it, possibly still on its way from a device while the next pass runs.
+struct DisplayFrame {
+    int width = 0;
+    int height = 0;
+    /// The pixels of frame_pixel(), [row][column]; they stay as long as this function does. Waits until they are there;
+    /// throws if they will never be. Not for two threads at once.
+    std::function<const std::uint32_t*()> pixels;
+};
+
 class RenderBackend {
 public:
     virtual ~RenderBackend() = default;
@@ -88,6 +98,10 @@ public:
     /// Makes the film exist with this size and empties it.
     virtual void reset_film(FilmSlot slot, int width, int height) = 0;
     virtual FilmReading read_film(FilmSlot slot) const = 0;
+    /// Starts to make the 8-bit frame of a film as it is now; later passes may begin at once.
+    virtual DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) = 0;
+    /// Largest range_value() of a film: where the colors of some views end.
+    virtual float largest_value(FilmSlot slot) = 0;
 
     /// View::Beauty: paths of the slot's method; records if the method learns. Other views: first surfaces.
     virtual PassCounters run_pass(const PassRequest& request) = 0;

@@ -18,6 +18,8 @@ struct Table {
     Invalidation operator()(const EditBackend& edit) const { return {.tables = edit.abandon_old}; }
     Invalidation operator()(const EditRestart&) const { return {.films = true}; }
     Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }
+    // What it replaces it clears itself, before what it brings is there.
+    Invalidation operator()(const EditLearned&) const { return {.films = true}; }
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 namespace pl {
 
 class RenderBackend;
+struct LearnedField;
 
 struct EditCamera {
     CameraDescription camera;
@@ -43,12 +44,17 @@ struct EditScene {
 struct EditBackend {
     std::shared_ptr<RenderBackend> backend;
     bool abandon_old = false;  ///< the old one is broken: what it held is lost
+    bool forget_old = false;   ///< the old one has failed: what it learned moves, but it is not kept for the way back
 };
 struct EditRestart {};  ///< clear the pictures, keep what was learned
 struct EditForget {};   ///< clear the pictures and what was learned
+/// Go on from what was learned elsewhere, with its method. It empties the tables of the others and replaces the volumes.
+struct EditLearned {
+    std::shared_ptr<const LearnedField> field;
+};
 
 using SessionEdit = std::variant<EditCamera, EditSize, EditMethod, EditView, EditSeed, EditEstimator, EditMixture,
-                                 EditField, EditScene, EditBackend, EditRestart, EditForget>;
+                                 EditField, EditScene, EditBackend, EditRestart, EditForget, EditLearned>;
 
 /// What has to go when an edit is applied. Display settings are not here: they are no part of a session.
 struct Invalidation {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/fields/make_field.h"
+#include "core/scene/description.h"
 #include "core/session/methods.h"
 
 namespace pl {
@@ -30,5 +31,11 @@ struct LearnedField {
     HostTables tables;
     FieldProgress progress;
 };
+
+/// Throws Error(Input) if the field was learned in another scene.
+void require_learned_in(const SceneDescription& scene, const LearnedField& field);
+
+/// "reinforcement, 1000 volumes, 256 directions, 12 passes, 34567 records"
+std::string summary_of(const LearnedField& field);
 
 }  // namespace pl

@@ -36,6 +36,7 @@ struct Assign {
     void operator()(const EditBackend&) const {}
     void operator()(const EditRestart&) const {}
     void operator()(const EditForget&) const {}
+    void operator()(const EditLearned& edit) const { settings.method = edit.field->method; }
 };
 
 /// Paths guided by what was learned know what they are still worth, and soon end at a light: they play roulette only
@@ -71,6 +72,7 @@ void Session::load_scene() {
 }
 
 void Session::apply(const SessionEdit& edit) {
+    if (const auto* change = std::get_if<EditLearned>(&edit)) import_field(*change->field);
     if (const auto* change = std::get_if<EditBackend>(&edit)) switch_backend(*change);
     const Invalidation clear = invalidated_by(edit);
     std::visit(Assign{settings_}, edit);
@@ -86,27 +88,31 @@ void Session::clear_films() {
     for (ParkedBackend& parked : parked_) parked.films.fill(FilmState{});
 }
 
-/// The new back end is made ready first, so that nothing has changed if it fails.
+/// The new back end is made ready first, so that nothing has changed if it fails; but it is forgotten then, because nobody
+/// knows what it still holds.
 void Session::switch_backend(const EditBackend& edit) {
     if (edit.backend == backend_) return;
+    std::vector<std::pair<MethodId, HostTables>> learned;
+    if (!edit.abandon_old && volumes_)  // without volumes, tables are left over from others
+        for (const MethodInfo& method : all_methods())
+            if (backend_->has_tables(method.id))
+                learned.emplace_back(method.id, backend_->download_tables(method.id));
     ParkedBackend next = unpark(edit.backend);
     if (next.scene != packed_) next.backend->upload_scene(packed_);
     if (volumes_) next.backend->upload_volumes(volumes_, shape_);
-    if (!edit.abandon_old) {
-        for (const MethodInfo& method : all_methods())
-            if (volumes_ && backend_->has_tables(method.id))  // without volumes, tables are left over from others
-                next.backend->upload_tables(method.id, backend_->download_tables(method.id));
-        parked_.push_back({backend_, films_, packed_});
-    }
-    std::erase_if(parked_, [&](const ParkedBackend& parked) { return parked.backend == next.backend; });
+    for (auto& [method, tables] : learned) next.backend->upload_tables(method, std::move(tables));
+    if (!edit.abandon_old && !edit.forget_old) parked_.push_back({backend_, films_, packed_});
     backend_ = std::move(next.backend);
     films_ = next.films;
 }
 
+/// Takes a back end out of those that wait.
 Session::ParkedBackend Session::unpark(const std::shared_ptr<RenderBackend>& backend) {
+    ParkedBackend result{.backend = backend, .films = {}, .scene = nullptr};
     for (const ParkedBackend& parked : parked_)
-        if (parked.backend == backend) return parked;
-    return {.backend = backend, .films = {}, .scene = nullptr};
+        if (parked.backend == backend) result = parked;
+    std::erase_if(parked_, [&](const ParkedBackend& parked) { return parked.backend == backend; });
+    return result;
 }
 
 void Session::clear_tables() {
@@ -286,25 +292,37 @@ Clocks Session::clocks() const {
             .render = film().render_seconds};
 }
 
-Snapshot Session::snapshot() const {
+Snapshot Session::summary() const {
     const FilmState& state = film();
-    Snapshot result{.slot = slot(),
-                    .width = settings_.width,
-                    .height = settings_.height,
-                    .pixels = {},
-                    .passes = state.passes,
-                    .counters = state.counters,
-                    .clocks = clocks(),
-                    .field = field_status(),
-                    .bins = volumes_ ? shape_.cells.count() : 0,
-                    .camera = settings_.camera,
-                    .kernel = kernel_name()};
-    if (state.allocated)
+    return {.slot = slot(),
+            .width = settings_.width,
+            .height = settings_.height,
+            .pixels = {},
+            .passes = state.passes,
+            .counters = state.counters,
+            .clocks = clocks(),
+            .field = field_status(),
+            .bins = volumes_ ? shape_.cells.count() : 0,
+            .camera = settings_.camera,
+            .kernel = kernel_name()};
+}
+
+Snapshot Session::snapshot() const {
+    Snapshot result = summary();
+    if (film().allocated)
         result.pixels = backend_->read_film(slot()).mean;
     else
         result.pixels.assign(static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height),
                              Vec3f{0.0f});
     return result;
+}
+
+ShownFilm Session::show_film(const DisplaySettings& display) {
+    ensure_film(slot());
+    const View view = settings_.view;
+    const int bins = volumes_ ? shape_.cells.count() : 0;
+    const ShownRange range = shown_range(view, bins, ends_at_largest(view) ? backend_->largest_value(slot()) : 0.0f);
+    return {backend_->show_film(slot(), frame_style(view, display, range)), range};
 }
 
 VolumeInspection Session::inspect_volume(std::int32_t volume) const {
@@ -352,10 +370,7 @@ LearnedField Session::export_field() const {
 }
 
 void Session::import_field(LearnedField learned) {
-    const std::string hash = scene_hash(*scene_);
-    if (learned.scene_hash != hash)
-        throw Error(ErrorKind::Input, "the field was learned in another scene: expected scene hash " + hash +
-                                          ", got " + learned.scene_hash);
+    require_learned_in(*scene_, learned);
     if (!info_of(learned.method).uses_field || !fits_together(learned))
         throw Error(ErrorKind::Input, "the field's volumes and tables do not fit together");
     const std::shared_ptr<const HostVolumes> volumes = with_lookup(*learned.volumes, learned.shape.lookup);

@@ -8,7 +8,7 @@
 #include "core/session/backend.h"
 #include "core/session/edits.h"
 #include "core/session/learned_field.h"
-#include "core/session/snapshot.h"
+#include "core/session/shown_range.h"
 
 namespace pl {
 
@@ -19,6 +19,12 @@ enum class Progress {
     Stopped,      ///< the stop flag was seen; the next call goes on where this one ended
 };
 
+/// A film on its way to a window, and what its darkest and lightest colors stand for.
+struct ShownFilm {
+    DisplayFrame frame;
+    ShownRange range;
+};
+
 class Session {
 public:
     /// The scene must be valid. `load_seconds` goes into the clocks.
@@ -26,7 +32,8 @@ public:
             const RenderSettings& settings, double load_seconds = 0.0);
 
     /// Applies a change and clears what invalidated_by() says. Throws Error if a back end fails; if it is the new one
-    /// of EditBackend, the session stays with the old one, unchanged.
+    /// of EditBackend, the session stays with the old one, unchanged, and the new one has to be given everything anew
+    /// when it is tried again. EditLearned throws as import_field() does.
     void apply(const SessionEdit& edit);
 
     /// Does the next piece of work: a slice of precomputation if the method still needs it, else one sample for
@@ -35,6 +42,10 @@ public:
 
     /// Copy of the current film and all statistics.
     Snapshot snapshot() const;
+    /// The same without the pixels: costs nothing.
+    Snapshot summary() const;
+    /// The current film as a window shows it.
+    ShownFilm show_film(const DisplaySettings& display);
 
     /// What the current method learned at a volume. Throws Error(Usage) if it learns nothing.
     VolumeInspection inspect_volume(std::int32_t volume) const;

@@ -29,6 +29,8 @@ struct RenderSettings {
 struct DisplaySettings {
     float exposure_ev = 0.0f;
     ToneCurve curve = ToneCurve::Clamp;
+
+    friend bool operator==(const DisplaySettings&, const DisplaySettings&) = default;
 };
 
 }  // namespace pl

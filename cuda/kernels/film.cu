@@ -31,10 +31,23 @@ __global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Spa
     add_up(totals->invalid, own.invalid);
 }
 
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    show_film(FilmView film, FrameStyle style, ToneCodes codes, Span<std::uint32_t> pixels) {
+    const std::uint32_t i = thread_number();
+    if (i < pixels.count) pixels[i] = frame_pixel(mean_or_nan(film.pixels[i]), style, codes);
+}
+
+__global__ void __launch_bounds__(kThreadsPerBlock) largest_value(FilmView film, std::uint32_t* bits) {
+    const std::uint32_t i = thread_number();
+    raise_to(*bits, i < film.pixels.count ? std::bit_cast<std::uint32_t>(range_value(film.pixels[i])) : 0u);
+}
+
 }  // namespace
 
 constinit const AddSamplesKernel kAddSamples = add_samples;
 constinit const AddSamplesKernel kSetSamples = set_samples;
 constinit const ReadFilmKernel kReadFilm = read_film;
+constinit const ShowFilmKernel kShowFilm = show_film;
+constinit const LargestValueKernel kLargestValue = largest_value;
 
 }  // namespace pl::cuda

@@ -3,7 +3,7 @@
 
 #include "core/base/kernel_row.h"
 #include "core/kernel/fields/publish_volume.h"
-#include "core/kernel/film/film_view.h"
+#include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/precomputed.h"
@@ -83,6 +83,14 @@ extern const AddSamplesKernel kSetSamples;
 /// One thread per pixel: means for display and saving (see mean_or_nan), and the film's totals.
 using ReadFilmKernel = void (*)(FilmView film, Span<Vec3f> means, FilmTotals* totals);
 extern const ReadFilmKernel kReadFilm;
+
+/// One thread per pixel: the frame that a window shows.
+using ShowFilmKernel = void (*)(FilmView film, FrameStyle style, ToneCodes codes, Span<std::uint32_t> pixels);
+extern const ShowFilmKernel kShowFilm;
+
+/// One thread per pixel: the bits of the largest range_value(), which are ordered as the values are. Cleared before.
+using LargestValueKernel = void (*)(FilmView film, std::uint32_t* bits);
+extern const LargestValueKernel kLargestValue;
 
 /// One step of publication for `count` cells, rows or volumes: one thread each.
 using PublicationKernel = void (*)(FieldPublicationView field, std::uint32_t count);

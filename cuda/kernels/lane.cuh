@@ -38,6 +38,18 @@ __device__ inline void add_up(std::uint64_t& total, std::uint64_t value) {
 #endif
 }
 
+/// Makes a maximum of the whole launch at least `value`. Called by every thread; a warp takes its own maximum first.
+__device__ inline void raise_to(std::uint32_t& maximum, std::uint32_t value) {
+#ifdef __CUDA_ARCH__
+    for (int offset = 16; offset > 0; offset /= 2) value = max(value, __shfl_down_sync(0xffffffffu, value, offset));
+    if (threadIdx.x % 32u == 0 && value != 0) atomicMax(&maximum, value);
+#else
+    const std::atomic_ref<std::uint32_t> shared(maximum);
+    std::uint32_t seen = shared.load(std::memory_order_relaxed);
+    while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) continue;
+#endif
+}
+
 __device__ inline void add_up(PassCounters& totals, const PassCounters& counters) {
     add_counters(totals, counters, [](std::uint64_t& total, std::uint64_t count) { add_up(total, count); });
 }

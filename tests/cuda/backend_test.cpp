@@ -18,6 +18,11 @@ Session make_cuda_session(const SceneDescription& scene, const RenderSettings& s
     return Session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
 }
 
+std::vector<std::uint32_t> pixels_of(const DisplayFrame& frame) {
+    const std::uint32_t* pixels = frame.pixels();
+    return {pixels, pixels + frame.width * frame.height};
+}
+
 State render(Session session, std::uint32_t passes = 3) {
     render_passes(session, passes);
     return state_of(session);
@@ -58,6 +63,52 @@ TEST_CASE("Every view gives the bits of the CPU back end") {
             CHECK(same_film(got, expected));
             CHECK(same_events(got.snapshot.counters, expected.snapshot.counters));
         }
+}
+
+TEST_CASE("Frames of every view have the bits of the CPU back end") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    for (const ViewInfo& view : all_views()) {
+        RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
+        settings.view = view.id;
+        Session cpu = make_session(scene, settings);
+        Session cuda = make_cuda_session(scene, settings);
+        render_passes(cpu, 2);
+        render_passes(cuda, 2);
+        for (const ToneCurve curve : {ToneCurve::Clamp, ToneCurve::Reinhard, ToneCurve::Aces})
+            for (const float ev : {-2.0f, 0.0f, 1.5f}) {
+                INFO(view.name << ", curve " << static_cast<int>(curve) << ", exposure " << ev);
+                const ShownFilm expected = cpu.show_film({.exposure_ev = ev, .curve = curve});
+                const ShownFilm got = cuda.show_film({.exposure_ev = ev, .curve = curve});
+                CHECK(got.range.high == expected.range.high);
+                CHECK(pixels_of(got.frame) == pixels_of(expected.frame));
+                CHECK(pixels_of(got.frame) == pixels_of(got.frame));  // asked twice
+            }
+    }
+}
+
+TEST_CASE("A frame is that of its moment, however long it is on its way, and outlives its back end") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("cornell");
+    const RenderSettings settings = small_settings(scene, {MethodId::Default, false});
+    std::vector<DisplayFrame> frames;
+    std::vector<std::vector<std::uint32_t>> expected;
+    {
+        Session cpu = make_session(scene, settings);
+        Session cuda = make_cuda_session(scene, settings);
+        for (int i = 0; i < 5; ++i) {
+            render_passes(cpu, 1);
+            render_passes(cuda, 1);
+            expected.push_back(pixels_of(cpu.show_film({}).frame));
+            frames.push_back(cuda.show_film({}).frame);
+            if (i == 2) frames[0] = {};  // its memory serves a later one
+        }
+        render_passes(cuda, 1);
+    }
+    for (std::size_t i = 1; i < frames.size(); ++i) CHECK(pixels_of(frames[i]) == expected[i]);
+    CHECK(expected[1] != expected[4]);
+    frames.clear();
+    CHECK(shim::live_objects() == 0);
 }
 
 TEST_CASE("All searches for volumes give the same bits") {

@@ -27,6 +27,10 @@ std::string use(const SceneDescription& scene, const RenderSettings& settings) {
         session.apply(EditView{View::Voronoi});
         render_passes(session, 1);
         session.snapshot();
+        session.show_film({.curve = ToneCurve::Aces}).frame.pixels();
+        session.apply(EditView{View::Depth});
+        render_passes(session, 1);
+        session.show_film({}).frame.pixels();
         session.export_field();
     } catch (const Error& error) {
         CHECK(error.kind() == ErrorKind::Unavailable);
@@ -36,9 +40,9 @@ std::string use(const SceneDescription& scene, const RenderSettings& settings) {
 }
 
 constexpr const char* kCalls[] = {
-    "cudaMalloc",           "cudaMallocHost",        "cudaMemcpyAsync", "cudaMemsetAsync",
-    "cudaLaunchKernel",     "cudaEventCreate",       "cudaEventRecord", "cudaStreamCreateWithFlags",
-    "cudaEventElapsedTime", "cudaStreamSynchronize",
+    "cudaMalloc",           "cudaMallocHost",        "cudaMemcpyAsync",     "cudaMemsetAsync",
+    "cudaLaunchKernel",     "cudaEventCreate",       "cudaEventRecord",     "cudaStreamCreateWithFlags",
+    "cudaEventElapsedTime", "cudaStreamSynchronize", "cudaStreamWaitEvent", "cudaEventSynchronize",
 };
 
 }  // namespace

@@ -73,7 +73,7 @@ void run(double seconds) {
     const auto backend = make_cuda_backend();
     std::printf("device: %s\n\n| %-44s | ms/pass   | Mpaths/s  | Msegs/s   | ns/seg    |\n|---|---|---|---|---|\n",
                 backend->info().device.c_str(), "cornell");
-    const auto scene = std::make_shared<const SceneDescription>(load_scene("cornell", PL_SOURCE_DIR "/assets"));
+    const auto scene = std::make_shared<const SceneDescription>(load_scene("cornell", find_assets_dir()));
     for (const Size size : {Size{512, 512}, Size{1280, 720}, Size{1920, 1080}})
         for (const MethodInfo& method : all_methods())
             for (const bool next_event : {false, true})

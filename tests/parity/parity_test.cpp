@@ -92,6 +92,30 @@ TEST_CASE("Views of both back ends are equal but for rounding") {
     }
 }
 
+TEST_CASE("Frames are made of films as the host would make them, to the bit") {
+    const SceneDescription scene = shipped_scene("cornell");
+    for (const ViewInfo& view : all_views()) {
+        INFO(view.name);
+        RenderSettings settings = quick_learner(scene, {MethodId::Reinforcement, false}, kSide, 1);
+        settings.view = view.id;
+        Session cuda = make_cuda_session(scene, settings);
+        render_passes(cuda, 3);
+        const Snapshot film = cuda.snapshot();
+        for (const ToneCurve curve : {ToneCurve::Clamp, ToneCurve::Reinhard, ToneCurve::Aces}) {
+            const DisplaySettings display{.exposure_ev = 1.5f, .curve = curve};
+            const ShownFilm shown = cuda.show_film(display);
+            CHECK(shown.range.high == shown_range(film).high);
+            const FrameStyle style = frame_style(view.id, display, shown.range);
+            const ToneTable table(style.curve);
+            const std::uint32_t* pixels = shown.frame.pixels();
+            std::size_t differing = 0;
+            for (std::size_t i = 0; i < film.pixels.size(); ++i)
+                differing += pixels[i] != frame_pixel(film.pixels[i], style, table.view()) ? 1u : 0u;
+            CHECK(differing == 0);
+        }
+    }
+}
+
 TEST_CASE("Publication of the same records is equal to the bit") {
     const SceneDescription description = shipped_scene("cornell");
     const auto scene = std::make_shared<const HostScene>(pack_scene(description));

@@ -5,6 +5,6 @@
 
 namespace pl::test {
 
-inline SceneDescription shipped_scene(const std::string& name) { return load_scene(name, PL_SOURCE_DIR "/assets"); }
+inline SceneDescription shipped_scene(const std::string& name) { return load_scene(name, find_assets_dir()); }
 
 }  // namespace pl::test

@@ -105,6 +105,7 @@ TEST_CASE("Back-end switch: a camera that moved meanwhile empties the parked pic
     Bench bench;
     bench.control->pass_microseconds = 500;
     RenderWorker worker(bench.setup());
+    worker.set_values_wanted(true);
     REQUIRE(eventually([&] { return worker.status().passes >= 10; }));
     REQUIRE(frame_of(worker, worker.switch_backend("cuda")));
     REQUIRE(frame_of(worker, worker.submit(EditCamera{camera_at(2.0f)})));
@@ -200,9 +201,46 @@ TEST_CASE("Back-end switch: a failing pass hands over to the CPU with what was l
 
     const WorkerStatus status = worker.status();
     CHECK(status.state == WorkerState::Rendering);
-    CHECK((*status.backends)[1].unavailable == "the device is gone");
+    CHECK((*status.backends)[1].failed == "the device is gone");
+}
+
+TEST_CASE("Back-end switch: one that failed may be tried again, and works if its device answers") {
+    Bench bench;
+    bench.devices.cuda->pass_microseconds = 200;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement));
+    learn_on_cuda(worker);
+    bench.devices.cuda->fail = true;
+    REQUIRE(is_told(worker, "CUDA failed: the device is gone. CPU takes over with what was learned"));
+    bench.devices.cuda->fail_making = true;
     worker.switch_backend("cuda");
-    CHECK(is_told(worker, "cannot switch to CUDA: the device is gone. CPU goes on"));
+    REQUIRE(is_told(worker, "cannot switch to CUDA: the driver does not answer. CPU goes on"));
+    CHECK((*worker.status().backends)[1].failed == "the device is gone");
+    const std::uint64_t learned = worker.status().field->passes;
+
+    const auto frame = frame_of(worker, worker.switch_backend("cuda"));
+    REQUIRE(frame);
+    CHECK(frame->backend.name == "cuda");
+    CHECK(frame->snapshot.field->passes >= learned);
+    CHECK((*worker.status().backends)[1].failed.empty());
+    CHECK(bench.devices.cuda->made == 2);
+    CHECK(bench.devices.cuda->alive == 1);  // what broke gave back its memory
+}
+
+TEST_CASE("Back-end switch: a parked one that fails on the way back is made anew for the next try") {
+    Bench bench;
+    bench.control->pass_microseconds = 200;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement));
+    learn_on_cuda(worker);
+    REQUIRE(frame_of(worker, worker.switch_backend("cpu")));
+    bench.devices.cuda->lost = true;
+    worker.switch_backend("cuda");
+    REQUIRE(is_told(worker, "cannot switch to CUDA: the device is lost. CPU goes on"));
+    CHECK(eventually([&] { return bench.devices.cuda->alive == 0; }));
+    bench.devices.cuda->lost = false;
+    const auto frame = frame_of(worker, worker.switch_backend("cuda"));
+    REQUIRE(frame);
+    CHECK(frame->backend.name == "cuda");
+    CHECK(bench.devices.cuda->made == 2);
 }
 
 TEST_CASE("Back-end switch: a lost device hands over nothing, and the CPU learns anew") {
@@ -251,7 +289,7 @@ TEST_CASE("Back-end switch: leaving a lost device on purpose succeeds, too") {
     REQUIRE(frame);
     CHECK(frame->backend.name == "cpu");
     CHECK(is_told(worker, "CUDA failed: the device is lost. CPU takes over; what was learned is lost"));
-    CHECK((*worker.status().backends)[1].unavailable == "the device is lost");
+    CHECK((*worker.status().backends)[1].failed == "the device is lost");
 }
 
 TEST_CASE("Back-end switch: a failure under the overlay of cells leaves method and view alone") {

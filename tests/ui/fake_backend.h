@@ -2,6 +2,7 @@
 // them stand for CPU and CUDA.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <map>
@@ -95,6 +96,21 @@ public:
         require_device();
         const Film& film = films_.at(slot.index());
         return {film.width, film.height, film.pixels, 0, 0};
+    }
+
+    DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override {
+        require_device();
+        const Film& film = films_.at(slot.index());
+        const ToneTable table(style.curve);
+        const auto pixels = std::make_shared<std::vector<std::uint32_t>>();
+        for (const Vec3f& value : film.pixels) pixels->push_back(frame_pixel(value, style, table.view()));
+        return {film.width, film.height, [pixels] { return pixels->data(); }};
+    }
+    float largest_value(FilmSlot slot) override {
+        require_device();
+        float largest = 0.0f;
+        for (const Vec3f& value : films_.at(slot.index()).pixels) largest = std::max(largest, value.x);
+        return largest;
     }
 
     PassCounters run_pass(const PassRequest& request) override {

@@ -11,13 +11,81 @@ TEST_CASE("Render worker: publishes frames that belong together") {
     const auto frame = frame_of(worker, 0);
     REQUIRE(frame);
     CHECK(frame->snapshot.width == kSize);
-    CHECK(frame->snapshot.pixels.size() == std::size_t{kSize} * kSize);
+    CHECK(frame->picture.width == kSize);
+    CHECK(frame->picture.height == kSize);
+    CHECK(frame->picture.pixels() != nullptr);
+    CHECK_FALSE(frame->has_values());
     CHECK(frame->snapshot.passes >= 1);
     CHECK(frame->snapshot.counters.paths == std::uint64_t{frame->snapshot.passes} * kSize * kSize);
     CHECK(frame->divider == 1);
     CHECK(frame->backend.name == "cpu");
     CHECK(frame->description->name == "small");
     CHECK(frame->serial >= 1);
+}
+
+TEST_CASE("Render worker: exposure and curve show at once, paused, done or in the middle of a pass") {
+    const DisplaySettings darker{.exposure_ev = -3.0f, .curve = ToneCurve::Reinhard};
+    const DisplaySettings darkest{.exposure_ev = -5.0f, .curve = ToneCurve::Aces};
+    const auto shows = [](RenderWorker& worker, const DisplaySettings& display) {
+        return eventually([&] {
+            const auto frame = worker.latest();
+            return frame && frame->display == display &&
+                   frame->picture.pixels()[5] == gray_pixel(frame->snapshot.camera.eye.x, display);
+        });
+    };
+    Bench bench;
+    WorkerSetup setup = bench.setup(MethodId::Default, {.spp = 4, .seconds = 0.0});
+    setup.settings.camera = camera_at(2.0f);
+    setup.display = darker;
+    RenderWorker worker(std::move(setup));
+    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Done; }));
+    CHECK(shows(worker, darker));
+    worker.set_display(darkest);
+    CHECK(shows(worker, darkest));
+    CHECK(worker.status().passes == 4);
+    REQUIRE(rests(worker));
+    worker.set_display(darker);
+    CHECK(shows(worker, darker));
+    CHECK(bench.control->passes == 4);
+
+    bench.control->hold = true;
+    worker.set_limits({});
+    worker.set_paused(false);
+    REQUIRE(eventually([&] { return bench.control->inside.load(); }));
+    worker.set_display(darkest);
+    CHECK(shows(worker, darkest));
+    CHECK(worker.status().passes == 4);
+    CHECK(bench.control->stopped == 1);
+    bench.control->hold = false;
+    CHECK(eventually([&] { return worker.status().passes >= 6; }));  // the pass goes on
+}
+
+TEST_CASE("Render worker: an exposure set before the first picture does not keep it from coming") {
+    Bench bench;
+    bench.control->hold = true;
+    RenderWorker worker(bench.setup());
+    REQUIRE(eventually([&] { return bench.control->inside.load(); }));
+    worker.set_display({.exposure_ev = 2.0f});
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(bench.control->stopped == 0);
+    bench.control->hold = false;
+    const auto frame = frame_of(worker, 0);
+    REQUIRE(frame);
+    CHECK(eventually([&] { return worker.latest()->display.exposure_ev == 2.0f; }));
+}
+
+TEST_CASE("Render worker: the numbers behind a picture come when they are wanted, also while paused") {
+    Bench bench;
+    RenderWorker worker(bench.setup());
+    REQUIRE(frame_of(worker, 0));
+    REQUIRE(rests(worker));
+    REQUIRE_FALSE(worker.latest()->has_values());
+    worker.set_values_wanted(true);
+    REQUIRE(eventually([&] { return worker.latest()->has_values(); }));
+    CHECK(worker.latest()->snapshot.pixels.size() == std::size_t{kSize} * kSize);
+    worker.set_values_wanted(false);
+    worker.set_paused(false);
+    CHECK(eventually([&] { return !worker.latest()->has_values(); }));
 }
 
 TEST_CASE("Render worker: a change stops a pass at rest, and the newest change wins") {
@@ -35,7 +103,7 @@ TEST_CASE("Render worker: a change stops a pass at rest, and the newest change w
     REQUIRE(frame);
     CHECK(frame->settings.method == MethodId::Precomputed);
     CHECK(frame->snapshot.camera.eye.x == 2.0f);
-    CHECK(frame->snapshot.pixels[0].x == 2.0f);
+    CHECK(frame->picture.pixels()[0] == gray_pixel(2.0f, {}));
 }
 
 TEST_CASE("Render worker: passes in motion are finished, or a hand that never rests would see nothing") {

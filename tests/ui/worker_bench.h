@@ -36,6 +36,11 @@ inline CameraDescription camera_at(float x) {
     return camera;
 }
 
+/// What a frame shows of a value that is the same in all channels.
+inline std::uint32_t gray_pixel(float value, const DisplaySettings& display) {
+    return frame_pixel(Vec3f{value}, frame_style(View::Beauty, display, {}), ToneTable(display.curve).view());
+}
+
 /// The newest frame that shows this edit, once it is there.
 inline std::shared_ptr<const PublishedFrame> frame_of(RenderWorker& worker, std::uint64_t generation) {
     std::shared_ptr<const PublishedFrame> frame;

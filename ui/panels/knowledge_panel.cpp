@@ -46,13 +46,13 @@ std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const Hove
 }
 
 /// 8-bit sRGB of a pixel's value on screen.
-std::array<int, 3> shown_code(const ViewerModel& model, const PublishedFrame& frame, Vec3f value) {
+std::array<int, 3> shown_code(const PublishedFrame& frame, Vec3f value) {
     const View view = frame.snapshot.slot.view;
     if (is_heat_map(view)) {
         const ByteColor color = heat_color(value.x * frame.range.scale());
         return {color.r, color.g, color.b};
     }
-    const DisplaySettings display = display_of(view, model.display());
+    const DisplaySettings display = display_of(view, frame.display);
     const Vec3f shown = tone_map(value * frame.range.scale(), std::exp2(display.exposure_ev), display.curve);
     std::array<int, 3> code;
     for (int i = 0; i < 3; ++i)
@@ -60,12 +60,13 @@ std::array<int, 3> shown_code(const ViewerModel& model, const PublishedFrame& fr
     return code;
 }
 
-void draw_pixel_values(const ViewerModel& model, const PublishedFrame& frame, const HoveredPixel& pixel) {
+void draw_pixel_values(const PublishedFrame& frame, const HoveredPixel& pixel) {
     const Snapshot& snapshot = frame.snapshot;
+    if (!frame.has_values()) return;  // they come with the next frame
     const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(snapshot.width) +
                               static_cast<std::size_t>(pixel.x);
     const Vec3f value = snapshot.pixels[index];
-    const std::array<int, 3> code = shown_code(model, frame, value);
+    const std::array<int, 3> code = shown_code(frame, value);
     text_row("Pixel", fmt::format("{}, {} of {}x{}", pixel.x, pixel.y, snapshot.width, snapshot.height));
     if (is_heat_map(snapshot.slot.view)) {
         text_row("Value", fmt::format("{:.5g}  {}", value.x, frame.range.unit), "Of the radiance volume there.");
@@ -103,13 +104,14 @@ void draw_surface(const PublishedFrame& frame, const HoveredPixel& pixel) {
 
 }  // namespace
 
-void draw_pixel_tab(const ViewerModel& model, const std::optional<HoveredPixel>& hovered) {
+void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hovered) {
     const PublishedFrame* frame = model.frame();
     if (!hovered || frame == nullptr) {
         faint_text("Move the pointer over the picture.");
         return;
     }
-    draw_pixel_values(model, *frame, *hovered);
+    model.window().values_shown = true;
+    draw_pixel_values(*frame, *hovered);
     ImGui::Separator();
     draw_surface(*frame, *hovered);
 }

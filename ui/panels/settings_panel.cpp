@@ -37,8 +37,12 @@ void draw_back_end(ViewerModel& model) {
         if (ImGui::RadioButton(back_end_label(choice.name).c_str(), choice.name == wanted))
             model.set_backend(choice.name);
         ImGui::EndDisabled();
-        if (available) tooltip("B switches. Method, camera and what was learned stay.");
-        const std::string& text = available ? choice.device : choice.unavailable;
+        if (available)
+            tooltip(choice.failed.empty() ? "B switches. Method, camera and what was learned stay."
+                                          : "It failed. Choosing it tries again.");
+        const std::string text = !available              ? choice.unavailable
+                                 : choice.failed.empty() ? choice.device
+                                                         : "failed: " + choice.failed;
         if (text.empty()) continue;
         const float label_start = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
         ImGui::Indent(label_start);

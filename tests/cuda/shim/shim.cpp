@@ -21,7 +21,8 @@ struct Queue {
 
 struct Mark {
     Queue* queue = nullptr;
-    bool reached = true;
+    int recorded = 0;  ///< times it was put into a queue
+    int reached = 0;   ///< number of the last time that the queue came by
     Clock::time_point time{};
 };
 
@@ -64,8 +65,9 @@ void run_next(Queue& queue) {
 void drain(Queue& queue) {
     while (!queue.work.empty()) run_next(queue);
 }
-void drain_until(const Mark& mark) {
-    while (!mark.reached && !mark.queue->work.empty()) run_next(*mark.queue);
+/// Until the mark is reached that was recorded last when somebody asked.
+void drain_until(const Mark& mark, Queue* queue, int number) {
+    while (mark.reached < number && !queue->work.empty()) run_next(*queue);
 }
 
 bool is_pinned(const void* memory) {
@@ -231,7 +233,8 @@ cudaError_t cudaStreamSynchronize(cudaStream_t stream) {
     return code;
 }
 cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned) {
-    stream->work.push_back([=] { drain_until(*event); });
+    stream->work.push_back(
+        [=, queue = event->queue, number = event->recorded] { drain_until(*event, queue, number); });
     return called("cudaStreamWaitEvent");
 }
 
@@ -252,16 +255,15 @@ cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream) {
     const cudaError_t code = called("cudaEventRecord");
     if (code != cudaSuccess) return code;
     event->queue = stream;
-    event->reached = false;
-    stream->work.push_back([event] {
-        event->reached = true;
+    stream->work.push_back([event, number = ++event->recorded] {
+        event->reached = number;
         event->time = Clock::now();
     });
     return cudaSuccess;
 }
 cudaError_t cudaEventSynchronize(cudaEvent_t event) {
     const cudaError_t code = called("cudaEventSynchronize");
-    drain_until(*event);
+    drain_until(*event, event->queue, event->recorded);
     return code;
 }
 cudaError_t cudaEventElapsedTime(float* milliseconds, cudaEvent_t start, cudaEvent_t end) {
