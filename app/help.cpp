@@ -18,12 +18,34 @@ constexpr std::array kCommands{
                 "Opens the viewer (default scene: cornell). The word 'view' may be left out."},
     CommandInfo{Command::Render, "render", "SCENE -o IMAGE", "Makes a picture without a display."},
     CommandInfo{Command::Info, "info", "SCENE", "Tells what a scene holds and which kernel serves it."},
-    CommandInfo{Command::Devices, "devices", "", "Lists the back ends, and why one is unavailable."},
+    CommandInfo{Command::Devices, "devices", "", "Lists the back ends, and why one is unavailable.", Inputs::Nothing},
     CommandInfo{Command::Inspect, "inspect", "SCENE (--at X,Y,Z[,NX,NY,NZ] | --pixel X,Y) -o FILE",
                 "Trains, then writes what was learned at a point.\n"
                 "Training takes --spp samples per pixel with method reinforcement; method precomputed\n"
                 "only computes its radiance map. The suffix decides what is written: .json, .csv (one\n"
                 "row per direction cell) or .png (the hemisphere as an equal-area disc)."},
+    CommandInfo{
+        Command::Compare, "compare", "IMAGE REFERENCE",
+        "Tells how far a picture is from another, in all metrics.\n"
+        "Both are linear: .exr or .pfm. REFERENCE may be a folder of 'pathlight reference': it then has to hold the\n"
+        "reference of just the scene, camera, size, lights and depth that an .exr of 'pathlight render' shows.",
+        Inputs::Pictures},
+    CommandInfo{
+        Command::Reference, "reference", "SCENE -o DIR",
+        "Makes a converged picture in two independent halves, found again by what it shows.\n"
+        "What was made before is gone on with: after an interruption, or for more samples. Paths are chosen by\n"
+        "method default with next-event estimation unless other is given; the converged picture is the same."},
+    CommandInfo{
+        Command::Bench, "bench", "SCENE... -o DIR",
+        "Measures accuracy against time: methods x back ends x scenes x seeds.\n"
+        "Each run starts with nothing learned. Time is placing, precomputing, learning and rendering; loading,\n"
+        "building and measuring are not in it. An interrupted bench goes on with the same command. 'report'\n"
+        "makes a page of the folder.",
+        Inputs::Scenes},
+    CommandInfo{Command::Report, "report", "DIR",
+                "Makes one HTML page of a bench folder, and its plots as SVG and PNG.\n"
+                "The page needs nothing else: it can be handed over.",
+                Inputs::Folder},
 };
 
 constexpr std::string_view kScene =
@@ -37,8 +59,6 @@ constexpr std::string_view kExitCodes =
 
 constexpr std::size_t kHelpColumn = 32;
 constexpr std::size_t kLineWidth = 110;
-
-const CommandInfo& info_of_command(Command command) { return kCommands[static_cast<std::size_t>(command)]; }
 
 /// "-t,--threads" as "-t, --threads N".
 std::string option_head(const OptionSpec& spec) {
@@ -95,7 +115,9 @@ std::string options_help(Command command) {
 
 std::span<const CommandInfo> all_commands() { return kCommands; }
 
-std::string_view command_name(Command command) { return info_of_command(command).name; }
+const CommandInfo& info_of(Command command) { return kCommands[static_cast<std::size_t>(command)]; }
+
+std::string_view command_name(Command command) { return info_of(command).name; }
 
 std::string program_help() {
     std::string text = "Pathlight, an interactive path tracer that learns where light comes from.\n\nUsage:\n";
@@ -113,8 +135,9 @@ std::string program_help() {
 }
 
 std::string command_help(Command command) {
-    const CommandInfo& info = info_of_command(command);
-    const std::string scene = command == Command::Devices ? "" : fmt::format("\n{}", kScene);
+    const CommandInfo& info = info_of(command);
+    const std::string scene =
+        info.inputs == Inputs::Scene || info.inputs == Inputs::Scenes ? fmt::format("\n{}", kScene) : "";
     return fmt::format("{}\n\nUsage: pathlight {} {} [OPTIONS]\n{}{}\n{}", info.summary, info.name, info.arguments,
                        scene, options_help(command), kExitCodes);
 }

@@ -9,14 +9,19 @@
 
 namespace pl {
 
+/// What a subcommand works on.
+enum class Inputs { Nothing, Scene, Scenes, Pictures, Folder };
+
 struct CommandInfo {
     Command id;
     std::string_view name;
     std::string_view arguments;
     std::string_view summary;
+    Inputs inputs = Inputs::Scene;
 };
 
 std::span<const CommandInfo> all_commands();
+const CommandInfo& info_of(Command command);
 
 /// Help of the whole program and of one subcommand. All texts end with a line feed.
 std::string program_help();

@@ -33,4 +33,10 @@ std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads
     return make_cpu_backend({.threads = threads});
 }
 
+std::vector<std::string> available_backends() {
+    std::vector<std::string> names{"cpu"};
+    if (cuda_if_possible()) names.emplace_back("cuda");
+    return names;
+}
+
 }  // namespace pl

@@ -76,6 +76,16 @@ std::string_view name_in(const std::array<Named<Value>, kCount>& names, Value va
     return "";
 }
 
+std::vector<std::string> split_at_commas(const std::string& text) {
+    std::vector<std::string> items;
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find(',', start), text.size());
+        items.push_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    return items;
+}
+
 std::vector<std::string> method_names() {
     return names_in(all_methods(), [](const MethodInfo& info) { return info.name; });
 }
@@ -90,6 +100,28 @@ void parse_method(Options& options, const std::string& text) {
     const auto id = method_by_name(text);
     if (!id) fail_choice(method_names(), text);
     options.render.method = *id;
+}
+
+void parse_methods(Options& options, const std::string& text) {
+    options.methods.clear();
+    if (text == "all") return;
+    for (const std::string& name : split_at_commas(text)) {
+        const auto id = method_by_name(name);
+        if (!id) fail_choice(method_names(), name);
+        if (std::find(options.methods.begin(), options.methods.end(), *id) == options.methods.end())
+            options.methods.push_back(*id);
+    }
+}
+
+void parse_backends(Options& options, const std::string& text) {
+    options.backends.clear();
+    if (text == "auto") return;
+    for (const std::string& name : split_at_commas(text)) {
+        parse_backend(options, name);
+        if (name == "auto") fail_value("cpu, cuda or both with a comma between; or auto alone", text);
+        if (std::find(options.backends.begin(), options.backends.end(), name) == options.backends.end())
+            options.backends.push_back(name);
+    }
 }
 
 void parse_view(Options& options, const std::string& text) {
@@ -146,6 +178,12 @@ void parse_time_limit(Options& options, const std::string& text) {
     options.time_limit_seconds = seconds;
 }
 
+void parse_target_error(Options& options, const std::string& text) {
+    const double error = parse_real(text, 0.0, 1.0e30);
+    if (!(error > 0.0)) fail_value("an error above 0", text);
+    options.target_error = error;
+}
+
 void parse_window(Options& options, const std::string& text) { options.window = parse_size(text); }
 
 void parse_picture_size(Options& options, const std::string& text) {
@@ -174,13 +212,10 @@ void parse_roulette(Options& options, const std::string& text) {
 }
 
 void parse_knobs(Options& options, const std::string& text) {
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t end = std::min(text.find(',', start), text.size());
-        const std::string item = text.substr(start, end - start);
+    for (const std::string& item : split_at_commas(text)) {
         const std::size_t equals = item.find('=');
         if (equals == 0 || equals == std::string::npos) fail_value("NAME=VALUE, such as opening=5", item);
         options.knobs.emplace_back(item.substr(0, equals), parse_float(item.substr(equals + 1)));
-        start = end + 1;
     }
 }
 

@@ -12,6 +12,9 @@ namespace pl {
 [[noreturn]] void fail_not_yet(std::string_view what);
 
 void parse_method(Options& options, const std::string& text);
+/// "NAME,NAME..." or "all".
+void parse_methods(Options& options, const std::string& text);
+void parse_backends(Options& options, const std::string& text);
 void parse_view(Options& options, const std::string& text);
 void parse_backend(Options& options, const std::string& text);
 void parse_tone_curve(Options& options, const std::string& text);
@@ -21,6 +24,7 @@ std::string print_bsdf_fraction(const MixtureSettings& mixture);
 void parse_fov(Options& options, const std::string& text);
 void parse_field_budget(Options& options, const std::string& text);
 void parse_time_limit(Options& options, const std::string& text);
+void parse_target_error(Options& options, const std::string& text);
 void parse_window(Options& options, const std::string& text);
 void parse_picture_size(Options& options, const std::string& text);
 void parse_lookup(Options& options, const std::string& text);

@@ -12,18 +12,27 @@
 namespace pl {
 namespace {
 
-constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Info, Command::Devices, Command::Inspect);
-constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Info, Command::Inspect);
-constexpr CommandSet kSampling(Command::View, Command::Render, Command::Inspect);
-constexpr CommandSet kPictures(Command::View, Command::Render);
-constexpr CommandSet kHeadless(Command::Render, Command::Info, Command::Devices, Command::Inspect);
-constexpr CommandSet kFiles(Command::Render, Command::Inspect);
-constexpr CommandSet kView(Command::View);
-constexpr CommandSet kInspect(Command::Inspect);
+using enum Command;
+constexpr CommandSet kEverywhere(View, Render, Info, Devices, Inspect, Compare, Reference, Bench, Report);
+constexpr CommandSet kWithScene(View, Render, Info, Inspect, Reference, Bench);
+constexpr CommandSet kOneMethod(View, Render, Info, Inspect, Reference);
+constexpr CommandSet kPaths(View, Render, Inspect, Reference, Bench);
+constexpr CommandSet kSampling(View, Render, Inspect);
+constexpr CommandSet kPictures(View, Render);
+constexpr CommandSet kHeadless(Render, Info, Devices, Inspect, Compare, Reference, Bench, Report);
+constexpr CommandSet kFiles(Render, Inspect);
+constexpr CommandSet kWorking(Render, Inspect, Reference, Bench);
+constexpr CommandSet kView(View);
+constexpr CommandSet kInspect(Inspect);
+constexpr CommandSet kCompare(Compare);
+constexpr CommandSet kReference(Reference);
+constexpr CommandSet kBench(Bench);
 
 constexpr std::string_view kOutput = "Output";
 constexpr std::string_view kPicture = "Picture";
 constexpr std::string_view kStop = "When to stop (the first one that is met)";
+constexpr std::string_view kCompared = "What is compared";
+constexpr std::string_view kOutcome = "Outcome";
 constexpr std::string_view kCamera = "Camera";
 constexpr std::string_view kField = "Learned field";
 constexpr std::string_view kPlace = "What to inspect";
@@ -48,6 +57,10 @@ void parse_side(Options& options, const std::string& text) {
     options.*kMember = static_cast<int>(parse_whole(text, 1, kMaxImageSide));
 }
 
+void parse_spp(Options& options, const std::string& text) {
+    options.spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000));
+}
+
 void refuse_save_field(Options&, const std::string&) {
     throw Error(ErrorKind::Usage, "the viewer saves what was learned when Ctrl+Shift+S is pressed");
 }
@@ -61,6 +74,12 @@ const auto kTable = std::to_array<OptionSpec>({
              "(inspect: .json, .csv, .png)",
      .commands = kFiles, .parse = parse_text<&Options::output>,
      .print = [](const Options& o) { return o.output; }},
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
+     .help = "Folder of references; it may hold others",
+     .commands = kReference, .parse = parse_text<&Options::output>},
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
+     .help = "Folder of this bench; one that was interrupted goes on",
+     .commands = kBench, .parse = parse_text<&Options::output>},
     {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
      .help = "Write counts and timings as JSON",
      .commands = kFiles, .parse = parse_text<&Options::stats_file>},
@@ -75,8 +94,36 @@ const auto kTable = std::to_array<OptionSpec>({
 
     {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,
      .help = "How directions are chosen: default, precomputed, reinforcement (see --list-methods)",
-     .commands = kWithScene, .in_scene_files = true, .parse = parse_method,
+     .commands = kOneMethod, .in_scene_files = true, .parse = parse_method,
      .print = [](const Options& o) { return std::string(info_of(o.render.method).name); }},
+    {.name = "method", .flags = "--method", .value = "NAME,..", .group = kCompared,
+     .help = "Methods to compare, with commas between (default: all); the first one is what the others are held against",
+     .commands = kBench, .parse = parse_methods},
+    {.name = "backend", .flags = "--backend", .value = "NAME,..", .group = kCompared,
+     .help = "Back ends to compare: cpu, cuda (default: all that are available)",
+     .commands = kBench, .parse = parse_backends},
+    {.name = "seeds", .flags = "--seeds", .value = "N", .group = kCompared,
+     .help = "Runs of each method on each scene and back end (default 10); intervals need at least 5",
+     .commands = kBench,
+     .parse = [](Options& o, Text text) { o.seeds = static_cast<int>(parse_whole(text, 1, 100000)); }},
+    {.name = "reference", .flags = "--reference", .value = "DIR", .group = kCompared,
+     .help = "Folder of references; one that is missing there is refused (default: DIR/references, made as needed)",
+     .commands = kBench, .parse = parse_text<&Options::reference_folder>},
+    {.name = "reference-spp", .flags = "--reference-spp", .value = "N", .group = kCompared,
+     .help = "Samples per pixel in each half of references made here (default 4096)",
+     .commands = kBench,
+     .parse = [](Options& o, Text text) {
+         o.reference_spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000));
+     }},
+    {.name = "gate", .flags = "--gate", .value = "FILE", .group = kOutcome,
+     .help = "Exit with 5 if a method is slower to the same error than in this earlier results.json: by more than the "
+             "tolerance even at the near end of its interval",
+     .commands = kBench, .parse = parse_text<&Options::gate>},
+    {.name = "tolerance", .flags = "--tolerance", .value = "PERCENT", .group = kOutcome,
+     .help = "Of the gate (default 10)",
+     .commands = kBench,
+     .parse = [](Options& o, Text text) { o.tolerance_percent = parse_real(text, 0.0, 1.0e6); }},
+
     {.name = "view", .flags = "--view", .value = "NAME", .group = kPicture,
      .help = "What is shown: beauty, direct, radiance-map, voronoi, normal, albedo, depth; numbers of what is "
              "learned: visits, irradiance, entropy, bsdf-share, change, unvisited (see --list-views)",
@@ -84,7 +131,7 @@ const auto kTable = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return std::string(info_of(o.render.view).name); }},
     {.name = "backend", .flags = "--backend", .value = "NAME", .group = kPicture,
      .help = "What computes: auto, cpu, cuda",
-     .commands = kWithScene, .in_scene_files = true, .parse = parse_backend,
+     .commands = kOneMethod, .in_scene_files = true, .parse = parse_backend,
      .print = [](const Options& o) { return o.backend; }},
     {.name = "threads", .flags = "-t,--threads", .value = "N", .group = kPicture,
      .help = "CPU threads (default: all); the picture does not depend on it",
@@ -93,22 +140,22 @@ const auto kTable = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return o.threads == 0 ? "" : std::to_string(o.threads); }},
     {.name = "size", .flags = "--size", .value = "WxH", .group = kPicture,
      .help = "Picture size in pixels (default 512x512, or the scene's)",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_picture_size,
+     .commands = kPaths, .in_scene_files = true, .parse = parse_picture_size,
      .print = [](const Options& o) { return fmt::format("{}x{}", o.render.width, o.render.height); }},
     {.name = "width", .flags = "--width", .value = "N", .group = kPicture,
      .help = "Picture width; alone, the height keeps the scene's aspect",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_side<&Options::width>},
+     .commands = kPaths, .in_scene_files = true, .parse = parse_side<&Options::width>},
     {.name = "height", .flags = "--height", .value = "N", .group = kPicture,
      .help = "Picture height; alone, the width keeps the scene's aspect",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_side<&Options::height>},
+     .commands = kPaths, .in_scene_files = true, .parse = parse_side<&Options::height>},
     {.name = "seed", .flags = "--seed", .value = "N", .group = kPicture,
      .help = "Of the random numbers (default 1): same seed, same bits",
-     .commands = kSampling, .in_scene_files = true,
+     .commands = kPaths, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.render.seed = parse_whole(text, 0, kNoLimit); },
      .print = [](const Options& o) { return std::to_string(o.render.seed); }},
     {.name = "max-depth", .flags = "--max-depth", .value = "N", .group = kPicture,
      .help = "Most surface points on a path (default 64), a safety net: roulette ends paths",
-     .commands = kSampling, .in_scene_files = true,
+     .commands = kPaths, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.render.max_depth = static_cast<int>(parse_whole(text, 1, 65536)); },
      .print = [](const Options& o) { return std::to_string(o.render.max_depth); }},
     {.name = "nee", .flags = "--nee", .value = "on|off", .group = kPicture,
@@ -137,54 +184,68 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel (default 64 unless a time limit is given; the viewer goes on)",
      .commands = kSampling, .in_scene_files = true,
-     .parse = [](Options& o, Text text) { o.spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000)); },
+     .parse = parse_spp,
      .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
+    {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
+     .help = "Samples per pixel in each half (default 4096 unless a time limit is given)",
+     .commands = kReference, .parse = parse_spp},
+    {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
+     .help = "Samples per pixel of a run (default 64 unless a time limit or a target error is given)",
+     .commands = kBench, .parse = parse_spp,
+     .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
+    {.name = "target-error", .flags = "--target-error", .value = "X", .group = kStop,
+     .help = "A relMSE at which runs end; how long they took to it is told",
+     .commands = kBench, .parse = parse_target_error,
+     .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
     {.name = "time-limit", .flags = "--time-limit", .value = "SECONDS", .group = kStop,
      .help = "Of work after loading, looked at after every sample per pixel; at least one is made",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_time_limit,
+     .commands = kPaths, .in_scene_files = true, .parse = parse_time_limit,
      .print = [](const Options& o) { return o.time_limit_seconds ? print_real(*o.time_limit_seconds) : ""; }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kHidden, .help = "",
      .commands = kSampling, .in_scene_files = true,
      .parse = [](Options&, Text) { fail_not_yet("stop by --spp or --time-limit"); }},
+    {.name = "target-error", .flags = "--target-error", .value = "X", .group = kOutcome,
+     .help = "Exit with 5 if relMSE is above this",
+     .commands = kCompare, .parse = parse_target_error},
 
     {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical}; goes "
              "over the scene's camera, and the options below over both",
-     .commands = kSampling, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
     {.name = "eye", .flags = "--eye", .value = "X,Y,Z", .group = kCamera, .help = "Where the camera is",
-     .commands = kSampling, .parse = [](Options& o, Text text) { o.camera.eye = parse_vector(text); },
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.eye = parse_vector(text); },
      .print = [](const Options& o) { return print_vector(o.render.camera.eye); }},
     {.name = "target", .flags = "--target", .value = "X,Y,Z", .group = kCamera,
      .help = "A point in the middle of the picture",
-     .commands = kSampling, .parse = [](Options& o, Text text) { o.camera.target = parse_vector(text); },
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.target = parse_vector(text); },
      .print = [](const Options& o) { return print_vector(o.render.camera.target); }},
     {.name = "up", .flags = "--up", .value = "X,Y,Z", .group = kCamera,
      .help = "A direction that points up in the picture",
-     .commands = kSampling, .parse = [](Options& o, Text text) { o.camera.up = parse_vector(text); },
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.up = parse_vector(text); },
      .print = [](const Options& o) { return print_vector(o.render.camera.up); }},
     {.name = "fov", .flags = "--fov", .value = "DEG", .group = kCamera, .help = "Full vertical angle of view",
-     .commands = kSampling, .parse = parse_fov,
+     .commands = kPaths, .parse = parse_fov,
      .print = [](const Options& o) { return print_float(o.render.camera.fov_deg); }},
 
     {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,
      .help = "Number of radiance volumes (default: what the budget holds, at most 1000)",
-     .commands = kSampling, .in_scene_files = true,
+     .commands = kPaths, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.render.field.volumes = static_cast<int>(parse_whole(text, 1, 1000000)); },
      .print = [](const Options& o) {
          return o.render.field.volumes == 0 ? "" : std::to_string(o.render.field.volumes);
      }},
     {.name = "field-budget", .flags = "--field-budget", .value = "MB", .group = kField,
      .help = "Memory of one method's learned field (default 16)",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_field_budget,
+     .commands = kPaths, .in_scene_files = true, .parse = parse_field_budget,
      .print = [](const Options& o) { return print_real(o.render.field.budget_megabytes); }},
     {.name = "bins", .flags = "--bins", .value = "N", .group = kField,
      .help = "Directions per volume, a square number from 4 to 1024 (default 256)",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_bins,
+     .commands = kPaths, .in_scene_files = true, .parse = parse_bins,
      .print = [](const Options& o) { return std::to_string(o.render.field.bins); }},
     {.name = "bsdf-fraction", .flags = "--bsdf-fraction", .value = "X|learned", .group = kField,
      .help = "Share of directions that follow the surface instead of the field, 0.1 to 1; learned (default): each volume "
              "finds its own, precomputed takes 0.5",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_bsdf_fraction,
+     .commands = kPaths, .in_scene_files = true, .parse = parse_bsdf_fraction,
      .print = [](const Options& o) { return print_bsdf_fraction(o.render.mixture); }},
     {.name = "learning-rate", .flags = "--learning-rate", .value = "NAME", .group = kField,
      .help = "How far a new record moves what is learned: forgetful (default, lets go of the early ones), mean "
@@ -203,7 +264,7 @@ const auto kTable = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.light)); }},
     {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,
      .help = "How the volume of a point is found: grid (default), kdtree, or linear, which is slow; all find the same",
-     .commands = kSampling, .parse = parse_lookup,
+     .commands = kPaths, .parse = parse_lookup,
      .print = [](const Options& o) { return std::string(lookup_name(o.render.field.lookup)); }},
     {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kField,
      .help = "Go on from a field that was saved for this scene: it brings method, volumes, bins and what was learned. "
@@ -228,7 +289,7 @@ const auto kTable = std::to_array<OptionSpec>({
      .commands = kEverywhere, .parse = parse_text<&Options::log_file>},
     {.name = "no-progress", .flags = "--no-progress", .value = "", .group = kMessages,
      .help = "No progress bar, no progress lines",
-     .commands = kFiles, .parse = parse_flag<&Options::no_progress>},
+     .commands = kWorking, .parse = parse_flag<&Options::no_progress>},
     {.name = "headless", .flags = "--headless,--no-gui", .value = "", .group = kHidden, .help = "",
      .commands = kHeadless, .parse = [](Options&, Text) {}},
 

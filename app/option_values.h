@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -13,7 +14,7 @@
 
 namespace pl {
 
-enum class Command : std::uint32_t { View, Render, Info, Devices, Inspect };
+enum class Command : std::uint32_t { View, Render, Info, Devices, Inspect, Compare, Reference, Bench, Report };
 
 /// Which of the camera's parts were given; the rest is the scene's.
 struct CameraChoice {
@@ -30,8 +31,9 @@ struct ScenePoint {
 };
 
 struct Options {
-    std::string scene;  ///< name or path; empty if none was given
-    KnobValues knobs;   ///< of the scene, in the order given
+    std::string scene;                ///< name or path; empty if none was given
+    std::vector<std::string> inputs;  ///< of subcommands that take something else than one scene, in the order given
+    KnobValues knobs;                 ///< of the scene, in the order given
     std::string output;
 
     RenderSettings render;  ///< final only after resolve_options(): camera and size depend on the scene
@@ -40,9 +42,18 @@ struct Options {
     int threads = 0;  ///< 0: all
     std::optional<std::uint32_t> spp;
     std::optional<double> time_limit_seconds;
-    int width = 0;   ///< 0: not given
-    int height = 0;  ///< 0: not given
+    std::optional<double> target_error;  ///< of Metrics::relmse
+    int width = 0;                       ///< 0: not given
+    int height = 0;                      ///< 0: not given
     CameraChoice camera;
+
+    std::vector<MethodId> methods;       ///< bench: all to compare; empty: every one
+    std::vector<std::string> backends;   ///< bench: empty: all that are available
+    int seeds = 10;                      ///< bench: runs of each method, back end and scene
+    std::uint32_t reference_spp = 4096;  ///< bench: samples per pixel in each half of references that it makes
+    std::string reference_folder;        ///< bench: empty: its own
+    std::string gate;                    ///< bench: results to hold the new ones against
+    double tolerance_percent = 10.0;     ///< bench: how much slower than the gate's is not a failure
 
     std::string load_field;  ///< file to go on from
     std::string save_field;  ///< file for what was learned
@@ -66,7 +77,7 @@ struct Options {
     std::uint32_t spp_limit() const {
         constexpr std::uint32_t kDefaultSpp = 64;
         constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
-        return spp.value_or(time_limit_seconds ? kNever : kDefaultSpp);
+        return spp.value_or(time_limit_seconds || target_error ? kNever : kDefaultSpp);
     }
 };
 

@@ -17,6 +17,7 @@ namespace {
 struct Found {
     std::vector<GivenOption> given;
     std::string scene;
+    std::vector<std::string> inputs;
     bool help = false;
     bool version = false;
     bool list_methods = false;
@@ -77,7 +78,13 @@ void add_options(CLI::App& app, Command command, Found& found) {
     app.add_flag("--version", found.version);
     app.add_flag("--list-methods", found.list_methods);
     app.add_flag("--list-views", found.list_views);
-    if (command != Command::Devices) app.add_option("SCENE,--scene", found.scene)->take_last();
+    switch (info_of(command).inputs) {
+    case Inputs::Nothing: break;
+    case Inputs::Scene: app.add_option("SCENE,--scene", found.scene)->take_last(); break;
+    case Inputs::Scenes:
+    case Inputs::Folder:
+    case Inputs::Pictures: app.add_option("INPUTS", found.inputs)->expected(-1); break;
+    }
 }
 
 /// Fails for what the parser could not place.
@@ -86,7 +93,7 @@ void refuse(const CLI::App& app, Command command, const std::vector<std::string>
     const std::string command_word(command_name(command));
     if (unknown == extras.end())
         fail(fmt::format("unexpected argument '{}': '{}' takes {}; a subcommand has to come first", extras.front(),
-                         command_word, command == Command::Devices ? "options only" : "one SCENE"));
+                         command_word, info_of(command).inputs == Inputs::Nothing ? "options only" : "one SCENE"));
     const std::string word = unknown->substr(0, unknown->find('='));
     std::vector<std::string> known;
     for (const CLI::Option* option : app.get_options())
@@ -121,13 +128,20 @@ std::optional<std::string> answer_to(Command command, const Found& found, bool j
 
 void require_complete(Command command, const Options& options) {
     const bool needs_file = command == Command::Render || command == Command::Inspect;
-    if (options.scene.empty() && (needs_file || command == Command::Info))
+    const bool needs_folder = command == Command::Reference || command == Command::Bench;
+    if (options.scene.empty() && options.inputs.empty() && (needs_file || needs_folder || command == Command::Info))
         fail(fmt::format("'{}' needs a SCENE: a name ({}), an .obj file or a scene .json file", command_name(command),
                          fmt::join(list_scenes(find_assets_dir()), ", ")));
     if (options.output.empty() && needs_file)
         fail(fmt::format("'{}' needs a file to write: -o FILE", command_name(command)));
+    if (options.output.empty() && needs_folder)
+        fail(fmt::format("'{}' needs a folder to write to: -o DIR", command_name(command)));
     if (command == Command::Inspect && options.at.has_value() == options.pixel.has_value())
         fail("'inspect' needs a place: either --at X,Y,Z[,NX,NY,NZ] or --pixel X,Y");
+    if (command == Command::Report && options.inputs.size() != 1)
+        fail(fmt::format("'report' needs one folder of 'bench', DIR: got {}", options.inputs.size()));
+    if (command == Command::Compare && options.inputs.size() != 2)
+        fail(fmt::format("'compare' needs two pictures, IMAGE REFERENCE: got {}", options.inputs.size()));
 }
 
 }  // namespace
@@ -145,6 +159,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     if (line.answer) return line;
     for (const GivenOption& given : line.given) apply_option(*given.spec, line.options, given.text);
     line.options.scene = found.scene.empty() && line.command == Command::View ? "cornell" : found.scene;
+    line.options.inputs = std::move(found.inputs);
     require_complete(line.command, line.options);
     return line;
 }

@@ -40,6 +40,9 @@ Options scene_defaults(const std::string& scene_name, const SceneDescription& sc
 /// which scene_defaults() of the same scene is right.
 std::string command_text(const Options& options, const Options& defaults);
 
+/// A word as a shell reads it back, in quotes where it needs them.
+std::string shell_word(const std::string& text);
+
 std::string_view command_name(Command command);
 
 }  // namespace pl

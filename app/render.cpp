@@ -11,6 +11,7 @@
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/io/files.h"
+#include "core/measure/picture_identity.h"
 #include "core/session/shown_range.h"
 
 namespace pl {
@@ -37,8 +38,11 @@ void announce(const Session& session, Console& console) {
                             {"kernel", session.kernel_name()}});
 }
 
-ImageMetadata metadata_of(const Snapshot& snapshot, const Json& stats, const std::string& command, bool interrupted) {
+ImageMetadata metadata_of(const Session& session, const Snapshot& snapshot, const Json& stats,
+                          const std::string& command, bool interrupted) {
     ImageMetadata metadata{{"Software", "pathlight " PL_VERSION}, {"command", command}};
+    if (snapshot.slot.view == View::Beauty)
+        metadata.emplace_back(kPictureHashKey, picture_hash(session.scene(), session.settings()));
     if (interrupted) metadata.emplace_back("partial", "true");
     for (const char* key : {"scene", "scene_hash", "method", "view", "backend", "width", "height", "spp", "seed",
                             "max_depth", "nee", "kernel"}) {
@@ -90,7 +94,7 @@ int run_render(const CommandLine& line, Console& console) {
     const Json stats = stats_json(session, snapshot, options);
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
     save_picture(options.output, snapshot, options.display,
-                 metadata_of(snapshot, stats, command, outcome.interrupted));
+                 metadata_of(session, snapshot, stats, command, outcome.interrupted));
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted, console);

@@ -107,17 +107,38 @@ void check_combinations(Command command, Options& options) {
     if (!options.save_field.empty()) require_learning(options);
 }
 
+bool is_given(const CommandLine& line, std::string_view name) {
+    return std::any_of(line.given.begin(), line.given.end(),
+                       [&](const GivenOption& option) { return option.spec->name == name; });
+}
+
 /// Inspection is about what was learned, so it does not inherit a method that learns nothing.
 void settle_inspection(const CommandLine& line, Options& options) {
     options.render.view = View::Beauty;
     if (info_of(options.render.method).uses_field) return;
-    const bool given = std::any_of(line.given.begin(), line.given.end(),
-                                   [](const GivenOption& option) { return option.spec->name == "method"; });
-    if (given)
+    if (is_given(line, "method"))
         throw Error(ErrorKind::Usage, fmt::format("--method {}: learns nothing that could be inspected: expected {}",
                                                   info_of(options.render.method).name, field_method_choices()));
     options.render.method = MethodId::Reinforcement;
 }
+
+/// What a scene asks for to look well is no limit of a measurement.
+void forget_scene_limits(const CommandLine& line, Options& options) {
+    if (!is_given(line, "time-limit")) options.time_limit_seconds.reset();
+    if (!is_given(line, "spp")) options.spp.reset();
+}
+
+/// A reference is a picture of the light, whatever the scene prefers to show, and has its own default of samples.
+void settle_reference(const CommandLine& line, Options& options) {
+    options.render.view = View::Beauty;
+    constexpr std::uint32_t kReferenceSpp = 4096;
+    if (!is_given(line, "method")) options.render.method = MethodId::Default;
+    if (!is_given(line, "nee")) options.render.next_event = true;
+    forget_scene_limits(line, options);
+    if (!options.spp && !options.time_limit_seconds) options.spp = kReferenceSpp;
+}
+
+}  // namespace
 
 std::string shell_word(const std::string& text) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,+:@%=";
@@ -126,8 +147,6 @@ std::string shell_word(const std::string& text) {
     for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return quoted + "'";
 }
-
-}  // namespace
 
 Options resolve_options(const CommandLine& line, const SceneDescription& scene, const LearnedField* loaded) {
     Options options;
@@ -138,6 +157,11 @@ Options resolve_options(const CommandLine& line, const SceneDescription& scene, 
     settle_size(options);
     settle_camera(options);
     if (line.command == Command::Inspect) settle_inspection(line, options);
+    if (line.command == Command::Reference) settle_reference(line, options);
+    if (line.command == Command::Bench) {
+        options.render.view = View::Beauty;
+        forget_scene_limits(line, options);
+    }
     check_combinations(line.command, options);
     return options;
 }

@@ -1,12 +1,14 @@
 // The loops that work on several rays or paths at once, compiled once per instruction set; all give the same bits.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string_view>
 
 #include "core/kernel/base/math.h"
 #include "core/kernel/base/rng.h"
+#include "core/kernel/methods/guided.h"
 #include "cpu/ray_batch.h"
 
 namespace pl {
@@ -47,6 +49,27 @@ struct alignas(64) NumberGroup {
     Vec4f get(std::uint32_t lane) const { return {rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]}; }
 };
 
+/// 16 paths that a guided method sends on. Lanes that were never set are served by no volume.
+struct alignas(64) GuidedGroup {
+    std::int32_t volume[kGroupSize];
+    float normal_x[kGroupSize] = {}, normal_y[kGroupSize] = {}, normal_z[kGroupSize] = {};  ///< shading
+    float choice[kGroupSize] = {}, u_x[kGroupSize] = {}, u_y[kGroupSize] = {};
+    CounterGroup counters;  ///< of the numbers for the jitter
+
+    GuidedGroup() { std::fill_n(volume, kGroupSize, kNoVolume); }
+};
+
+/// Their directions; as DirectionSample.
+struct alignas(64) DirectionGroup {
+    float x[kGroupSize] = {}, y[kGroupSize] = {}, z[kGroupSize] = {};
+    float pdf_sa[kGroupSize] = {}, bsdf_pdf_sa[kGroupSize] = {};
+    std::int32_t cell[kGroupSize] = {};
+
+    DirectionSample get(std::uint32_t lane) const {
+        return {{x[lane], y[lane], z[lane]}, pdf_sa[lane], bsdf_pdf_sa[lane], cell[lane]};
+    }
+};
+
 struct LaneKernels {
     const char* isa;
     /// All rays of `groups` groups against all triangles.
@@ -54,6 +77,9 @@ struct LaneKernels {
     void (*find_occluded)(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t groups);
     /// What Rng::draw gives for every counter.
     void (*draw)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups);
+    /// What GuidedMixture::sample gives for every path, the jitter drawn as for Purpose::CellJitter.
+    void (*sample_guided)(const GuidedMixture& mixture, const DrawKey& jitter_key, const GuidedGroup* paths,
+                          DirectionGroup* directions, std::uint32_t groups);
 };
 
 extern const LaneKernels kLaneKernelsBaseline;

@@ -90,5 +90,63 @@ PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
 #endif
 }
 
+/// A vector of numbers for arithmetic that is a template over how many; see core/kernel/base/numbers.h.
+struct Lanes {
+    using Real = LaneFloat;
+    using Int = LaneInt;
+    using Mask = LaneInt;
+
+    static PL_INLINE Real constant(float x) { return broadcast(x); }
+    static PL_INLINE Int constant(std::int32_t x) { return x - Int{}; }
+    static PL_INLINE Real sqrt(const Real& x) {
+#if defined(__AVX512F__)
+        return std::bit_cast<Real>(_mm512_maskz_sqrt_ps(0xffff, std::bit_cast<__m512>(x)));
+#elif defined(__AVX2__)
+        return std::bit_cast<Real>(_mm256_sqrt_ps(std::bit_cast<__m256>(x)));
+#elif defined(__SSE2__)
+        return std::bit_cast<Real>(_mm_sqrt_ps(std::bit_cast<__m128>(x)));
+#else
+        Real root;
+        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) root[lane] = __builtin_sqrtf(x[lane]);
+        return root;
+#endif
+    }
+    static PL_INLINE Real magnitude(const Real& x) { return pl::magnitude(x); }
+    static PL_INLINE Real copy_sign(const Real& size, const Real& sign) {
+        constexpr std::uint32_t kSign = 0x80000000u;
+        return std::bit_cast<Real>((std::bit_cast<LaneUint>(size) & ~kSign) |
+                                   (std::bit_cast<LaneUint>(sign) & kSign));
+    }
+    static PL_INLINE Int truncate(const Real& x) { return __builtin_convertvector(x, Int); }
+    static PL_INLINE Real to_real(const Int& i) { return __builtin_convertvector(i, Real); }
+    static PL_INLINE bool any(const Mask& mask) { return mask_bits(mask) != 0; }
+    static PL_INLINE Real load(const float* values, const Int& index) {
+#if defined(__AVX512F__)
+        return std::bit_cast<Real>(
+            _mm512_mask_i32gather_ps(_mm512_setzero_ps(), 0xffff, std::bit_cast<__m512i>(index), values, 4));
+#elif defined(__AVX2__)
+        return std::bit_cast<Real>(_mm256_i32gather_ps(values, std::bit_cast<__m256i>(index), 4));
+#else
+        Real loaded;
+        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) loaded[lane] = values[index[lane]];
+        return loaded;
+#endif
+    }
+    /// Each lane has its own row of values: they are compared a vector at a time, lane after lane.
+    static PL_INLINE Int count_not_above(const float* values, const Int& first, int count, const Real& x) {
+        std::int32_t counts[kLaneWidth];
+        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {
+            const float* row = values + first[lane];
+            int index = 0;
+            int i = 0;
+            for (; i + static_cast<int>(kLaneWidth) <= count; i += static_cast<int>(kLaneWidth))
+                index += std::popcount(mask_bits(load_lanes<LaneFloat>(row + i) <= broadcast(x[lane])));
+            for (; i < count; ++i) index += row[i] <= x[lane] ? 1 : 0;
+            counts[lane] = index;
+        }
+        return load_lanes<Int>(counts);
+    }
+};
+
 }  // namespace
 }  // namespace pl

@@ -1,5 +1,5 @@
 #include "cpu/dense_lanes.h"
-#include "cpu/philox_lanes.h"
+#include "cpu/guided_lanes.h"
 
 namespace pl {
 namespace {
@@ -16,8 +16,13 @@ void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers
     draw_groups(key, counters, numbers, groups);
 }
 
+void sample_guided(const GuidedMixture& mixture, const DrawKey& jitter_key, const GuidedGroup* paths,
+                   DirectionGroup* directions, std::uint32_t groups) {
+    sample_guided_groups(mixture, jitter_key, paths, directions, groups);
+}
+
 }  // namespace
 
-const LaneKernels kLaneKernelsBaseline{"baseline", find_closest, find_occluded, draw};
+const LaneKernels kLaneKernelsBaseline{"baseline", find_closest, find_occluded, draw, sample_guided};
 
 }  // namespace pl

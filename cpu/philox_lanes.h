@@ -18,9 +18,8 @@ PL_INLINE WideProduct<LaneUint> multiply_lanes(std::uint32_t factor, LaneUint wo
             std::bit_cast<LaneUint>((even & kLowHalf) | (odd << 32))};
 }
 
-/// The lanes of a group from `first` on.
-PL_INLINE void draw_lanes(const DrawKey& key, const CounterGroup& counters, NumberGroup& numbers,
-                          std::uint32_t first) {
+/// What Rng::draw gives for the lanes of a group from `first` on.
+PL_INLINE PhiloxWords<LaneFloat> draw_lanes(const DrawKey& key, const CounterGroup& counters, std::uint32_t first) {
     const PhiloxWords<LaneUint> counter{
         {load_lanes<LaneUint>(counters.pixel + first), load_lanes<LaneUint>(counters.sample + first),
          load_lanes<LaneUint>(counters.vertex + first) | (static_cast<std::uint32_t>(key.purpose) << 24),
@@ -28,14 +27,17 @@ PL_INLINE void draw_lanes(const DrawKey& key, const CounterGroup& counters, Numb
     const PhiloxWords<LaneUint> block =
         philox4x32(counter, static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32),
                    [](std::uint32_t factor, LaneUint words) { return multiply_lanes(factor, words); });
-    for (int i = 0; i < 4; ++i) store_lanes(to_unit_lanes(block.v[i]), numbers.rows[i] + first);
+    return {
+        {to_unit_lanes(block.v[0]), to_unit_lanes(block.v[1]), to_unit_lanes(block.v[2]), to_unit_lanes(block.v[3])}};
 }
 
 PL_INLINE void draw_groups(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers,
                            std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
-        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            draw_lanes(key, counters[group], numbers[group], first);
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth) {
+            const PhiloxWords<LaneFloat> drawn = draw_lanes(key, counters[group], first);
+            for (int i = 0; i < 4; ++i) store_lanes(drawn.v[i], numbers[group].rows[i] + first);
+        }
 }
 
 }  // namespace

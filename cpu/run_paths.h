@@ -3,6 +3,7 @@
 // batch size, threads and chunks decide speed only.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstdint>
 #include <new>
@@ -10,6 +11,7 @@
 
 #include "core/kernel/integrator/steps.h"
 #include "core/session/backend.h"
+#include "cpu/guided_block.h"
 #include "cpu/path_source.h"
 #include "cpu/ray_batch.h"
 
@@ -41,7 +43,7 @@ public:
         : setup_(setup), intersector_(intersector), method_(method), work_(work), states_(setup.batch_paths),
           statuses_(setup.batch_paths), numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0),
           rays_(setup.batch_paths), shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
-          shadow_rays_(static_cast<std::uint32_t>(shadows_.size())) {}
+          shadow_rays_(static_cast<std::uint32_t>(shadows_.size())), block_(method, setup.path) {}
 
     /// Traces paths until the source has no more, and finishes those under way.
     PassCounters run(PathSource& source) {
@@ -76,19 +78,53 @@ private:
         numbers_.set_path(i, states_[i]);
     }
 
-    /// Inlined to the last call: half of the time of a small scene is spent here.
-    [[gnu::flatten]] void extend() {
+    void extend() {
         shadow_count_ = 0;
+        if constexpr (GuidedMethod<M>)
+            for (std::uint32_t i = 0; i < active_; i += kGuidedBlock)
+                extend_block(i, std::min(i + kGuidedBlock, active_));
+        else
+            extend_each();
+    }
+
+    /// Inlined to the last call: half of the time of a small scene is spent here.
+    [[gnu::flatten]] void extend_each() {
         for (std::uint32_t i = 0; i < active_; ++i) {
             ShadowRequest shadow;
             statuses_[i] = extend_path<F>(setup_.scene, method_, setup_.path, rays_.hit(i), numbers_.numbers(i),
                                           states_[i], shadow, counters_.path);
-            if constexpr (kSamplesLights) {
-                if (!shadow.wanted) continue;
-                shadow_rays_.set_ray(shadow_count_, shadow.ray);
-                shadow_paths_[shadow_count_] = i;
-                shadows_[shadow_count_++] = shadow;
-            }
+            push(shadow, i);
+        }
+    }
+
+    /// Paths from `first` to `end`, in the parts of extend_path, so that directions are chosen for many at once.
+    [[gnu::flatten]] void extend_block(std::uint32_t first, std::uint32_t end) {
+        block_.departures.clear();
+        for (std::uint32_t i = first; i < end; ++i) {
+            ShadowRequest shadow;
+            typename M::Record record{};
+            const VertexNumbers numbers = numbers_.numbers(i);
+            statuses_[i] = arrive<F>(setup_.scene, method_, setup_.path, rays_.hit(i), numbers, states_[i],
+                                     block_.departures.next(), record, shadow, counters_.path);
+            if (statuses_[i] == PathStatus::Continues) block_.departures.add(i, states_[i], numbers.scatter);
+            block_.records.push(record);
+            push(shadow, i);
+        }
+        block_.departures.choose_directions();
+        for (std::uint32_t i = 0; i < block_.departures.count(); ++i) {
+            const std::uint32_t path = block_.departures.path(i);
+            statuses_[path] = leave(method_, block_.departures.departure(i), block_.departures.direction(i),
+                                    states_[path], counters_.path);
+        }
+        block_.records.commit();
+    }
+
+    void push(const ShadowRequest& shadow, std::uint32_t path) {
+        if constexpr (kSamplesLights) {
+            if (!shadow.wanted) return;
+            shadow_rays_.set_ray(shadow_count_, shadow.ray);
+            shadow_paths_[shadow_count_] = path;
+            shadows_[shadow_count_++] = shadow;
         }
     }
 
@@ -132,6 +168,7 @@ private:
     std::vector<ShadowRequest> shadows_;
     std::vector<std::uint32_t> shadow_paths_;
     RayBatch shadow_rays_;
+    [[no_unique_address]] BlockMemory<M> block_;
     std::uint32_t active_ = 0;
     std::uint32_t shadow_count_ = 0;
     PassCounters counters_;

@@ -66,6 +66,18 @@ std::array<std::vector<float>, 3> to_planes(const LinearImage& image) {
     return planes;
 }
 
+/// NaN stays NaN.
+void limit_to_half(std::array<std::vector<float>, 3>& planes) {
+    constexpr float kLargestHalf = 65504.0f;
+    for (std::vector<float>& plane : planes) {
+        for (float& value : plane) {
+            if (value > kLargestHalf) {
+                value = kLargestHalf;
+            }
+        }
+    }
+}
+
 struct HeaderOwner {
     EXRHeader header;
     HeaderOwner() { InitEXRHeader(&header); }
@@ -134,16 +146,22 @@ int channel_index(const std::filesystem::path& path, const EXRHeader& header, co
 
 }  // namespace
 
-void write_exr(const std::filesystem::path& path, const LinearImage& image, const ImageMetadata& metadata) {
+void write_exr(const std::filesystem::path& path, const LinearImage& image, const ImageMetadata& metadata,
+               ExrNumbers numbers) {
     require_complete(path, image.width, image.height, image.pixels.size(), 1);
     std::array<std::vector<float>, 3> planes = to_planes(image);
+    if (numbers == ExrNumbers::Half) {
+        limit_to_half(planes);
+    }
     std::array<unsigned char*, 3> plane_data{};
     std::array<EXRChannelInfo, 3> channels{};
     std::array<int, 3> types{};
+    std::array<int, 3> stored_types{};
     for (std::size_t c = 0; c < 3; ++c) {
         plane_data[c] = reinterpret_cast<unsigned char*>(planes[c].data());
         copy_name(channels[c].name, kChannels[c]);
         types[c] = TINYEXR_PIXELTYPE_FLOAT;
+        stored_types[c] = numbers == ExrNumbers::Half ? TINYEXR_PIXELTYPE_HALF : TINYEXR_PIXELTYPE_FLOAT;
     }
     std::vector<EXRAttribute> attributes = to_attributes(metadata);
 
@@ -159,7 +177,7 @@ void write_exr(const std::filesystem::path& path, const LinearImage& image, cons
     header.num_channels = 3;
     header.channels = channels.data();
     header.pixel_types = types.data();
-    header.requested_pixel_types = types.data();
+    header.requested_pixel_types = stored_types.data();
     header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
     header.num_custom_attributes = static_cast<int>(attributes.size());
     header.custom_attributes = attributes.data();

@@ -10,10 +10,20 @@
 
 namespace pl {
 
-ImageKind image_kind(const std::filesystem::path& path) {
+namespace {
+
+/// In lower case.
+std::string suffix_of(const std::filesystem::path& path) {
     std::string suffix = path.extension().string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return suffix;
+}
+
+}  // namespace
+
+ImageKind image_kind(const std::filesystem::path& path) {
+    const std::string suffix = suffix_of(path);
     if (suffix == ".exr") {
         return ImageKind::Exr;
     }
@@ -26,6 +36,29 @@ ImageKind image_kind(const std::filesystem::path& path) {
     throw Error(ErrorKind::Usage,
                 fmt::format("{}: the suffix decides the kind of picture: expected .exr, .pfm or .png, got {}",
                             path.string(), suffix.empty() ? "none" : suffix));
+}
+
+LinearImage read_linear(const std::filesystem::path& path, ImageMetadata* metadata) {
+    const std::string suffix = suffix_of(path);
+    if (suffix == ".pfm") {
+        return read_pfm(path);
+    }
+    if (suffix == ".exr") {
+        return read_exr(path, metadata);
+    }
+    fail_image(path, fmt::format("expected a linear picture, .exr or .pfm, got {}",
+                                 suffix == ".png" ? "an 8-bit one: it is tone mapped and clipped"
+                                 : suffix.empty() ? "a file without suffix"
+                                                  : suffix));
+}
+
+std::string text_of(const ImageMetadata& metadata, const std::string& name) {
+    for (const auto& [key, value] : metadata) {
+        if (key == name) {
+            return value;
+        }
+    }
+    return "";
 }
 
 void require_complete(const std::filesystem::path& path, int width, int height, std::size_t size,

@@ -79,14 +79,19 @@ void append_bytes(void* to, void* data, int size) {
 
 }  // namespace
 
-void write_png8(const std::filesystem::path& path, const ByteImage& image, const ImageMetadata& metadata) {
-    require_complete(path, image.width, image.height, image.rgb.size(), 3);
+std::string encode_png8(const ByteImage& image) {
     std::string bytes;
     if (stbi_write_png_to_func(append_bytes, &bytes, image.width, image.height, 3, image.rgb.data(),
                                image.width * 3) == 0 ||
         bytes.size() < kHeaderEnd) {
-        throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: the PNG encoder failed", path.string()));
+        throw Error(ErrorKind::Runtime, "the PNG encoder failed");
     }
+    return bytes;
+}
+
+void write_png8(const std::filesystem::path& path, const ByteImage& image, const ImageMetadata& metadata) {
+    require_complete(path, image.width, image.height, image.rgb.size(), 3);
+    std::string bytes = encode_png8(image);
     std::string chunks;
     for (const auto& [keyword, text] : metadata) {
         chunks += text_chunk(keyword, text);

@@ -2,8 +2,6 @@
 // which is processor time, because other work on the machine comes and goes.
 // Usage: gain_bench SCENE... [KEY=NUMBER]...; keys and their defaults are in Setup. The error is measured against two
 // independent halves of a reference, (x-r1)(x-r2), whose noise drops out of the mean.
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -13,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/io/load_scene.h"
+#include "core/measure/metrics.h"
 #include "core/session/session.h"
 #include "cpu/cpu_backend.h"
 #include "tests/bench/machine_load.h"
@@ -85,23 +84,6 @@ Picture render(std::shared_ptr<const SceneDescription> scene, const RenderSettin
                 static_cast<double>(snapshot.counters.paths)};
 }
 
-/// Mean squared error over pixels and channels; `left_out` is the share of the worst pixels that do not count.
-double squared_error(const Picture& x, const Picture& r1, const Picture& r2, double left_out) {
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < x.pixels.size(); ++i) {
-        double sum = 0.0;
-        for (int c = 0; c < 3; ++c)
-            sum += static_cast<double>(x.pixels[i][c] - r1.pixels[i][c]) *
-                   static_cast<double>(x.pixels[i][c] - r2.pixels[i][c]);
-        errors.push_back(sum / 3.0);
-    }
-    std::sort(errors.begin(), errors.end());
-    const auto kept = static_cast<std::size_t>(std::ceil((1.0 - left_out) * static_cast<double>(errors.size())));
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kept; ++i) sum += errors[i];
-    return sum / static_cast<double>(kept);
-}
-
 /// Results of one method over all seeds.
 struct Series {
     std::vector<double> error;
@@ -129,8 +111,9 @@ void measure(const Setup& setup, const std::string& name) {
             settings.seed = static_cast<std::uint64_t>(seed);
             const Picture x = render(scene, settings, static_cast<std::uint32_t>(setup["spp"]), threads);
             Series& series = results[method.id];
-            series.error.push_back(squared_error(x, r1, r2, 0.0));
-            series.trimmed.push_back(squared_error(x, r1, r2, 0.001));
+            const Metrics metrics = measure_error(x.pixels, {r1.pixels, r2.pixels});
+            series.error.push_back(metrics.mse);
+            series.trimmed.push_back(metrics.mse_trimmed);
             series.seconds.push_back(x.seconds);
             series.dark_share = x.dark_share;
         }

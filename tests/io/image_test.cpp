@@ -2,6 +2,7 @@
 #include "core/io/image.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <random>
@@ -161,4 +162,25 @@ TEST_CASE("Truncated pictures are refused at every length") {
     for (std::size_t size = 0; size < exr.size(); ++size) {
         CHECK_FALSE(loads_or_refuses([&] { read_exr(folder.write("a.exr", exr.substr(0, size))); }));
     }
+}
+
+TEST_CASE("EXR files of half floats keep three digits, limit what is too bright, and are smaller") {
+    const TemporaryFolder folder;
+    LinearImage image{.width = 64, .height = 64, .pixels = {}};
+    for (int i = 0; i < 64 * 64; ++i) image.pixels.emplace_back(0.001f * static_cast<float>(i) + 0.1f);
+    image.pixels[7] = glm::vec3(1.0e6f, std::numeric_limits<float>::quiet_NaN(), 65504.0f);
+    write_exr(folder.path() / "half.exr", image, {{"a", "b"}}, ExrNumbers::Half);
+    write_exr(folder.path() / "float.exr", image);
+    ImageMetadata metadata;
+    const LinearImage read = read_linear(folder.path() / "half.exr", &metadata);
+    CHECK(text_of(metadata, "a") == "b");
+    CHECK(text_of(metadata, "c").empty());
+    REQUIRE(read.pixels.size() == image.pixels.size());
+    CHECK(read.pixels[7].x == 65504.0f);
+    CHECK(std::isnan(read.pixels[7].y));
+    CHECK(read.pixels[7].z == 65504.0f);
+    for (std::size_t i = 8; i < read.pixels.size(); ++i)  // half a unit in the eleventh bit
+        REQUIRE(std::fabs(read.pixels[i].x - image.pixels[i].x) <= image.pixels[i].x / 2048.0f);
+    CHECK(std::filesystem::file_size(folder.path() / "half.exr") <
+          std::filesystem::file_size(folder.path() / "float.exr"));
 }

@@ -75,14 +75,14 @@ TEST_CASE("Cells are in range for every point of the closed square") {
 }
 
 TEST_CASE("The tent covers a cell width to each side") {
-    CHECK(sample_tent(0.0f) == -1.0f);
-    CHECK(sample_tent(0.5f) == 0.0f);
-    CHECK(sample_tent(kAlmostOne) < 1.0f);
-    CHECK(sample_tent(0.125f) == -0.5f);
-    CHECK(sample_tent(0.875f) == 0.5f);
+    CHECK(sample_tent<One>(0.0f) == -1.0f);
+    CHECK(sample_tent<One>(0.5f) == 0.0f);
+    CHECK(sample_tent<One>(kAlmostOne) < 1.0f);
+    CHECK(sample_tent<One>(0.125f) == -0.5f);
+    CHECK(sample_tent<One>(0.875f) == 0.5f);
     float before = -2.0f;
     for (int i = 0; i < 100000; ++i) {
-        const float x = sample_tent(static_cast<float>(i) * 1e-5f);
+        const float x = sample_tent<One>(static_cast<float>(i) * 1e-5f);
         REQUIRE(x >= before);
         REQUIRE(std::fabs(x) <= 1.0f);
         before = x;
@@ -90,9 +90,9 @@ TEST_CASE("The tent covers a cell width to each side") {
 }
 
 TEST_CASE("Folding keeps coordinates in the square") {
-    CHECK(reflect_into(-0.25f, 16.0f) == 0.25f);
-    CHECK(reflect_into(16.25f, 16.0f) == 15.75f);
-    CHECK(reflect_into(3.5f, 16.0f) == 3.5f);
-    CHECK(reflect_into(0.0f, 16.0f) == 0.0f);
-    CHECK(reflect_into(16.0f, 16.0f) == 16.0f);
+    CHECK(reflect_into<One>(-0.25f, 16.0f) == 0.25f);
+    CHECK(reflect_into<One>(16.25f, 16.0f) == 15.75f);
+    CHECK(reflect_into<One>(3.5f, 16.0f) == 3.5f);
+    CHECK(reflect_into<One>(0.0f, 16.0f) == 0.0f);
+    CHECK(reflect_into<One>(16.0f, 16.0f) == 16.0f);
 }

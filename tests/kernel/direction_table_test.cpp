@@ -24,7 +24,7 @@ std::vector<double> probabilities(const DirectionTable& table) {
         for (int x = 0; x < 2 * side; ++x) {
             const Vec2f middle{(static_cast<float>(x) + 0.5f) * quarter, (static_cast<float>(y) + 0.5f) * quarter};
             cells[static_cast<std::size_t>(y / 2 * side + x / 2)] +=
-                static_cast<double>(square_density(table, middle)) / (4.0 * side * side);
+                static_cast<double>(square_density(table, unpack(middle))) / (4.0 * side * side);
         }
     return cells;
 }
@@ -35,12 +35,17 @@ double sum_of(const std::vector<double>& values) {
     return sum;
 }
 
+std::size_t draw_cell(const DirectionTable& table, Uniforms& random) {
+    const CellNumber<One> cell = sample_cell(table, unpack(random.square()));
+    return static_cast<std::size_t>(cell.row * table.cells.side + cell.column);
+}
+
 std::vector<std::uint64_t> sample_counts(const DirectionTable& table, int samples, std::uint64_t seed) {
     Uniforms random(seed);
     std::vector<std::uint64_t> counts(static_cast<std::size_t>(table.cells.count()));
     for (int i = 0; i < samples; ++i) {
-        const Vec2f u = random.square();
-        ++counts[static_cast<std::size_t>(table.cells.cell_of(sample_square(table, u, random.square())))];
+        const Real2<One> u = unpack(random.square());
+        ++counts[static_cast<std::size_t>(table.cells.cell_of(sample_square(table, u, unpack(random.square()))))];
     }
     return counts;
 }
@@ -61,7 +66,7 @@ TEST_CASE("Every number finds an interval that has a probability") {
             for (const float u : {next_float_down(cdf[i]), cdf[i], next_float_up(cdf[i])})
                 if (u >= 0.0f && u < 1.0f) numbers.push_back(u);
         for (const float u : numbers) {
-            const int i = find_interval(cdf, count, u);
+            const int i = One::count_not_above(cdf, 0, count, u);
             REQUIRE(i >= 0);
             REQUIRE(i < count);
             const float below = i > 0 ? cdf[i - 1] : 0.0f;
@@ -101,7 +106,7 @@ TEST_CASE("Cells are drawn with the probability that the table states") {
             for (int column = 0; column < 4; ++column)
                 expected.push_back(static_cast<double>(table.cell_probability(column, row)));
         std::vector<std::uint64_t> counts(16);
-        for (int i = 0; i < 1000000; ++i) ++counts[static_cast<std::size_t>(sample_cell(table, random.square()))];
+        for (int i = 0; i < 1000000; ++i) ++counts[draw_cell(table, random)];
         INFO(hard.name);
         CHECK(std::fabs(sum_of(expected) - 1.0) < 1e-6);
         // A single cell leaves nothing to vary: all samples must be there, which the rule's zero bins say.
@@ -138,7 +143,7 @@ TEST_CASE("The rule sees a wrong density and a missing jitter") {
     const DirectionTable table = field.table();
     Uniforms random(3);
     std::vector<std::uint64_t> without_jitter(144);
-    for (int i = 0; i < 4000000; ++i) ++without_jitter[static_cast<std::size_t>(sample_cell(table, random.square()))];
+    for (int i = 0; i < 4000000; ++i) ++without_jitter[draw_cell(table, random)];
     CHECK(sampler_matches(without_jitter, probabilities(table), 0.007).verdict == Verdict::Fail);
 }
 
@@ -154,7 +159,7 @@ TEST_CASE("Samples stay in the square and where the density is positive") {
         for (int i = 0; i < 100000; ++i) {
             const Vec2f u = i % 2 == 0 ? random.square() : Vec2f{ends[random.below(3)], ends[random.below(3)]};
             const Vec2f jitter = i % 3 == 0 ? Vec2f{ends[random.below(3)], ends[random.below(3)]} : random.square();
-            const Vec2f square = sample_square(table, u, jitter);
+            const Real2<One> square = sample_square(table, unpack(u), unpack(jitter));
             outside += square.x >= 0.0f && square.x <= 1.0f && square.y >= 0.0f && square.y <= 1.0f ? 0 : 1;
             impossible += jitter.x > 0.0f && jitter.y > 0.0f && !(square_density(table, square) > 0.0f) ? 1 : 0;
         }
@@ -175,11 +180,11 @@ TEST_CASE("Densities per steradian are those over the square times the cosine") 
         for (int i = 0; i < 20000; ++i) {
             const Vec2f square = random.square();
             const Vec3f local = square_to_cosine_hemisphere(square);
-            const float expected = square_density(table, square) * local.z * kInvPi;
+            const float expected = square_density(table, unpack(square)) * local.z * kInvPi;
             // A density of up to 144 per cell, moved by the 5e-7 of the round trip in 12 cells: 144 * 12 * 5e-7.
-            REQUIRE(std::fabs(table_density(table, local).pdf_sa - expected) <= 1e-3f);
+            REQUIRE(std::fabs(table_density(table, unpack(local)).pdf_sa - expected) <= 1e-3f);
         }
-        CHECK(table_density(table, {1, 0, 0}).pdf_sa == 0.0f);
-        CHECK(table_density(table, {0, 0.6f, -0.8f}).pdf_sa == 0.0f);
+        CHECK(table_density(table, Real3<One>{1, 0, 0}).pdf_sa == 0.0f);
+        CHECK(table_density(table, Real3<One>{0, 0.6f, -0.8f}).pdf_sa == 0.0f);
     }
 }

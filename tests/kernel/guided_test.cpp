@@ -150,19 +150,19 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     CHECK(memory.cell == 9);
 
     // L_e + rho V, in luminance. Powers of two: exact.
-    method.learn(memory, {.emitted = Vec3f{0.0f}, .albedo = Vec3f{0.25f}}, {1}, counters);
+    method.commit(method.learn(memory, {.emitted = Vec3f{0.0f}, .albedo = Vec3f{0.25f}}, {1}, counters));
     const auto quarter_gray = static_cast<double>(luminance(Vec3f{0.25f})) * 2.0;
     CHECK(field.tables.pending_count[9] == 1);
     CHECK(field.tables.pending_sum[9] == static_cast<std::int64_t>(quarter_gray * 16777216.0));
-    method.learn(memory, {.emitted = Vec3f{1.0f}}, {kNoVolume},
-                 counters);  // a lamp that reflects nothing, or the sky
+    // A lamp that reflects nothing, or the sky.
+    method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}}, {kNoVolume}, counters));
     CHECK(field.tables.pending_count[9] == 2);
     CHECK(counters.records == 2);
 
     // Nothing is known where the surface reflects but no volume serves it, and nothing where none was left.
-    method.learn(memory, {.emitted = Vec3f{1.0f}, .albedo = Vec3f{0.5f}}, {kNoVolume}, counters);
+    method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}, .albedo = Vec3f{0.5f}}, {kNoVolume}, counters));
     ReinforcementMethod::Memory none{};
-    method.learn(none, {.emitted = Vec3f{1.0f}}, {1}, counters);
+    method.commit(method.learn(none, {.emitted = Vec3f{1.0f}}, {1}, counters));
     CHECK(counters.records == 2);
     CHECK(field.tables.pending_count[9] == 2);
     CHECK(method.remember({kNoVolume}, method.weigh({kNoVolume}, SurfacePoint{}, wi)).volume == kNoVolume);
@@ -176,7 +176,7 @@ TEST_CASE("The precomputed method learns nothing") {
     method.field = field.view();
     MethodCounters counters;
     auto memory = method.remember({0}, {Vec3f{0, 0, 1}, 1.0f, 1.0f});
-    method.learn(memory, {.emitted = Vec3f{1.0f}}, {0}, counters);
+    method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}}, {0}, counters));
     CHECK(counters.records == 0);
     CHECK(field.tables.pending_count == std::vector<std::uint32_t>(16, 0));
 }

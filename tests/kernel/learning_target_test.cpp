@@ -46,7 +46,7 @@ DirectionSample towards(std::int32_t cell) {
     direction.cell = cell;
     return direction;
 }
-Departure going(float weight, std::int32_t cell) { return {Vec3f{weight}, Vec3f{0.5f}, towards(cell)}; }
+Scattering going(float weight, std::int32_t cell) { return {Vec3f{weight}, Vec3f{0.5f}, towards(cell)}; }
 Arrival meeting(float emitted, float share = 1.0f, float albedo = 0.5f) {
     return {.emitted = Vec3f{emitted}, .albedo = Vec3f{albedo}, .light_share = share};
 }

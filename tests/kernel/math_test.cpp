@@ -56,18 +56,19 @@ TEST_CASE("Sine and cosine and arctangent keep the error they state") {
     const auto to_sin = [](double x) { return std::sin(x); };
     const auto to_cos = [](double x) { return std::cos(x); };
     const auto to_atan = [](double x) { return std::atan(x); };
-    CHECK(largest_error(-kPiOver4, kPiOver4, sin_quarter, to_sin) < 1e-7);
-    CHECK(largest_error(-kPiOver4, kPiOver4, cos_quarter, to_cos) < 1e-7);
-    CHECK(largest_error(-1.0f, 1.0f, atan_unit, to_atan) < 2e-7);
-    CHECK(largest_error(-1e-20f, 1e-20f, atan_unit, to_atan) < 1e-27);
-    CHECK(largest_error(-1e-20f, 1e-20f, sin_quarter, to_sin) < 1e-27);
+    CHECK(largest_error(-kPiOver4, kPiOver4, sin_quarter<One>, to_sin) < 1e-7);
+    CHECK(largest_error(-kPiOver4, kPiOver4, cos_quarter<One>, to_cos) < 1e-7);
+    CHECK(largest_error(-1.0f, 1.0f, atan_unit<One>, to_atan) < 2e-7);
+    CHECK(largest_error(-1e-20f, 1e-20f, atan_unit<One>, to_atan) < 1e-27);
+    CHECK(largest_error(-1e-20f, 1e-20f, sin_quarter<One>, to_sin) < 1e-27);
 }
 
 TEST_CASE("Sine and arctangent are odd and cosine is even bit by bit") {
     test::Uniforms random(1);
     for (int i = 0; i < 100000; ++i) {
         const float x = kPiOver4 * random.next();
-        if (sin_quarter(-x) != -sin_quarter(x) || cos_quarter(-x) != cos_quarter(x) || atan_unit(-x) != -atan_unit(x))
+        if (sin_quarter<One>(-x) != -sin_quarter<One>(x) || cos_quarter<One>(-x) != cos_quarter<One>(x) ||
+            atan_unit<One>(-x) != -atan_unit<One>(x))
             FAIL("at " << x);
     }
     SUCCEED();

@@ -1,4 +1,4 @@
-// Small mathematics on glm types. Own sine, cosine and arctangent: the library's differ between CPU and GPU.
+// Small mathematics on glm types.
 #pragma once
 
 #include <bit>
@@ -57,17 +57,6 @@ PL_HD inline bool is_valid_radiance(Vec3f v) {
     return v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f && v.x < kInfinity && v.y < kInfinity && v.z < kInfinity;
 }
 
-/// sin(x) for |x| <= pi/4, error below 1e-7. Polynomial of the Cephes library.
-PL_HD inline float sin_quarter(float x) {
-    const float z = x * x;
-    return x + x * z * (-1.6666654611e-1f + z * (8.3321608736e-3f + z * -1.9515295891e-4f));
-}
-/// cos(x) for |x| <= pi/4, error below 1e-7. Polynomial of the Cephes library.
-PL_HD inline float cos_quarter(float x) {
-    const float z = x * x;
-    return 1.0f - 0.5f * z +
-           z * z * (4.166664568298827e-2f + z * (-1.388731625493765e-3f + z * 2.443315711809948e-5f));
-}
 /// ln(x) for positive, normal x, error below 2e-7 (1 + |ln x|). Polynomial of the Cephes library.
 PL_HD inline float log_of(float x) {
     constexpr float kRootOfHalf = 0.70710678118654752440f;
@@ -96,20 +85,8 @@ PL_HD inline float exp_of(float x) {
 /// x^p for x in (0, 1], normal, and p in (0, 1].
 PL_HD inline float power(float x, float p) { return exp_of(p * log_of(x)); }
 
-/// atan(x) for |x| <= 1, error below 2e-7. Polynomial of the Cephes library, odd by construction.
-PL_HD inline float atan_unit(float x) {
-    const float magnitude = std::fabs(x);
-    const bool upper = magnitude > 0.4142135623730950f;  // tan(pi/8)
-    const float r = upper ? (magnitude - 1.0f) / (magnitude + 1.0f) : magnitude;
-    const float z = r * r;
-    const float p =
-        (((8.05374449538e-2f * z - 1.38776856032e-1f) * z + 1.99777106478e-1f) * z - 3.33329491539e-1f) * z * r + r;
-    const float angle = upper ? kPiOver4 + p : p;
-    return x < 0.0f ? -angle : angle;
-}
-
-/// log2(x) for normal x > 0, exact for powers of two, error below 2e-7 (1 + |log2(x)|). By the series of atanh; own for
-/// the same reason as the sine.
+/// log2(x) for normal x > 0, exact for powers of two, error below 2e-7 (1 + |log2(x)|). By the series of atanh; own
+/// because the library's differs between CPU and GPU.
 PL_HD inline float log2_normal(float x) {
     constexpr float kTwoOverLn2 = 2.88539008f;
     const auto bits = std::bit_cast<std::uint32_t>(x);

@@ -1,50 +1,61 @@
 // Maps between the unit square and the shapes that are sampled, each with its density and its inverse.
 #pragma once
 
-#include "core/kernel/base/math.h"
+#include "core/kernel/base/numbers.h"
 
 namespace pl {
 
 /// Concentric map of [0,1]^2 to the unit disk; equal areas map to equal areas.   [Shirley and Chiu 1997]
-PL_HD inline Vec2f square_to_disk(Vec2f u) {
-    const float a = 2.0f * u.x - 1.0f;
-    const float b = 2.0f * u.y - 1.0f;
-    if (a == 0.0f && b == 0.0f) return {0.0f, 0.0f};
-    if (std::fabs(a) > std::fabs(b)) {
-        const float angle = kPiOver4 * (b / a);
-        return {a * cos_quarter(angle), a * sin_quarter(angle)};
-    }
-    const float angle = kPiOver4 * (a / b);
-    return {b * sin_quarter(angle), b * cos_quarter(angle)};
+template <class N>
+PL_INLINE Real2<N> square_to_disk(const Real2<N>& u) {
+    const auto a = 2.0f * u.x - 1.0f;
+    const auto b = 2.0f * u.y - 1.0f;
+    const auto zero = N::constant(0.0f);
+    const typename N::Mask wide = N::magnitude(a) > N::magnitude(b);
+    const auto radius = select(wide, a, b);
+    const auto angle = kPiOver4 * (select(wide, b, a) / radius);
+    const auto near = radius * cos_quarter<N>(angle);
+    const auto far = radius * sin_quarter<N>(angle);
+    const typename N::Mask center = radius == 0.0f;
+    return {select(center, zero, select(wide, near, far)), select(center, zero, select(wide, far, near))};
 }
+PL_HD inline Vec2f square_to_disk(Vec2f u) { return pack(square_to_disk(unpack(u))); }
 
 /// Inverse of square_to_disk: a point of the unit disk to [0,1]^2.
-PL_HD inline Vec2f disk_to_square(Vec2f p) {
-    const float radius = std::sqrt(p.x * p.x + p.y * p.y);
-    if (radius == 0.0f) return {0.5f, 0.5f};
-    float a, b;
-    if (std::fabs(p.x) > std::fabs(p.y)) {
-        a = std::copysign(radius, p.x);
-        b = a * (atan_unit(p.y / p.x) / kPiOver4);
-    } else {
-        b = std::copysign(radius, p.y);
-        a = b * (atan_unit(p.x / p.y) / kPiOver4);
-    }
-    return {clamp_to(0.5f * (a + 1.0f), 0.0f, 1.0f), clamp_to(0.5f * (b + 1.0f), 0.0f, 1.0f)};
+template <class N>
+PL_INLINE Real2<N> disk_to_square(const Real2<N>& p) {
+    const auto radius = N::sqrt(p.x * p.x + p.y * p.y);
+    const typename N::Mask wide = N::magnitude(p.x) > N::magnitude(p.y);
+    const auto large = select(wide, p.x, p.y);
+    const auto small = select(wide, p.y, p.x);
+    const auto along = N::copy_sign(radius, large);
+    const auto across = along * (atan_unit<N>(small / large) / kPiOver4);
+    const auto half = N::constant(0.5f);
+    const typename N::Mask center = radius == 0.0f;
+    return {select(center, half, clamp_real<N>(0.5f * (select(wide, along, across) + 1.0f), 0.0f, 1.0f)),
+            select(center, half, clamp_real<N>(0.5f * (select(wide, across, along) + 1.0f), 0.0f, 1.0f))};
 }
+PL_HD inline Vec2f disk_to_square(Vec2f p) { return pack(disk_to_square(unpack(p))); }
 
 /// Lifts [0,1]^2 to the hemisphere around +z. Uniform input gives density cos(theta)/pi per steradian.
 /// [Malley's method; Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., A.5.3]
-PL_HD inline Vec3f square_to_cosine_hemisphere(Vec2f u) {
-    const Vec2f d = square_to_disk(u);
-    return {d.x, d.y, safe_sqrt(1.0f - d.x * d.x - d.y * d.y)};
+template <class N>
+PL_INLINE Real3<N> square_to_cosine_hemisphere(const Real2<N>& u) {
+    const Real2<N> d = square_to_disk(u);
+    const auto z2 = 1.0f - d.x * d.x - d.y * d.y;
+    return {d.x, d.y, N::sqrt(select(z2 < 0.0f, N::constant(0.0f), z2))};
 }
+PL_HD inline Vec3f square_to_cosine_hemisphere(Vec2f u) { return pack(square_to_cosine_hemisphere(unpack(u))); }
 
 /// Inverse of square_to_cosine_hemisphere for unit directions with z >= 0.
 PL_HD inline Vec2f cosine_hemisphere_to_square(Vec3f direction) { return disk_to_square({direction.x, direction.y}); }
 
 /// Density of cosine-weighted directions, per steradian; 0 below the horizon.
-PL_HD inline float cosine_hemisphere_pdf_sa(float cos_theta) { return cos_theta > 0.0f ? cos_theta * kInvPi : 0.0f; }
+template <class N>
+PL_INLINE typename N::Real cosine_pdf_sa(typename N::Real cos_theta) {
+    return select(cos_theta > 0.0f, cos_theta * kInvPi, N::constant(0.0f));
+}
+PL_HD inline float cosine_hemisphere_pdf_sa(float cos_theta) { return cosine_pdf_sa<One>(cos_theta); }
 
 /// Barycentric coordinates (b1, b2), uniform over a triangle's area.   [Heitz 2019, "A Low-Distortion Map"]
 PL_HD inline Vec2f square_to_triangle(Vec2f u) {

@@ -15,10 +15,19 @@ struct DirectionCells {
 
     PL_HD int count() const { return side * side; }
 
-    PL_HD int column_of(float x) const { return min_of(static_cast<int>(x * static_cast<float>(side)), side - 1); }
+    /// Column, or row, that holds a coordinate of the unit square.
+    template <class N>
+    PL_INLINE typename N::Int column_of(typename N::Real x) const {
+        const auto column = N::truncate(x * static_cast<float>(side));
+        return select(column > side - 1, N::constant(side - 1), column);
+    }
 
     /// Cell that holds a point of [0,1]^2.
-    PL_HD int cell_of(Vec2f square) const { return column_of(square.y) * side + column_of(square.x); }
+    template <class N>
+    PL_INLINE typename N::Int cell_of(const Real2<N>& square) const {
+        return column_of<N>(square.y) * side + column_of<N>(square.x);
+    }
+    PL_HD int cell_of(Vec2f square) const { return cell_of(unpack(square)); }
 
     /// Cell that holds a unit direction with z >= 0, in the volume's own frame.
     PL_HD int cell_of_direction(Vec3f local) const { return cell_of(cosine_hemisphere_to_square(local)); }
@@ -36,14 +45,18 @@ struct DirectionCells {
 };
 
 /// Triangular density on [-1, 1] from a uniform number: one cell width to each side.
-PL_HD inline float sample_tent(float u) {
-    return u < 0.5f ? std::sqrt(2.0f * u) - 1.0f : 1.0f - std::sqrt(2.0f * (1.0f - u));
+template <class N>
+PL_INLINE typename N::Real sample_tent(typename N::Real u) {
+    const typename N::Mask low = u < 0.5f;
+    const auto root = N::sqrt(2.0f * select(low, u, 1.0f - u));
+    return select(low, root - 1.0f, 1.0f - root);
 }
 
 /// Folds a coordinate that left [0, side] by less than one cell back in, and keeps it below `side`.
-PL_HD inline float reflect_into(float x, float side) {
-    const float folded = x < 0.0f ? -x : (x > side ? 2.0f * side - x : x);
-    return clamp_to(folded, 0.0f, side);
+template <class N>
+PL_INLINE typename N::Real reflect_into(typename N::Real x, float side) {
+    const auto folded = select(x < 0.0f, -x, select(x > side, 2.0f * side - x, x));
+    return clamp_real<N>(folded, 0.0f, side);
 }
 
 }  // namespace pl

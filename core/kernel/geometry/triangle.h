@@ -3,16 +3,10 @@
 // Same operations in the same order without contraction, so every caller gets the same bits.
 #pragma once
 
-#include "core/kernel/base/math.h"
+#include "core/kernel/base/numbers.h"
 #include "core/kernel/geometry/ray.h"
 
 namespace pl {
-
-/// Chooses per lane. `Mask` is bool, or a vector of lanes with all bits set or clear.
-template <class Mask, class Real>
-PL_INLINE Real select(Mask mask, Real yes, Real no) {
-    return mask ? yes : no;
-}
 
 /// A ray prepared for the test: the axis where its direction is largest becomes z, then a shear makes it (0,0,1).
 template <class Real, class Mask>

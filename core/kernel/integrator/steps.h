@@ -1,5 +1,6 @@
 // The integrator as steps on one path: begin, extend (once per hit), connect (once per shadow ray). Pure functions
-// of their arguments, so that a loop over one path, a batch of paths and a GPU thread all call the same code.
+// of their arguments, so that a loop over one path, a batch of paths and a GPU thread all call the same code. A driver
+// that handles several paths at once calls the parts of extend_path: arrive, the method's choice of a direction, leave.
 #pragma once
 
 #include "core/kernel/integrator/path.h"
@@ -108,48 +109,27 @@ PL_HD inline float play_roulette(const M& method, const PathSettings& settings, 
     return 1.0f / probability;
 }
 
-/// Decides whether the path goes on, chooses the next direction and moves the path's ray there.
-template <Method M>
-PL_HD inline PathStatus scatter(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
-                                const SurfacePoint& surface, Vec3f albedo, Vec4f u, PathState<M>& state,
-                                PathCounters& counters) {
-    const float roulette_weight = play_roulette(method, settings, vertex, albedo, u.w, state);
-    if (roulette_weight == 0.0f) {
-        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
-        return PathStatus::Finished;
-    }
-    const Rng rng = path_rng(settings, state.pixel, state.sample);
-    const DirectionSample direction = method.sample_direction(vertex, surface, rng, state.vertices, u);
-    const float cos_i = reflection_cosine(surface, direction.wi);
-    if (!(direction.pdf_sa > 0.0f) || cos_i == 0.0f) {
-        ++counters.zero_directions;
-        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
-        return PathStatus::Finished;
-    }
-    const Vec3f weight = lambert_eval(albedo, cos_i) * (1.0f / direction.pdf_sa);
-    state.throughput *= weight;
-    if constexpr (FollowingMethod<M>)
-        method.depart(state.memory, vertex, {roulette_weight * weight, albedo, direction}, counters.method);
-    else
-        state.memory = method.remember(vertex, direction);
-    state.ray = spawn_ray(surface, direction.wi);
-    state.direction_pdf_sa = direction.pdf_sa;
-    return PathStatus::Continues;
-}
+/// Where a path stands before its next direction is chosen.
+template <class M>
+struct Departure {
+    SurfacePoint surface;
+    Vec3f albedo{0.0f};
+    [[no_unique_address]] typename M::Vertex vertex{};
+};
 
-/// Consumes the hit of the path's segment: collects emission, lets the method learn, asks for a shadow ray and
-/// chooses the next segment. `shadow` comes in cleared.
+/// Consumes the hit of the path's segment: collects emission, lets the method learn, asks for a shadow ray and decides
+/// whether the path goes on. `shadow` and `record` come in cleared; `departure` is only good if the path continues.
 template <FeatureSet F, Method M>
-PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, const PathSettings& settings,
-                                    const Hit& hit, const VertexNumbers& numbers, PathState<M>& state,
-                                    ShadowRequest& shadow, PathCounters& counters) {
+PL_HD inline PathStatus arrive(const SceneView& scene, const M& method, const PathSettings& settings, const Hit& hit,
+                               const VertexNumbers& numbers, PathState<M>& state, Departure<M>& departure,
+                               typename M::Record& record, ShadowRequest& shadow, PathCounters& counters) {
     ++counters.segments;
     if (!hit.found()) {
         ++counters.escaped;
         Vec3f environment{0.0f};
         if constexpr (F.has(Feature::Environment)) environment = scene.environment;
         state.radiance += state.throughput * environment;
-        method.learn(state.memory, {.emitted = environment}, typename M::Vertex{}, counters.method);
+        record = method.learn(state.memory, {.emitted = environment}, typename M::Vertex{}, counters.method);
         return PathStatus::Finished;
     }
     const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
@@ -160,8 +140,8 @@ PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, con
 
     typename M::Vertex vertex{};
     if (material.reflects()) vertex = method.arrive(surface, counters.method);
-    method.learn(state.memory, {.emitted = emitted, .albedo = material.albedo, .light_share = light_share}, vertex,
-                 counters.method);
+    record = method.learn(state.memory, {.emitted = emitted, .albedo = material.albedo, .light_share = light_share},
+                          vertex, counters.method);
 
     ++state.vertices;
     if (!material.reflects()) return PathStatus::Finished;
@@ -174,7 +154,53 @@ PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, con
         if (settings.next_event != 0)
             request_shadow_ray(scene, method, vertex, surface, material.albedo, numbers.light, state, shadow);
     }
-    return scatter(method, settings, vertex, surface, material.albedo, numbers.scatter, state, counters);
+    const float roulette_weight = play_roulette(method, settings, vertex, material.albedo, numbers.scatter.w, state);
+    if (roulette_weight == 0.0f) {
+        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
+        return PathStatus::Finished;
+    }
+    if constexpr (FollowingMethod<M>) state.memory.roulette_weight = roulette_weight;
+    departure = {surface, material.albedo, vertex};
+    return PathStatus::Continues;
+}
+
+/// Moves the path's ray into the chosen direction. Ends the path if the surface does not reflect that way.
+template <Method M>
+PL_HD inline PathStatus leave(const M& method, const Departure<M>& departure, const DirectionSample& direction,
+                              PathState<M>& state, PathCounters& counters) {
+    const float cos_i = reflection_cosine(departure.surface, direction.wi);
+    if (!(direction.pdf_sa > 0.0f) || cos_i == 0.0f) {
+        ++counters.zero_directions;
+        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
+        return PathStatus::Finished;
+    }
+    const Vec3f weight = lambert_eval(departure.albedo, cos_i) * (1.0f / direction.pdf_sa);
+    state.throughput *= weight;
+    if constexpr (FollowingMethod<M>)
+        method.depart(state.memory, departure.vertex,
+                      {state.memory.roulette_weight * weight, departure.albedo, direction}, counters.method);
+    else
+        state.memory = method.remember(departure.vertex, direction);
+    state.ray = spawn_ray(departure.surface, direction.wi);
+    state.direction_pdf_sa = direction.pdf_sa;
+    return PathStatus::Continues;
+}
+
+/// All that happens where a segment ends: the path's ray is then the next segment. `shadow` comes in cleared.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, const PathSettings& settings,
+                                    const Hit& hit, const VertexNumbers& numbers, PathState<M>& state,
+                                    ShadowRequest& shadow, PathCounters& counters) {
+    Departure<M> departure;
+    typename M::Record record{};
+    const PathStatus status =
+        arrive<F>(scene, method, settings, hit, numbers, state, departure, record, shadow, counters);
+    method.commit(record);
+    if (status == PathStatus::Finished) return status;
+    const Rng rng = path_rng(settings, state.pixel, state.sample);
+    const DirectionSample direction =
+        method.sample_direction(departure.vertex, departure.surface, rng, state.vertices, numbers.scatter);
+    return leave(method, departure, direction, state, counters);
 }
 
 /// Adds a light sample whose shadow ray found nothing in between.

@@ -9,6 +9,7 @@ struct DefaultMethod {
     struct Vertex {};
     struct Memory {};
     struct Expectation {};
+    struct Record {};
 
     PL_HD Vertex arrive(const SurfacePoint&, MethodCounters&) const { return {}; }
 
@@ -26,7 +27,8 @@ struct DefaultMethod {
     PL_HD float roulette_worth(const Vertex&, Vec3f, Vec3f, float survival, Expectation&) const { return survival; }
 
     PL_HD Memory remember(const Vertex&, const DirectionSample&) const { return {}; }
-    PL_HD void learn(Memory&, const Arrival&, const Vertex&, MethodCounters&) const {}
+    PL_HD Record learn(const Memory&, const Arrival&, const Vertex&, MethodCounters&) const { return {}; }
+    PL_HD void commit(const Record&) const {}
 };
 static_assert(Method<DefaultMethod>);
 

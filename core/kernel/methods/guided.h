@@ -16,15 +16,79 @@ struct GuidedExpectation {
     float first = 0.0f;
 };
 
+/// DirectionSample for one direction, or for several at once.
+template <class N>
+struct GuidedDirection {
+    Real3<N> wi;
+    typename N::Real pdf_sa, bsdf_pdf_sa;
+    typename N::Int cell;
+};
+
 /// q = a p_bsdf + (1-a) p_table, with both densities evaluated whichever of the two chose the direction. A direction
 /// weighs at most 1/a times what it weighs under BSDF sampling.   [Veach 1997, 9.2.4; Mueller et al. 2017]
+/// Plain pointers, for code that is compiled apart; of at least one volume. `volume` is kNoVolume where none serves.
+struct GuidedMixture {
+    DirectionCells cells;
+    const float* row_cdf = nullptr;        ///< [volume][row]
+    const float* column_cdf = nullptr;     ///< [volume][row][column]
+    const float* normals = nullptr;        ///< [volume][3]
+    const float* bsdf_fraction = nullptr;  ///< a, in (0, 1]. [volume]; null: the same for all
+    float same_bsdf_fraction = 1.0f;
+
+    /// Draws a direction: u.x chooses between BSDF and table, u.y and u.z the direction, jitter() two further numbers.
+    template <class N, class Jitter>
+    PL_INLINE GuidedDirection<N> sample(typename N::Int volume, const Real3<N>& shading_normal,
+                                        typename N::Real choice, const Real2<N>& u, Jitter&& jitter) const {
+        const typename N::Mask served = volume >= 0;
+        const auto index = select(served, volume, N::constant(0));
+        const Real3<N> volume_normal = normal_of<N>(index);
+        const typename N::Mask guided = served & (choice >= fraction_of<N>(index));
+        Real2<N> square = u;
+        if (N::any(guided)) square = select(guided, sample_square(tables_of<N>(index), u, jitter()), u);
+        const FrameOf<N> frame = make_frame(select(guided, volume_normal, shading_normal));
+        return weigh<N>(volume, shading_normal, frame.to_world(square_to_cosine_hemisphere(square)));
+    }
+
+    /// A direction with all its densities, as if it had been sampled.
+    template <class N>
+    PL_INLINE GuidedDirection<N> weigh(typename N::Int volume, const Real3<N>& shading_normal,
+                                       const Real3<N>& wi) const {
+        const typename N::Mask served = volume >= 0;
+        const auto index = select(served, volume, N::constant(0));
+        const auto bsdf_pdf_sa = cosine_pdf_sa<N>(dot(wi, shading_normal));
+        const Real3<N> local = make_frame(normal_of<N>(index)).to_local(wi);
+        const TableDensity<N> table = table_density(tables_of<N>(index), local);
+        const auto a = fraction_of<N>(index);
+        const auto mixed = a * bsdf_pdf_sa + (1.0f - a) * table.pdf_sa;
+        return {wi, select(served, mixed, bsdf_pdf_sa), bsdf_pdf_sa, select(served, table.cell, N::constant(-1))};
+    }
+
+private:
+    template <class N>
+    PL_INLINE DirectionTables<N> tables_of(typename N::Int volume) const {
+        return {cells, row_cdf, column_cdf, volume};
+    }
+    template <class N>
+    PL_INLINE Real3<N> normal_of(typename N::Int volume) const {
+        return {N::load(normals, 3 * volume), N::load(normals, 3 * volume + 1), N::load(normals, 3 * volume + 2)};
+    }
+    template <class N>
+    PL_INLINE typename N::Real fraction_of(typename N::Int volume) const {
+        return bsdf_fraction != nullptr ? N::load(bsdf_fraction, volume) : N::constant(same_bsdf_fraction);
+    }
+};
+
 struct GuidedSampling {
     FieldView field;
     MixtureSettings mixture{};
 
-    /// a, in (0, 1]
-    PL_HD float bsdf_fraction(std::int32_t volume) const {
-        return mixture.learned != 0 ? field.bsdf_fraction[static_cast<std::uint32_t>(volume)] : mixture.bsdf_fraction;
+    PL_HD GuidedMixture mixture_view() const {
+        return {.cells = field.cells,
+                .row_cdf = field.row_cdf.data,
+                .column_cdf = field.column_cdf.data,
+                .normals = &field.normals.data->x,
+                .bsdf_fraction = mixture.learned != 0 ? field.bsdf_fraction.data : nullptr,
+                .same_bsdf_fraction = mixture.bsdf_fraction};
     }
 
     PL_HD GuidedVertex arrive(const SurfacePoint& surface, MethodCounters& counters) const {
@@ -37,28 +101,20 @@ struct GuidedSampling {
     PL_HD float pdf_sa(const GuidedVertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
         return weigh(vertex, surface, wi).pdf_sa;
     }
-    /// The direction with all its densities, as if it had been sampled.
     PL_HD DirectionSample weigh(const GuidedVertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
-        const float bsdf_pdf_sa = lambert_pdf_sa(surface, wi);
-        if (vertex.volume == kNoVolume) return {wi, bsdf_pdf_sa, bsdf_pdf_sa};
-        const Vec3f local = field.frame(vertex.volume).to_local(wi);
-        const TableDensity table = table_density(DirectionTable(field, vertex.volume), local);
-        const float a = bsdf_fraction(vertex.volume);
-        return {wi, a * bsdf_pdf_sa + (1.0f - a) * table.pdf_sa, bsdf_pdf_sa, table.cell};
+        if (vertex.volume == kNoVolume) return weigh_lambert(surface, wi);
+        return pack(mixture_view().weigh<One>(vertex.volume, unpack(surface.shading_normal), unpack(wi)));
     }
 
     PL_HD DirectionSample sample_direction(const GuidedVertex& vertex, const SurfacePoint& surface, const Rng& rng,
                                            std::uint32_t index, Vec4f u) const {
-        Vec3f wi;
-        if (vertex.volume == kNoVolume || u.x < bsdf_fraction(vertex.volume)) {
-            wi = lambert_sample(surface, {u.y, u.z});
-        } else {
+        if (vertex.volume == kNoVolume) return weigh_lambert(surface, lambert_sample(surface, {u.y, u.z}));
+        const auto draw_jitter = [&] {
             const Vec4f jitter = rng.draw(index, Purpose::CellJitter);
-            const Vec2f square =
-                sample_square(DirectionTable(field, vertex.volume), {u.y, u.z}, {jitter.x, jitter.y});
-            wi = field.frame(vertex.volume).to_world(square_to_cosine_hemisphere(square));
-        }
-        return weigh(vertex, surface, wi);
+            return Real2<One>{jitter.x, jitter.y};
+        };
+        return pack(
+            mixture_view().sample<One>(vertex.volume, unpack(surface.shading_normal), u.x, {u.y, u.z}, draw_jitter));
     }
 
     /// What the path can still bring, by what is learned, as a share of what its first vertex was expected to. A
@@ -72,6 +128,15 @@ struct GuidedSampling {
             luminance(throughput * albedo) * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
         if (expectation.first == 0.0f) expectation.first = expected;
         return expectation.first > 0.0f ? expected / expectation.first : survival;
+    }
+
+private:
+    static PL_HD DirectionSample weigh_lambert(const SurfacePoint& surface, Vec3f wi) {
+        const float pdf_sa = lambert_pdf_sa(surface, wi);
+        return {wi, pdf_sa, pdf_sa};
+    }
+    static PL_HD DirectionSample pack(const GuidedDirection<One>& direction) {
+        return {pl::pack(direction.wi), direction.pdf_sa, direction.bsdf_pdf_sa, direction.cell};
     }
 };
 

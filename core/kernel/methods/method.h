@@ -27,7 +27,7 @@ struct Arrival {
 };
 
 /// How a path went on from a vertex.
-struct Departure {
+struct Scattering {
     Vec3f weight{0.0f};  ///< BSDF x cosine / pdf, and roulette's
     Vec3f albedo{0.0f};  ///< of the surface
     DirectionSample direction;
@@ -43,7 +43,8 @@ struct MethodCounters {
 
 /// `Vertex` is what a method knows about the surface point a path stands on; `Memory` is what it keeps until the
 /// next vertex is reached; `Expectation` is what it keeps of the path's start, to judge what the path is still worth.
-/// Methods that learn nothing have empty ones, which cost no byte of path state.
+/// `Record` is one observation on its way into the tables: learn() makes it, commit() adds it, any thread at any time
+/// before the pass ends. Methods that learn nothing have empty ones, which cost no byte of path state.
 ///
 /// roulette_worth(vertex, albedo, throughput, survival, expectation): what the path can still bring, as a share of
 /// what it could at its first vertex: Russian roulette is played on it. Called once per vertex. `survival` is the product of the
@@ -57,20 +58,23 @@ concept Method = requires(const M& method, const typename M::Vertex& vertex, typ
     { method.pdf_sa(vertex, surface, wi) } -> std::same_as<float>;
     { method.remember(vertex, DirectionSample{}) } -> std::same_as<typename M::Memory>;
     { method.roulette_worth(vertex, wi, wi, float{}, expectation) } -> std::same_as<float>;
-    { method.learn(memory, arrival, vertex, counters) } -> std::same_as<void>;
+    { method.learn(memory, arrival, vertex, counters) } -> std::same_as<typename M::Record>;
+    { method.commit(typename M::Record{}) } -> std::same_as<void>;
 };
 
 /// Methods that learn from more than where the last direction led. Their Memory follows the path; instead of remember(),
 /// the integrator calls depart() where a vertex is left, and stop() where a path ends at one by chance. request_light() gets
 /// what the surface would reflect of the light sample there, receive_light() follows if nothing is in between, also after
-/// depart(). finish() comes last, once per path.
+/// depart(). finish() comes last, once
+/// per path. Memory holds the weight of the roulette that the path survived last, which the integrator sets.
 template <class M>
 concept FollowingMethod = Method<M> &&
     requires(const M& method, typename M::Memory& memory, const typename M::Vertex& vertex, Vec3f reflected,
-             const Departure& departure, MethodCounters& counters) {
+             const Scattering& scattering, MethodCounters& counters) {
     method.request_light(memory, reflected);
     method.receive_light(memory, counters);
-    method.depart(memory, vertex, departure, counters);
+    method.depart(memory, vertex, scattering, counters);
+    { memory.roulette_weight } -> std::same_as<float&>;
     method.stop(memory, counters);
     method.finish(memory, counters);
 };

@@ -34,8 +34,10 @@ struct MonteCarloMethod : GuidedSampling {
         std::int32_t lit = -1;  ///< the step whose light sample is on its way; none if negative
         std::uint32_t is_cut = 0;
         Vec3f light{0.0f};  ///< what that brings
+        float roulette_weight = 1.0f;
         Step steps[kMostSteps];
     };
+    struct Record {};  ///< all are made at the end of a path
 
     PL_HD Memory remember(const Vertex& vertex, const DirectionSample& direction) const {
         Memory memory;
@@ -43,14 +45,16 @@ struct MonteCarloMethod : GuidedSampling {
         return memory;
     }
 
-    PL_HD void learn(Memory& memory, const Arrival& arrival, const Vertex&, MethodCounters&) const {
+    PL_HD Record learn(Memory& memory, const Arrival& arrival, const Vertex&, MethodCounters&) const {
         memory.lit = -1;
-        if (memory.count == 0 || memory.is_cut != 0) return;
+        if (memory.count == 0 || memory.is_cut != 0) return {};
         Step& last = memory.steps[memory.count - 1];
         last.brought = arrival.light_share * arrival.emitted;
         if (learning.light == LearnedLight::All)
             last.unshared = (1.0f - arrival.light_share) * luminance(arrival.emitted);
+        return {};
     }
+    PL_HD void commit(const Record&) const {}
 
     PL_HD void request_light(Memory& memory, Vec3f reflected) const {
         if (memory.count == 0 || memory.is_cut != 0) return;
@@ -62,12 +66,12 @@ struct MonteCarloMethod : GuidedSampling {
         memory.lit = -1;
     }
 
-    PL_HD void depart(Memory& memory, const Vertex& vertex, const Departure& departure,
+    PL_HD void depart(Memory& memory, const Vertex& vertex, const Scattering& scattering,
                       MethodCounters& counters) const {
         if (memory.is_cut != 0) return;
         if (memory.count < kMostSteps) {
-            if (memory.count > 0) memory.steps[memory.count - 1].weight = departure.weight;
-            push(memory, vertex, departure.direction);
+            if (memory.count > 0) memory.steps[memory.count - 1].weight = scattering.weight;
+            push(memory, vertex, scattering.direction);
             return;
         }
         memory.is_cut = 1;
@@ -76,7 +80,7 @@ struct MonteCarloMethod : GuidedSampling {
         // V holds direct light too, unless only indirect light is learned: the light sample counts only then.
         if (learning.light == LearnedLight::All) memory.lit = -1;
         memory.steps[memory.count - 1].brought +=
-            departure.albedo * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
+            scattering.albedo * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
     }
     PL_HD void stop(Memory&, MethodCounters&) const {}
 

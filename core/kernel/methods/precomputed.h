@@ -9,9 +9,11 @@ struct PrecomputedMethod : GuidedSampling {
     using Vertex = GuidedVertex;
     using Expectation = GuidedExpectation;
     struct Memory {};
+    struct Record {};
 
     PL_HD Memory remember(const Vertex&, const DirectionSample&) const { return {}; }
-    PL_HD void learn(Memory&, const Arrival&, const Vertex&, MethodCounters&) const {}
+    PL_HD Record learn(const Memory&, const Arrival&, const Vertex&, MethodCounters&) const { return {}; }
+    PL_HD void commit(const Record&) const {}
 };
 static_assert(Method<PrecomputedMethod>);
 

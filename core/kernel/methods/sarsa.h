@@ -31,16 +31,18 @@ struct SarsaMethod : GuidedSampling {
         Entry lit;             ///< chose the one before: gets what the light sample on its way brings
         float emitted = 0.0f;  ///< L
         float light = 0.0f;    ///< what the light sample brings
+        float roulette_weight = 1.0f;
     };
+    struct Record {};  ///< made where a target is complete
 
     PL_HD Memory remember(const Vertex& vertex, const DirectionSample& direction) const {
         if (direction.cell < 0) return {};
         return {.left = {vertex.volume, direction.cell, direction.bsdf_pdf_sa / direction.pdf_sa}, .lit = {}};
     }
 
-    PL_HD void learn(Memory& memory, const Arrival& arrival, const Vertex& vertex, MethodCounters& counters) const {
+    PL_HD Record learn(Memory& memory, const Arrival& arrival, const Vertex& vertex, MethodCounters& counters) const {
         memory.lit = {};
-        if (memory.left.volume == kNoVolume) return;
+        if (memory.left.volume == kNoVolume) return {};
         const bool indirect = learning.light == LearnedLight::Indirect;
         memory.emitted = luminance(arrival.emitted) * (indirect ? arrival.light_share : 1.0f);
         if (is_black(arrival.albedo)) {
@@ -54,7 +56,9 @@ struct SarsaMethod : GuidedSampling {
         } else if (indirect) {
             memory.lit = memory.left;
         }
+        return {};
     }
+    PL_HD void commit(const Record&) const {}
 
     PL_HD void request_light(Memory& memory, Vec3f reflected) const { memory.light = luminance(reflected); }
     PL_HD void receive_light(Memory& memory, MethodCounters&) const {
@@ -65,12 +69,12 @@ struct SarsaMethod : GuidedSampling {
         if (mixture.learned != 0) record_mixture(field, memory.lit.volume, memory.lit.bsdf_ratio, memory.light);
     }
 
-    PL_HD void depart(Memory& memory, const Vertex& vertex, const Departure& departure,
+    PL_HD void depart(Memory& memory, const Vertex& vertex, const Scattering& scattering,
                       MethodCounters& counters) const {
-        settle(memory, luminance(departure.weight) * table_radiance(vertex, departure.direction.cell), counters);
+        settle(memory, luminance(scattering.weight) * table_radiance(vertex, scattering.direction.cell), counters);
         const Entry lit = memory.lit;
         const float light = memory.light;
-        memory = remember(vertex, departure.direction);
+        memory = remember(vertex, scattering.direction);
         memory.lit = lit;
         memory.light = light;
     }

@@ -1,0 +1,30 @@
+// JSON files that the program writes for itself and reads again.
+#pragma once
+
+#include <filesystem>
+
+#include "app/events.h"
+#include "core/base/error.h"
+
+namespace pl {
+
+/// Throws Error(Input): missing, not JSON, not of this "schema".
+Json read_json_file(const std::filesystem::path& path, std::string_view schema);
+
+/// Appears under its name only when complete.
+void write_json_file(const std::filesystem::path& path, const Json& json);
+
+/// Makes the folder and those above it. Throws Error(Runtime).
+void make_folder(const std::filesystem::path& folder);
+
+/// What `read` returns; members that are missing or of another type become an Error(Input) that names the file.
+template <class Read>
+auto read_members(const std::filesystem::path& path, Read&& read) {
+    try {
+        return read();
+    } catch (const Json::exception& error) {
+        throw Error(ErrorKind::Input, path.string() + ": " + error.what());
+    }
+}
+
+}  // namespace pl

@@ -1,0 +1,31 @@
+// The exports of a bench: results.json with everything, tables for spreadsheets and for people.
+#pragma once
+
+#include "app/measure/bench_folder.h"
+#include "app/measure/bench_summary.h"
+
+namespace pl {
+
+struct BenchResults {
+    Json plan;
+    std::string command;  ///< that repeats the bench
+    std::string date;     ///< of its end, UTC
+    Json references;      ///< by scene: samples per pixel of the halves, and their noise
+    std::vector<BenchRun> runs;
+    BenchSummary summary;   ///< of the runs
+    bool complete = false;  ///< all planned runs are in
+};
+
+/// Writes results.json, series.csv, summary.csv and summary.md.
+void write_results(const BenchFolder& folder, const BenchResults& results);
+/// What write_results() has written to results.json. Throws Error(Input).
+BenchResults read_results(const std::filesystem::path& file);
+
+/// [value, low, high]; not finite numbers are null.
+Json interval_json(const Interval& interval);
+/// "0.0123 (0.0120 to 0.0126)"; without the interval below kFewestRuns runs, "unknown" if there is no value.
+std::string interval_text(const Interval& interval, std::size_t runs);
+/// The methods of a plan in its order.
+std::vector<std::string> method_order(const Json& plan);
+
+}  // namespace pl

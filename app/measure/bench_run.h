@@ -1,0 +1,44 @@
+// One finished run of a bench, and its file: what an interrupted bench keeps and goes on from.
+#pragma once
+
+#include <compare>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/events.h"
+#include "core/measure/run_recorder.h"
+
+namespace pl {
+
+/// What is compared: everything that runs of different seeds have in common.
+struct BenchCell {
+    std::string scene;
+    std::string method;
+    std::string backend;
+
+    auto operator<=>(const BenchCell&) const = default;
+    /// "door/reinforcement/cpu", and the same as a part of file names.
+    std::string title() const { return scene + "/" + method + "/" + backend; }
+    std::string file_name() const { return scene + "-" + method + "-" + backend; }
+};
+
+struct BenchRun {
+    BenchCell cell;
+    std::uint64_t seed = 1;
+    bool warm_up = false;  ///< the first of its cell in a process: reported, and in no summary
+    std::string device;
+    int threads = 0;
+    RunSeries series;
+
+    const RunPoint& end() const { return series.points.back(); }
+};
+
+/// Schema "pathlight.run/1", points included.
+Json run_json(const BenchRun& run);
+/// Throws what Json throws: read_members() turns it into a message.
+BenchRun run_from_json(const Json& json);
+
+inline constexpr std::string_view kRunSchema = "pathlight.run/1";
+
+}  // namespace pl

@@ -1,0 +1,124 @@
+// `pathlight compare`: how far a picture is from another or from its reference, in all metrics.
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/measure/metrics_json.h"
+#include "app/measure/reference_store.h"
+#include "core/base/error.h"
+#include "core/io/image.h"
+#include "core/measure/metrics.h"
+#include "core/measure/picture_identity.h"
+
+namespace pl {
+namespace {
+
+struct Picture {
+    std::string path;
+    LinearImage image;
+    ImageMetadata metadata;
+
+    /// Of what it shows; empty if it does not say so.
+    std::string hash() const { return text_of(metadata, kPictureHashKey); }
+};
+
+/// Throws Error(Input) also for a picture with NaN or infinite pixels: its error is not known.
+Picture read_picture(const std::string& path) {
+    Picture picture{.path = path, .image = {}, .metadata = {}};
+    picture.image = read_linear(path, &picture.metadata);
+    const LinearImage& image = picture.image;
+    if (const std::size_t invalid = count_invalid(image.pixels); invalid > 0) {
+        const std::size_t first = first_invalid(image.pixels);
+        const auto width = static_cast<std::size_t>(image.width);
+        throw Error(ErrorKind::Input,
+                    fmt::format("{}: {} of {} pixels are NaN or infinite, the first at {},{}: its error is not known",
+                                path, invalid, image.pixels.size(), first % width, first / width));
+    }
+    return picture;
+}
+
+/// Throws Error(Input): another size, or a reference of something else. Warns of two pictures of different content.
+void check_pair(const Picture& picture, const Picture& reference, Console& console) {
+    const LinearImage& a = picture.image;
+    const LinearImage& b = reference.image;
+    if (a.width != b.width || a.height != b.height)
+        throw Error(ErrorKind::Input, fmt::format("{}: expected a size of {}x{} as {} has, got {}x{}", picture.path,
+                                                  b.width, b.height, reference.path, a.width, a.height));
+    if (picture.hash() == reference.hash() || picture.hash().empty() || reference.hash().empty()) return;
+    if (!text_of(reference.metadata, kReferenceHalfKey).empty())
+        throw Error(ErrorKind::Input,
+                    fmt::format("{}: is the reference of another scene, camera, light or depth than "
+                                "{} shows",
+                                reference.path, picture.path));
+    console.log().warning(
+        fmt::format("{} and {} were made of different scenes, cameras or depths", picture.path, reference.path));
+}
+
+/// The reference of what a picture shows, out of a folder.
+Reference reference_for(const Picture& picture, const std::string& folder) {
+    if (picture.hash().empty())
+        throw Error(ErrorKind::Input,
+                    fmt::format("{}: does not say what it shows, so no reference in {} can be its own: expected an "
+                                ".exr of 'pathlight render' with --view beauty",
+                                picture.path, folder));
+    int max_depth = 0;
+    const std::string depth = text_of(picture.metadata, "max_depth");
+    std::from_chars(depth.data(), depth.data() + depth.size(), max_depth);
+    return ReferenceStore(folder).require({.picture_hash = picture.hash(),
+                                           .scene_hash = text_of(picture.metadata, "scene_hash"),
+                                           .width = picture.image.width,
+                                           .height = picture.image.height,
+                                           .max_depth = max_depth});
+}
+
+Metrics measure(const Picture& picture, const std::string& reference, Console& console) {
+    if (std::filesystem::is_directory(reference))
+        return measure_error(picture.image.pixels, reference_for(picture, reference).pixels());
+    const Picture other = read_picture(reference);
+    check_pair(picture, other, console);
+    return measure_error(picture.image.pixels, other.image.pixels);
+}
+
+std::string text_of_metrics(const Metrics& m, const Picture& picture, const std::string& reference) {
+    std::string text =
+        fmt::format("{} against {}, {}x{}\n", picture.path, reference, picture.image.width, picture.image.height);
+    const auto row = [&text](std::string_view name, double value, const std::string& note) {
+        text += fmt::format("{:<14} {:<12.6g} {}\n", name, value, note);
+    };
+    const std::string trimmed = fmt::format("without the worst {} % of the pixels", 100.0 * kTrimmedShare);
+    row("mse", m.mse, "(x-r)^2");
+    row("rmse", m.rmse, "");
+    row("relmse", m.relmse, fmt::format("(x-r)^2 / (r^2 + {})", kEpsilon));
+    row("mse-trimmed", m.mse_trimmed, trimmed);
+    row("relmse-trimmed", m.relmse_trimmed, trimmed);
+    row("mape", m.mape, fmt::format("|x-r| / (|r| + {})", kEpsilon));
+    row("smape", m.smape, fmt::format("2 |x-r| / (|x| + |r| + {})", kEpsilon));
+    row("bias", m.bias, fmt::format("luminance of x-r, {:+.4g} % of the reference", 100.0 * m.relative_bias));
+    row("psnr", m.psnr_db, "dB, peak 1");
+    return text;
+}
+
+}  // namespace
+
+int run_compare(const CommandLine& line, Console& console) {
+    const Picture picture = read_picture(line.options.inputs[0]);
+    const std::string& reference = line.options.inputs[1];
+    const Metrics metrics = measure(picture, reference, console);
+    console.result(text_of_metrics(metrics, picture, reference));
+    if (metrics.invalid_reference > 0)
+        console.log().warning(fmt::format("{}: {} pixels are NaN or infinite: the picture is not scored there",
+                                          reference, metrics.invalid_reference));
+    Json event{{"image", picture.path},
+               {"reference", reference},
+               {"width", picture.image.width},
+               {"height", picture.image.height}};
+    event.update(metrics_json(metrics));
+    console.event("compare", event);
+    if (const auto target = line.options.target_error; target && metrics.relmse > *target)
+        throw Error(ErrorKind::Threshold,
+                    fmt::format("--target-error: expected relMSE of at most {}, got {}", *target, metrics.relmse));
+    return 0;
+}
+
+}  // namespace pl

@@ -1,0 +1,40 @@
+// `pathlight reference`: a converged picture in two independent halves.
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/make_backend.h"
+#include "app/measure/make_reference.h"
+#include "app/open_scene.h"
+
+namespace pl {
+
+int run_reference(const CommandLine& line, Console& console) {
+    const InterruptGuard interrupt;
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
+    const Options options = resolve_options(line, *loaded.scene);
+    Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
+                    loaded.load_seconds);
+    const ReferenceStore store(options.output);
+    const ReferenceOutcome outcome = make_reference(session, options, store, interrupt, console);
+
+    const auto& [first, second] = outcome.reference.halves;
+    const Noise noise = outcome.reference.noise();
+    console.remark(fmt::format("{}: {}x{}, {} + {} spp, noise as relMSE {:.3g}{}\n", outcome.manifest.string(),
+                               options.render.width, options.render.height, first.spp, second.spp, noise.relmse,
+                               outcome.interrupted ? ", unfinished" : ""));
+    console.event("done", {{"output", outcome.manifest.string()},
+                           {"picture_hash", outcome.reference.content.picture_hash},
+                           {"spp", Json::array({first.spp, second.spp})},
+                           {"noise_relmse", noise.relmse},
+                           {"interrupted", outcome.interrupted}});
+    if (noise.invalid > 0)
+        console.log().warning(
+            fmt::format("{} pixels are NaN or infinite: no picture can be scored there", noise.invalid));
+    if (outcome.interrupted) {
+        console.log().warning("interrupted: the same command goes on from here");
+        return kExitInterrupted;
+    }
+    return 0;
+}
+
+}  // namespace pl

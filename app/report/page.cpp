@@ -1,0 +1,169 @@
+#include "app/report/page.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/report/markup.h"
+
+namespace pl {
+namespace {
+
+std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
+    std::string text = "<tr>";
+    for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escape_markup(cell));
+    return text + "</tr>\n";
+}
+
+std::string headlines(const BenchSummary& summary, const std::string& scene) {
+    std::string text;
+    for (const Comparison& comparison : summary.comparisons)
+        if (comparison.cell.scene == scene)
+            text += fmt::format("<p class=\"headline\"><b>{}</b> on {} {}.</p>\n",
+                                escape_markup(comparison.cell.method), escape_markup(comparison.cell.backend),
+                                escape_markup(headline(comparison.gain, comparison.base_method)));
+    return text;
+}
+
+std::string cell_table(const BenchSummary& summary, const std::string& scene) {
+    std::string text = "<table>\n" + row({"method", "back end", "runs", "relMSE at the end", "trimmed", "seconds",
+                                          "set-up s", "ms per sample", "slope", "bias %", "warm-up s"},
+                                         "th");
+    for (const CellSummary& cell : summary.cells) {
+        if (cell.cell.scene != scene) continue;
+        const std::size_t runs = cell.ends.size();
+        const Interval bias{100.0 * cell.signed_bias_interval.value, 100.0 * cell.signed_bias_interval.low,
+                            100.0 * cell.signed_bias_interval.high};
+        text +=
+            row({cell.cell.method, cell.cell.backend, std::to_string(runs), interval_text(cell.final_error, runs),
+                 interval_text(cell.final_trimmed, runs), interval_text(cell.seconds, runs),
+                 interval_text(cell.setup_seconds, runs), fmt::format("{:.3g}", 1e3 * cell.seconds_per_sample.value),
+                 interval_text(cell.slope, runs), interval_text(bias, runs),
+                 cell.warm_up_seconds > 0.0 ? fmt::format("{:.3g}", cell.warm_up_seconds) : "none"});
+    }
+    return text + "</table>\n";
+}
+
+std::string time_text(const TimeToTarget& time) {
+    if (time.reached == 0) return fmt::format("> {:.3g}", time.more_than);
+    const std::string reached = interval_text(time.cost, time.reached);
+    if (time.censored == 0) return reached;
+    return fmt::format("{}; {} of {} runs > {:.3g}", reached, time.censored, time.reached + time.censored,
+                       time.more_than);
+}
+
+std::string target_table(const BenchSummary& summary, const std::string& scene) {
+    const std::vector<double> targets = summary.targets(scene);
+    if (targets.empty()) return "";
+    std::vector<std::string> head{"method", "back end"};
+    for (const double target : targets) head.push_back(fmt::format("s to relMSE {:.2g}", target));
+    std::string text = "<table>\n" + row(head, "th");
+    for (const CellSummary& cell : summary.cells) {
+        if (cell.cell.scene != scene) continue;
+        std::vector<std::string> cells{cell.cell.method, cell.cell.backend};
+        for (const double target : targets) cells.push_back(time_text(time_to_target(cell.over_time, target)));
+        text += row(cells);
+    }
+    return text + "</table>\n<p class=\"note\">Runs that do not reach an error are counted as '&gt;', never left "
+                  "out in silence.</p>\n";
+}
+
+std::string viewer(std::size_t index, const Json& data, std::uint64_t seed) {
+    if (data.at("cells").empty()) return "<p class=\"note\">No pictures.</p>\n";
+    return fmt::format(
+        "<div class=\"pictures\" id=\"viewer-{0}\" tabindex=\"0\">\n<div class=\"bar\">"
+        "<label><input type=\"radio\" name=\"mode-{0}\" value=\"time\" checked> equal time</label>"
+        "<label><input type=\"radio\" name=\"mode-{0}\" value=\"error\"> equal error</label>"
+        "<input type=\"range\" min=\"0\" max=\"1000\" value=\"1000\" aria-label=\"time or "
+        "error\"><output></output></div>"
+        "<div class=\"grid\"></div>\n<p class=\"note\">Seed {1} of each, exposure {2:+.1f} EV{3}. Keys: arrows move "
+        "the "
+        "slider, M equal time or equal error, 1 to 9 one picture large, 0 the reference, Esc all.</p></div>\n",
+        index, seed, data.at("exposure_ev").get<double>(),
+        data.at("cropped").get<bool>() ? ", middle of the picture" : "");
+}
+
+std::string definitions() {
+    return "<h2>What is measured</h2>\n<p>relMSE is (x-r)<sup>2</sup> / (r<sup>2</sup> + 0.01) in linear radiance, "
+           "the mean "
+           "over channels and pixels, with the reference in two independent halves, "
+           "(x-r<sub>1</sub>)(x-r<sub>2</sub>), so "
+           "that its noise drops out; trimmed: without the worst 0.1 % of the pixels. Time is placing volumes, "
+           "precomputing, learning and rendering; loading, building and measuring are not in it. Every run starts "
+           "with "
+           "nothing learned. Intervals are 95 %, Student's on logarithms over runs, ratios by Welch. The slope of "
+           "error "
+           "over samples is -1 where only noise is left. Full definitions are in results.json.</p>\n";
+}
+
+std::string about(const BenchResults& results) {
+    std::string devices;
+    for (const auto& [name, device] : results.plan.at("backends").items())
+        devices += fmt::format("{}{}: {}, {} threads", devices.empty() ? "" : "; ", name,
+                               device.at("device").get<std::string>(), device.at("threads").get<int>());
+    double share = 0.0;
+    for (const CellSummary& cell : results.summary.cells) share = std::max(share, cell.measure_share);
+    return fmt::format(
+        "<p>{}; pathlight {}; {}. Runs are in shuffled blocks of one seed each; the first run of each "
+        "method is a warm-up and left out. Measuring took up to {:.1f} % on top of the charged time.</p>\n"
+        "<pre>{}</pre>\n",
+        escape_markup(results.date), PL_VERSION, escape_markup(devices), 100.0 * share,
+        escape_markup(results.command));
+}
+
+std::string warnings(const BenchResults& results) {
+    std::string text;
+    if (!results.complete)
+        text += "<p class=\"warning\">The bench was interrupted: these are the runs that were finished.</p>\n";
+    std::uint64_t invalid = 0;
+    std::size_t below = 0;
+    std::size_t fewest = kGoodRuns;
+    for (const CellSummary& cell : results.summary.cells) {
+        invalid += cell.invalid_samples;
+        below += cell.below_reference;
+        fewest = std::min(fewest, cell.ends.size());
+    }
+    if (fewest < kGoodRuns)
+        text += fmt::format("<p class=\"warning\">As few as {} runs of a method: {}.</p>\n", fewest,
+                            fewest < kFewestRuns ? "no intervals are shown" : "intervals are rough");
+    if (invalid > 0)
+        text += fmt::format("<p class=\"warning\">{} samples were NaN or infinite and left out.</p>\n", invalid);
+    if (below > 0)
+        text += fmt::format("<p class=\"warning\">{} runs ended below what the reference resolves.</p>\n", below);
+    return text;
+}
+
+/// JSON inside of a script element: a closing tag within it would end it.
+std::string script_json(const Json& json) {
+    std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
+        text.replace(at, 2, "<\\/");
+    return text;
+}
+
+}  // namespace
+
+std::string report_page(const BenchResults& results, const std::vector<NamedPlot>& plots, const Json& pictures) {
+    std::string text =
+        fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                    "<title>pathlight: what accuracy costs in time</title>\n<style>{}</style>\n</head>\n"
+                    "<body>\n<h1>What accuracy costs in time</h1>\n",
+                    kPageStyle);
+    text += about(results) + warnings(results);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const std::string scene = pictures[i].at("scene");
+        text += fmt::format("<h2>{}</h2>\n", escape_markup(scene)) + headlines(results.summary, scene);
+        for (const NamedPlot& plot : plots)
+            if (plot.scene == scene) text += svg_plot(plot.plot);
+        text += cell_table(results.summary, scene) + target_table(results.summary, scene) +
+                viewer(i, pictures[i], results.plan.at("first_seed"));
+    }
+    text += definitions();
+    text +=
+        fmt::format("<script type=\"application/json\" id=\"pictures\">{}</script>\n<script>{}</script>\n</body>\n"
+                    "</html>\n",
+                    script_json(pictures), kPageScript);
+    return text;
+}
+
+}  // namespace pl

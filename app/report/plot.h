@@ -1,0 +1,66 @@
+// A plot as data: what the SVG and the PNG writer draw, each in its way, from the same numbers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/canvas.h"
+#include "core/measure/log_axis.h"
+
+namespace pl {
+
+struct PlotPoint {
+    double x = 0.0;
+    double y = 0.0;
+    std::string note;  ///< told where the pointer is over it
+};
+
+struct BandPoint {
+    double x = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// Color tells the method, line style the back end.
+struct PlotSeries {
+    std::string name;
+    Rgb color{};
+    int style = 0;  ///< 0: full line, 1: dashed, 2: dotted
+    std::vector<PlotPoint> line;
+    std::vector<BandPoint> band;  ///< 95 % interval; may be empty
+};
+
+struct Plot {
+    std::string title;
+    std::string x_label;
+    std::string y_label;
+    std::vector<PlotSeries> series;
+    double floor = 0.0;  ///< noise of the reference, drawn as a gray area below; 0: none
+
+    /// Axes that hold all positive values.
+    LogAxis x_axis() const;
+    LogAxis y_axis() const;
+};
+
+/// Pixels of a plot and of its frame.
+struct PlotLayout {
+    int width = 760;
+    int height = 460;
+    int left = 78;
+    int right = 190;  ///< room for the legend
+    int top = 38;
+    int bottom = 54;
+
+    double x(const LogAxis& axis, double value) const { return left + axis.position(value) * (width - left - right); }
+    double y(const LogAxis& axis, double value) const {
+        return height - bottom - axis.position(value) * (height - top - bottom);
+    }
+};
+
+/// Told apart also by most people who see few colors.   [Okabe and Ito 2008]
+Rgb method_color(const std::string& method);
+
+std::string svg_plot(const Plot& plot);
+ByteImage png_plot(const Plot& plot);
+
+}  // namespace pl

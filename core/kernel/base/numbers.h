@@ -1,0 +1,111 @@
+// Arithmetic that runs on one number, or on a vector of them in one go, is a template over N: what a number is, and the
+// operations that have no operator. One is the plain case, cpu/lanes.h has the vectors. Both choose by select() instead
+// of branching and do the same operations in the same order, so they give the same bits.
+#pragma once
+
+#include "core/kernel/base/math.h"
+
+namespace pl {
+
+/// Chooses per lane. `Mask` is bool, or a vector of lanes with all bits set or clear.
+template <class Mask, class T>
+PL_INLINE T select(Mask mask, T yes, T no) {
+    return mask ? yes : no;
+}
+
+/// Numbers one at a time.
+struct One {
+    using Real = float;
+    using Int = std::int32_t;
+    using Mask = bool;
+
+    static PL_INLINE Real constant(float x) { return x; }
+    static PL_INLINE Int constant(std::int32_t x) { return x; }
+    static PL_INLINE Real sqrt(Real x) { return std::sqrt(x); }
+    static PL_INLINE Real magnitude(Real x) { return std::fabs(x); }
+    static PL_INLINE Real copy_sign(Real size, Real sign) { return std::copysign(size, sign); }
+    static PL_INLINE Int truncate(Real x) { return static_cast<Int>(x); }
+    static PL_INLINE Real to_real(Int i) { return static_cast<Real>(i); }
+    static PL_INLINE bool any(Mask mask) { return mask; }
+    static PL_INLINE Real load(const float* values, Int index) { return values[index]; }
+    /// How many of `count` ascending values from `first` on are not above x.
+    static PL_INLINE Int count_not_above(const float* values, Int first, int count, Real x) {
+        Int index = 0;
+        for (int i = 0; i < count; ++i) index += values[first + i] <= x ? 1 : 0;
+        return index;
+    }
+};
+
+template <class N>
+struct Real2 {
+    typename N::Real x, y;
+};
+template <class N>
+struct Real3 {
+    typename N::Real x, y, z;
+};
+
+PL_HD inline Real2<One> unpack(Vec2f v) { return {v.x, v.y}; }
+PL_HD inline Real3<One> unpack(Vec3f v) { return {v.x, v.y, v.z}; }
+PL_HD inline Vec2f pack(const Real2<One>& v) { return {v.x, v.y}; }
+PL_HD inline Vec3f pack(const Real3<One>& v) { return {v.x, v.y, v.z}; }
+
+template <class Mask, class N>
+PL_INLINE Real2<N> select(Mask mask, const Real2<N>& yes, const Real2<N>& no) {
+    return {select(mask, yes.x, no.x), select(mask, yes.y, no.y)};
+}
+template <class Mask, class N>
+PL_INLINE Real3<N> select(Mask mask, const Real3<N>& yes, const Real3<N>& no) {
+    return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
+template <class N>
+PL_INLINE typename N::Real dot(const Real3<N>& a, const Real3<N>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class N>
+PL_INLINE typename N::Real clamp_real(typename N::Real x, float low, float high) {
+    return select(x < low, N::constant(low), select(high < x, N::constant(high), x));
+}
+template <class N>
+PL_INLINE typename N::Int clamp_int(typename N::Int i, std::int32_t low, std::int32_t high) {
+    return select(i < low, N::constant(low), select(i > high, N::constant(high), i));
+}
+
+/// Largest integer not above x, for |x| < 2^31.
+template <class N>
+PL_INLINE typename N::Int floor_of(typename N::Real x) {
+    const typename N::Int truncated = N::truncate(x);
+    return select(N::to_real(truncated) > x, truncated - 1, truncated);
+}
+
+// Own sine, cosine and arctangent: the library's differ between CPU and GPU. Polynomials of the Cephes library.
+
+/// sin(x) for |x| <= pi/4, error below 1e-7.
+template <class N>
+PL_INLINE typename N::Real sin_quarter(typename N::Real x) {
+    const auto z = x * x;
+    return x + x * z * (-1.6666654611e-1f + z * (8.3321608736e-3f + z * -1.9515295891e-4f));
+}
+/// cos(x) for |x| <= pi/4, error below 1e-7.
+template <class N>
+PL_INLINE typename N::Real cos_quarter(typename N::Real x) {
+    const auto z = x * x;
+    return 1.0f - 0.5f * z +
+           z * z * (4.166664568298827e-2f + z * (-1.388731625493765e-3f + z * 2.443315711809948e-5f));
+}
+/// atan(x) for |x| <= 1, error below 2e-7, odd by construction.
+template <class N>
+PL_INLINE typename N::Real atan_unit(typename N::Real x) {
+    const auto magnitude = N::magnitude(x);
+    const typename N::Mask upper = magnitude > 0.4142135623730950f;  // tan(pi/8)
+    const auto r = select(upper, (magnitude - 1.0f) / (magnitude + 1.0f), magnitude);
+    const auto z = r * r;
+    const auto p =
+        (((8.05374449538e-2f * z - 1.38776856032e-1f) * z + 1.99777106478e-1f) * z - 3.33329491539e-1f) * z * r + r;
+    const auto angle = select(upper, kPiOver4 + p, p);
+    return select(x < 0.0f, -angle, angle);
+}
+
+}  // namespace pl

@@ -1,0 +1,55 @@
+// What a method gains or loses against another, in the three numbers that multiply, and in one sentence.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/measure/convergence.h"
+
+namespace pl {
+
+/// The end of one run.
+struct RunEnd {
+    double error = 0.0;    ///< squared
+    double samples = 0.0;  ///< per pixel
+    double seconds = 0.0;  ///< charged, set-up included
+
+    double error_samples() const { return error * samples; }  ///< variance of one sample
+    double error_seconds() const { return error * seconds; }  ///< falls with efficiency, not with patience
+};
+
+/// All ratios are above 1 where they count for the method.
+struct Gain {
+    Interval samples;      ///< how many times fewer samples it needs
+    Interval cost;         ///< how many times less a sample costs; mostly below 1
+    Interval net;          ///< how many times faster it reaches the same error: the product of both
+    std::size_t runs = 0;  ///< of the side with fewer
+    std::optional<double>
+        ahead_from_seconds;               ///< from when on its error stays below; empty if it does not at the end
+    double compared_until_seconds = 0.0;  ///< as long as both were measured
+};
+
+/// Welch's intervals on logarithms over independent runs. `base` is the method compared with.
+Gain gain_over(std::span<const RunEnd> base, std::span<const RunEnd> method, std::span<const Curve> base_curves,
+               std::span<const Curve> method_curves);
+
+/// Is the interval finite, and without 1?
+bool is_decided(const Interval& ratio);
+
+/// "needs 3.4x fewer samples than default, each costs 2.0x more: 1.7x faster to the same error (95 %: 1.5 to 1.9), ahead
+/// from 2.6 s on". Says as plainly when it is slower, when that is undecided, and when the runs are too few.
+std::string headline(const Gain& gain, const std::string& base_name);
+
+/// Times from `first` to `last` in equal steps of their logarithm, both included.
+std::vector<double> log_spaced(double first, double last, int count);
+
+/// The stretch of costs in which all runs were measured; empty if there is none.
+struct CostRange {
+    double first = 0.0;
+    double last = 0.0;
+};
+std::optional<CostRange> common_range(std::span<const Curve> runs);
+
+}  // namespace pl

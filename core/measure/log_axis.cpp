@@ -1,0 +1,53 @@
+#include "core/measure/log_axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace pl {
+namespace {
+
+constexpr double kMargin = 1.08;  ///< factor on both sides
+
+struct Step {
+    int digits;  ///< labels at the first so many of 1, 2, 5
+    int powers;  ///< at every so many-th power of ten
+};
+
+bool is_labeled(int digit, int power, const Step& step) {
+    const bool chosen = digit == 1 || (step.digits > 1 && (digit == 2 || digit == 5));
+    return chosen && power % step.powers == 0;
+}
+
+}  // namespace
+
+LogAxis::LogAxis(double low, double high) : low_(low / kMargin), high_(high * kMargin) {
+    if (std::isfinite(low_) && std::isfinite(high_) && low > 0.0 && low <= high) return;
+    low_ = 1.0 / std::sqrt(10.0);
+    high_ = std::sqrt(10.0);
+}
+
+double LogAxis::position(double value) const { return std::log(value / low_) / std::log(high_ / low_); }
+
+std::vector<AxisTick> LogAxis::ticks(int most_labels) const {
+    const int first = static_cast<int>(std::floor(std::log10(low_)));
+    const int last = static_cast<int>(std::ceil(std::log10(high_)));
+    for (Step step{3, 1};; step = step.digits > 1 ? Step{1, 1} : Step{1, step.powers + 1}) {
+        std::vector<AxisTick> ticks;
+        int labels = 0;
+        for (int power = first; power <= last; ++power)
+            for (int digit = 1; digit <= 9; ++digit) {
+                const double value = digit * std::pow(10.0, power);
+                if (value < low_ || value > high_) continue;
+                const bool labeled = is_labeled(digit, power, step);
+                labels += labeled ? 1 : 0;
+                ticks.push_back({value, labeled ? tick_label(value) : ""});
+            }
+        if (labels <= std::max(most_labels, 1)) return ticks;
+    }
+}
+
+std::string tick_label(double value) { return fmt::format("{:.3g}", value); }
+
+}  // namespace pl

@@ -1,0 +1,22 @@
+#include "core/measure/picture_identity.h"
+
+#include <fmt/format.h>
+
+#include "core/base/hash.h"
+#include "core/scene/scene_hash.h"
+
+namespace pl {
+
+std::string picture_hash(const SceneDescription& scene, const RenderSettings& settings) {
+    Fnv1a hash;
+    hash.add(scene_hash(scene));
+    const CameraDescription& camera = settings.camera;
+    for (const glm::vec3& v : {camera.eye, camera.target, camera.up})
+        for (int i = 0; i < 3; ++i) hash.add(v[i]);
+    hash.add(camera.fov_deg);
+    for (const int number : {settings.width, settings.height, settings.max_depth})
+        hash.add(static_cast<std::uint64_t>(number));
+    return fmt::format("{:016x}", hash.value());
+}
+
+}  // namespace pl

@@ -1,0 +1,43 @@
+// Intervals for what a few repeated runs have measured. Errors are skewed, so their logarithms are averaged.
+#pragma once
+
+#include <span>
+
+namespace pl {
+
+/// The point `t` below which Student's t with `freedom` degrees (any positive number) lies with this probability,
+/// in (0, 1).
+double student_quantile(double probability, double freedom);
+
+/// An estimate between bounds that hold the truth in `confidence` of all experiments.
+struct Interval {
+    double value = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+
+    bool contains(double truth) const { return low <= truth && truth <= high; }
+};
+
+inline constexpr double kConfidence = 0.95;
+
+/// Below this number of runs an interval says too little to be shown; below kGoodRuns that has to be said with it.
+inline constexpr std::size_t kFewestRuns = 5;
+inline constexpr std::size_t kGoodRuns = 10;
+
+/// Mean of values with Student's interval. One value, or none, has an infinite one.
+Interval mean_interval(std::span<const double> values);
+
+/// Geometric mean of positive values, with the interval of the mean logarithm. All NaN if a value is not positive:
+/// leaving it out would be worse than knowing nothing.
+Interval geometric_interval(std::span<const double> values);
+
+/// Ratio of the geometric means of two independent sets, by Welch's test on logarithms.   [Welch 1947]
+Interval ratio_interval(std::span<const double> numerator, std::span<const double> denominator);
+
+/// Slope of a least-squares line through points. NaN below two different x.
+double line_slope(std::span<const double> x, std::span<const double> y);
+
+/// Of values at least one; NaN for none.
+double median_of(std::span<const double> values);
+
+}  // namespace pl

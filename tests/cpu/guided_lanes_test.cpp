@@ -1,0 +1,104 @@
+// Directions that are chosen for many paths at once are those that are chosen for each alone.
+#include <cstring>
+
+#include "core/kernel/methods/precomputed.h"
+#include "cpu/guided_block.h"
+#include "tests/catch.hpp"
+#include "tests/kernel/field_fixture.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+bool same_bits(const DirectionSample& a, const DirectionSample& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// Unit normals all around, the axes among them.
+std::vector<Vec3f> all_around(int count, Uniforms& random) {
+    std::vector<Vec3f> normals{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}};
+    while (static_cast<int>(normals.size()) < count) normals.push_back(random.direction());
+    return normals;
+}
+
+/// Mostly any, sometimes the ends of [0, 1) and the middle, where maps and tents change their form.
+float any_number(Uniforms& random) {
+    constexpr float kSpecial[] = {0.0f, 0.5f, 0.25f, 0.75f, 1.0f - 0x1p-24f, 0x1p-24f};
+    return random.below(8) == 0 ? kSpecial[random.below(6)] : random.next();
+}
+
+/// Fills the groups for one round and compares what comes back with the scalar code.
+void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, const std::vector<Vec3f>& normals,
+                 Uniforms& random) {
+    constexpr std::uint32_t kGroups = 3;
+    const DrawKey jitter_key{(std::uint64_t{random.bits()} << 32) | random.bits(), Stream::Picture,
+                             Purpose::CellJitter};
+    GuidedGroup groups[kGroups];
+    DirectionGroup directions[kGroups];
+    for (std::uint32_t i = 0; i < kGroups * kGroupSize; ++i) {
+        GuidedGroup& group = groups[i / kGroupSize];
+        const std::uint32_t lane = i % kGroupSize;
+        const auto volumes = static_cast<std::uint32_t>(normals.size());
+        group.volume[lane] = static_cast<std::int32_t>(random.below(volumes + 1)) - 1;
+        const Vec3f normal = normals[random.below(volumes)];
+        group.normal_x[lane] = normal.x;
+        group.normal_y[lane] = normal.y;
+        group.normal_z[lane] = normal.z;
+        group.choice[lane] = any_number(random);
+        group.u_x[lane] = any_number(random);
+        group.u_y[lane] = any_number(random);
+        group.counters.pixel[lane] = random.bits();
+        group.counters.sample[lane] = random.bits();
+        group.counters.vertex[lane] = random.below(64);
+    }
+    kernels.sample_guided(method.mixture_view(), jitter_key, groups, directions, kGroups);
+    for (std::uint32_t i = 0; i < kGroups * kGroupSize; ++i) {
+        const GuidedGroup& group = groups[i / kGroupSize];
+        const std::uint32_t lane = i % kGroupSize;
+        SurfacePoint surface;
+        surface.shading_normal = {group.normal_x[lane], group.normal_y[lane], group.normal_z[lane]};
+        const Rng rng{jitter_key.seed, jitter_key.stream, group.counters.pixel[lane], group.counters.sample[lane]};
+        const DirectionSample alone =
+            method.sample_direction({group.volume[lane]}, surface, rng, group.counters.vertex[lane],
+                                    {group.choice[lane], group.u_x[lane], group.u_y[lane], 0.0f});
+        REQUIRE(same_bits(directions[i / kGroupSize].get(lane), alone));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Every instruction set chooses the guided directions of one path alone, bit by bit") {
+    Uniforms random(21);
+    const std::vector<Vec3f> normals = all_around(7, random);
+    for (const int side : {1, 2, 5, 8, 12, 16, 19, 32}) {
+        TestField field(side, normals);
+        for (std::size_t volume = 0; volume < normals.size(); ++volume) {
+            const auto hard = hard_weights(side);
+            field.set_weights(hard[volume % hard.size()].weights, volume);
+            field.tables.bsdf_fraction[volume] = 0.1f + 0.8f * random.next();
+        }
+        for (const bool learned : {false, true}) {
+            PrecomputedMethod method;
+            method.field = field.view();
+            method.mixture = {.learned = learned ? 1u : 0u, .bsdf_fraction = 0.3f};
+            for (const LaneKernels& kernels : usable_lane_kernels()) {
+                INFO(kernels.isa << ", side " << side);
+                for (int round = 0; round < 50; ++round) check_round(kernels, method, normals, random);
+            }
+        }
+    }
+}
+
+TEST_CASE("Where there is no volume at all a block of paths is sent on by the BSDF") {
+    PrecomputedMethod method;
+    const PathSettings settings;
+    GuidedDepartures<PrecomputedMethod> departures(method, settings);
+    departures.next() = {.surface = SurfacePoint{}, .albedo = Vec3f{0.5f}};
+    departures.add(7, PathState<PrecomputedMethod>{}, {0.25f, 0.75f, 0.125f, 0.0f});
+    departures.choose_directions();
+    REQUIRE(departures.count() == 1);
+    CHECK(departures.path(0) == 7);
+    const DirectionSample direction = departures.direction(0);
+    CHECK(direction.wi == lambert_sample(SurfacePoint{}, {0.75f, 0.125f}));
+    CHECK(direction.pdf_sa == direction.bsdf_pdf_sa);
+    CHECK(direction.cell == -1);
+}
