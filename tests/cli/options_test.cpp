@@ -115,6 +115,11 @@ TEST_CASE("a copied command leaves out what the scene sets already") {
     options.render.next_event = false;
     CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
           "pathlight render plain.json --method default --nee off");
+
+    // Words that other subcommands have too are said once.
+    options.spp = 7;
+    CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
+          "pathlight render plain.json --method default --nee off --spp 7");
 }
 
 TEST_CASE("options go over the scene's settings, settings over defaults") {
@@ -187,7 +192,8 @@ TEST_CASE("help, version and lists are answers, whatever else is missing") {
 }
 
 TEST_CASE("every option that can be given is in the help of its subcommand") {
-    for (const char* command : {"view", "render", "info", "devices", "inspect", "compare", "reference", "bench", "report"}) {
+    for (const char* command :
+         {"view", "render", "info", "devices", "inspect", "compare", "reference", "bench", "report"}) {
         const std::string help = *parse_command_line({command, "--help"}).answer;
         const Command id = parse_command_line({command, "--help"}).command;
         for (const OptionSpec& spec : option_table()) {
