@@ -22,11 +22,6 @@ constexpr CommandSet kPictures(View, Render);
 constexpr CommandSet kHeadless(Render, Info, Devices, Inspect, Compare, Reference, Bench, Report);
 constexpr CommandSet kFiles(Render, Inspect);
 constexpr CommandSet kWorking(Render, Inspect, Reference, Bench);
-constexpr CommandSet kView(View);
-constexpr CommandSet kInspect(Inspect);
-constexpr CommandSet kCompare(Compare);
-constexpr CommandSet kReference(Reference);
-constexpr CommandSet kBench(Bench);
 
 constexpr std::string_view kOutput = "Output";
 constexpr std::string_view kPicture = "Picture";
@@ -76,10 +71,10 @@ const auto kTable = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return o.output; }},
     {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
      .help = "Folder of references; it may hold others",
-     .commands = kReference, .parse = parse_text<&Options::output>},
+     .commands = CommandSet(Reference), .parse = parse_text<&Options::output>},
     {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
      .help = "Folder of this bench; one that was interrupted goes on",
-     .commands = kBench, .parse = parse_text<&Options::output>},
+     .commands = CommandSet(Bench), .parse = parse_text<&Options::output>},
     {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
      .help = "Write counts and timings as JSON",
      .commands = kFiles, .parse = parse_text<&Options::stats_file>},
@@ -87,10 +82,10 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "at", .flags = "--at", .value = "X,Y,Z[,NX,NY,NZ]", .group = kPlace,
      .help = "The volume nearest to this point whose normal agrees; without a normal, the point is moved to the "
              "closest surface and the side it lies on counts",
-     .commands = kInspect, .parse = parse_at},
+     .commands = CommandSet(Inspect), .parse = parse_at},
     {.name = "pixel", .flags = "--pixel", .value = "X,Y", .group = kPlace,
      .help = "The volume that serves the surface seen there; 0,0 is the top left pixel",
-     .commands = kInspect, .parse = parse_pixel},
+     .commands = CommandSet(Inspect), .parse = parse_pixel},
 
     {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,
      .help = "How directions are chosen: default, precomputed, reinforcement (see --list-methods)",
@@ -98,30 +93,30 @@ const auto kTable = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return std::string(info_of(o.render.method).name); }},
     {.name = "method", .flags = "--method", .value = "NAME,..", .group = kCompared,
      .help = "Methods to compare, with commas between (default: all); the first one is what the others are held against",
-     .commands = kBench, .parse = parse_methods},
+     .commands = CommandSet(Bench), .parse = parse_methods},
     {.name = "backend", .flags = "--backend", .value = "NAME,..", .group = kCompared,
      .help = "Back ends to compare: cpu, cuda (default: all that are available)",
-     .commands = kBench, .parse = parse_backends},
+     .commands = CommandSet(Bench), .parse = parse_backends},
     {.name = "seeds", .flags = "--seeds", .value = "N", .group = kCompared,
      .help = "Runs of each method on each scene and back end (default 10); intervals need at least 5",
-     .commands = kBench,
+     .commands = CommandSet(Bench),
      .parse = [](Options& o, Text text) { o.seeds = static_cast<int>(parse_whole(text, 1, 100000)); }},
     {.name = "reference", .flags = "--reference", .value = "DIR", .group = kCompared,
      .help = "Folder of references; one that is missing there is refused (default: DIR/references, made as needed)",
-     .commands = kBench, .parse = parse_text<&Options::reference_folder>},
+     .commands = CommandSet(Bench), .parse = parse_text<&Options::reference_folder>},
     {.name = "reference-spp", .flags = "--reference-spp", .value = "N", .group = kCompared,
      .help = "Samples per pixel in each half of references made here (default 4096)",
-     .commands = kBench,
+     .commands = CommandSet(Bench),
      .parse = [](Options& o, Text text) {
          o.reference_spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000));
      }},
     {.name = "gate", .flags = "--gate", .value = "FILE", .group = kOutcome,
      .help = "Exit with 5 if a method is slower to the same error than in this earlier results.json: by more than the "
              "tolerance even at the near end of its interval",
-     .commands = kBench, .parse = parse_text<&Options::gate>},
+     .commands = CommandSet(Bench), .parse = parse_text<&Options::gate>},
     {.name = "tolerance", .flags = "--tolerance", .value = "PERCENT", .group = kOutcome,
      .help = "Of the gate (default 10)",
-     .commands = kBench,
+     .commands = CommandSet(Bench),
      .parse = [](Options& o, Text text) { o.tolerance_percent = parse_real(text, 0.0, 1.0e6); }},
 
     {.name = "view", .flags = "--view", .value = "NAME", .group = kPicture,
@@ -188,14 +183,14 @@ const auto kTable = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel in each half (default 4096 unless a time limit is given)",
-     .commands = kReference, .parse = parse_spp},
+     .commands = CommandSet(Reference), .parse = parse_spp},
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel of a run (default 64 unless a time limit or a target error is given)",
-     .commands = kBench, .parse = parse_spp,
+     .commands = CommandSet(Bench), .parse = parse_spp,
      .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kStop,
      .help = "A relMSE at which runs end; how long they took to it is told",
-     .commands = kBench, .parse = parse_target_error,
+     .commands = CommandSet(Bench), .parse = parse_target_error,
      .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
     {.name = "time-limit", .flags = "--time-limit", .value = "SECONDS", .group = kStop,
      .help = "Of work after loading, looked at after every sample per pixel; at least one is made",
@@ -206,7 +201,7 @@ const auto kTable = std::to_array<OptionSpec>({
      .parse = [](Options&, Text) { fail_not_yet("stop by --spp or --time-limit"); }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kOutcome,
      .help = "Exit with 5 if relMSE is above this",
-     .commands = kCompare, .parse = parse_target_error},
+     .commands = CommandSet(Compare), .parse = parse_target_error},
 
     {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical}; goes "
@@ -275,7 +270,7 @@ const auto kTable = std::to_array<OptionSpec>({
      .help = "Write what was learned, also when interrupted; a run that loads it goes on exactly there",
      .commands = kFiles, .parse = parse_text<&Options::save_field>},
     {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kHidden, .help = "",
-     .commands = kView, .parse = refuse_save_field},
+     .commands = CommandSet(View), .parse = refuse_save_field},
 
     {.name = "json", .flags = "--json", .value = "", .group = kMessages,
      .help = "One JSON object per line on standard output instead of text",
@@ -294,16 +289,16 @@ const auto kTable = std::to_array<OptionSpec>({
      .commands = kHeadless, .parse = [](Options&, Text) {}},
 
     {.name = "window", .flags = "--window", .value = "WxH", .group = kViewer, .help = "Window size (default 1440x900)",
-     .commands = kView, .parse = parse_window},
+     .commands = CommandSet(View), .parse = parse_window},
     {.name = "software", .flags = "--software", .value = "", .group = kViewer,
      .help = "Draw the window without a graphics card",
-     .commands = kView, .parse = parse_flag<&Options::software>},
+     .commands = CommandSet(View), .parse = parse_flag<&Options::software>},
     {.name = "script", .flags = "--script", .value = "FILE", .group = kViewer,
      .help = "Feed the window with input from a file; needs no display",
-     .commands = kView, .parse = parse_text<&Options::script>},
+     .commands = CommandSet(View), .parse = parse_text<&Options::script>},
     {.name = "ui-trace", .flags = "--ui-trace", .value = "FILE", .group = kViewer,
      .help = "Write the time of every frame of the window",
-     .commands = kView, .parse = parse_text<&Options::ui_trace>},
+     .commands = CommandSet(View), .parse = parse_text<&Options::ui_trace>},
 });
 // clang-format on
 

@@ -176,7 +176,7 @@ Options scene_defaults(const std::string& scene_name, const SceneDescription& sc
 std::string command_text(const Options& options, const Options& defaults) {
     std::string text = "pathlight render " + shell_word(options.scene);
     for (const OptionSpec& spec : option_table()) {
-        if (spec.print == nullptr) continue;
+        if (spec.print == nullptr || !spec.commands.has(Command::Render)) continue;
         const std::string value = spec.print(options);
         if (value.empty() || value == spec.print(defaults)) continue;
         const std::string name = spec.name == "output" ? "-o" : "--" + std::string(spec.name);

@@ -145,6 +145,23 @@ TEST_CASE("130: an interrupted bench keeps its runs and goes on with the same co
     for (const auto& [run, error] : errors) CHECK(errors_in(folder / "b").at(run) == error);
 }
 
+TEST_CASE("what a scene asks for to look well is no limit of a measurement") {
+    const TempDir folder;
+    for (const char* file : {"cornell.obj", "cornell.mtl"})
+        fs::copy_file(fs::path(PL_SOURCE_DIR) / "assets/scenes/cornell" / file, folder.path() / file);
+    write_all(folder / "quick.json", R"({"schema": "pathlight.scene/1", "obj": "cornell.obj",
+        "settings": {"spp": 2, "view": "normal", "method": "precomputed", "size": "16x16"}})");
+    Arguments arguments = bench(folder / "b", {"--seeds", "1", "--method", "default"});
+    arguments[1] = folder / "quick.json";
+    const ProgramResult result = run_program(arguments);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const json results = results_in(folder / "b");
+    CHECK(results.at("runs").size() == 2);
+    CHECK(results.at("runs").at(0).at("points").back().at("spp") == 8);
+    CHECK(results.at("runs").at(0).at("method") == "default");
+}
+
 TEST_CASE("blocks hold every method once, in an order that changes") {
     const TempDir folder;
     const ProgramResult result = run_program(bench(folder / "b", {"--seeds", "6", "--json"}));

@@ -118,6 +118,11 @@ TEST_CASE("a copied command leaves out what the scene sets already") {
     options.render.next_event = false;
     CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
           "pathlight render plain.json --method default --nee off");
+
+    // Words that other subcommands have too are said once.
+    options.spp = 7;
+    CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
+          "pathlight render plain.json --method default --nee off --spp 7");
 }
 
 TEST_CASE("options go over the scene's settings, settings over defaults") {
