@@ -196,7 +196,7 @@ TEST_CASE("3: a bench refuses references of other light") {
     std::string materials = read_all(folder / "changed/cornell.mtl");
     const std::size_t emission = materials.find("\nKe ");
     REQUIRE(emission != std::string::npos);
-    materials.insert(emission + 4, "1");
+    materials.insert(emission + 4, 1, '1');
     write_all(folder / "changed/cornell.mtl", materials);
     Arguments arguments = bench(folder / "c", own);
     arguments[1] = folder / "changed/cornell.json";
