@@ -57,7 +57,9 @@ PL_HD inline float learning_step(std::uint32_t visits, std::uint32_t fresh, Lear
 }
 
 /// What a cell has learned, or 0 where memory holds what no record could have put there: NaN, infinite, negative.
-PL_HD inline float learned_radiance(const FieldPublicationView& field, std::uint32_t cell) {
+/// `field` is a FieldView or a FieldPublicationView.
+template <class Field>
+PL_HD inline float learned_radiance(const Field& field, std::uint32_t cell) {
     const float radiance = field.radiance[cell];
     return radiance > 0.0f && radiance < kInfinity ? radiance : 0.0f;
 }

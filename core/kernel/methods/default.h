@@ -15,9 +15,7 @@ struct DefaultMethod {
 
     PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const Rng&, std::uint32_t,
                                            Vec4f u) const {
-        const Vec3f wi = lambert_sample(surface, {u.y, u.z});
-        const float pdf = lambert_pdf_sa(surface, wi);
-        return {wi, pdf, pdf};
+        return weigh_lambert(surface, lambert_sample(surface, {u.y, u.z}));
     }
 
     PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, Vec3f wi) const {

@@ -78,6 +78,13 @@ private:
     }
 };
 
+/// The table entry that chose, or could have chosen, a direction; or none.
+struct TableEntry {
+    std::int32_t volume = kNoVolume;
+    std::int32_t cell = 0;
+    float bsdf_ratio = 1.0f;  ///< density of BSDF sampling over that of the mixture
+};
+
 struct GuidedSampling {
     FieldView field;
     MixtureSettings mixture{};
@@ -130,11 +137,19 @@ struct GuidedSampling {
         return expectation.first > 0.0f ? expected / expectation.first : survival;
     }
 
-private:
-    static PL_HD DirectionSample weigh_lambert(const SurfacePoint& surface, Vec3f wi) {
-        const float pdf_sa = lambert_pdf_sa(surface, wi);
-        return {wi, pdf_sa, pdf_sa};
+    PL_HD TableEntry entry_of(const GuidedVertex& vertex, const DirectionSample& direction) const {
+        if (direction.cell < 0) return {};
+        return {vertex.volume, direction.cell, direction.bsdf_pdf_sa / direction.pdf_sa};
     }
+
+    /// Adds an observation of the radiance (luminance) that arrived, if there is an entry for it.
+    PL_HD void record_target(const TableEntry& entry, float target) const {
+        if (entry.volume == kNoVolume) return;
+        record(field, entry.volume, entry.cell, target);
+        if (mixture.learned != 0) record_mixture(field, entry.volume, entry.bsdf_ratio, target);
+    }
+
+private:
     static PL_HD DirectionSample pack(const GuidedDirection<One>& direction) {
         return {pl::pack(direction.wi), direction.pdf_sa, direction.bsdf_pdf_sa, direction.cell};
     }

@@ -18,6 +18,12 @@ struct DirectionSample {
     std::int32_t cell = -1;    ///< of the table that the method samples from; -1: there is none, or not that way
 };
 
+/// A direction as BSDF sampling alone weighs it.
+PL_HD inline DirectionSample weigh_lambert(const SurfacePoint& surface, Vec3f wi) {
+    const float pdf_sa = lambert_pdf_sa(surface, wi);
+    return {wi, pdf_sa, pdf_sa};
+}
+
 /// What a path met at the end of its last segment, for learning. `V` of a guided method's vertex completes it.
 struct Arrival {
     Vec3f emitted{0.0f};  ///< radiance emitted towards the previous vertex (or the environment's)
@@ -65,8 +71,8 @@ concept Method = requires(const M& method, const typename M::Vertex& vertex, typ
 /// Methods that learn from more than where the last direction led. Their Memory follows the path; instead of remember(),
 /// the integrator calls depart() where a vertex is left, and stop() where a path ends at one by chance. request_light() gets
 /// what the surface would reflect of the light sample there, receive_light() follows if nothing is in between, also after
-/// depart(). finish() comes last, once
-/// per path. Memory holds the weight of the roulette that the path survived last, which the integrator sets.
+/// depart(). finish() comes last, once per path. Memory holds the weight of the roulette that the path survived last, which
+/// the integrator sets.
 template <class M>
 concept FollowingMethod = Method<M> &&
     requires(const M& method, typename M::Memory& memory, const typename M::Vertex& vertex, Vec3f reflected,

@@ -22,12 +22,10 @@ struct MonteCarloMethod : GuidedSampling {
 
     /// A direction that was taken, and what it led to.
     struct Step {
-        std::int32_t volume = kNoVolume;  ///< of the table entry that chose (or could have chosen) it; or none
-        std::int32_t cell = 0;
-        float bsdf_ratio = 1.0f;  ///< density of BSDF sampling over that of the mixture
-        float unshared = 0.0f;    ///< (1 - s) L_e
-        Vec3f brought{0.0f};      ///< s L_e + D
-        Vec3f weight{0.0f};       ///< w
+        TableEntry entry;
+        float unshared = 0.0f;  ///< (1 - s) L_e
+        Vec3f brought{0.0f};    ///< s L_e + D
+        Vec3f weight{0.0f};     ///< w
     };
     struct Memory {
         std::int32_t count = 0;
@@ -89,23 +87,16 @@ struct MonteCarloMethod : GuidedSampling {
         for (std::int32_t i = memory.count - 1; i >= 0; --i) {
             const Step& step = memory.steps[i];
             brought = step.brought + step.weight * brought;
-            if (step.volume == kNoVolume) continue;
-            const float target = luminance(brought) + step.unshared;
-            record(field, step.volume, step.cell, target);
-            if (mixture.learned != 0) record_mixture(field, step.volume, step.bsdf_ratio, target);
+            if (step.entry.volume == kNoVolume) continue;
+            record_target(step.entry, luminance(brought) + step.unshared);
             ++counters.records;
         }
         memory.count = 0;
     }
 
 private:
-    PL_HD static void push(Memory& memory, const Vertex& vertex, const DirectionSample& direction) {
-        Step& step = memory.steps[memory.count++];
-        step = {};
-        if (direction.cell < 0) return;
-        step.volume = vertex.volume;
-        step.cell = direction.cell;
-        step.bsdf_ratio = direction.bsdf_pdf_sa / direction.pdf_sa;
+    PL_HD void push(Memory& memory, const Vertex& vertex, const DirectionSample& direction) const {
+        memory.steps[memory.count++] = {.entry = entry_of(vertex, direction)};
     }
 };
 static_assert(FollowingMethod<MonteCarloMethod>);

@@ -10,23 +10,14 @@ struct ReinforcementMethod : GuidedSampling {
     using Vertex = GuidedVertex;
     using Expectation = GuidedExpectation;
 
-    /// The table entry that chose (or could have chosen) the last direction.
-    struct Memory {
-        std::int32_t volume = kNoVolume;
-        std::int32_t cell = 0;
-        float bsdf_ratio = 1.0f;  ///< density of BSDF sampling over that of the mixture
-    };
+    using Memory = TableEntry;  ///< of the last direction
 
     PL_HD Memory remember(const Vertex& vertex, const DirectionSample& direction) const {
-        if (direction.cell < 0) return {};
-        return {vertex.volume, direction.cell, direction.bsdf_pdf_sa / direction.pdf_sa};
+        return entry_of(vertex, direction);
     }
 
-    /// What is to be added to the table entry that chose the last direction.
-    struct Record {
-        std::int32_t volume = kNoVolume;  ///< none: nothing was learned
-        std::int32_t cell = 0;
-        float bsdf_ratio = 1.0f;
+    /// What is to be added to the entry of the last direction; no entry: nothing was learned.
+    struct Record : TableEntry {
         float target = 0.0f;  ///< observed incident radiance, luminance
     };
 
@@ -42,14 +33,10 @@ struct ReinforcementMethod : GuidedSampling {
             target += luminance(arrival.albedo) * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
         }
         ++counters.records;
-        return {memory.volume, memory.cell, memory.bsdf_ratio, target};
+        return {memory, target};
     }
 
-    PL_HD void commit(const Record& learned) const {
-        if (learned.volume == kNoVolume) return;
-        record(field, learned.volume, learned.cell, learned.target);
-        if (mixture.learned != 0) record_mixture(field, learned.volume, learned.bsdf_ratio, learned.target);
-    }
+    PL_HD void commit(const Record& learned) const { record_target(learned, learned.target); }
 };
 static_assert(Method<ReinforcementMethod>);
 

@@ -20,15 +20,9 @@ struct SarsaMethod : GuidedSampling {
 
     LearningSettings learning{};
 
-    /// A table entry that chose (or could have chosen) a direction.
-    struct Entry {
-        std::int32_t volume = kNoVolume;
-        std::int32_t cell = 0;
-        float bsdf_ratio = 1.0f;  ///< density of BSDF sampling over that of the mixture
-    };
     struct Memory {
-        Entry left;            ///< chose the last direction
-        Entry lit;             ///< chose the one before: gets what the light sample on its way brings
+        TableEntry left;       ///< chose the last direction
+        TableEntry lit;        ///< chose the one before: gets what the light sample on its way brings
         float emitted = 0.0f;  ///< L
         float light = 0.0f;    ///< what the light sample brings
         float roulette_weight = 1.0f;
@@ -36,8 +30,7 @@ struct SarsaMethod : GuidedSampling {
     struct Record {};  ///< made where a target is complete
 
     PL_HD Memory remember(const Vertex& vertex, const DirectionSample& direction) const {
-        if (direction.cell < 0) return {};
-        return {.left = {vertex.volume, direction.cell, direction.bsdf_pdf_sa / direction.pdf_sa}, .lit = {}};
+        return {.left = entry_of(vertex, direction), .lit = {}};
     }
 
     PL_HD Record learn(Memory& memory, const Arrival& arrival, const Vertex& vertex, MethodCounters& counters) const {
@@ -50,7 +43,7 @@ struct SarsaMethod : GuidedSampling {
         } else if (vertex.volume == kNoVolume) {
             memory.left = {};  // nothing is known there
         } else if (learning.target == LearningTarget::ExpectedSarsa) {
-            const Entry left = memory.left;
+            const TableEntry left = memory.left;
             settle(memory, luminance(arrival.albedo) * mean_radiance(vertex), counters);
             if (indirect) memory.lit = left;
         } else if (indirect) {
@@ -72,7 +65,7 @@ struct SarsaMethod : GuidedSampling {
     PL_HD void depart(Memory& memory, const Vertex& vertex, const Scattering& scattering,
                       MethodCounters& counters) const {
         settle(memory, luminance(scattering.weight) * table_radiance(vertex, scattering.direction.cell), counters);
-        const Entry lit = memory.lit;
+        const TableEntry lit = memory.lit;
         const float light = memory.light;
         memory = remember(vertex, scattering.direction);
         memory.lit = lit;
@@ -90,15 +83,11 @@ private:
         if (vertex.volume == kNoVolume) return 0.0f;
         if (cell < 0) return mean_radiance(vertex);
         const std::uint32_t index = field.cell_index(vertex.volume, cell);
-        if (field.visits[index] == 0) return mean_radiance(vertex);
-        const float radiance = field.radiance[index];
-        return radiance > 0.0f && radiance < kInfinity ? radiance : 0.0f;
+        return field.visits[index] == 0 ? mean_radiance(vertex) : learned_radiance(field, index);
     }
     PL_HD void settle(Memory& memory, float reflected, MethodCounters& counters) const {
         if (memory.left.volume == kNoVolume) return;
-        const float target = memory.emitted + reflected;
-        record(field, memory.left.volume, memory.left.cell, target);
-        if (mixture.learned != 0) record_mixture(field, memory.left.volume, memory.left.bsdf_ratio, target);
+        record_target(memory.left, memory.emitted + reflected);
         ++counters.records;
         memory.left = {};
     }
