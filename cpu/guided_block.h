@@ -34,6 +34,9 @@ public:
         GuidedGroup& group = groups_[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
         group.volume[lane] = volume;
+        group.position_x[lane] = departure.surface.position.x;
+        group.position_y[lane] = departure.surface.position.y;
+        group.position_z[lane] = departure.surface.position.z;
         group.normal_x[lane] = departure.surface.shading_normal.x;
         group.normal_y[lane] = departure.surface.shading_normal.y;
         group.normal_z[lane] = departure.surface.shading_normal.z;
@@ -60,8 +63,13 @@ private:
     /// Something to load for paths that no volume serves, where there is none at all.
     static constexpr float kOneCell[] = {1.0f};
     static constexpr float kUp[] = {0.0f, 0.0f, 1.0f};
-    static constexpr GuidedMixture kNoTables{
-        .cells = {1}, .row_cdf = kOneCell, .column_cdf = kOneCell, .normals = kUp};
+    static constexpr float kFarAway[] = {0.0f};
+    static constexpr GuidedMixture kNoTables{.cells = {1},
+                                             .row_cdf = kOneCell,
+                                             .column_cdf = kOneCell,
+                                             .normals = kUp,
+                                             .sites = kUp,
+                                             .inverse_reach = kFarAway};
 
     const M& method_;
     const PathSettings& settings_;
@@ -89,6 +97,8 @@ public:
             __builtin_prefetch(field.pending_count.data + cell, 1);
             __builtin_prefetch(field.pending_slope.data + record.volume, 1);
             __builtin_prefetch(field.pending_curvature.data + record.volume, 1);
+            __builtin_prefetch(field.pending_distance.data + record.volume, 1);
+            __builtin_prefetch(field.pending_light.data + record.volume, 1);
             records_[count_++] = record;
         }
     }

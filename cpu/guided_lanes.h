@@ -16,9 +16,11 @@ PL_INLINE void sample_guided_lanes(const GuidedMixture& mixture, const DrawKey& 
         const PhiloxWords<LaneFloat> jitter = draw_lanes(jitter_key, paths.counters, first);
         return Real2<Lanes>{jitter.v[0], jitter.v[1]};
     };
-    const GuidedDirection<Lanes> direction = mixture.sample<Lanes>(
-        load_lanes<LaneInt>(paths.volume + first), {row(paths.normal_x), row(paths.normal_y), row(paths.normal_z)},
-        row(paths.choice), {row(paths.u_x), row(paths.u_y)}, draw_jitter);
+    const GuidedPlace<Lanes> place{load_lanes<LaneInt>(paths.volume + first),
+                                   {row(paths.position_x), row(paths.position_y), row(paths.position_z)},
+                                   {row(paths.normal_x), row(paths.normal_y), row(paths.normal_z)}};
+    const GuidedDirection<Lanes> direction =
+        mixture.sample(place, row(paths.choice), {row(paths.u_x), row(paths.u_y)}, draw_jitter);
     store_lanes(direction.wi.x, directions.x + first);
     store_lanes(direction.wi.y, directions.y + first);
     store_lanes(direction.wi.z, directions.z + first);

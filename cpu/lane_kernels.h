@@ -52,6 +52,7 @@ struct alignas(64) NumberGroup {
 /// 16 paths that a guided method sends on. Lanes that were never set are served by no volume.
 struct alignas(64) GuidedGroup {
     std::int32_t volume[kGroupSize];
+    float position_x[kGroupSize] = {}, position_y[kGroupSize] = {}, position_z[kGroupSize] = {};
     float normal_x[kGroupSize] = {}, normal_y[kGroupSize] = {}, normal_z[kGroupSize] = {};  ///< shading
     float choice[kGroupSize] = {}, u_x[kGroupSize] = {}, u_y[kGroupSize] = {};
     CounterGroup counters;  ///< of the numbers for the jitter

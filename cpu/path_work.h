@@ -33,10 +33,10 @@ struct ProbeWork {
     std::uint32_t strata_side = 1;
 
     std::uint32_t count() const { return field.normals.count * static_cast<std::uint32_t>(field.cells.count()); }
-    PathState<DefaultMethod> begin(std::uint32_t probe, Vec4f u) const {
+    PathState<ProbeMethod> begin(std::uint32_t probe, Vec4f u) const {
         return begin_probe(field, probe, sample, strata_side, u);
     }
-    bool finish(const PathState<DefaultMethod>& state) const {
+    bool finish(const PathState<ProbeMethod>& state) const {
         finish_probe(field, state);
         return is_valid_radiance(state.radiance);
     }

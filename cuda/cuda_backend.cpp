@@ -225,7 +225,7 @@ PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
     const std::uint32_t probes = field.normals.count * static_cast<std::uint32_t>(field.cells.count());
     const ProbePaths paths{.field = field, .sample = request.sample, .strata_side = request.strata_side};
     return run_launches(probe_size_, request.first_probe, probes, request.stop, [&](PathRange range) {
-        launch_paths(kProbeKernels, request.features, request.path, range, DefaultMethod{}, paths);
+        launch_paths(kProbeKernels, request.features, request.path, range, ProbeMethod{}, paths);
     });
 }
 

@@ -12,8 +12,9 @@ namespace pl {
 struct FieldShape {
     DirectionCells cells;
     float radiance_unit = 1.0f;
+    float extent = 0.0f;
     LearningRate rate = LearningRate::Forgetful;
-    float uniform_floor = 0.05f;
+    float uniform_floor = kUniformShare;
     Lookup lookup = Lookup::Grid;
 };
 
@@ -51,6 +52,11 @@ struct TableStorage {
     Array<float> mixture_target;
     Array<float> mixture_weight;
     Array<float> bsdf_fraction;
+    Array<std::int64_t> pending_distance;
+    Array<std::int64_t> pending_light;
+    Array<float> reach_distance;
+    Array<float> reach_weight;
+    Array<float> inverse_reach;
 };
 
 using HostVolumeGrid = VolumeGridStorage<HostArray>;
@@ -95,6 +101,11 @@ void zip(const TableStorage<From>& from, To& to, Fn&& fn) {
     fn(from.mixture_target, to.mixture_target);
     fn(from.mixture_weight, to.mixture_weight);
     fn(from.bsdf_fraction, to.bsdf_fraction);
+    fn(from.pending_distance, to.pending_distance);
+    fn(from.pending_light, to.pending_light);
+    fn(from.reach_distance, to.reach_distance);
+    fn(from.reach_weight, to.reach_weight);
+    fn(from.inverse_reach, to.inverse_reach);
 }
 
 template <template <class> class Array>
@@ -118,11 +129,15 @@ FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volume
             .column_cdf = view_of(frozen.column_cdf),
             .mean_radiance = view_of(frozen.mean_radiance),
             .bsdf_fraction = view_of(frozen.bsdf_fraction),
+            .inverse_reach = view_of(frozen.inverse_reach),
             .pending_sum = view_of(tables.pending_sum),
             .pending_count = view_of(tables.pending_count),
             .pending_slope = view_of(tables.pending_slope),
             .pending_curvature = view_of(tables.pending_curvature),
+            .pending_distance = view_of(tables.pending_distance),
+            .pending_light = view_of(tables.pending_light),
             .radiance_unit = shape.radiance_unit,
+            .extent = shape.extent,
             .radiance = view_of(frozen.radiance),
             .visits = view_of(frozen.visits)};
 }
@@ -132,6 +147,7 @@ template <template <class> class Array>
 FieldPublicationView publication_view(const FieldShape& shape, TableStorage<Array>& tables) {
     return {.cells = shape.cells,
             .radiance_unit = shape.radiance_unit,
+            .extent = shape.extent,
             .rate = shape.rate,
             .uniform_floor = shape.uniform_floor,
             .radiance = view_of(tables.radiance),
@@ -146,7 +162,12 @@ FieldPublicationView publication_view(const FieldShape& shape, TableStorage<Arra
             .pending_curvature = view_of(tables.pending_curvature),
             .mixture_target = view_of(tables.mixture_target),
             .mixture_weight = view_of(tables.mixture_weight),
-            .bsdf_fraction = view_of(tables.bsdf_fraction)};
+            .bsdf_fraction = view_of(tables.bsdf_fraction),
+            .pending_distance = view_of(tables.pending_distance),
+            .pending_light = view_of(tables.pending_light),
+            .reach_distance = view_of(tables.reach_distance),
+            .reach_weight = view_of(tables.reach_weight),
+            .inverse_reach = view_of(tables.inverse_reach)};
 }
 
 }  // namespace pl

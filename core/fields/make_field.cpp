@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/fields/volume_grid.h"
+#include "core/scene/pack_scene.h"
 
 namespace pl {
 namespace {
@@ -23,6 +24,17 @@ float power_of_two_above(float value) {
     return std::ldexp(1.0f, std::clamp(exponent, -kMaxExponent, kMaxExponent));
 }
 
+/// Diagonal of the bounds of all triangles.
+float extent_of(const HostScene& scene) {
+    Bounds bounds;
+    for (const Triangle& triangle : scene.triangles)
+        for (const std::uint32_t corner : {triangle.v0, triangle.v1, triangle.v2}) {
+            bounds.low = glm::min(bounds.low, scene.positions[corner]);
+            bounds.high = glm::max(bounds.high, scene.positions[corner]);
+        }
+    return bounds.diagonal();
+}
+
 template <class Storage>
 std::size_t bytes_of_all(const Storage& storage) {
     std::size_t bytes = 0;
@@ -35,7 +47,7 @@ std::size_t bytes_of_all(const Storage& storage) {
 std::size_t table_bytes(int bins) {
     const std::size_t per_cell = 2 * sizeof(float) + 2 * sizeof(std::uint32_t) + sizeof(std::int64_t);
     const std::size_t rows = static_cast<std::size_t>(side_of(bins)) * sizeof(float);
-    const std::size_t per_volume = 5 * sizeof(float) + 2 * sizeof(std::int64_t);
+    const std::size_t per_volume = 8 * sizeof(float) + 4 * sizeof(std::int64_t);
     return rows + per_volume + static_cast<std::size_t>(bins) * per_cell;
 }
 
@@ -58,6 +70,7 @@ FieldShape make_field_shape(const HostScene& scene, const FieldSettings& setting
     }
     return {.cells = {side_of(settings.bins)},
             .radiance_unit = power_of_two_above(brightest),
+            .extent = extent_of(scene),
             .rate = settings.rate,
             .uniform_floor = settings.uniform_floor,
             .lookup = settings.lookup};
@@ -80,6 +93,11 @@ HostTables make_tables(const FieldShape& shape, std::size_t volumes) {
     tables.mixture_target.assign(volumes, 0.0f);
     tables.mixture_weight.assign(volumes, 0.0f);
     tables.bsdf_fraction.assign(volumes, kInitialBsdfFraction);
+    tables.pending_distance.assign(volumes, 0);
+    tables.pending_light.assign(volumes, 0);
+    tables.reach_distance.assign(volumes, 0.0f);
+    tables.reach_weight.assign(volumes, 0.0f);
+    tables.inverse_reach.assign(volumes, inverse_reach_of(shape.extent, kUnknownDistance));
     const auto uniform = [side](std::size_t i) {
         return static_cast<float>(i % side + 1) / static_cast<float>(side);
     };

@@ -15,7 +15,7 @@ struct FieldSettings {
     int bins = 256;                  ///< directions per volume, a square number from 4 to 1024
     LearningRate rate = LearningRate::Forgetful;
     LearningSettings learning{};
-    float uniform_floor = 0.05f;
+    float uniform_floor = kUniformShare;
     int precompute_samples = 16;  ///< paths per cell and volume, a square number
     Lookup lookup = Lookup::Grid;
 

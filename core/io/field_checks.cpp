@@ -81,6 +81,7 @@ private:
         int exponent = 0;
         require(unit > 0.0f && std::isfinite(unit) && std::frexp(unit, &exponent) == 0.5f, "radiance unit",
                 "a power of two", unit);
+        require(is_amount(shape.extent), "extent", "0 or more", shape.extent);
         require(shape.rate == s.rate && shape.uniform_floor == s.uniform_floor && shape.lookup == s.lookup,
                 "learning rate, uniform share and lookup of the tables", "those of the settings", "others");
     }
@@ -113,6 +114,11 @@ private:
         size("targets of the mixture", t.mixture_target, volumes);
         size("weights of the mixture", t.mixture_weight, volumes);
         size("BSDF shares", t.bsdf_fraction, volumes);
+        size("sums of distances", t.pending_distance, volumes);
+        size("sums of light", t.pending_light, volumes);
+        size("distances of the reach", t.reach_distance, volumes);
+        size("weights of the reach", t.reach_weight, volumes);
+        size("inverse reaches", t.inverse_reach, volumes);
     }
 
     void progress() const {
@@ -171,7 +177,11 @@ private:
         amounts("mean radiance", t.mean_radiance);
         amounts("change", t.change);
         amounts("weight of the mixture", t.mixture_weight);
+        amounts("distance of the reach", t.reach_distance);
+        amounts("weight of the reach", t.reach_weight);
+        amounts("inverse reach", t.inverse_reach);
         for (std::size_t i = 0; i < t.bsdf_fraction.size(); ++i) mixture(i);
+        for (std::size_t i = 0; i < t.inverse_reach.size(); ++i) reach(i);
     }
 
     void mixture(std::size_t volume) const {
@@ -186,6 +196,14 @@ private:
         if (t.pending_curvature[volume] < 0)
             fail(fmt::format("curvature of the mixture of volume {}", volume), "0 or more",
                  t.pending_curvature[volume]);
+    }
+
+    void reach(std::size_t volume) const {
+        const HostTables& t = field_.tables;
+        const std::int64_t light = t.pending_light[volume];
+        if (light < 0 || t.pending_distance[volume] < 0 || t.pending_distance[volume] > light)
+            fail(fmt::format("distance of volume {}", volume), fmt::format("0 to {}", light),
+                 t.pending_distance[volume]);
     }
 
     /// Each row of cumulative probabilities rises from 0 or more to exactly 1.

@@ -6,7 +6,7 @@ namespace {
 template <FeatureSet F>
 PassCounters run_probe_pass(const ProbePass& pass) {
     const ProbeWork work{pass.field, pass.sample, pass.strata_side};
-    return run_paths<F>(pass.setup, pass.tracer, DefaultMethod{}, work);
+    return run_paths<F>(pass.setup, pass.tracer, ProbeMethod{}, work);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ struct ViewSetup {
 
 template <class M>
 using PictureKernel = void (*)(TraceSetup, M, PixelPaths);
-using ProbeKernel = void (*)(TraceSetup, DefaultMethod, ProbePaths);
+using ProbeKernel = void (*)(TraceSetup, ProbeMethod, ProbePaths);
 using ViewKernel = void (*)(ViewSetup);
 
 extern const KernelRow<PictureKernel<DefaultMethod>> kDefaultKernels;
@@ -107,7 +107,7 @@ struct PublicationStep {
     PublicationItem item;
     const char* name;
 };
-inline constexpr int kPublicationStepCount = 6;
+inline constexpr int kPublicationStepCount = 7;
 /// The steps of publish_volume(), in their order.
 extern const std::array<PublicationStep, kPublicationStepCount> kPublicationSteps;
 

@@ -21,6 +21,7 @@ constinit const std::array<PublicationStep, kPublicationStepCount> kPublicationS
     {run_step<build_row>, PublicationItem::Row, "build_row"},
     {run_step<build_row_choice>, PublicationItem::Volume, "build_row_choice"},
     {run_step<move_mixture>, PublicationItem::Volume, "move_mixture"},
+    {run_step<move_reach>, PublicationItem::Volume, "move_reach"},
 }};
 
 }  // namespace pl::cuda

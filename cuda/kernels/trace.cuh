@@ -24,7 +24,7 @@ template <class M>
 __device__ inline void finish(const PixelPaths& paths, const PathState<M>& state) {
     paths.radiance[state.pixel - paths.first] = state.radiance;
 }
-__device__ inline void finish(const ProbePaths& paths, const PathState<DefaultMethod>& state) {
+__device__ inline void finish(const ProbePaths& paths, const PathState<ProbeMethod>& state) {
     finish_probe(paths.field, state);
 }
 

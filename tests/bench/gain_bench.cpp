@@ -23,8 +23,8 @@ namespace {
 /// What the command line can change.
 struct Setup {
     std::map<std::string, double> numbers{
-        {"spp", 128},      {"seeds", 5},  {"side", 128},       {"reference", 4096}, {"threads", 2},
-        {"volumes", 0},    {"bins", 256}, {"fraction", 0},     {"floor", 0.05},     {"rate", 4},
+        {"spp", 128},      {"seeds", 5},  {"side", 128},       {"reference", 4096},      {"threads", 2},
+        {"volumes", 0},    {"bins", 256}, {"fraction", 0},     {"floor", kUniformShare}, {"rate", 4},
         {"precompute", 0}, {"nee", 0},    {"megabytes", 16.0},
     };
     std::vector<std::string> scenes;

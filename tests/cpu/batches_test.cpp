@@ -136,7 +136,7 @@ TEST_CASE("Batches of probes equal single probes") {
     PassCounters counters;
     for (std::uint32_t probe = 0; probe < field.normals.count * 16; ++probe) {
         auto state = begin_probe(field, settings, probe, 2, 4);
-        trace_path<kLights>(scene, BvhIntersector{scene}, DefaultMethod{}, settings, state, counters.path);
+        trace_path<kLights>(scene, BvhIntersector{scene}, ProbeMethod{}, settings, state, counters.path);
         finish_probe(field, state);
         count_path(counters, state.radiance, true);
     }

@@ -40,6 +40,10 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
         const auto volumes = static_cast<std::uint32_t>(normals.size());
         group.volume[lane] = static_cast<std::int32_t>(random.below(volumes + 1)) - 1;
         const Vec3f normal = normals[random.below(volumes)];
+        const Vec3f position = random.between(0.0f, 2.0f) * random.direction();
+        group.position_x[lane] = position.x;
+        group.position_y[lane] = position.y;
+        group.position_z[lane] = position.z;
         group.normal_x[lane] = normal.x;
         group.normal_y[lane] = normal.y;
         group.normal_z[lane] = normal.z;
@@ -55,6 +59,7 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
         const GuidedGroup& group = groups[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
         SurfacePoint surface;
+        surface.position = {group.position_x[lane], group.position_y[lane], group.position_z[lane]};
         surface.shading_normal = {group.normal_x[lane], group.normal_y[lane], group.normal_z[lane]};
         const Rng rng{jitter_key.seed, jitter_key.stream, group.counters.pixel[lane], group.counters.sample[lane]};
         const DirectionSample alone =
@@ -75,6 +80,7 @@ TEST_CASE("Every instruction set chooses the guided directions of one path alone
             const auto hard = hard_weights(side);
             field.set_weights(hard[volume % hard.size()].weights, volume);
             field.tables.bsdf_fraction[volume] = 0.1f + 0.8f * random.next();
+            field.tables.inverse_reach[volume] = random.below(4) == 0 ? 0.0f : random.between(0.1f, 3.0f);
         }
         for (const bool learned : {false, true}) {
             PrecomputedMethod method;

@@ -44,6 +44,7 @@ void check_same(const LearnedField& a, const LearnedField& b) {
     CHECK(a.shape.cells.side == b.shape.cells.side);
     CHECK(a.shape.radiance_unit == b.shape.radiance_unit);
     CHECK((a.shape.rate == b.shape.rate));
+    CHECK(a.shape.extent == b.shape.extent);
     CHECK(a.shape.uniform_floor == b.shape.uniform_floor);
     CHECK((a.shape.lookup == b.shape.lookup));
     CHECK((a.progress == b.progress));
@@ -182,8 +183,8 @@ TEST_CASE("Other files and other versions are no damaged fields") {
     CHECK_THAT(told(""), contains("f: not a learned field: expected a file that begins with PLFIELD"));
     CHECK_THAT(told("v 0 0 0\n"), contains("not a learned field") && contains("got 76 20 30"));
     std::string newer = bytes;
-    newer[8] = 4;
-    CHECK_THAT(told(newer), contains("another version: expected 3, got 4"));
+    newer[8] = 5;
+    CHECK_THAT(told(newer), contains("another version: expected 4, got 5"));
     CHECK_THAT(input_error([&] { read_field(folder.path() / "gone"); }), contains("gone: cannot be read"));
     CHECK_THAT(input_error([&] { read_field(folder.path()); }), contains("it is a directory"));
 }

@@ -92,7 +92,7 @@ inline Decision check_probed_cells() {
         for (std::uint32_t sample = 0; sample < 16; ++sample) {
             PathCounters counters;
             auto state = begin_probe(tables, settings, tables.cell_index(volume, cell), sample, 4);
-            trace_path<FeatureSet{}>(view, BvhIntersector{view}, DefaultMethod{}, settings, state, counters);
+            trace_path<FeatureSet{}>(view, BvhIntersector{view}, ProbeMethod{}, settings, state, counters);
             finish_probe(tables, state);
         }
     field.publish();

@@ -40,6 +40,11 @@ HostTables tables_with_records(const FieldShape& shape, std::size_t volumes) {
         tables.visits[i] = static_cast<std::uint32_t>(1000.0f * u.z * u.z);
         tables.radiance[i] = tables.visits[i] == 0 ? 0.0f : shape.radiance_unit * u.w * u.w * u.w;
     }
+    for (std::uint32_t i = 0; i < tables.pending_light.size(); ++i) {
+        const Vec4f u = rng.draw(i, Purpose::Light);
+        tables.pending_light[i] = static_cast<std::int64_t>(1.0e9f * u.x);
+        tables.pending_distance[i] = static_cast<std::int64_t>(1.0e9f * u.x * u.y);
+    }
     return tables;
 }
 

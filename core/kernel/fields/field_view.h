@@ -30,6 +30,7 @@ struct FieldView {
     Span<const float> mean_radiance;
 
     Span<const float> bsdf_fraction;  ///< learned share of the BSDF in the mixture. [volume]
+    Span<const float> inverse_reach;  ///< one over the radius of Parallax. [volume]
 
     /// What the running pass adds. [volume][cell]
     Span<std::int64_t> pending_sum;
@@ -37,9 +38,13 @@ struct FieldView {
     /// The same for the mixture, see record_mixture(). [volume]
     Span<std::int64_t> pending_slope;
     Span<std::int64_t> pending_curvature;
+    /// The same for the reach, see record_reach(). [volume]
+    Span<std::int64_t> pending_distance;
+    Span<std::int64_t> pending_light;
 
     /// Radiance of one fixed-point unit: a power of two not below the brightest emission.
     float radiance_unit = 1.0f;
+    float extent = 0.0f;  ///< unit of distances: the diagonal of the scene's bounds; 0 if unknown
 
     /// What the tables were made of, for targets that ask for single cells. [volume][cell]
     Span<const float> radiance{};

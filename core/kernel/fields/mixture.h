@@ -27,16 +27,22 @@ struct MixtureSettings {
 inline constexpr float kMixtureStepsPerUnit = 65536.0f;
 inline constexpr float kMaxMixtureWeight = 64.0f;
 
+/// How much light a direction brought, as a share of what the volume expects, over the density that sampled it.
+/// `bsdf_ratio` = p_bsdf / q of the direction; `radiance` what arrived. 0 where nothing is expected, or nothing came.
+PL_HD inline float light_weight(const FieldView& field, std::int32_t volume, float bsdf_ratio, float radiance) {
+    const float expected = field.mean_radiance[static_cast<std::uint32_t>(volume)];
+    if (!(expected > 0.0f) || !(radiance > 0.0f)) return 0.0f;
+    return min_of(radiance / expected, kMaxMixtureWeight) * bsdf_ratio;
+}
+
 /// Adds one direction that was sampled at a volume and what arrived from there.
-/// `bsdf_ratio` = p_bsdf / q of the direction; `radiance` what arrived, of which `mean_radiance` is expected.
 /// With y = (p_bsdf - p_table) / q = (bsdf_ratio - 1) / (1 - a) and w = f L cos / q relative to its mean, the
 /// derivatives of the divergence by a are -E[w y] and E[w y^2]; the factors of 1-a, the same for all records of a pass,
 /// are left to move_mixture().
 PL_HD inline void record_mixture(const FieldView& field, std::int32_t volume, float bsdf_ratio, float radiance) {
     const auto index = static_cast<std::uint32_t>(volume);
-    const float expected = field.mean_radiance[index];
-    if (!(expected > 0.0f) || !(radiance > 0.0f)) return;
-    const float weight = min_of(radiance / expected, kMaxMixtureWeight) * bsdf_ratio;
+    const float weight = light_weight(field, volume, bsdf_ratio, radiance);
+    if (!(weight > 0.0f)) return;
     const float excess = bsdf_ratio - 1.0f;
     const float slope = -weight * excess * kMixtureStepsPerUnit;
     const float curvature = weight * excess * excess * kMixtureStepsPerUnit;

@@ -21,12 +21,16 @@ enum class LearningRate : std::uint32_t {
 inline constexpr float kLeastStep = 0.05f;
 inline constexpr float kPowerRate = 0.7f;
 
+/// Share of a table that is uniform, so that no cell is ever impossible, and unseen light never weighs much.
+inline constexpr float kUniformShare = 0.1f;
+
 /// Everything publication writes, one row per volume.
 struct FieldPublicationView {
     DirectionCells cells;
     float radiance_unit = 1.0f;
+    float extent = 0.0f;
     LearningRate rate = LearningRate::Forgetful;
-    float uniform_floor = 0.05f;  ///< share of the table that is uniform, so that no cell is ever impossible
+    float uniform_floor = kUniformShare;
 
     Span<float> radiance;               ///< learned incident radiance Q. [volume][cell]
     Span<std::uint32_t> visits;         ///< records so far. [volume][cell]
@@ -42,6 +46,12 @@ struct FieldPublicationView {
     Span<float> mixture_target;            ///< sum of curvature times aim of the steps so far. [volume]
     Span<float> mixture_weight;            ///< sum of their curvature. [volume]
     Span<float> bsdf_fraction;             ///< [volume]
+
+    Span<std::int64_t> pending_distance;  ///< emptied. [volume]
+    Span<std::int64_t> pending_light;     ///< emptied. [volume]
+    Span<float> reach_distance;           ///< sum of weight times distance of the records so far. [volume]
+    Span<float> reach_weight;             ///< sum of their weights. [volume]
+    Span<float> inverse_reach;            ///< [volume]
 };
 
 /// Share of the new mean that `fresh` new records get. Written in terms of m/(N+m), because a difference from 1 would lose

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/kernel/fields/mixture.h"
+#include "core/kernel/fields/reach.h"
 
 namespace pl {
 
@@ -16,6 +17,7 @@ PL_HD inline void publish_volume(const FieldPublicationView& field, std::uint32_
     for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row) build_row(field, row);
     build_row_choice(field, volume);
     move_mixture(field, volume);
+    move_reach(field, volume);
 }
 
 }  // namespace pl

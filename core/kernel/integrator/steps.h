@@ -140,8 +140,9 @@ PL_HD inline PathStatus arrive(const SceneView& scene, const M& method, const Pa
 
     typename M::Vertex vertex{};
     if (material.reflects()) vertex = method.arrive(surface, counters.method);
-    record = method.learn(state.memory, {.emitted = emitted, .albedo = material.albedo, .light_share = light_share},
-                          vertex, counters.method);
+    record = method.learn(
+        state.memory, {.emitted = emitted, .albedo = material.albedo, .light_share = light_share, .distance = hit.t},
+        vertex, counters.method);
 
     ++state.vertices;
     if (!material.reflects()) return PathStatus::Finished;

@@ -3,6 +3,8 @@
 
 #include "core/kernel/fields/direction_table.h"
 #include "core/kernel/fields/mixture.h"
+#include "core/kernel/fields/parallax.h"
+#include "core/kernel/fields/reach.h"
 #include "core/kernel/methods/method.h"
 
 namespace pl {
@@ -24,46 +26,73 @@ struct GuidedDirection {
     typename N::Int cell;
 };
 
+/// Where a path stands, as a mixture sees it; `volume` is kNoVolume where none serves.
+template <class N>
+struct GuidedPlace {
+    typename N::Int volume;
+    Real3<N> position, shading_normal;
+};
+
 /// q = a p_bsdf + (1-a) p_table, with both densities evaluated whichever of the two chose the direction. A direction
 /// weighs at most 1/a times what it weighs under BSDF sampling.   [Veach 1997, 9.2.4; Mueller et al. 2017]
-/// Plain pointers, for code that is compiled apart; of at least one volume. `volume` is kNoVolume where none serves.
+/// Plain pointers, for code that is compiled apart; of at least one volume.
 struct GuidedMixture {
     DirectionCells cells;
     const float* row_cdf = nullptr;        ///< [volume][row]
     const float* column_cdf = nullptr;     ///< [volume][row][column]
     const float* normals = nullptr;        ///< [volume][3]
+    const float* sites = nullptr;          ///< [volume][kSiteStride], of which the first three are the position
+    const float* inverse_reach = nullptr;  ///< [volume]
     const float* bsdf_fraction = nullptr;  ///< a, in (0, 1]. [volume]; null: the same for all
     float same_bsdf_fraction = 1.0f;
 
+    static constexpr int kSiteStride = sizeof(SurfacePoint) / sizeof(float);
+    static_assert(kSiteStride * sizeof(float) == sizeof(SurfacePoint));
+
     /// Draws a direction: u.x chooses between BSDF and table, u.y and u.z the direction, jitter() two further numbers.
     template <class N, class Jitter>
-    PL_INLINE GuidedDirection<N> sample(typename N::Int volume, const Real3<N>& shading_normal,
-                                        typename N::Real choice, const Real2<N>& u, Jitter&& jitter) const {
-        const typename N::Mask served = volume >= 0;
-        const auto index = select(served, volume, N::constant(0));
+    PL_INLINE GuidedDirection<N> sample(const GuidedPlace<N>& place, typename N::Real choice, const Real2<N>& u,
+                                        Jitter&& jitter) const {
+        const typename N::Mask served = place.volume >= 0;
+        const auto index = select(served, place.volume, N::constant(0));
         const Real3<N> volume_normal = normal_of<N>(index);
         const typename N::Mask guided = served & (choice >= fraction_of<N>(index));
         Real2<N> square = u;
         if (N::any(guided)) square = select(guided, sample_square(tables_of<N>(index), u, jitter()), u);
-        const FrameOf<N> frame = make_frame(select(guided, volume_normal, shading_normal));
-        return weigh<N>(volume, shading_normal, frame.to_world(square_to_cosine_hemisphere(square)));
+        const FrameOf<N> frame = make_frame(select(guided, volume_normal, place.shading_normal));
+        const Real3<N> direction = frame.to_world(square_to_cosine_hemisphere(square));
+        const Parallax<N> parallax = parallax_of(index, place.position);
+        return weigh(place, parallax, select(guided, parallax.to_point(direction), direction));
     }
 
     /// A direction with all its densities, as if it had been sampled.
     template <class N>
-    PL_INLINE GuidedDirection<N> weigh(typename N::Int volume, const Real3<N>& shading_normal,
-                                       const Real3<N>& wi) const {
-        const typename N::Mask served = volume >= 0;
-        const auto index = select(served, volume, N::constant(0));
-        const auto bsdf_pdf_sa = cosine_pdf_sa<N>(dot(wi, shading_normal));
-        const Real3<N> local = make_frame(normal_of<N>(index)).to_local(wi);
-        const TableDensity<N> table = table_density(tables_of<N>(index), local);
-        const auto a = fraction_of<N>(index);
-        const auto mixed = a * bsdf_pdf_sa + (1.0f - a) * table.pdf_sa;
-        return {wi, select(served, mixed, bsdf_pdf_sa), bsdf_pdf_sa, select(served, table.cell, N::constant(-1))};
+    PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Real3<N>& wi) const {
+        const typename N::Mask served = place.volume >= 0;
+        return weigh(place, parallax_of(select(served, place.volume, N::constant(0)), place.position), wi);
     }
 
 private:
+    template <class N>
+    PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Parallax<N>& parallax,
+                                       const Real3<N>& wi) const {
+        const typename N::Mask served = place.volume >= 0;
+        const auto index = select(served, place.volume, N::constant(0));
+        const auto bsdf_pdf_sa = cosine_pdf_sa<N>(dot(wi, place.shading_normal));
+        const SiteDirection<N> seen = parallax.to_site(wi);
+        const Real3<N> local = make_frame(normal_of<N>(index)).to_local(seen.direction);
+        const TableDensity<N> table = table_density(tables_of<N>(index), local);
+        const auto a = fraction_of<N>(index);
+        const auto mixed = a * bsdf_pdf_sa + (1.0f - a) * (table.pdf_sa * seen.steradians);
+        return {wi, select(served, mixed, bsdf_pdf_sa), bsdf_pdf_sa, select(served, table.cell, N::constant(-1))};
+    }
+    template <class N>
+    PL_INLINE Parallax<N> parallax_of(typename N::Int volume, const Real3<N>& position) const {
+        const auto first = volume * kSiteStride;
+        return {{N::load(sites, first), N::load(sites, first + 1), N::load(sites, first + 2)},
+                position,
+                N::load(inverse_reach, volume)};
+    }
     template <class N>
     PL_INLINE DirectionTables<N> tables_of(typename N::Int volume) const {
         return {cells, row_cdf, column_cdf, volume};
@@ -83,6 +112,7 @@ struct TableEntry {
     std::int32_t volume = kNoVolume;
     std::int32_t cell = 0;
     float bsdf_ratio = 1.0f;  ///< density of BSDF sampling over that of the mixture
+    float distance = 0.0f;    ///< to what the direction met; 0 before it has met anything
 };
 
 struct GuidedSampling {
@@ -94,6 +124,8 @@ struct GuidedSampling {
                 .row_cdf = field.row_cdf.data,
                 .column_cdf = field.column_cdf.data,
                 .normals = &field.normals.data->x,
+                .sites = &field.sites.data->position.x,
+                .inverse_reach = field.inverse_reach.data,
                 .bsdf_fraction = mixture.learned != 0 ? field.bsdf_fraction.data : nullptr,
                 .same_bsdf_fraction = mixture.bsdf_fraction};
     }
@@ -110,7 +142,7 @@ struct GuidedSampling {
     }
     PL_HD DirectionSample weigh(const GuidedVertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
         if (vertex.volume == kNoVolume) return weigh_lambert(surface, wi);
-        return pack(mixture_view().weigh<One>(vertex.volume, unpack(surface.shading_normal), unpack(wi)));
+        return pack(mixture_view().weigh(place_of(vertex, surface), unpack(wi)));
     }
 
     PL_HD DirectionSample sample_direction(const GuidedVertex& vertex, const SurfacePoint& surface, const Rng& rng,
@@ -120,8 +152,7 @@ struct GuidedSampling {
             const Vec4f jitter = rng.draw(index, Purpose::CellJitter);
             return Real2<One>{jitter.x, jitter.y};
         };
-        return pack(
-            mixture_view().sample<One>(vertex.volume, unpack(surface.shading_normal), u.x, {u.y, u.z}, draw_jitter));
+        return pack(mixture_view().sample(place_of(vertex, surface), u.x, {u.y, u.z}, draw_jitter));
     }
 
     /// What the path can still bring, by what is learned, as a share of what its first vertex was expected to. A
@@ -146,10 +177,18 @@ struct GuidedSampling {
     PL_HD void record_target(const TableEntry& entry, float target) const {
         if (entry.volume == kNoVolume) return;
         record(field, entry.volume, entry.cell, target);
-        if (mixture.learned != 0) record_mixture(field, entry.volume, entry.bsdf_ratio, target);
+        record_light(entry, target);
+    }
+    /// What the mixture and the reach learn from it.
+    PL_HD void record_light(const TableEntry& entry, float light) const {
+        record_reach(field, entry.volume, light_weight(field, entry.volume, entry.bsdf_ratio, light), entry.distance);
+        if (mixture.learned != 0) record_mixture(field, entry.volume, entry.bsdf_ratio, light);
     }
 
 private:
+    static PL_HD GuidedPlace<One> place_of(const GuidedVertex& vertex, const SurfacePoint& surface) {
+        return {vertex.volume, unpack(surface.position), unpack(surface.shading_normal)};
+    }
     static PL_HD DirectionSample pack(const GuidedDirection<One>& direction) {
         return {pl::pack(direction.wi), direction.pdf_sa, direction.bsdf_pdf_sa, direction.cell};
     }

@@ -30,6 +30,7 @@ struct Arrival {
     Vec3f albedo{0.0f};   ///< reflectance of the surface met; 0 on a miss
     /// Share of the emission that the path's direction brings; light samples at the previous vertex bring the rest.
     float light_share = 1.0f;
+    float distance = kInfinity;  ///< from the previous vertex
 };
 
 /// How a path went on from a vertex.

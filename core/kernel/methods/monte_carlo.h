@@ -47,6 +47,7 @@ struct MonteCarloMethod : GuidedSampling {
         memory.lit = -1;
         if (memory.count == 0 || memory.is_cut != 0) return {};
         Step& last = memory.steps[memory.count - 1];
+        last.entry.distance = arrival.distance;
         last.brought = arrival.light_share * arrival.emitted;
         if (learning.light == LearnedLight::All)
             last.unshared = (1.0f - arrival.light_share) * luminance(arrival.emitted);

@@ -24,8 +24,7 @@ struct ReinforcementMethod : GuidedSampling {
     /// Expected Sarsa target T = L_e(y) + rho(y) V(y): the expectation over the next direction is the irradiance
     /// that the volume at y keeps, so it costs one load. T is not multiplied by the BSDF at x: the table holds
     /// incident radiance. Where y reflects but no volume serves it, nothing is known and nothing recorded.
-    PL_HD Record learn(const Memory& memory, const Arrival& arrival, const Vertex& vertex,
-                       MethodCounters& counters) const {
+    PL_HD Record learn(Memory& memory, const Arrival& arrival, const Vertex& vertex, MethodCounters& counters) const {
         if (memory.volume == kNoVolume) return {};
         float target = luminance(arrival.emitted);
         if (!is_black(arrival.albedo)) {
@@ -33,6 +32,7 @@ struct ReinforcementMethod : GuidedSampling {
             target += luminance(arrival.albedo) * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
         }
         ++counters.records;
+        memory.distance = arrival.distance;
         return {memory, target};
     }
 

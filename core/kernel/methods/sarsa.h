@@ -37,6 +37,7 @@ struct SarsaMethod : GuidedSampling {
         memory.lit = {};
         if (memory.left.volume == kNoVolume) return {};
         const bool indirect = learning.light == LearnedLight::Indirect;
+        memory.left.distance = arrival.distance;
         memory.emitted = luminance(arrival.emitted) * (indirect ? arrival.light_share : 1.0f);
         if (is_black(arrival.albedo)) {
             settle(memory, 0.0f, counters);
@@ -59,7 +60,7 @@ struct SarsaMethod : GuidedSampling {
         // Only the sum: the record that it belongs to has been counted, or is where the path was scattered.
         const std::uint32_t index = field.cell_index(memory.lit.volume, memory.lit.cell);
         atomic_add(field.pending_sum[index], to_fixed_point(memory.light, field.radiance_unit));
-        if (mixture.learned != 0) record_mixture(field, memory.lit.volume, memory.lit.bsdf_ratio, memory.light);
+        record_light(memory.lit, memory.light);
     }
 
     PL_HD void depart(Memory& memory, const Vertex& vertex, const Scattering& scattering,

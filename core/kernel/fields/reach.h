@@ -1,0 +1,50 @@
+// How far away the light of a volume is: the radius of the sphere by which Parallax carries directions from the site to
+// the points that the volume serves. Learned by each volume from what its paths met.
+#pragma once
+
+#include "core/kernel/fields/publication.h"
+
+namespace pl {
+
+/// Distances are in units of the field's extent, the diagonal of the scene, and count as this where a ray meets nothing.
+inline constexpr float kMostDistance = 1.0f;
+/// The sphere is larger than the mean distance of the light: a sphere too small bends directions more than one too
+/// large leaves them apart. Tried from 1 to 2; see docs/learning.md.
+inline constexpr float kReachPerDistance = 1.5f;
+/// What is believed of a volume that knows nothing, and how firmly: as much as that many records.
+inline constexpr float kUnknownDistance = 1.0f / 3.0f;
+inline constexpr float kUnknownWeight = 16.0f;
+inline constexpr float kLeastReach = 0x1p-10f;
+
+inline constexpr float kReachStepsPerUnit = 65536.0f;
+inline constexpr float kMaxReachWeight = 16777216.0f;
+
+/// One over the radius; 0, no parallax, where the scene has no extent that could be told.
+PL_HD inline float inverse_reach_of(float extent, float mean_distance) {
+    const float inverse = 1.0f / (extent * max_of(kReachPerDistance * mean_distance, kLeastReach));
+    return inverse > 0.0f && inverse < kInfinity ? inverse : 0.0f;
+}
+
+/// Adds the distance to what a direction met, by `weight`: how much light came from there, relative to other records of
+/// the same volume.
+PL_HD inline void record_reach(const FieldView& field, std::int32_t volume, float weight, float distance) {
+    if (!(weight > 0.0f) || !(distance > 0.0f) || !(field.extent > 0.0f)) return;
+    const auto index = static_cast<std::uint32_t>(volume);
+    const float steps = min_of(weight, kMaxReachWeight) * kReachStepsPerUnit;
+    atomic_add(field.pending_distance[index],
+               static_cast<std::int64_t>(steps * min_of(distance / field.extent, kMostDistance)));
+    atomic_add(field.pending_light[index], static_cast<std::int64_t>(steps));
+}
+
+/// Moves a volume's reach to the mean of all records so far.
+PL_HD inline void move_reach(const FieldPublicationView& field, std::uint32_t volume) {
+    field.reach_distance[volume] += static_cast<float>(field.pending_distance[volume]) / kReachStepsPerUnit;
+    field.reach_weight[volume] += static_cast<float>(field.pending_light[volume]) / kReachStepsPerUnit;
+    field.pending_distance[volume] = 0;
+    field.pending_light[volume] = 0;
+    const float mean = (field.reach_distance[volume] + kUnknownWeight * kUnknownDistance) /
+                       (field.reach_weight[volume] + kUnknownWeight);
+    field.inverse_reach[volume] = inverse_reach_of(field.extent, mean);
+}
+
+}  // namespace pl

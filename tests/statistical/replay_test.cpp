@@ -1,0 +1,107 @@
+// What a method is told of a path is all that the path brought: from the records alone its radiance comes out again.
+#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/trace_path.h"
+#include "core/kernel/methods/monte_carlo.h"
+#include "core/scene/needed_effects.h"
+#include "core/scene/pack_scene.h"
+#include "tests/catch.hpp"
+#include "tests/kernel/field_fixture.h"
+#include "tests/statistical/shipped_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+/// Writes down the first vertex, which has no record, and leaves the others to the method under test.
+struct ReplayedMethod : MonteCarloMethod {
+    struct Memory : MonteCarloMethod::Memory {
+        bool has_met = false;
+        bool has_left = false;
+        bool first_light_waits = false;
+        Vec3f brought{0.0f};  ///< emission of the first surface, and what it reflects of its light sample
+        Vec3f first_light{0.0f};
+        Vec3f weight{0.0f};  ///< with which the first vertex was left
+    };
+
+    Memory remember(const Vertex& vertex, const DirectionSample& direction) const {
+        return {MonteCarloMethod::remember(vertex, direction)};
+    }
+    Record learn(Memory& memory, const Arrival& arrival, const Vertex& vertex, MethodCounters& counters) const {
+        if (!memory.has_met) memory.brought = arrival.emitted;
+        memory.has_met = true;
+        memory.first_light_waits = false;
+        return MonteCarloMethod::learn(memory, arrival, vertex, counters);
+    }
+    void request_light(Memory& memory, Vec3f reflected) const {
+        memory.first_light_waits = !memory.has_left;
+        memory.first_light = reflected;
+        MonteCarloMethod::request_light(memory, reflected);
+    }
+    void receive_light(Memory& memory, MethodCounters& counters) const {
+        if (memory.first_light_waits) memory.brought += memory.first_light;
+        MonteCarloMethod::receive_light(memory, counters);
+    }
+    void depart(Memory& memory, const Vertex& vertex, const Scattering& scattering, MethodCounters& counters) const {
+        if (!memory.has_left) memory.weight = scattering.weight;
+        memory.has_left = true;
+        MonteCarloMethod::depart(memory, vertex, scattering, counters);
+    }
+    /// The steps are needed until the path has been judged.
+    void finish(Memory&, MethodCounters&) const {}
+
+    Vec3f replay(const Memory& memory) const {
+        Vec3f brought{0.0f};
+        for (std::int32_t i = memory.count - 1; i >= 0; --i)
+            brought = memory.steps[i].brought + memory.steps[i].weight * brought;
+        return memory.brought + memory.weight * brought;
+    }
+};
+static_assert(FollowingMethod<ReplayedMethod>);
+
+/// Paths of a scene whose records give another radiance than the path; those cut for learning are left out.
+template <FeatureSet F>
+void check_replay(const std::string& name, bool next_event) {
+    constexpr std::uint32_t kSide = 32;
+    constexpr std::uint32_t kSamples = 4;
+    const SceneDescription description = shipped_scene(name);
+    const HostScene scene = pack_scene(description);
+    const SceneView view = scene.view();
+    FieldSettings settings;
+    settings.volumes = 100;
+    settings.bins = 64;
+    const FieldShape shape = make_field_shape(scene, settings);
+    HostVolumes volumes = place_volumes(scene, settings);
+    HostTables tables = make_tables(shape, volumes.sites.size());
+    ReplayedMethod method;
+    method.field = field_view(shape, volumes, tables);
+    method.learning = {LearningTarget::MonteCarlo, LearnedLight::Indirect};
+    const PinholeCamera camera = make_camera(description.camera, kSide, kSide);
+    const PathSettings path{.seed = 1, .next_event = next_event ? 1u : 0u};
+
+    double brightest = 0.0;
+    int lit = 0;
+    for (std::uint32_t i = 0; i < kSide * kSide * kSamples; ++i) {
+        auto state = begin_path<ReplayedMethod>(camera, path, kSide, kSide, i / kSamples, i % kSamples);
+        PathCounters counters;
+        trace_path<F>(view, BvhIntersector{view}, method, path, state, counters);
+        if (counters.method.cut_returns > 0) continue;
+        const Vec3f replayed = method.replay(state.memory);
+        lit += is_black(state.radiance) ? 0 : 1;
+        brightest = std::max(brightest, static_cast<double>(max_component(state.radiance)));
+        INFO(name << ", path " << i << ": " << state.radiance.x << " and " << replayed.x);
+        // The same products and sums in another order: 16 vertices, some roundings each.
+        REQUIRE(glm::length(replayed - state.radiance) <= 1e-5f * glm::length(state.radiance));
+    }
+    CHECK(lit > (next_event ? 1000 : 10));
+    CHECK(brightest > 0.0);
+}
+
+}  // namespace
+
+TEST_CASE("Records of whole paths give back what the paths brought") {
+    for (const char* name : {"cornell", "open-box", "two-lights", "sky"}) {
+        check_replay<kCompiledSets[kCompiledSetCount - 1]>(name, false);
+        check_replay<kCompiledSets[kCompiledSetCount - 1]>(name, true);
+    }
+}
