@@ -47,6 +47,27 @@ FilmReading FilmStore::read(FilmSlot slot, int threads) const {
     return reading;
 }
 
+FilmReading FilmStore::read_halves(FilmSlot slot, int threads) const {
+    FilmReading reading = read(slot, threads);
+    const auto& film = films_.existing(slot);
+    auto& [first, second] = reading.halves.mean;
+    first.resize(film.pixels.size());
+    second.resize(film.pixels.size());
+    std::atomic<std::uint64_t> second_samples{0};
+    ChunkQueue queue(0, static_cast<std::uint32_t>(film.pixels.size()), kPixelChunk);
+    parallel_for(threads, queue, [&](IndexRange range) {
+        std::uint64_t chunk_samples = 0;
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            first[i] = half_mean(film.pixels[i], false);
+            second[i] = half_mean(film.pixels[i], true);
+            chunk_samples += film.pixels[i].second_samples;
+        }
+        second_samples += chunk_samples;
+    });
+    reading.halves.samples = {reading.samples - second_samples, second_samples};
+    return reading;
+}
+
 DisplayFrame FilmStore::show(FilmSlot slot, const FrameStyle& style, int threads) {
     const auto& film = films_.existing(slot);
     if (table_.curve() != style.curve) table_ = ToneTable(style.curve);
