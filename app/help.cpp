@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/build_info.h"
 #include "app/events.h"
 #include "app/options.h"
 
@@ -142,7 +143,11 @@ std::string command_help(Command command) {
                        scene, options_help(command), kExitCodes);
 }
 
-std::string version_text() { return "pathlight " PL_VERSION "\n"; }
+std::string version_text(bool verbose) {
+    std::string text = "pathlight " PL_VERSION "\n";
+    if (verbose) text += fmt::format("commit {}\n", commit_id());
+    return text;
+}
 
 std::string method_list(bool json) {
     std::string text;

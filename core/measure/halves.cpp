@@ -10,30 +10,6 @@
 namespace pl {
 namespace {
 
-void require_same_sizes(std::initializer_list<Pixels> pictures) {
-    for (const Pixels& picture : pictures)
-        if (picture.size() != pictures.begin()->size())
-            throw Error(ErrorKind::Input, "expected halves of the same size, got " +
-                                              std::to_string(pictures.begin()->size()) + " and " +
-                                              std::to_string(picture.size()) + " pixels");
-}
-
-double channel_mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3.0; }
-
-/// A picture out of its halves, and the factor that turns their squared difference into its variance.
-struct Shares {
-    double first;
-    double second;
-
-    explicit Shares(const PictureHalves& halves)
-        : first(halves.first_weight / (halves.first_weight + halves.second_weight)), second(1.0 - first) {}
-    Vec3d mean(const Vec3d& a, const Vec3d& b) const { return first * a + second * b; }
-    Vec3d variance(const Vec3d& a, const Vec3d& b) const { return first * second * (a - b) * (a - b); }
-};
-
-/// What makes a square relative, by channel.
-Vec3d relative_weight(const Vec3d& scale) { return Vec3d(1.0) / (scale * scale + Vec3d(kEpsilon)); }
-
 /// Means over square blocks of pixels, of which the error of their mean follows. Threads may add to different blocks.
 class BlockMeans {
 public:
@@ -146,7 +122,7 @@ private:
 
     const PictureHalves& picture_;
     const ReferenceHalves& reference_;
-    Shares shares_;
+    HalfShares shares_;
     std::size_t width_;
     std::size_t columns_;
     std::size_t rows_;
@@ -154,9 +130,21 @@ private:
     BlockMeans difference_;
 };
 
-constexpr std::uint32_t kPixelChunk = 1u << 14;
-
 }  // namespace
+
+void require_same_sizes(std::initializer_list<Pixels> pictures) {
+    for (const Pixels& picture : pictures)
+        if (picture.size() != pictures.begin()->size())
+            throw Error(ErrorKind::Input, "expected halves of the same size, got " +
+                                              std::to_string(pictures.begin()->size()) + " and " +
+                                              std::to_string(picture.size()) + " pixels");
+}
+
+void require_full_rows(std::size_t pixels, int width) {
+    if (width < 1 || pixels % static_cast<std::size_t>(width) != 0)
+        throw Error(ErrorKind::Input, "expected full rows of pixels, got " + std::to_string(pixels) +
+                                          " pixels in rows of " + std::to_string(width));
+}
 
 bool Estimate::is_seen() const { return std::fabs(value) > 2.0 * error; }
 
@@ -167,43 +155,9 @@ PictureHalves halves_of(const FilmHalves& halves) {
             .second_weight = static_cast<double>(halves.samples[1])};
 }
 
-Noise estimate_noise(const PictureHalves& halves, int threads) {
-    require_same_sizes({halves.first, halves.second});
-    const Shares shares(halves);
-    const auto add = [&](Noise& sums, IndexRange range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            if (!is_finite(halves.first[i]) || !is_finite(halves.second[i])) {
-                ++sums.invalid;
-                continue;
-            }
-            const Vec3d a{halves.first[i]};
-            const Vec3d b{halves.second[i]};
-            const Vec3d square = shares.variance(a, b);
-            sums.mse += channel_mean(square);
-            sums.relmse += channel_mean(square * relative_weight(shares.mean(a, b)));
-            ++sums.pixels;
-        }
-    };
-    Noise noise;
-    for (const Noise& sums : sums_of_chunks(halves.first.size(), kPixelChunk, threads, Noise{}, add)) {
-        noise.mse += sums.mse;
-        noise.relmse += sums.relmse;
-        noise.pixels += sums.pixels;
-        noise.invalid += sums.invalid;
-    }
-    if (noise.pixels > 0) {
-        noise.mse /= static_cast<double>(noise.pixels);
-        noise.relmse /= static_cast<double>(noise.pixels);
-    }
-    return noise;
-}
-
 ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& reference, int width, int threads) {
     require_same_sizes({picture.first, picture.second, reference.first, reference.second});
-    const std::size_t pixels = picture.first.size();
-    if (width < 1 || pixels % static_cast<std::size_t>(width) != 0)
-        throw Error(ErrorKind::Input, "expected full rows of pixels, got " + std::to_string(pixels) +
-                                          " pixels in rows of " + std::to_string(width));
+    require_full_rows(picture.first.size(), width);
     return PartsTaker(picture, reference, static_cast<std::size_t>(width)).take(threads);
 }
 

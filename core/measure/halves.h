@@ -1,7 +1,7 @@
-// What two independent halves of a picture tell: its noise without any reference, and with a reference in two halves
-// which part of the error is noise and which part stays however long one renders. Numbers of threads change no result.
+// What two independent halves of a picture and of its reference tell: which part of the error is noise and which part stays however long one renders. Numbers of threads change no result.
 #pragma once
 
+#include <initializer_list>
 #include <vector>
 
 #include "core/measure/metrics.h"
@@ -21,17 +21,26 @@ struct PictureHalves {
 /// What a film was read as; both halves have to be there.
 PictureHalves halves_of(const FilmHalves& halves);
 
-/// Squared noise, plain and relative as in Metrics, of the weighted mean of both halves.
-struct Noise {
-    double mse = 0.0;
-    double relmse = 0.0;  ///< over the square of the picture itself, since there is no reference
-    std::size_t pixels = 0;
-    std::size_t invalid = 0;  ///< not finite in a half
+/// The part of the samples that each half holds.
+struct HalfShares {
+    double first;
+    double second;
+
+    explicit HalfShares(const PictureHalves& halves)
+        : first(halves.first_weight / (halves.first_weight + halves.second_weight)), second(1.0 - first) {}
+    /// Of a pixel of the picture, out of those of its halves.
+    Vec3d mean(const Vec3d& a, const Vec3d& b) const { return first * a + second * b; }
+    /// Has the variance of mean() as its mean: (a-b)^2 / 4 for equal halves.
+    Vec3d variance(const Vec3d& a, const Vec3d& b) const { return first * second * (a - b) * (a - b); }
 };
 
-/// With shares p and q of the samples, pq (a-b)^2 has the variance of pa + qb as its mean; (a-b)^2 / 4 for equal halves.
-/// Throws Error(Input) if sizes differ.
-Noise estimate_noise(const PictureHalves& halves, int threads = 1);
+/// What makes a square relative, by channel.
+inline Vec3d relative_weight(const Vec3d& scale) { return Vec3d(1.0) / (scale * scale + Vec3d(kEpsilon)); }
+inline double channel_mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3.0; }
+
+/// Throw Error(Input).
+void require_same_sizes(std::initializer_list<Pixels> pictures);
+void require_full_rows(std::size_t pixels, int width);
 
 /// A value and how far it may be off.
 struct Estimate {
@@ -45,7 +54,7 @@ struct Estimate {
 /// The squared error of a picture taken apart. All but `signed_bias` in units of Metrics::relmse.
 struct ErrorParts {
     double error = 0.0;     ///< (x-r1)(x-r2): variance and bias together
-    double variance = 0.0;  ///< pq (a-b)^2
+    double variance = 0.0;  ///< HalfShares::variance()
     Estimate squared_bias;  ///< (a-r1)(b-r2): no noise enters twice, so all that is left is bias; may be negative
     Estimate signed_bias;   ///< luminance of x-r over the mean luminance of r
     double reference_noise = 0.0;  ///< (r1-r2)^2 / 4, of the mean of the halves

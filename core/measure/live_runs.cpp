@@ -191,7 +191,7 @@ std::optional<LivePoint> LiveRuns::measure(const Session& session, const FilmOri
     LivePoint point{.spp = snapshot.passes,
                     .clocks = own_clocks(snapshot.clocks, origin),
                     .counters = snapshot.counters,
-                    .noise = estimate_noise(halves, threads).relmse};
+                    .noise = estimate_noise(halves, snapshot.width, threads).relmse};
     if (has_reference(picture)) {
         const ErrorParts parts = take_apart(halves, reference_halves(), snapshot.width, threads);
         point.metrics = measure_error(snapshot.pixels, reference_halves(), threads);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/measure/noise.h"
 #include "core/measure/run_recorder.h"
 
 namespace pl {
