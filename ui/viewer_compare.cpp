@@ -28,7 +28,7 @@ CompareSides ViewerModel::sides_in_turns() const {
 }
 
 ComparePlan ViewerModel::compare_plan(const Rect& view) const {
-    if (window_.compare.mode == CompareMode::Off) return {};
+    if (window_.compare.mode == CompareMode::Off || status_.picture == 0) return {};  // or the camera moves
     if (turns_) return plan_comparison(sides_in_turns(), window_.compare, reference(), view);
     CompareSides sides = resolve_sides(compare_input(), window_.compare);
     for (auto* side : {&sides.a, &sides.b})
@@ -63,7 +63,11 @@ void ViewerModel::set_cursor(const Cursor& cursor) {
 }
 
 void ViewerModel::set_turns(bool on) {
-    if (on == turns_.has_value() || (on && reference_job_)) return;
+    if (on == turns_.has_value()) return;
+    if (on && reference_job_) {
+        say(LogLevel::Info, "turns begin when the reference is made: Esc ends it");
+        return;
+    }
     if (!on) {
         turns_.reset();
         turn_frame_.reset();

@@ -146,8 +146,7 @@ public:
     void set_split(float share);
     /// Pictures are compared where the cursor stands, so that it turns comparing on.
     void set_cursor(const Cursor& cursor);
-    /// Makes a reference of the picture in the window, or goes on with the stored one. Where that takes the processor that
-    /// renders, rendering rests.
+    /// Makes a reference of the picture in the window, or goes on with the stored one. Rendering rests meanwhile.
     void make_reference();
     void stop_reference();
     /// The present method and what it is compared with render in turns of equal time.

@@ -75,9 +75,7 @@ void ViewerModel::take_reference() {
         say(LogLevel::Info, "the reference was ended before both halves had samples");
 }
 
-/// On the same processor a reference would slow down what is measured: rendering rests meanwhile, and its clocks too.
-void ViewerModel::hold_rendering() {
-    worker_.set_paused(paused_ || (reference_job_ != nullptr && status_.backend == "cpu"));
-}
+/// A reference would slow down what is measured: rendering rests meanwhile, and its clocks too.
+void ViewerModel::hold_rendering() { worker_.set_paused(paused_ || reference_job_ != nullptr); }
 
 }  // namespace pl

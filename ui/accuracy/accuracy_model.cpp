@@ -62,22 +62,30 @@ void AccuracyModel::recompute() {
     kind_ = wanted_;
     if (!is_measured(runs(), picture_, kind_.metric)) kind_.metric = ErrorMetric::Noise;
     if (kind_.metric != before && cursor_.kind == Cursor::Kind::EqualError) cursor_ = {};
+    make_lines();
+    headlines_ = make_headlines(runs(), picture_);
+    rows_ = cursor_rows(runs(), picture_, kind_, cursor_);
+    if (!view_kept_) view_ = PlotView(fit_range(lines_));
+}
+
+void AccuracyModel::make_lines() {
     lines_.clear();
+    auto others = static_cast<std::size_t>(
+        std::ranges::count_if(runs(), [&](const auto& run) { return run->label.picture != picture_; }));
     for (const auto& run : runs()) {
         const RunLabel& label = run->label;
+        const bool comparable = label.picture == picture_;
+        if (!comparable && others-- > kOtherLines) continue;
         lines_.push_back({.run = run->number,
                           .name = name_of(label),
                           .color = color_of(label.method),
                           .style = style_of(label.backend),
                           .warm = label.warm,
-                          .comparable = label.picture == picture_,
+                          .comparable = comparable,
                           .hidden = hidden_.count(run->number) > 0,
                           .in_progress = run->in_progress,
                           .points = plot_points(*run, kind_)});
     }
-    headlines_ = make_headlines(runs(), picture_);
-    rows_ = cursor_rows(runs(), picture_, kind_, cursor_);
-    if (!view_kept_) view_ = PlotView(fit_range(lines_));
 }
 
 }  // namespace pl

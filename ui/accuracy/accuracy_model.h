@@ -33,7 +33,9 @@ public:
     void set_cursor(const Cursor& cursor);
     void toggle_hidden(std::uint64_t run);
 
+    /// All of this picture, and the newest of others.
     const std::vector<PlotLine>& lines() const { return lines_; }
+    static constexpr std::size_t kOtherLines = 6;
     const std::vector<Headline>& headlines() const { return headlines_; }
     const std::vector<CursorRow>& rows() const { return rows_; }
     /// Below this the errors on the plot say little about a single picture; 0 where that is not known.
@@ -47,6 +49,7 @@ public:
 
 private:
     void recompute();
+    void make_lines();
 
     std::shared_ptr<const LiveRunSet> runs_;
     std::uint64_t picture_ = 0;

@@ -140,7 +140,7 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     add_state_badges(row, model);
     if (model.window().cells)
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.window().cells_opacity), colors::kText);
-    if (model.busy()) row.add("working", colors::kFaint);
+    if (model.busy() && !model.reference_progress()) row.add("working", colors::kFaint);
     if (status.state == WorkerState::Precomputing && status.field)
         draw_precompute_progress(model, layout, status.field->precomputed_share);
 }

@@ -168,9 +168,9 @@ void draw_reference(ViewerModel& model) {
         faint_text(fmt::format("{}, noise {:.2g}", reference->label, reference->noise_relmse).c_str());
     if (wide_button(
             model.reference() != nullptr ? "Go on with the reference" : "Make the reference",
-            "Key Ctrl+R. In two halves, with default path tracing and next-event estimation, at low priority. On "
-            "the CPU rendering rests meanwhile, so that nothing that is measured gets slower. It is stored as "
-            "'pathlight reference' does in the folder references, and found again by what the picture shows."))
+            "Key Ctrl+R. In two halves, on the CPU, with default path tracing and next-event estimation, at low "
+            "priority. Rendering rests meanwhile, so that nothing that is measured gets slower. It is stored as "
+            "'pathlight reference' does, in the folder references, and found again by what the picture shows."))
         model.make_reference();
 }
 
