@@ -18,6 +18,9 @@ public:
     float largest_value(FilmSlot slot, int threads);
 
 private:
+    template <bool kHalves>
+    FilmReading read(FilmSlot slot, int threads) const;
+
     mutable FilmSlots<HostArray<FilmPixel>> films_{"CPU"};
     ToneTable table_{ToneCurve::Clamp};  ///< of the last frame
 };

@@ -89,7 +89,7 @@ std::string definitions() {
            "over channels and pixels, with the reference in two independent halves, "
            "(x-r<sub>1</sub>)(x-r<sub>2</sub>), so "
            "that its noise drops out; trimmed: without the worst 0.1 % of the pixels. Time is placing volumes, "
-           "precomputing, learning and rendering; loading, building and measuring are not in it. Every run starts "
+           "precomputing, learning and rendering; loading, building, uploading and measuring are not in it. Every run starts "
            "with "
            "nothing learned. Intervals are 95 %, Student's on logarithms over runs, ratios by Welch. The slope of "
            "error "

@@ -1,4 +1,5 @@
-// What two independent halves of a picture and of its reference tell: which part of the error is noise and which part stays however long one renders. Numbers of threads change no result.
+// What two independent halves of a picture and of its reference tell: which part of the error is noise, and which part stays
+// however long one renders. The number of threads changes no result.
 #pragma once
 
 #include <initializer_list>

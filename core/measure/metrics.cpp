@@ -76,9 +76,14 @@ public:
         for (int c = 0; c < 3; ++c) {
             const double distance = std::fabs(x[c] - r[c]);
             plain += square[c];
-            relative += square[c] / (r[c] * r[c] + kEpsilon);
-            absolute_ += distance / (std::fabs(r[c]) + kEpsilon);
-            symmetric_ += 2.0 * distance / (std::fabs(x[c]) + std::fabs(r[c]) + kEpsilon);
+            // One division for three: of floats, the product of all is far from the ends of a double.
+            const double of_square = r[c] * r[c] + kEpsilon;
+            const double of_value = std::fabs(r[c]) + kEpsilon;
+            const double of_both = std::fabs(x[c]) + of_value;
+            const double inverse = 1.0 / (of_square * of_value * of_both);
+            relative += square[c] * (inverse * (of_value * of_both));
+            absolute_ += distance * (inverse * (of_square * of_both));
+            symmetric_ += 2.0 * distance * (inverse * (of_square * of_value));
         }
         squares_.add(plain / 3.0);
         relative_squares_.add(relative / 3.0);

@@ -169,6 +169,38 @@ TEST_CASE("another camera or size is another picture, and what hardly began is f
     CHECK(recording.last().points.front().picture->height == kSide / 2);
 }
 
+TEST_CASE(
+    "another back end is another run, warm with what moves along, and the way back goes on with the first one") {
+    const SceneDescription scene = furnace_scene(kEmission, kAlbedo);
+    const std::shared_ptr<RenderBackend> first = make_cpu_backend({.threads = 1});
+    const std::shared_ptr<RenderBackend> second = make_cpu_backend({.threads = 1});
+    Session session(first, std::make_shared<const SceneDescription>(scene),
+                    quick_learner(scene, {MethodId::Reinforcement, false}, kSide, 1));
+    CHECK(session.clocks().upload > 0.0);
+    LiveRuns runs(kPlenty, {}, kAlways);
+    const auto render_on = [&](const std::shared_ptr<RenderBackend>& backend) {
+        session.apply(EditBackend{.backend = backend});
+        const std::uint32_t target = session.passes() + 30;
+        while (session.passes() < target) {
+            session.advance();
+            runs.observe(session);
+        }
+        return runs.current();
+    };
+    const auto one = render_on(first);
+    REQUIRE(one->runs.size() == 1);
+    const auto two = render_on(second);
+    REQUIRE(two->runs.size() == 2);
+    CHECK_FALSE(two->runs[0]->label.warm);
+    CHECK(two->runs[1]->label.warm);
+    CHECK_FALSE(two->runs[0]->in_progress);
+    CHECK(two->runs[1]->in_progress);
+    const auto back = render_on(first);
+    CHECK(back->runs.size() == 2);
+    CHECK(back->runs[0]->in_progress);
+    CHECK(back->runs[0]->points.back().spp > one->runs[0]->points.back().spp);
+}
+
 TEST_CASE("other views are not measured, and interrupt no run") {
     Recording recording;
     recording.render(8);
