@@ -31,6 +31,16 @@ struct WorkerSetup {
     DisplaySettings display{};
 };
 
+/// What the render thread knows of two methods in turns.
+struct TurnsState {
+    static constexpr double kTurnSeconds = 0.25;
+
+    TurnsStatus status;
+    Turns order{kTurnSeconds};
+    std::size_t side = 0;              ///< whose turn it is
+    std::optional<FieldStatus> field;  ///< of the first method
+};
+
 class RenderWorker {
 public:
     /// Memory for pictures of runs.
@@ -170,14 +180,6 @@ private:
     std::shared_ptr<const SceneDescription> scene_;
     float diagonal_ = 0.0f;
     MotionResolution motion_;
-    /// What the worker knows of two methods in turns.
-    struct TurnsState {
-        TurnsStatus status;
-        Turns order{kTurnSeconds};
-        std::size_t side = 0;
-        std::optional<FieldStatus> field;  ///< of the first method
-    };
-    static constexpr double kTurnSeconds = 0.25;
     std::optional<TurnsState> turns_;
     LiveRuns runs_ = make_runs();
     std::shared_ptr<const LiveReference> reference_;
