@@ -198,8 +198,10 @@ void draw_accuracy_panel(ViewerModel& model, const Layout& layout) {
     draw_headlines(accuracy);
     ImGui::BeginChild("scrolled", {0.0f, 0.0f}, false, window.over_plot ? ImGuiWindowFlags_NoScrollWithMouse : 0);
     draw_metric_choice(accuracy);
-    const float room = ImGui::GetContentRegionAvail().y;
-    const float height = std::clamp(room - em(6.0f), em(kSmallestPlotEm), em(kPlotEm));
+    // What a cursor tells should be seen without scrolling.
+    const float rows = accuracy.rows().empty() ? 0.0f : static_cast<float>(accuracy.rows().size()) + 1.0f;
+    const float room = ImGui::GetContentRegionAvail().y - em(6.0f) - rows * ImGui::GetTextLineHeightWithSpacing();
+    const float height = std::clamp(room, em(kSmallestPlotEm), em(kPlotEm));
     if (draw_accuracy_plot(accuracy, window.plot_drag, window.plot, height)) model.set_cursor(accuracy.cursor());
     window.over_plot = ImGui::IsItemHovered();
     draw_legend(accuracy);
