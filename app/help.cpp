@@ -40,8 +40,8 @@ constexpr std::array kCommands{
         Command::Bench, "bench", "SCENE... -o DIR",
         "Measures accuracy against time: methods x back ends x scenes x seeds.\n"
         "Each run starts with nothing learned. Time is placing, precomputing, learning and rendering; loading,\n"
-        "building, uploading and measuring are not in it. An interrupted bench goes on with the same command. 'report'\n"
-        "makes a page of the folder.",
+        "building, uploading and measuring are not in it. An interrupted bench goes on with the same command.\n"
+        "'report' makes a page of the folder.",
         Inputs::Scenes},
     CommandInfo{Command::Report, "report", "DIR",
                 "Makes one HTML page of a bench folder, and its plots as SVG and PNG.\n"
