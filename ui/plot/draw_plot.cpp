@@ -12,6 +12,7 @@ constexpr ImU32 kGround = IM_COL32(16, 18, 22, 255);
 constexpr ImU32 kMinorGrid = IM_COL32(32, 36, 43, 255);
 constexpr ImU32 kGrid = IM_COL32(52, 58, 69, 255);
 constexpr ImU32 kFloor = IM_COL32(110, 114, 122, 70);
+constexpr float kRightEm = 0.6f;              ///< beside the curves, for the half of a number
 constexpr std::uint32_t kGray = 0xff5d636eu;  ///< of runs that cannot be compared
 
 ImVec2 to_imgui(Vec2f v) { return {v.x, v.y}; }
@@ -25,9 +26,10 @@ void draw_x_axis(ImDrawList& list, const PlotView& view, const Rect& frame) {
         const float x = pixel(view.to_window({tick.value, view.y_axis().low()}, frame).x);
         list.AddLine({x, frame.y}, {x, frame.y + frame.height}, tick.label.empty() ? kMinorGrid : kGrid);
         const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
-        if (tick.label.empty() || x - 0.5f * width < free_from) continue;
-        list.AddText({x - 0.5f * width, frame.y + frame.height + em(0.15f)}, colors::kFaint, tick.label.c_str());
-        free_from = x + 0.5f * width + em(0.3f);
+        const float left = std::min(x - 0.5f * width, frame.x + frame.width + em(kRightEm) - width);
+        if (tick.label.empty() || left < free_from) continue;
+        list.AddText({left, frame.y + frame.height + em(0.15f)}, colors::kFaint, tick.label.c_str());
+        free_from = left + width + em(0.3f);
     }
 }
 
@@ -78,7 +80,7 @@ void draw_marker(ImDrawList& list, Vec2f at, ImU32 color, bool warm) {
 }  // namespace
 
 Rect plot_frame(const Rect& place) {
-    const float left = em(3.4f), right = em(0.6f), top = em(1.4f), bottom = em(2.5f);
+    const float left = em(3.4f), right = em(kRightEm), top = em(1.4f), bottom = em(2.5f);
     return {place.x + left, place.y + top, std::max(place.width - left - right, 1.0f),
             std::max(place.height - top - bottom, 1.0f)};
 }
