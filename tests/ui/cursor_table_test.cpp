@@ -140,6 +140,17 @@ TEST_CASE("Accuracy model: shows noise until an error is measured, then the erro
     CHECK(model.floor() == 0.0);  // known as relMSE only
 }
 
+TEST_CASE("Accuracy model: before the first run there is an empty plot and a sentence") {
+    AccuracyModel model;
+    CHECK(model.headlines().size() == 1);
+    CHECK(model.lines().empty());
+    CHECK(model.rows().empty());
+    model.set_cursor({Kind::EqualCost, 1.0});
+    model.toggle_hidden(7);
+    model.fit_view();
+    CHECK(model.view().x_axis().low() > 0.0);
+}
+
 TEST_CASE("Accuracy model: cursors must be positive, and end with the axis they are on") {
     AccuracyModel model;
     model.update(set_of(two_runs()), kThisPicture, 0.0);

@@ -14,6 +14,8 @@ namespace pl {
 
 class AccuracyModel {
 public:
+    AccuracyModel() { recompute(); }
+
     /// Takes the newest runs. `picture` is what the window shows (RunLabel::picture), `floor` the noise of its reference
     /// as relMSE, 0 without one.
     void update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor);
