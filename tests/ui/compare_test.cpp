@@ -98,6 +98,38 @@ TEST_CASE("Sides: cursors choose the pictures, and what is missing is said") {
     CHECK_THAT(plan.hint, contains("no picture at relMSE"));
 }
 
+TEST_CASE("Sides: a newer frame of the run in progress is shown, with the seconds that the run is charged") {
+    const Runs runs = two_runs();
+    CompareSide side = *resolve_sides(input_of(runs), {}).a;
+    auto frame = std::make_shared<PublishedFrame>();
+    frame->backend.name = "cpu";
+    frame->snapshot.slot.method = MethodId::Reinforcement;
+    frame->snapshot.width = 4;
+    frame->snapshot.height = 2;
+    frame->snapshot.passes = 130;
+    frame->snapshot.clocks.place = 100.0;  // spent before a warm run began
+    frame->snapshot.clocks.render = 26.0;
+    show_newer(side, frame);
+    CHECK(side.frame == frame);
+    CHECK(side.label == "Reinforcement CPU  130 spp  26 s");
+    // Coarse ones, and those of others, are not.
+    const auto refused = [&](auto change) {
+        CompareSide other = *resolve_sides(input_of(runs), {}).a;
+        auto changed = std::make_shared<PublishedFrame>(*frame);
+        change(*changed);
+        show_newer(other, changed);
+        return other.frame == nullptr;
+    };
+    CHECK(refused([](PublishedFrame& f) { f.divider = 2; }));
+    CHECK(refused([](PublishedFrame& f) { f.backend.name = "cuda"; }));
+    CHECK(refused([](PublishedFrame& f) { f.snapshot.slot.method = MethodId::Default; }));
+    CHECK(refused([](PublishedFrame& f) { f.snapshot.slot.view = View::Normal; }));
+    CHECK(refused([](PublishedFrame& f) { f.snapshot.width = 8; }));
+    CompareSide finished = *resolve_sides(input_of(runs), {}).b;
+    show_newer(finished, frame);
+    CHECK(finished.frame == nullptr);
+}
+
 TEST_CASE("Plan: off draws nothing, nothing to compare says so") {
     CHECK(plan_comparison({}, state_of(CompareMode::Off), nullptr, kView).tiles.empty());
     for (const CompareMode mode : {CompareMode::Split, CompareMode::Flip, CompareMode::SideBySide,

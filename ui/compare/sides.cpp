@@ -45,6 +45,7 @@ CompareSide side_of(const CompareInput& input, const LiveRun& run) {
                      .color = color_of(run.label.method),
                      .method = run.label.method,
                      .backend = run.label.backend,
+                     .setup_seconds = {},
                      .frame = {}};
     const auto index = point_at(run, input.kind, input.cursor);
     if (!index) {
@@ -55,6 +56,7 @@ CompareSide side_of(const CompareInput& input, const LiveRun& run) {
     }
     const LivePoint& point = run.points[*index];
     side.picture = point.picture;
+    side.setup_seconds = point.clocks.place + point.clocks.precompute;
     side.label = fmt::format("{}  {} spp  {:.3g} s", name_of(run.label), point.spp, charged_seconds(point.clocks));
     side.is_live = run.in_progress && input.cursor.kind == Cursor::Kind::None;
     const double off = cost_of(point, input.kind.axis) / input.cursor.at;
@@ -66,8 +68,12 @@ CompareSide side_of(const CompareInput& input, const LiveRun& run) {
 std::optional<CompareSide> reference_side(const CompareInput& input) {
     const ReferencePicture* reference = input.reference;
     if (reference == nullptr || reference->picture != input.picture || !reference->pixels) return std::nullopt;
-    return CompareSide{
-        .is_reference = true, .picture = reference->pixels, .label = reference->label, .backend = {}, .frame = {}};
+    return CompareSide{.is_reference = true,
+                       .picture = reference->pixels,
+                       .label = reference->label,
+                       .backend = {},
+                       .setup_seconds = {},
+                       .frame = {}};
 }
 
 std::optional<CompareSide> chosen_side(const CompareInput& input, const SideChoice& choice) {
@@ -92,8 +98,10 @@ void show_newer(CompareSide& side, const FramePtr& frame) {
         side.picture && (side.picture->width != snapshot.width || side.picture->height != snapshot.height);
     if (other_size) return;
     side.frame = frame;
+    const Clocks& clocks = snapshot.clocks;
+    const double setup = side.setup_seconds.value_or(clocks.place + clocks.precompute);
     side.label = side.label.substr(0, side.label.find("  ")) +
-                 fmt::format("  {} spp  {:.3g} s", snapshot.passes, charged_seconds(snapshot.clocks));
+                 fmt::format("  {} spp  {:.3g} s", snapshot.passes, setup + clocks.learn + clocks.render);
 }
 
 CompareSide side_in_turns(const CompareInput& input, MethodId method, const FramePtr& frame) {
@@ -103,6 +111,7 @@ CompareSide side_in_turns(const CompareInput& input, MethodId method, const Fram
                      .is_live = true,
                      .method = method,
                      .backend = frame ? frame->backend.name : "",
+                     .setup_seconds = {},
                      .frame = {}};
     const std::string backend = side.backend;
     for (const RunPtr& run : input.runs)

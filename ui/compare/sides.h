@@ -28,6 +28,8 @@ struct CompareSide {
     bool is_live = false;  ///< the newest picture of a run that goes on: a newer frame of it may be shown instead
     MethodId method = MethodId::Default;
     std::string backend;
+    /// Placing and precomputing as far as the run was charged for it: nothing if it was warm.
+    std::optional<double> setup_seconds;
     std::shared_ptr<const PublishedFrame> frame;  ///< that newer frame; null: `picture` is shown
 };
 
