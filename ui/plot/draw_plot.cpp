@@ -96,7 +96,9 @@ void draw_axes(ImDrawList& list, const PlotView& view, const Rect& frame, const 
     if (style.floor > 0.0) {
         const float y = view.to_window({view.x_axis().low(), style.floor}, frame).y;
         list.AddRectFilled({frame.x, y}, high, kFloor);
-        list.AddText({frame.x + em(5.0f), y}, colors::kFaint, "noise of the reference");
+        constexpr const char* kText = "noise of the reference";
+        const float left = frame.x + em(5.0f);
+        if (left + ImGui::CalcTextSize(kText).x <= high.x) list.AddText({left, y}, colors::kFaint, kText);
     }
     draw_triangle(list, view, frame, style.slope);
     list.PopClipRect();
