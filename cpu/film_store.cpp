@@ -34,7 +34,8 @@ FilmReading FilmStore::read(FilmSlot slot, int threads) const {
     const auto& film = films_.existing(slot);
     FilmReading reading{.width = film.width, .height = film.height, .mean = {}, .samples = 0, .invalid = 0};
     reading.mean.resize(film.pixels.size());
-    auto& [first, second] = reading.halves.mean;
+    std::vector<Vec3f>& first = reading.halves.mean[0];
+    std::vector<Vec3f>& second = reading.halves.mean[1];
     if constexpr (kHalves) {
         first.resize(film.pixels.size());
         second.resize(film.pixels.size());

@@ -27,7 +27,10 @@ struct Grid {
     int width;
     int height;
 
-    std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+    std::size_t size() const { return index(0, height); }
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    }
 };
 
 /// Weights of the pixels from -radius to radius.
@@ -61,11 +64,10 @@ Plane filtered(const Plane& plane, const Grid& grid, const Kernel& kernel, bool 
             double sum = 0.0;
             for (int k = -kernel.radius; k <= kernel.radius; ++k) {
                 const int at = std::clamp((along_rows ? x : y) + k, 0, length - 1);
-                const std::size_t from = along_rows ? static_cast<std::size_t>(y) * grid.width + at
-                                                    : static_cast<std::size_t>(at) * grid.width + x;
+                const std::size_t from = along_rows ? grid.index(at, y) : grid.index(x, at);
                 sum += kernel.weights[static_cast<std::size_t>(k + kernel.radius)] * plane[from];
             }
-            result[static_cast<std::size_t>(y) * grid.width + x] = sum;
+            result[grid.index(x, y)] = sum;
         }
     return result;
 }
