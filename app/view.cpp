@@ -147,11 +147,12 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
     };
     viewer.save_field = write_field;
     viewer.find_reference = [&](const std::string& scene, const RenderSettings& settings) {
-        return find_viewer_reference(*scenes.find(scene), settings);
+        return find_viewer_reference(kViewerReferences, *scenes.find(scene), settings);
     };
     viewer.make_reference = [&](const std::string& scene, const RenderSettings& settings,
                                 const ReferenceMonitor& monitor) {
-        return make_viewer_reference(scene, scenes.find(scene), settings, viewer_threads(options.threads), monitor);
+        return make_viewer_reference(kViewerReferences, scene, scenes.find(scene), settings,
+                                     viewer_threads(options.threads), monitor);
     };
     viewer.save_screen = [](const std::filesystem::path& path, const ScreenPixels& pixels) {
         write_png8(path, {.width = pixels.width, .height = pixels.height, .rgb = pixels.rgb});

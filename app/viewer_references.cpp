@@ -38,13 +38,15 @@ RenderSettings reference_settings(RenderSettings settings) {
 
 }  // namespace
 
-std::shared_ptr<const StoredReference> find_viewer_reference(const SceneDescription& scene,
+std::shared_ptr<const StoredReference> find_viewer_reference(const std::filesystem::path& folder,
+                                                             const SceneDescription& scene,
                                                              const RenderSettings& settings) {
-    const auto found = ReferenceStore(kViewerReferences).find(content_of(scene, settings));
+    const auto found = ReferenceStore(folder).find(content_of(scene, settings));
     return found ? to_viewer(*found, scene, settings) : nullptr;
 }
 
-std::shared_ptr<const StoredReference> make_viewer_reference(const std::string& scene_name,
+std::shared_ptr<const StoredReference> make_viewer_reference(const std::filesystem::path& folder,
+                                                             const std::string& scene_name,
                                                              const std::shared_ptr<const SceneDescription>& scene,
                                                              const RenderSettings& settings, int threads,
                                                              const ReferenceMonitor& monitor) {
@@ -57,7 +59,7 @@ std::shared_ptr<const StoredReference> make_viewer_reference(const std::string& 
                         .in_both_halves = true,
                         .stopped = monitor.stopped,
                         .show = [&](const ProgressState& state) { monitor.progress(state.share, state.detail); }},
-                       ReferenceStore(kViewerReferences));
+                       ReferenceStore(folder));
     return to_viewer(outcome.reference, *scene, settings);
 }
 

@@ -1,6 +1,7 @@
-// References for the viewer: found in the folder of the program's working directory, and made there.
+// References for the viewer: found in a folder, and made there.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include "ui/viewer.h"
@@ -12,11 +13,13 @@ inline constexpr const char* kViewerReferences = "references";
 
 /// The stored reference of just this picture, null if there is none with samples in both halves. Throws Error(Input) for
 /// files that are damaged or show something else than their name says.
-std::shared_ptr<const StoredReference> find_viewer_reference(const SceneDescription& scene,
+std::shared_ptr<const StoredReference> find_viewer_reference(const std::filesystem::path& folder,
+                                                             const SceneDescription& scene,
                                                              const RenderSettings& settings);
 
 /// Goes on with it on a CPU back end of its own, by default path tracing with next-event estimation.
-std::shared_ptr<const StoredReference> make_viewer_reference(const std::string& scene_name,
+std::shared_ptr<const StoredReference> make_viewer_reference(const std::filesystem::path& folder,
+                                                             const std::string& scene_name,
                                                              const std::shared_ptr<const SceneDescription>& scene,
                                                              const RenderSettings& settings, int threads,
                                                              const ReferenceMonitor& monitor);
