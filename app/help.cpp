@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/build_info.h"
 #include "app/events.h"
 #include "app/options.h"
 
@@ -39,8 +40,8 @@ constexpr std::array kCommands{
         Command::Bench, "bench", "SCENE... -o DIR",
         "Measures accuracy against time: methods x back ends x scenes x seeds.\n"
         "Each run starts with nothing learned. Time is placing, precomputing, learning and rendering; loading,\n"
-        "building and measuring are not in it. An interrupted bench goes on with the same command. 'report'\n"
-        "makes a page of the folder.",
+        "building, uploading and measuring are not in it. An interrupted bench goes on with the same command.\n"
+        "'report' makes a page of the folder.",
         Inputs::Scenes},
     CommandInfo{Command::Report, "report", "DIR",
                 "Makes one HTML page of a bench folder, and its plots as SVG and PNG.\n"
@@ -142,7 +143,11 @@ std::string command_help(Command command) {
                        scene, options_help(command), kExitCodes);
 }
 
-std::string version_text() { return "pathlight " PL_VERSION "\n"; }
+std::string version_text(bool verbose) {
+    std::string text = "pathlight " PL_VERSION "\n";
+    if (verbose) text += fmt::format("commit {}\n", commit_id());
+    return text;
+}
 
 std::string method_list(bool json) {
     std::string text;

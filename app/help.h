@@ -26,7 +26,8 @@ const CommandInfo& info_of(Command command);
 /// Help of the whole program and of one subcommand. All texts end with a line feed.
 std::string program_help();
 std::string command_help(Command command);
-std::string version_text();
+/// `verbose`: with the commit it was built from.
+std::string version_text(bool verbose);
 /// Registries as a table, or as one JSON object per line.
 std::string method_list(bool json);
 std::string view_list(bool json);

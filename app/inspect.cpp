@@ -102,12 +102,13 @@ int run_inspect(const CommandLine& line, Console& console) {
                      .method = std::string(info_of(options.render.method).name),
                      .spp = session.passes(),
                      .seed = options.render.seed,
-                     .partial = outcome.interrupted});
+                     .partial = outcome.interrupted()});
     if (!options.stats_file.empty())
-        write_text_file_atomic(options.stats_file, stats_json(session, session.snapshot(), options).dump(2) + "\n");
+        write_text_file_atomic(options.stats_file,
+                               stats_json(session, session.snapshot(), options, outcome).dump(2) + "\n");
     fields.save(session, options, console);
-    report(volume, options, outcome.interrupted, console);
-    return outcome.interrupted ? kExitInterrupted : 0;
+    report(volume, options, outcome.interrupted(), console);
+    return outcome.interrupted() ? kExitInterrupted : 0;
 }
 
 }  // namespace pl

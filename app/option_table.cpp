@@ -118,6 +118,12 @@ const auto kTable = std::to_array<OptionSpec>({
      .help = "Of the gate (default 10)",
      .commands = CommandSet(Bench),
      .parse = [](Options& o, Text text) { o.tolerance_percent = parse_real(text, 0.0, 1.0e6); }},
+    {.name = "measure-share", .flags = "--measure-share", .value = "PERCENT", .group = kOutcome,
+     .help = "Of the charged time, what measuring may take besides (default 1); points are left out for it, but for the "
+             "first and the last one of a run",
+     .commands = CommandSet(Bench),
+     .parse = [](Options& o, Text text) { o.measure_percent = parse_real(text, 0.0, 1.0e9); },
+     .print = [](const Options& o) { return print_real(o.measure_percent); }},
 
     {.name = "view", .flags = "--view", .value = "NAME", .group = kPicture,
      .help = "What is shown: beauty, direct, radiance-map, voronoi, normal, albedo, depth; numbers of what is "
@@ -177,7 +183,7 @@ const auto kTable = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return std::string(tone_curve_name(o.display.curve)); }},
 
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
-     .help = "Samples per pixel (default 64 unless a time limit is given; the viewer goes on)",
+     .help = "Samples per pixel (default 64 unless another limit is given; the viewer goes on)",
      .commands = kSampling, .in_scene_files = true,
      .parse = parse_spp,
      .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
@@ -196,12 +202,30 @@ const auto kTable = std::to_array<OptionSpec>({
      .help = "Of work after loading, looked at after every sample per pixel; at least one is made",
      .commands = kPaths, .in_scene_files = true, .parse = parse_time_limit,
      .print = [](const Options& o) { return o.time_limit_seconds ? print_real(*o.time_limit_seconds) : ""; }},
+    {.name = "target-error", .flags = "--target-error", .value = "X", .group = kStop,
+     .help = "When relMSE is at most X: against the reference in the folder --reference, or without one the picture's own "
+             "noise, told by two halves of its samples and trusted from 16 samples per pixel on. Exit with 5 if another "
+             "limit came first",
+     .commands = CommandSet(Render), .in_scene_files = true, .parse = parse_target_error,
+     .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
+    {.name = "reference", .flags = "--reference", .value = "DIR", .group = kStop,
+     .help = "Folder of references for --target-error; one that is missing there is refused",
+     .commands = CommandSet(Render), .parse = parse_text<&Options::reference_folder>,
+     .print = [](const Options& o) { return o.reference_folder; }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kHidden, .help = "",
-     .commands = kSampling, .in_scene_files = true,
+     .commands = CommandSet(View, Inspect),
      .parse = [](Options&, Text) { fail_not_yet("stop by --spp or --time-limit"); }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kOutcome,
      .help = "Exit with 5 if relMSE is above this",
      .commands = CommandSet(Compare), .parse = parse_target_error},
+    {.name = "flip", .flags = "--flip", .value = "", .group = kOutcome,
+     .help = "Also FLIP, the difference that an eye sees flipping between both pictures on a display: 0 none, 1 the "
+             "largest; radiance above 1 is white there",
+     .commands = CommandSet(Compare), .parse = parse_flag<&Options::flip>},
+    {.name = "pixels-per-degree", .flags = "--pixels-per-degree", .value = "N", .group = kOutcome,
+     .help = "With --flip, how fine the display is to the eye (default 67: a 0.7 m wide 4K display from 0.7 m)",
+     .commands = CommandSet(Compare),
+     .parse = [](Options& o, Text text) { o.pixels_per_degree = parse_real(text, 1.0, 1000.0); }},
 
     {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical}; goes "

@@ -51,9 +51,13 @@ struct Options {
     std::vector<std::string> backends;   ///< bench: empty: all that are available
     int seeds = 10;                      ///< bench: runs of each method, back end and scene
     std::uint32_t reference_spp = 4096;  ///< bench: samples per pixel in each half of references that it makes
-    std::string reference_folder;        ///< bench: empty: its own
+    std::string reference_folder;        ///< bench: empty: its own; render: empty: the target is one of noise
     std::string gate;                    ///< bench: results to hold the new ones against
     double tolerance_percent = 10.0;     ///< bench: how much slower than the gate's is not a failure
+    double measure_percent = 1.0;        ///< bench: of the charged time, what measuring may take
+
+    bool flip = false;               ///< compare: also what an eye would see
+    double pixels_per_degree = 0.0;  ///< compare: of the display that FLIP supposes; 0: not given
 
     std::string load_field;  ///< file to go on from
     std::string save_field;  ///< file for what was learned

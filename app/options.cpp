@@ -118,9 +118,15 @@ Found parse(Command command, std::vector<std::string> arguments) {
     return found;
 }
 
-std::optional<std::string> answer_to(Command command, const Found& found, bool json) {
+bool is_given(const Found& found, std::string_view name) {
+    return std::any_of(found.given.begin(), found.given.end(),
+                       [&](const GivenOption& given) { return given.spec->name == name; });
+}
+
+std::optional<std::string> answer_to(Command command, const Found& found) {
+    const bool json = is_given(found, "json");
     if (found.help) return command_help(command);
-    if (found.version) return version_text();
+    if (found.version) return version_text(is_given(found, "verbose"));
     if (found.list_methods) return method_list(json);
     if (found.list_views) return view_list(json);
     return std::nullopt;
@@ -152,10 +158,8 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     const bool bare = rest.empty() || is_option(rest.front());
     line.command = take_command(rest);
     Found found = parse(line.command, rest);
+    line.answer = bare && found.help ? program_help() : answer_to(line.command, found);
     line.given = std::move(found.given);
-    const bool json = std::any_of(line.given.begin(), line.given.end(),
-                                  [](const GivenOption& given) { return given.spec->name == "json"; });
-    line.answer = bare && found.help ? program_help() : answer_to(line.command, found, json);
     if (line.answer) return line;
     for (const GivenOption& given : line.given) apply_option(*given.spec, line.options, given.text);
     line.options.scene = found.scene.empty() && line.command == Command::View ? "cornell" : found.scene;

@@ -10,6 +10,7 @@
 #include "app/picture_file.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
+#include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/measure/picture_identity.h"
 #include "core/session/shown_range.h"
@@ -22,6 +23,16 @@ void require_outputs(const Options& options) {
     require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
+}
+
+/// Empty without --target-error. Throws Error(Input) if a reference is asked for that is not there.
+std::optional<ErrorTarget> make_target(const Session& session, const Options& options) {
+    if (!options.target_error) return std::nullopt;
+    std::shared_ptr<const Reference> reference;
+    if (!options.reference_folder.empty())
+        reference = std::make_shared<const Reference>(
+            ReferenceStore(options.reference_folder).require(content_of(session.scene(), session.settings())));
+    return ErrorTarget(*options.target_error, std::move(reference));
 }
 
 void announce(const Session& session, Console& console) {
@@ -54,12 +65,30 @@ ImageMetadata metadata_of(const Session& session, const Snapshot& snapshot, cons
     return metadata;
 }
 
-void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted, Console& console) {
+/// ", noise 0.0098 (target 0.01)"; empty without a target.
+std::string target_text(const ErrorTarget* target) {
+    if (target == nullptr) return "";
+    return fmt::format(", {} {} (target {:.3g})", target->word(),
+                       target->measured() ? fmt::format("{:.3g}", *target->measured()) : "unknown", target->target());
+}
+
+/// Throws Error(Threshold) if another limit came first and the picture is worse than it was to be.
+void require_target(ErrorTarget* target, const RunOutcome& outcome) {
+    if (target == nullptr || target->is_low_enough()) return;
+    throw Error(ErrorKind::Threshold,
+                fmt::format("--target-error: expected {} of at most {:.3g} as relMSE, got {} when --{} was reached",
+                            target->word(), target->target(),
+                            target->measured() ? fmt::format("{:.3g}", *target->measured()) : "none that is known",
+                            name_of(outcome.ended_by)));
+}
+
+void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted,
+            const ErrorTarget* target, Console& console) {
     const double seconds = snapshot.clocks.total();
     const std::string range = image_kind(options.output) == ImageKind::Png ? legend(snapshot) : "";
-    console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}{}{}\n", options.output, snapshot.width,
+    console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}{}{}{}\n", options.output, snapshot.width,
                                snapshot.height, info_of(snapshot.slot.method).name, info_of(snapshot.slot.view).name,
-                               snapshot.passes, seconds, range.empty() ? "" : ", range ", range,
+                               snapshot.passes, seconds, target_text(target), range.empty() ? "" : ", range ", range,
                                interrupted ? ", partial" : ""));
     console.event("done", {{"output", options.output},
                            {"run", 1},
@@ -89,16 +118,21 @@ int run_render(const CommandLine& line, Console& console) {
     fields.hand_over(session, options, console);
     announce(session, console);
 
-    const RunOutcome outcome = run_passes(session, options, interrupt, console);
+    std::optional<ErrorTarget> target = make_target(session, options);
+    ErrorTarget* const aim = target ? &*target : nullptr;
+    const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Rendered, aim);
+    if (aim != nullptr) aim->look_at_last(session);
     const Snapshot snapshot = session.snapshot();
-    const Json stats = stats_json(session, snapshot, options);
+    const Json stats = stats_json(session, snapshot, options, outcome, aim);
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
     save_picture(options.output, snapshot, options.display,
-                 metadata_of(session, snapshot, stats, command, outcome.interrupted));
+                 metadata_of(session, snapshot, stats, command, outcome.interrupted()));
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
-    report(snapshot, options, stats, outcome.interrupted, console);
-    return outcome.interrupted ? kExitInterrupted : 0;
+    report(snapshot, options, stats, outcome.interrupted(), aim, console);
+    if (outcome.interrupted()) return kExitInterrupted;
+    require_target(aim, outcome);
+    return 0;
 }
 
 }  // namespace pl

@@ -96,7 +96,7 @@ void require_learning(const Options& options) {
                                 view.name, info_of(View::Beauty).name, info_of(View::RadianceMap).name));
 }
 
-void check_combinations(Command command, Options& options) {
+void check_combinations(Command command, const Options& options) {
     const MethodInfo& method = info_of(options.render.method);
     const bool needs_field = command == Command::Render && info_of(options.render.view).needs_tables;
     if (needs_field && !method.uses_field)
@@ -120,6 +120,20 @@ void settle_inspection(const CommandLine& line, Options& options) {
         throw Error(ErrorKind::Usage, fmt::format("--method {}: learns nothing that could be inspected: expected {}",
                                                   info_of(options.render.method).name, field_method_choices()));
     options.render.method = MethodId::Reinforcement;
+}
+
+/// Only pictures of light that are rendered for themselves end at an error that a scene asks for.
+void settle_target(const CommandLine& line, Options& options) {
+    const bool renders = line.command == Command::Render;
+    const bool has_error = options.render.view == View::Beauty;
+    if (!is_given(line, "target-error")) {
+        if (!renders || !has_error) options.target_error.reset();
+    } else if (renders && !has_error) {
+        throw Error(ErrorKind::Usage, fmt::format("--target-error: expected --view {}, whose error is known, got {}",
+                                                  info_of(View::Beauty).name, info_of(options.render.view).name));
+    }
+    if (renders && !options.reference_folder.empty() && !options.target_error)
+        throw Error(ErrorKind::Usage, "--reference: expected --target-error X with it");
 }
 
 /// What a scene asks for to look well is no limit of a measurement.
@@ -162,6 +176,7 @@ Options resolve_options(const CommandLine& line, const SceneDescription& scene, 
         options.render.view = View::Beauty;
         forget_scene_limits(line, options);
     }
+    settle_target(line, options);
     check_combinations(line.command, options);
     return options;
 }

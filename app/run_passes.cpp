@@ -10,55 +10,90 @@
 namespace pl {
 namespace {
 
-/// The larger one of the shares of both limits.
-double share_done(const Session& session, const Options& options, double seconds) {
-    double share = static_cast<double>(session.passes()) / options.spp_limit();
-    if (options.time_limit_seconds) share = std::max(share, seconds / *options.time_limit_seconds);
-    return std::min(share, 1.0);
-}
+class Passes {
+public:
+    Passes(Session& session, const Options& options, const InterruptGuard& interrupt, Until until,
+           ErrorTarget* target)
+        : session_(session), options_(options), interrupt_(interrupt), until_(until), target_(target) {}
 
-std::string limit_text(const Session& session, const Options& options, double seconds) {
-    const std::string spp = options.spp || !options.time_limit_seconds
-                                ? fmt::format("{}/{} spp", session.passes(), options.spp_limit())
-                                : fmt::format("{} spp", session.passes());
-    return fmt::format("{}, {}", spp, duration_text(seconds));
-}
+    RunOutcome run(ProgressDisplay& progress) {
+        EndedBy end = limit_met(false);
+        while (end == EndedBy::Nothing) {
+            const Progress done = session_.advance(interrupt_.flag());
+            if (done == Progress::Stopped) return {EndedBy::Interruption, watch_.seconds()};
+            end = limit_met(done == Progress::Rendered);
+            if (end == EndedBy::Nothing && interrupt_.raised()) end = EndedBy::Interruption;
+            progress.show(state());
+        }
+        return {end, watch_.seconds()};
+    }
 
-ProgressState progress_of(const Session& session, const Options& options, double seconds) {
-    const double precomputed = session.field_status() ? session.field_status()->precomputed_share : 1.0;
-    if (precomputed < 1.0 && session.passes() == 0)
-        return {.activity = "precomputing",
-                .share = precomputed,
-                .spp = 0,
-                .detail = fmt::format("{}", duration_text(seconds))};
-    return {.activity = "rendering",
-            .share = share_done(session, options, seconds),
-            .spp = session.passes(),
-            .detail = limit_text(session, options, seconds)};
-}
+private:
+    EndedBy limit_met(bool has_new_sample) const {
+        if (until_ == Until::Learned && session_.settings().method == MethodId::Precomputed)
+            return session_.field_status() && session_.field_status()->precomputed_share >= 1.0 ? EndedBy::Learned
+                                                                                                : EndedBy::Nothing;
+        if (session_.passes() == 0) return EndedBy::Nothing;
+        if (has_new_sample && target_ != nullptr && target_->is_met(session_)) return EndedBy::TargetError;
+        if (session_.passes() >= options_.spp_limit()) return EndedBy::Spp;
+        const auto limit = options_.time_limit_seconds;
+        return limit && watch_.seconds() >= *limit ? EndedBy::TimeLimit : EndedBy::Nothing;
+    }
 
-bool is_done(const Session& session, const Options& options, double seconds, Until until) {
-    if (until == Until::Learned && session.settings().method == MethodId::Precomputed)
-        return session.field_status() && session.field_status()->precomputed_share >= 1.0;
-    if (session.passes() == 0) return false;
-    return session.passes() >= options.spp_limit() ||
-           (options.time_limit_seconds && seconds >= *options.time_limit_seconds);
-}
+    /// The largest one of the shares of all limits.
+    double share_done() const {
+        double share = static_cast<double>(session_.passes()) / options_.spp_limit();
+        if (options_.time_limit_seconds) share = std::max(share, watch_.seconds() / *options_.time_limit_seconds);
+        if (target_ != nullptr) share = std::max(share, target_->share_done());
+        return std::min(share, 1.0);
+    }
+
+    std::string limit_text() const {
+        const bool has_limit = options_.spp || !(options_.time_limit_seconds || options_.target_error);
+        std::string text = has_limit ? fmt::format("{}/{} spp", session_.passes(), options_.spp_limit())
+                                     : fmt::format("{} spp", session_.passes());
+        text += fmt::format(", {}", duration_text(watch_.seconds()));
+        if (target_ != nullptr && target_->measured())
+            text += fmt::format(", {} {:.2g} of {:.2g}", target_->word(), *target_->measured(), target_->target());
+        return text;
+    }
+
+    ProgressState state() const {
+        const double precomputed = session_.field_status() ? session_.field_status()->precomputed_share : 1.0;
+        if (precomputed < 1.0 && session_.passes() == 0)
+            return {.activity = "precomputing",
+                    .share = precomputed,
+                    .spp = 0,
+                    .detail = fmt::format("{}", duration_text(watch_.seconds()))};
+        return {.activity = "rendering", .share = share_done(), .spp = session_.passes(), .detail = limit_text()};
+    }
+
+    Session& session_;
+    const Options& options_;
+    const InterruptGuard& interrupt_;
+    Until until_;
+    ErrorTarget* target_;
+    Stopwatch watch_;
+};
 
 }  // namespace
 
-RunOutcome run_passes(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
-                      Until until) {
-    ProgressDisplay progress(console, !options.no_progress && !options.quiet);
-    const Stopwatch watch;
-    while (!is_done(session, options, watch.seconds(), until)) {
-        const bool stopped = session.advance(interrupt.flag()) == Progress::Stopped;
-        const double seconds = watch.seconds();
-        if (stopped || (interrupt.raised() && !is_done(session, options, seconds, until)))
-            return {.interrupted = true, .seconds = seconds};
-        progress.show(progress_of(session, options, seconds));
+std::string_view name_of(EndedBy end) {
+    switch (end) {
+    case EndedBy::Nothing: return "nothing";
+    case EndedBy::Spp: return "spp";
+    case EndedBy::TimeLimit: return "time-limit";
+    case EndedBy::TargetError: return "target-error";
+    case EndedBy::Learned: return "learned";
+    case EndedBy::Interruption: return "interruption";
     }
-    return {.interrupted = false, .seconds = watch.seconds()};
+    return "nothing";
+}
+
+RunOutcome run_passes(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
+                      Until until, ErrorTarget* target) {
+    ProgressDisplay progress(console, !options.no_progress && !options.quiet);
+    return Passes(session, options, interrupt, until, target).run(progress);
 }
 
 }  // namespace pl

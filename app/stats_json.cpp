@@ -21,11 +21,11 @@ Json mean_radiance(const Snapshot& snapshot) {
     return Json::array({sum.x, sum.y, sum.z});
 }
 
-Json clocks_json(const Clocks& clocks) {
-    return {{"load", clocks.load},    {"build", clocks.build},
-            {"place", clocks.place},  {"precompute", clocks.precompute},
-            {"learn", clocks.learn},  {"render", clocks.render},
-            {"total", clocks.total()}};
+Json target_json(const ErrorTarget* target) {
+    if (target == nullptr) return nullptr;
+    return {{"relmse", target->target()},
+            {"measured", target->measured() ? Json(*target->measured()) : Json(nullptr)},
+            {"of", target->word()}};
 }
 
 Json field_json(const std::optional<FieldStatus>& field) {
@@ -47,7 +47,26 @@ void add_counters(Json& stats, const PassCounters& counters) {
 
 }  // namespace
 
-Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options) {
+Json clocks_json(const Clocks& clocks, const Json& sums) {
+    Json json{{"load", clocks.load},    {"build", clocks.build},           {"upload", clocks.upload},
+              {"place", clocks.place},  {"precompute", clocks.precompute}, {"learn", clocks.learn},
+              {"render", clocks.render}};
+    json.update(sums);
+    return json;
+}
+
+Clocks clocks_from(const Json& json) {
+    return {.load = json.at("load"),
+            .build = json.at("build"),
+            .upload = json.value("upload", 0.0),
+            .place = json.at("place"),
+            .precompute = json.at("precompute"),
+            .learn = json.at("learn"),
+            .render = json.at("render")};
+}
+
+Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options, const RunOutcome& outcome,
+                const ErrorTarget* target) {
     const RenderSettings& settings = session.settings();
     const BackendInfo backend = session.backend();
     const FeatureSet needed = session.needed_features();
@@ -66,7 +85,9 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
                {"seed", settings.seed},
                {"max_depth", settings.max_depth},
                {"nee", settings.next_event},
-               {"seconds", clocks_json(snapshot.clocks)}};
+               {"seconds", clocks_json(snapshot.clocks, {{"total", snapshot.clocks.total()}})},
+               {"ended_by", name_of(outcome.ended_by)},
+               {"target_error", target_json(target)}};
     add_counters(stats, snapshot.counters);
     stats["mean_radiance"] = mean_radiance(snapshot);
     stats["field"] = field_json(snapshot.field);

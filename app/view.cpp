@@ -15,6 +15,7 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/picture_file.h"
+#include "app/viewer_references.h"
 #include "core/io/field_file.h"
 #include "core/io/load_scene.h"
 #include "cuda/availability.h"
@@ -145,6 +146,14 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
         return field;
     };
     viewer.save_field = write_field;
+    viewer.find_reference = [&](const std::string& scene, const RenderSettings& settings) {
+        return find_viewer_reference(kViewerReferences, *scenes.find(scene), settings);
+    };
+    viewer.make_reference = [&](const std::string& scene, const RenderSettings& settings,
+                                const ReferenceMonitor& monitor) {
+        return make_viewer_reference(kViewerReferences, scene, scenes.find(scene), settings,
+                                     viewer_threads(options.threads), monitor);
+    };
     viewer.save_screen = [](const std::filesystem::path& path, const ScreenPixels& pixels) {
         write_png8(path, {.width = pixels.width, .height = pixels.height, .rgb = pixels.rgb});
     };

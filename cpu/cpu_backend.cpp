@@ -71,6 +71,7 @@ public:
         films_.reset(slot, width, height, settings_.threads);
     }
     FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, settings_.threads); }
+    FilmReading read_halves(FilmSlot slot) const override { return films_.read_halves(slot, settings_.threads); }
     DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override {
         return films_.show(slot, style, settings_.threads);
     }

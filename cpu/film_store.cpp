@@ -24,26 +24,48 @@ void FilmStore::reset(FilmSlot slot, int width, int height, int threads) {
     });
 }
 
+FilmReading FilmStore::read(FilmSlot slot, int threads) const { return read<false>(slot, threads); }
+
+FilmReading FilmStore::read_halves(FilmSlot slot, int threads) const { return read<true>(slot, threads); }
+
+/// All pictures in one go over the film, which is larger than the cache.
+template <bool kHalves>
 FilmReading FilmStore::read(FilmSlot slot, int threads) const {
     const auto& film = films_.existing(slot);
     FilmReading reading{.width = film.width, .height = film.height, .mean = {}, .samples = 0, .invalid = 0};
     reading.mean.resize(film.pixels.size());
+    std::vector<Vec3f>& first = reading.halves.mean[0];
+    std::vector<Vec3f>& second = reading.halves.mean[1];
+    if constexpr (kHalves) {
+        first.resize(film.pixels.size());
+        second.resize(film.pixels.size());
+    }
     std::atomic<std::uint64_t> samples{0};
+    std::atomic<std::uint64_t> second_samples{0};
     std::atomic<std::uint64_t> invalid{0};
     ChunkQueue queue(0, static_cast<std::uint32_t>(film.pixels.size()), kPixelChunk);
     parallel_for(threads, queue, [&](IndexRange range) {
         std::uint64_t chunk_samples = 0;
+        std::uint64_t chunk_second_samples = 0;
         std::uint64_t chunk_invalid = 0;
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            reading.mean[i] = mean_or_nan(film.pixels[i]);
-            chunk_samples += film.pixels[i].samples;
-            chunk_invalid += film.pixels[i].invalid;
+            const FilmPixel& pixel = film.pixels[i];
+            reading.mean[i] = mean_or_nan(pixel);
+            if constexpr (kHalves) {
+                first[i] = half_mean(pixel, false);
+                second[i] = half_mean(pixel, true);
+                chunk_second_samples += pixel.second_samples;
+            }
+            chunk_samples += pixel.samples;
+            chunk_invalid += pixel.invalid;
         }
         samples += chunk_samples;
+        second_samples += chunk_second_samples;
         invalid += chunk_invalid;
     });
     reading.samples = samples;
     reading.invalid = invalid;
+    if constexpr (kHalves) reading.halves.samples = {samples - second_samples, second_samples};
     return reading;
 }
 

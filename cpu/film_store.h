@@ -13,10 +13,14 @@ public:
     /// All of these throw Error if the film was never reset.
     FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
     FilmReading read(FilmSlot slot, int threads) const;
+    FilmReading read_halves(FilmSlot slot, int threads) const;
     DisplayFrame show(FilmSlot slot, const FrameStyle& style, int threads);
     float largest_value(FilmSlot slot, int threads);
 
 private:
+    template <bool kHalves>
+    FilmReading read(FilmSlot slot, int threads) const;
+
     mutable FilmSlots<HostArray<FilmPixel>> films_{"CPU"};
     ToneTable table_{ToneCurve::Clamp};  ///< of the last frame
 };

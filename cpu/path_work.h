@@ -21,7 +21,7 @@ struct PictureWork {
         __builtin_prefetch(&film.pixels[pixel], 1);  // the film does not stay in the cache, the batch does
         return begin_path<M>(camera, film.width, film.height, pixel, sample, u);
     }
-    bool finish(const PathState<M>& state) const { return accumulate(film, state.pixel, state.radiance); }
+    bool finish(const PathState<M>& state) const { return accumulate(film, state.pixel, state.radiance, sample); }
 };
 
 /// One path per cell of every volume, into a table.

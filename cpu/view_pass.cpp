@@ -15,8 +15,8 @@ PassCounters run_view_pass(const ViewPass& pass) {
         for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) {
             const Vec3f value = sample_view<F>(pass.view, setup.scene, intersector, pass.shown, pass.camera,
                                                setup.path, pass.film.width, pass.film.height, pixel, pass.sample);
-            const bool valid = is_heat_map(pass.view) ? replace_sample(pass.film, pixel, value)
-                                                      : accumulate(pass.film, pixel, value);
+            const bool valid = is_heat_map(pass.view) ? replace_sample(pass.film, pixel, value, pass.sample)
+                                                      : accumulate(pass.film, pixel, value, pass.sample);
             if (!valid) invalid.fetch_add(1, std::memory_order_relaxed);
         }
     });

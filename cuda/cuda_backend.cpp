@@ -67,6 +67,7 @@ public:
 
     void reset_film(FilmSlot slot, int width, int height) override { films_.reset(slot, width, height, stream_); }
     FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, stream_); }
+    FilmReading read_halves(FilmSlot slot) const override { return films_.read_halves(slot, stream_); }
     DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override {
         return films_.show(slot, style, stream_);
     }
@@ -216,7 +217,7 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
             launch_picture(request, range, pixels);
         else
             launch_view(request, shown, pixels);
-        launch(add, blocks_for(count), stream_, "add_samples", film, pixels.radiance, range.first);
+        launch(add, blocks_for(count), stream_, "add_samples", film, pixels.radiance, range.first, request.sample);
     });
 }
 

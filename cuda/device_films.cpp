@@ -18,17 +18,25 @@ void DeviceFilms::reset(FilmSlot slot, int width, int height, const Stream& stre
     film.pixels.clear(stream);
 }
 
-FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const {
+FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const { return read(slot, 0, stream); }
+
+FilmReading DeviceFilms::read_halves(FilmSlot slot, const Stream& stream) const { return read(slot, 2, stream); }
+
+FilmReading DeviceFilms::read(FilmSlot slot, std::uint32_t halves, const Stream& stream) const {
     auto& film = films_.existing(slot);
     const auto pixels = static_cast<std::uint32_t>(film.pixels.size());
-    if (means_.size() < pixels) means_ = DeviceArray<Vec3f>(pixels);
+    const std::size_t values = std::size_t{pixels} * (1 + halves);
+    if (means_.size() < values) means_ = DeviceArray<Vec3f>(values);
     if (totals_.size() == 0) totals_ = DeviceArray<FilmTotals>(1);
-    const std::size_t bytes = pixels * sizeof(Vec3f);
+    const std::size_t bytes = values * sizeof(Vec3f);
     if (staging_.bytes() < bytes + sizeof(FilmTotals)) staging_ = PinnedMemory(bytes + sizeof(FilmTotals));
 
     totals_.clear(stream);
-    launch(kReadFilm, blocks_for(pixels), stream, "read_film", film.view(), Span<Vec3f>{means_.data(), pixels},
-           totals_.data());
+    const auto picture = [&](std::size_t i) { return Span<Vec3f>{means_.data() + i * pixels, pixels}; };
+    launch(kReadFilm, blocks_for(pixels), stream, "read_film", film.view(), picture(0), totals_.data());
+    if (halves > 0)
+        launch(kReadHalves, blocks_for(pixels), stream, "read_halves", film.view(), picture(1), picture(2),
+               &totals_.data()->second_samples);
     auto* staged = static_cast<std::byte*>(staging_.data());
     copy_to_host(staged, means_.data(), bytes, stream);
     copy_to_host(staged + bytes, totals_.data(), sizeof(FilmTotals), stream);
@@ -37,11 +45,17 @@ FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const {
     FilmTotals totals;
     std::memcpy(&totals, staged + bytes, sizeof totals);
     const auto* means = reinterpret_cast<const Vec3f*>(staged);
-    return {.width = film.width,
-            .height = film.height,
-            .mean = {means, means + pixels},
-            .samples = totals.samples,
-            .invalid = totals.invalid};
+    FilmReading reading{.width = film.width,
+                        .height = film.height,
+                        .mean = {means, means + pixels},
+                        .samples = totals.samples,
+                        .invalid = totals.invalid};
+    for (std::size_t half = 0; half < halves; ++half) {
+        const auto* first = means + (half + 1) * pixels;
+        reading.halves.mean[half].assign(first, first + pixels);
+    }
+    if (halves > 0) reading.halves.samples = {totals.samples - totals.second_samples, totals.second_samples};
+    return reading;
 }
 
 DisplayFrame DeviceFilms::show(FilmSlot slot, const FrameStyle& style, const Stream& stream) {

@@ -15,12 +15,16 @@ public:
     /// All of these throw Error if the film was never reset.
     FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
     FilmReading read(FilmSlot slot, const Stream& stream) const;
+    FilmReading read_halves(FilmSlot slot, const Stream& stream) const;
     /// The frame is made in `stream` and travels in one of its own.
     DisplayFrame show(FilmSlot slot, const FrameStyle& style, const Stream& stream);
     float largest_value(FilmSlot slot, const Stream& stream);
 
 private:
     mutable FilmSlots<DeviceArray<FilmPixel>> films_{"CUDA"};
+    /// The mean, and `halves` more pictures behind it.
+    FilmReading read(FilmSlot slot, std::uint32_t halves, const Stream& stream) const;
+
     // Kept from one reading to the next: pinned memory is dear to get.
     mutable DeviceArray<Vec3f> means_;
     mutable DeviceArray<FilmTotals> totals_;

@@ -65,6 +65,15 @@ constexpr std::array kActions{
     Action{CellsStronger, ActionGroup::Overlay, "'", "stronger tint", {at(SDL_SCANCODE_APOSTROPHE)}},
     Action{Hemisphere, ActionGroup::Overlay, "H", "hemisphere of the selected volume", {sign(SDLK_h)}},
 
+    Action{Accuracy, ActionGroup::Compare, "P", "accuracy panel: error against time", {sign(SDLK_p)}},
+    Action{CompareNext, ActionGroup::Compare, "C", "compare two pictures: next mode", {sign(SDLK_c)}},
+    Action{
+        CompareBack, ActionGroup::Compare, "Shift+C", "compare two pictures: previous mode", {sign(SDLK_c, kShift)}},
+    Action{Flip, ActionGroup::Compare, "G", "flip to the other picture", {sign(SDLK_g)}},
+    Action{Turns, ActionGroup::Compare, "X", "two methods in turns of equal time", {sign(SDLK_x)}},
+    Action{
+        MakeReference, ActionGroup::Compare, "Ctrl+R", "make the reference, or go on with it", {sign(SDLK_r, kCtrl)}},
+
     Action{HidePanels, ActionGroup::Window, "Tab", "hide or show the panels", {at(SDL_SCANCODE_TAB)}},
     Action{FullScreen, ActionGroup::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
     Action{Help, ActionGroup::Window, "F1 or ?", "this list", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
@@ -89,6 +98,8 @@ constexpr std::array kMouseActions{
     MouseAction{"right hold", "look around, pointer hidden"},
     MouseAction{"wheel", "speed"},
     MouseAction{"left click", "select the radiance volume there"},
+    MouseAction{"wheel on plot", "zoom; dragging pans, a double click fits"},
+    MouseAction{"drag on axis", "pictures at equal time, at equal error; right click: off"},
     MouseAction{"drop a file", "open an .obj or .json scene, or a saved .field"},
 };
 
@@ -117,6 +128,7 @@ const char* name_of(ActionGroup group) {
     case ActionGroup::Method: return "Method";
     case ActionGroup::View: return "View";
     case ActionGroup::Overlay: return "Overlays";
+    case ActionGroup::Compare: return "Compare";
     case ActionGroup::Window: return "Window";
     case ActionGroup::File: return "File";
     }

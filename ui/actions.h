@@ -39,6 +39,12 @@ enum class ActionId {
     CellsFainter,
     CellsStronger,
     Hemisphere,
+    Accuracy,
+    CompareNext,
+    CompareBack,
+    Flip,
+    Turns,
+    MakeReference,
     HidePanels,
     Help,
     FullScreen,
@@ -54,7 +60,7 @@ enum class ActionId {
 };
 
 /// Order of the help overlay and of the menus.
-enum class ActionGroup { Fly, Render, Method, View, Overlay, Window, File };
+enum class ActionGroup { Fly, Render, Method, View, Overlay, Compare, Window, File };
 
 struct Modifiers {
     bool shift = false;
@@ -99,7 +105,7 @@ std::span<const Action> all_actions();
 std::span<const MouseAction> mouse_actions();
 const Action& info_of(ActionId id);
 const char* name_of(ActionGroup group);
-inline constexpr int kActionGroupCount = 7;
+inline constexpr int kActionGroupCount = 8;
 
 /// The action of a key that goes down.
 std::optional<ActionId> find_action(const KeyStroke& stroke);

@@ -5,19 +5,14 @@
 
 #include "ui/layout.h"
 #include "ui/picture.h"
+#include "ui/stream_texture.h"
 #include "ui/viewer_model.h"
-
-struct SDL_Renderer;
-struct SDL_Texture;
 
 namespace pl {
 
 class ImageLayer {
 public:
-    explicit ImageLayer(SDL_Renderer* renderer);
-    ~ImageLayer();
-    ImageLayer(const ImageLayer&) = delete;
-    ImageLayer& operator=(const ImageLayer&) = delete;
+    explicit ImageLayer(SDL_Renderer* renderer) : texture_(renderer) {}
 
     /// Where the picture is within `view`: that of the frame in the window, else that of the settings.
     Rect place(const ViewerModel& model, const Rect& view) const;
@@ -35,13 +30,9 @@ private:
         friend bool operator==(const Key&, const Key&) = default;
     };
 
-    void ensure_texture(int width, int height);
     void fill(const ViewerModel& model, const Key& key);
 
-    SDL_Renderer* renderer_;
-    SDL_Texture* texture_ = nullptr;
-    int width_ = 0;
-    int height_ = 0;
+    StreamTexture texture_;
     Key key_;
     ToneTable cell_table_{ToneCurve::Clamp};
 };

@@ -13,13 +13,14 @@ constexpr float kSmallestLeftEm = 16.0f;
 constexpr float kSmallestRightEm = 18.0f;
 constexpr float kGoodViewEm = 36.0f;
 constexpr float kSmallestViewEm = 18.0f;
-constexpr float kBarEm = 1.75f;  ///< height of menu and status bar
+constexpr float kAccuracyShare = 0.66f;  ///< of the height at the right
+constexpr float kBarEm = 1.75f;          ///< height of menu and status bar
 /// A picture that fills more of the view than this is not stretched to fill all of it: stretching blurs.
 constexpr float kNearlyFull = 0.95f;
 
 }  // namespace
 
-Layout make_layout(float width, float height, float em, bool panels) {
+Layout make_layout(float width, float height, float em, bool panels, bool accuracy) {
     Layout layout;
     layout.panels = panels;
     layout.view = {0.0f, 0.0f, width, height};
@@ -38,6 +39,11 @@ Layout make_layout(float width, float height, float em, bool panels) {
     const float right_shown = std::min(right, 0.5f * width);
     layout.left = {0.0f, bar, left_shown, middle};
     layout.right = {width - right_shown, bar, right_shown, middle};
+    if (accuracy) {
+        const float below = std::round(kAccuracyShare * middle);
+        layout.right.height = middle - below;
+        layout.accuracy = {width - right_shown, bar + middle - below, right_shown, below};
+    }
     layout.clear = {left_shown, bar, width - left_shown - right_shown, middle};
     const bool floating = layout.clear.width < kSmallestViewEm * em;
     layout.view = floating ? Rect{0.0f, bar, width, middle} : layout.clear;

@@ -7,8 +7,9 @@ namespace pl {
 
 struct Layout {
     Rect menu;
-    Rect left;   ///< settings
-    Rect right;  ///< what is known about the picture
+    Rect left;      ///< settings
+    Rect right;     ///< what is known about the picture
+    Rect accuracy;  ///< error against time, below that; empty if it is closed
     Rect status;
     Rect view;   ///< what the picture may use
     Rect clear;  ///< the part of it that no panel covers
@@ -17,7 +18,7 @@ struct Layout {
 
 /// Everything in pixels; `em` is the font size. Where the window is too narrow for both panels and a picture they
 /// float over it.
-Layout make_layout(float width, float height, float em, bool panels);
+Layout make_layout(float width, float height, float em, bool panels, bool accuracy);
 
 /// The largest rectangle with the shape of a picture of width x height in the middle of `view`. A picture that is
 /// somewhat smaller than the view is shown pixel by pixel.

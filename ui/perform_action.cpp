@@ -55,6 +55,12 @@ void perform(ViewerModel& model, ActionId action) {
     case ActionId::CellsFainter: step_opacity(model, -kOpacityStep); break;
     case ActionId::CellsStronger: step_opacity(model, kOpacityStep); break;
     case ActionId::Hemisphere: window.hemisphere = !window.hemisphere; break;
+    case ActionId::Accuracy: window.accuracy = !window.accuracy; break;
+    case ActionId::CompareNext: model.step_compare(1); break;
+    case ActionId::CompareBack: model.step_compare(-1); break;
+    case ActionId::Flip: model.flip(); break;
+    case ActionId::Turns: model.set_turns(!model.turns()); break;
+    case ActionId::MakeReference: model.make_reference(); break;
     case ActionId::HidePanels: window.panels = !window.panels; break;
     case ActionId::Help: window.help = !window.help; break;
     case ActionId::FullScreen: window.full_screen_asked = true; break;

@@ -1,6 +1,7 @@
 // What the render thread hands to the window: immutable once published, shared by reference.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -43,13 +44,24 @@ struct PublishedFrame {
 enum class WorkerState { Starting, Rendering, Precomputing, Paused, Done, Failed };
 const char* name_of(WorkerState state);
 
+/// Two methods that render in turns of equal time.
+using TurnMethods = std::array<MethodId, 2>;
+struct TurnsStatus {
+    TurnMethods methods{};
+    std::array<std::uint32_t, 2> passes{};
+    std::array<double, 2> seconds{};  ///< work_seconds() of each
+    bool catching_up = false;         ///< one works alone until both have had the same time
+};
+
 /// Changes with every pass; cheap to copy.
 struct WorkerStatus {
     WorkerState state = WorkerState::Starting;
     std::uint32_t passes = 0;
     int divider = 1;
-    double seconds = 0.0;  ///< work_seconds()
+    double seconds = 0.0;              ///< work_seconds()
+    std::optional<TurnsStatus> turns;  ///< then passes and seconds are those of the first method
     std::uint64_t generation = 0;
+    std::uint64_t picture = 0;  ///< what the session shows, as RunLabel::picture; 0 while the camera moves
     std::optional<FieldStatus> field;
     std::string backend;                             ///< name of the one in use
     std::shared_ptr<const BackendChoices> backends;  ///< never null

@@ -72,6 +72,8 @@ void RenderWorker::answer_pick(Vec2f image_point) {
 }
 
 void RenderWorker::answer_learned() {
+    const SlotKeeper keeper(*session_);
+    if (turns_) session_->apply(EditMethod{turns_->status.methods[0]});
     LearnedAnswer answer;
     try {
         answer.field = std::make_shared<const LearnedField>(session_->export_field());
@@ -94,6 +96,8 @@ void RenderWorker::refresh_inspection() {
     if (now_.volume == kNoVolume) {
         inspection_ = nullptr;
     } else {
+        const SlotKeeper keeper(*session_);
+        if (turns_) session_->apply(EditMethod{turns_->status.methods[0]});
         inspection_ = std::make_shared<VolumeInspection>(inspect(*session_, now_.volume));
     }
     if (now_.volume != shown || !wants_pass()) republish_ = true;

@@ -69,18 +69,23 @@ bool RenderWorker::take_wishes() {
     }
     apply_edits(std::move(edits));
     if (now_.backend != backends_.current()) change_backend();
+    settle_turns();
+    adopt_reference();
     const std::lock_guard lock(mutex_);
     // A pass in motion is short and always finished: otherwise a hand that never rests would never see a picture.
     pass_may_be_cut_ = !coarse();
     const bool other_frame = wishes_.display != now_.display || (wishes_.values && !now_.values);
-    const bool is_late =
-        !edits_.empty() || wishes_.backend != backends_.current() || (other_frame && status_.passes > 0);
+    const bool is_late = !edits_.empty() || wishes_.turns != now_.turns || wishes_.backend != backends_.current() ||
+                         (other_frame && status_.passes > 0);
     if (pass_may_be_cut_ && is_late) stop_ = true;  // came while nobody had decided
     return true;
 }
 
 bool RenderWorker::has_work() const {
-    if (now_.pick || now_.learned || now_.backend != backends_.current()) return true;
+    const bool other_turns = now_.turns.has_value() != turns_.has_value();
+    if (now_.pick || now_.learned || other_turns || now_.reference != reference_ ||
+        now_.backend != backends_.current())
+        return true;
     if (frame_is_stale()) return true;
     if (failed_) return false;
     const bool size_is_stale = divider_ != 1 && !coarse();
@@ -196,6 +201,7 @@ void RenderWorker::work() {
     }
     if (now_.pick) answer_pick(*now_.pick);
     if (now_.learned) answer_learned();
+    if (turns_) take_turn();
     if (wants_pass()) render();
     if (stop_) return;
     if (now_.cells && cells_pose_ != pose_ && session_->passes() > 0) render_cells();
@@ -227,9 +233,14 @@ bool RenderWorker::wants_pass() const {
 
 bool RenderWorker::limit_reached() const {
     if (coarse()) return false;
+    if (!turns_) return is_enough(session_->passes(), work_seconds(session_->clocks()));
+    const auto side = side_at_limit();
+    return side && is_enough(turns_->status.passes[*side], turns_->status.seconds[*side]);
+}
+
+bool RenderWorker::is_enough(std::uint32_t passes, double seconds) const {
     const SampleLimits& limits = now_.limits;
-    if (limits.spp > 0 && session_->passes() >= limits.spp) return true;
-    return limits.seconds > 0.0 && work_seconds(session_->clocks()) >= limits.seconds;
+    return (limits.spp > 0 && passes >= limits.spp) || (limits.seconds > 0.0 && seconds >= limits.seconds);
 }
 
 void RenderWorker::render() {
@@ -239,6 +250,8 @@ void RenderWorker::render() {
         if (session_->passes() == 1) republish_ = true;
         motion_.observe(divider_, watch.seconds());
     }
+    observe_run();
+    if (turns_) count_turn(turns_->side);
     update_status();
     if (now_.steps > 0 || limit_reached() || now_.paused) republish_ = true;
 }

@@ -22,6 +22,7 @@ RenderWorker::RenderWorker(WorkerSetup setup)
     wishes_.display = setup_.display;
     wishes_.backend = setup_.first_backend;
     status_.backend = setup_.first_backend;
+    run_set_ = runs_.current();
     status_.backends = backends_.choices();
     thread_ = std::thread([this] { run(); });
 }
@@ -106,6 +107,19 @@ void RenderWorker::cut_for_a_frame() {
     wake_.notify_all();
 }
 
+void RenderWorker::set_reference(std::shared_ptr<const LiveReference> reference) {
+    const std::lock_guard lock(mutex_);
+    wishes_.reference = std::move(reference);
+    wake_.notify_all();
+}
+
+void RenderWorker::set_turns(std::optional<TurnMethods> methods) {
+    const std::lock_guard lock(mutex_);
+    wishes_.turns = methods;
+    if (pass_may_be_cut_) stop_ = true;
+    wake_.notify_all();
+}
+
 void RenderWorker::set_cells_wanted(bool wanted) {
     const std::lock_guard lock(mutex_);
     wishes_.cells = wanted;
@@ -142,6 +156,11 @@ WorkerStatus RenderWorker::status() const {
     return status_;
 }
 
+std::shared_ptr<const LiveRunSet> RenderWorker::runs() const {
+    const std::lock_guard lock(mutex_);
+    return run_set_;
+}
+
 std::vector<WorkerMessage> RenderWorker::take_messages() {
     const std::lock_guard lock(mutex_);
     return std::exchange(messages_, {});
@@ -170,12 +189,19 @@ void RenderWorker::report(WorkerMessage message) {
 WorkerStatus RenderWorker::make_status() const {
     WorkerStatus status;
     status.passes = session_->passes();
+    status.picture = divider_ == 1 && session_->film_origin().generation == picture_generation_ ? picture_ : 0;
     status.divider = divider_;
     status.generation = now_.generation;
     status.field = session_->field_status();
     status.seconds = work_seconds(session_->clocks());
     status.backend = backends_.current();
     status.backends = backends_.choices();
+    if (turns_) {
+        status.turns = turns_->status;
+        status.passes = turns_->status.passes[0];
+        status.seconds = turns_->status.seconds[0];
+        status.field = turns_->field;
+    }
     const bool precomputing = status.passes == 0 && status.field && status.field->precomputed_share < 1.0;
     if (failed_)
         status.state = WorkerState::Failed;

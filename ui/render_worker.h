@@ -8,8 +8,10 @@
 #include <mutex>
 #include <thread>
 
+#include "core/measure/live_runs.h"
 #include "core/session/session.h"
 #include "ui/backend_switch.h"
+#include "ui/compare/turns.h"
 #include "ui/edit_queue.h"
 #include "ui/motion_resolution.h"
 #include "ui/picture.h"
@@ -29,8 +31,21 @@ struct WorkerSetup {
     DisplaySettings display{};
 };
 
+/// What the render thread knows of two methods in turns.
+struct TurnsState {
+    static constexpr double kTurnSeconds = 0.25;
+
+    TurnsStatus status;
+    Turns order{kTurnSeconds};
+    std::size_t side = 0;              ///< whose turn it is
+    std::optional<FieldStatus> field;  ///< of the first method
+};
+
 class RenderWorker {
 public:
+    /// Memory for pictures of runs.
+    static constexpr std::size_t kRunPictureBytes = std::size_t{256} << 20;
+
     explicit RenderWorker(WorkerSetup setup);
     ~RenderWorker();
     RenderWorker(const RenderWorker&) = delete;
@@ -54,6 +69,10 @@ public:
     void set_display(const DisplaySettings& display);
     /// Whether frames carry the numbers behind the picture, which take their time to fetch from a device.
     void set_values_wanted(bool wanted);
+    /// What runs are measured against from now on, where they show the same picture; null for nothing.
+    void set_reference(std::shared_ptr<const LiveReference> reference);
+    /// Lets two methods render in turns of equal charged time; nothing ends it, and leaves the method of the last turn.
+    void set_turns(std::optional<TurnMethods> methods);
     /// Whether frames carry the image of the volumes' cells.
     void set_cells_wanted(bool wanted);
     /// Asks for the surface under a point of the image, in [0,1)^2 from the top left.
@@ -67,6 +86,8 @@ public:
     /// Number of frames published so far.
     std::uint64_t frame_count() const { return frame_count_.load(std::memory_order_acquire); }
     WorkerStatus status() const;
+    /// Error against time of everything rendered so far; never null.
+    std::shared_ptr<const LiveRunSet> runs() const;
     std::vector<WorkerMessage> take_messages();
     std::optional<PickAnswer> take_pick();
     std::optional<LearnedAnswer> take_learned();
@@ -88,6 +109,8 @@ private:
         std::int32_t volume = kNoVolume;
         std::optional<Vec2f> pick;
         bool learned = false;
+        std::optional<TurnMethods> turns;
+        std::shared_ptr<const LiveReference> reference;
         std::string backend;
         std::uint64_t generation = 0;
     };
@@ -105,6 +128,15 @@ private:
     void settle_wish_for(const std::string& backend);
     void apply_size(int divider);
     void cut_for_a_frame();
+    void settle_turns();
+    void read_turns();
+    void take_turn();
+    std::optional<std::size_t> side_at_limit() const;
+    void count_turn(std::size_t side);
+    static LiveRuns make_runs();
+    void observe_run();
+    void note_picture();
+    void adopt_reference();
     void work();
     void render();
     void render_cells();
@@ -116,6 +148,7 @@ private:
     bool frame_is_stale() const;
     void settle_frame_wish();
     bool limit_reached() const;
+    bool is_enough(std::uint32_t passes, double seconds) const;
     bool coarse() const;
     bool wants_pass() const;
     WorkerStatus make_status() const;
@@ -132,6 +165,7 @@ private:
     std::vector<WorkerMessage> messages_;
     std::optional<PickAnswer> pick_answer_;
     std::optional<LearnedAnswer> learned_answer_;
+    std::shared_ptr<const LiveRunSet> run_set_;
     std::shared_ptr<const PublishedFrame> frame_;
     bool frame_taken_ = true;
     bool pass_may_be_cut_ = false;  ///< the pass under way is one at rest: a new camera stops it
@@ -146,6 +180,11 @@ private:
     std::shared_ptr<const SceneDescription> scene_;
     float diagonal_ = 0.0f;
     MotionResolution motion_;
+    std::optional<TurnsState> turns_;
+    LiveRuns runs_ = make_runs();
+    std::shared_ptr<const LiveReference> reference_;
+    std::uint64_t picture_ = 0;             ///< picture_key(); 0 while it is coarse
+    std::uint64_t picture_generation_ = 0;  ///< FilmOrigin::generation that picture_ belongs to
     int full_width_ = 0;
     int full_height_ = 0;
     int divider_ = 1;

@@ -1,9 +1,10 @@
 // Scripted input: what a person would do at the window, counted in frames. Drives the real window on SDL's dummy
 // driver and is the automated test of the user interface. One command per line, '#' starts a comment:
-//   FRAME move X Y | aim U V | down B | up B | wheel N | key K [MODS] | keyup K | tap K [MODS] | resize W H | drop FILE
+//   FRAME move X Y | aim U V | aim_plot U V | down B | up B | wheel N | key K [MODS] | keyup K | tap K [MODS] | resize W H | drop FILE
 //   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE | wait_spp N | quit
 // B is left, right or middle; MODS are shift, ctrl, alt; `aim` points at the image, (0, 0) is its top left corner and
-// (1, 1) its bottom right one; OP is one of == != < <= > >= ~ (contains). While a script waits, its frames stand still.
+// (1, 1) its bottom right one, `aim_plot` at the curves of the accuracy panel in the same way, and beyond (1, 1) at the
+// numbers of its axes; OP is one of == != < <= > >= ~ (contains). While a script waits, its frames stand still.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +26,7 @@ struct ScriptCondition {
 bool holds(const ScriptCondition& condition, const std::string& actual);
 
 struct ScriptCommand {
-    enum class Kind { Move, Aim, Down, Up, Wheel, Key, KeyUp, Tap, Resize, Drop, Shot, Expect, Wait, Quit };
+    enum class Kind { Move, Aim, AimPlot, Down, Up, Wheel, Key, KeyUp, Tap, Resize, Drop, Shot, Expect, Wait, Quit };
     Kind kind = Kind::Quit;
     int frame = 0;
     std::string where;  ///< file:line, for messages

@@ -68,6 +68,12 @@ bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const R
         push_motion({image.x + static_cast<float>(command.x) * image.width,
                      image.y + static_cast<float>(command.y) * image.height});
         break;
+    case Kind::AimPlot: {
+        const Rect& plot = model.window().plot;
+        push_motion({plot.x + static_cast<float>(command.x) * plot.width,
+                     plot.y + static_cast<float>(command.y) * plot.height});
+        break;
+    }
     case Kind::Down:
     case Kind::Up: push_button(command.button, command.kind == Kind::Down); break;
     case Kind::Wheel: {

@@ -30,6 +30,33 @@ std::string shown(const ViewerModel& model, std::string (*read)(const PublishedF
     return model.frame() != nullptr ? read(*model.frame()) : "none";
 }
 
+/// Stored points of the run in progress, or of the newest run.
+std::string point_count(const ViewerModel& model) {
+    std::size_t points = 0;
+    for (const auto& run : model.accuracy().runs()) {
+        points = run->points.size();
+        if (run->in_progress) break;
+    }
+    return fmt::format("{}", points);
+}
+
+/// Names of the pictures that a comparison shows, in a window of any size.
+std::string shown_sides(const ViewerModel& model) {
+    std::string text;
+    for (const CompareTile& tile : model.compare_plan({0.0f, 0.0f, 600.0f, 600.0f}).tiles)
+        text += (text.empty() ? "" : " | ") + tile.label;
+    return text;
+}
+
+std::string cursor_kind(const ViewerModel& model) {
+    const Cursor::Kind kind = model.accuracy().cursor().kind;
+    return kind == Cursor::Kind::None ? "none" : (kind == Cursor::Kind::EqualCost ? "cost" : "error");
+}
+
+std::string turn_passes(const ViewerModel& model, std::size_t side) {
+    return fmt::format("{}", model.status().turns ? model.status().turns->passes[side] : 0);
+}
+
 constexpr std::array kValues{
     Value{"method", [](const ViewerModel& m) { return std::string(info_of(m.settings().method).name); }},
     Value{"view", [](const ViewerModel& m) { return std::string(info_of(m.settings().view).name); }},
@@ -40,6 +67,27 @@ constexpr std::array kValues{
     Value{"nee", [](const ViewerModel& m) { return word(m.settings().next_event); }},
     Value{"exposure", [](const ViewerModel& m) { return fmt::format("{}", m.display().exposure_ev); }},
     Value{"opacity", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().cells_opacity); }},
+    Value{"accuracy", [](const ViewerModel& m) { return word(m.window().accuracy); }},
+    Value{"runs", [](const ViewerModel& m) { return fmt::format("{}", m.accuracy().runs().size()); }},
+    Value{"points", point_count},
+    Value{"plotted", [](const ViewerModel& m) { return std::string(info_of(m.accuracy().kind().metric).label); }},
+    Value{"headline", [](const ViewerModel& m) { return m.accuracy().headlines().front().text; }},
+    Value{"compare", [](const ViewerModel& m) { return std::string(name_of(m.window().compare.mode)); }},
+    Value{"sides", shown_sides},
+    Value{"split", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().compare.split); }},
+    Value{"cursor", cursor_kind},
+    Value{"cursor_at", [](const ViewerModel& m) { return fmt::format("{}", m.accuracy().cursor().at); }},
+    Value{"rows", [](const ViewerModel& m) { return fmt::format("{}", m.accuracy().rows().size()); }},
+    Value{"reference", [](const ViewerModel& m) { return word(m.reference() != nullptr); }},
+    Value{"reference_share",
+          [](const ViewerModel& m) {
+              const auto making = m.reference_progress();
+              return fmt::format("{}", making ? making->share : 0.0);
+          }},
+    Value{"making", [](const ViewerModel& m) { return word(m.reference_progress().has_value()); }},
+    Value{"turns", [](const ViewerModel& m) { return word(m.turns()); }},
+    Value{"turn_a", [](const ViewerModel& m) { return turn_passes(m, 0); }},
+    Value{"turn_b", [](const ViewerModel& m) { return turn_passes(m, 1); }},
     Value{"cells", [](const ViewerModel& m) { return word(m.window().cells); }},
     Value{"hemisphere", [](const ViewerModel& m) { return word(m.window().hemisphere); }},
     Value{"help", [](const ViewerModel& m) { return word(m.window().help); }},

@@ -10,6 +10,7 @@
 #include <SDL.h>
 
 #include "core/base/error.h"
+#include "ui/compare/compare_layer.h"
 #include "ui/gui.h"
 #include "ui/image_layer.h"
 #include "ui/input_router.h"
@@ -61,6 +62,8 @@ private:
     Display display_;
     Gui gui_;
     ImageLayer image_layer_;
+    CompareLayer compare_layer_;
+    ComparePlan plan_;
     InputRouter input_;
     ViewerModel model_;
     std::optional<ScriptPlayer> script_;
@@ -82,8 +85,8 @@ private:
 
 Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene, double load_seconds)
     : options_(options), display_("pathlight", options.width, options.height, options.software),
-      gui_(display_, options.font, 1.0f), image_layer_(display_.renderer()), input_(display_.window()),
-      model_(options, scene, first_settings(*scene), load_seconds) {
+      gui_(display_, options.font, 1.0f), image_layer_(display_.renderer()), compare_layer_(display_.renderer()),
+      input_(display_.window()), model_(options, scene, first_settings(*scene), load_seconds) {
     if (options.script) script_.emplace(load_script(*options.script), display_.window());
     if (options.ui_trace) trace_.emplace(*options.ui_trace);
     model_.note(LogLevel::Info, "window drawn by " + display_.renderer_name());
@@ -96,7 +99,7 @@ Layout Viewer::current_layout() const {
     int height = 0;
     SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
     return make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels * model_.window().ui_scale,
-                       model_.window().panels);
+                       model_.window().panels, model_.window().accuracy);
 }
 
 RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
@@ -106,7 +109,8 @@ RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
         int width = 0;
         int height = 0;
         SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
-        const Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels, true);
+        const Layout layout =
+            make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels, true, true);
         const ImageSize size = fit_image(layout.view, settings.width, settings.height);
         settings.width = size.width;
         settings.height = size.height;
@@ -176,7 +180,8 @@ void Viewer::dispatch(const SDL_Event& event) {
     const bool is_tab = event.type == SDL_KEYDOWN && event.key.keysym.scancode == SDL_SCANCODE_TAB;
     if (!is_tab || io.WantTextInput) gui_.handle(event);
     input_.handle(event, model_,
-                  {image_, layout_.view, io.WantCaptureMouse, io.WantTextInput, steady_seconds() - start_});
+                  {plan_.at_image ? image_ : Rect{}, layout_.view, io.WantCaptureMouse, io.WantTextInput,
+                   steady_seconds() - start_});
 }
 
 void Viewer::trace_inputs() {
@@ -205,11 +210,13 @@ bool Viewer::needs_redraw(double now) {
 void Viewer::build_panels() {
     layout_ = current_layout();
     image_ = image_layer_.place(model_, layout_.view);
+    plan_ = model_.compare_plan(layout_.view);
     model_.window().values_shown = false;  // the tab sets it again if it shows some
     if (layout_.panels) {
         std::optional<HoveredPixel> hovered;
         const PublishedFrame* frame = model_.frame();
-        if (frame != nullptr && image_.contains(input_.pointer()) && !ImGui::GetIO().WantCaptureMouse) {
+        if (frame != nullptr && plan_.at_image && image_.contains(input_.pointer()) &&
+            !ImGui::GetIO().WantCaptureMouse) {
             const Vec2f at = input_.pointer() - Vec2f{image_.x, image_.y};
             hovered = HoveredPixel{
                 std::min(static_cast<int>(at.x / image_.width * static_cast<float>(frame->snapshot.width)),
@@ -220,11 +227,13 @@ void Viewer::build_panels() {
         draw_menu_bar(model_, layout_);
         draw_settings_panel(model_, layout_);
         draw_knowledge_panel(model_, layout_, hovered);
+        if (layout_.accuracy.height > 0.0f) draw_accuracy_panel(model_, layout_);
         draw_status_bar(model_, layout_);
     }
-    draw_hemisphere(model_, image_);
-    if (layout_.panels) draw_badges(model_, layout_);
-    draw_toasts(model_, layout_);
+    if (plan_.at_image) draw_hemisphere(model_, image_);
+    draw_comparison(model_, plan_);
+    if (layout_.panels) draw_badges(model_, layout_, plan_);
+    draw_toasts(model_, layout_, plan_);
     draw_help(model_, layout_);
 }
 
@@ -244,7 +253,8 @@ void Viewer::do_window_wishes() {
 void Viewer::show() {
     SDL_SetRenderDrawColor(display_.renderer(), 12, 13, 16, 255);
     SDL_RenderClear(display_.renderer());
-    image_layer_.draw(model_, image_);
+    if (plan_.tiles.empty()) image_layer_.draw(model_, image_);
+    compare_layer_.draw(plan_, model_.display());
     gui_.draw();
     if (std::exchange(model_.window().window_shot_asked, false))
         model_.save_window(display_.read_pixels(), model_.next_window_shot());

@@ -2,6 +2,7 @@
 // so that this folder knows none of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/measure/live_runs.h"
 #include "core/scene/description.h"
 #include "core/session/backend.h"
 #include "core/session/learned_field.h"
@@ -47,6 +49,19 @@ struct ViewerPicture {
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
+};
+
+/// A reference as it is stored.
+struct StoredReference {
+    LiveReference halves;
+    std::array<std::uint32_t, 2> spp{};  ///< samples per pixel of each half
+    double noise_relmse = 0.0;           ///< of the mean of both
+};
+
+/// How making a reference is followed; both may be called from its thread at any time.
+struct ReferenceMonitor {
+    std::function<bool()> stopped;
+    std::function<void(double share, const std::string& detail)> progress;
 };
 
 /// 8-bit RGB, rows from the top without padding.
@@ -91,6 +106,15 @@ struct ViewerOptions {
     std::function<void(const std::filesystem::path&, const LearnedField&)> save_field;
     /// Writes what the window shows, panels included.
     std::function<void(const std::filesystem::path&, const ScreenPixels&)> save_screen;
+    /// The stored reference of just this picture, null if there is none. Throws Error(Input) for damaged files. Called
+    /// on a helper thread; so is what follows, on one of its own.
+    std::function<std::shared_ptr<const StoredReference>(const std::string& scene, const RenderSettings&)>
+        find_reference;
+    /// Goes on with the stored reference until it is converged or the monitor says stop, and stores it. Null if there
+    /// are no samples in both halves yet.
+    std::function<std::shared_ptr<const StoredReference>(const std::string& scene, const RenderSettings&,
+                                                         const ReferenceMonitor&)>
+        make_reference;
     /// The shell command that renders what is shown.
     std::function<std::string(const ViewerPicture&)> command_line;
 };

@@ -187,6 +187,7 @@ void ViewerModel::load_field(const std::filesystem::path& path) {
 
 void ViewerModel::adopt_field(const std::shared_ptr<LearnedField>& field, const std::filesystem::path& path) {
     deselect();
+    set_turns(false);
     field->settings.lookup = settings_.field.lookup;
     field->shape.lookup = settings_.field.lookup;
     if (field->method != settings_.method) previous_method_ = settings_.method;

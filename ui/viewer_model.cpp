@@ -41,6 +41,7 @@ void ViewerModel::update(double seconds) {
     }
     take_frame();
     status_ = worker_.status();
+    take_runs();
     for (const WorkerMessage& message : worker_.take_messages())
         say(message.is_error ? LogLevel::Error : LogLevel::Info, message.text);
     take_pick();
@@ -51,9 +52,15 @@ void ViewerModel::update(double seconds) {
 }
 
 void ViewerModel::take_frame() {
-    if (auto latest = worker_.latest(); latest != frame_) {
-        frame_ = std::move(latest);
-        measure_throughput();
+    if (auto latest = worker_.latest(); latest != latest_) {
+        latest_ = std::move(latest);
+        const MethodId method = latest_->snapshot.slot.method;
+        if (turns_ && frame_ && method == (*turns_)[1]) {
+            turn_frame_ = latest_;
+        } else {
+            frame_ = latest_;
+            measure_throughput();
+        }
     }
     if (!unsaved_.empty()) write_unsaved();
     worker_.set_values_wanted(window_.values_shown || !unsaved_.empty());
@@ -105,6 +112,7 @@ std::string ViewerModel::command_line() const {
 // --- edits -----------------------------------------------------------------------------------------------------
 
 void ViewerModel::set_method(MethodId method) {
+    set_turns(false);
     if (method == settings_.method) return;
     previous_method_ = settings_.method;
     settings_.method = method;
@@ -205,7 +213,7 @@ void ViewerModel::set_limits(const SampleLimits& limits) {
 
 void ViewerModel::set_paused(bool paused) {
     paused_ = paused;
-    worker_.set_paused(paused);
+    hold_rendering();
 }
 
 void ViewerModel::single_pass() {
@@ -228,8 +236,12 @@ void ViewerModel::cancel() {
         window_.help = false;
     else if (status_.state == WorkerState::Precomputing)
         cancel_precomputation();
-    else
+    else if (reference_job_)
+        stop_reference();
+    else if (selected_volume_ != kNoVolume || window_.compare.mode == CompareMode::Off)
         deselect();
+    else
+        set_compare_mode(CompareMode::Off);
 }
 
 void ViewerModel::cancel_precomputation() {

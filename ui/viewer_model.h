@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "ui/accuracy/accuracy_model.h"
 #include "ui/camera_controls.h"
+#include "ui/compare/compare_plan.h"
 #include "ui/job_thread.h"
 #include "ui/numbered_names.h"
 #include "ui/overlays/direction_disc.h"
+#include "ui/plot/plot_drag.h"
+#include "ui/reference_job.h"
 #include "ui/render_worker.h"
 #include "ui/viewer.h"
 
@@ -33,6 +37,11 @@ struct Toast {
 /// Look of the window: nothing in it reaches the rendering.
 struct WindowState {
     bool panels = true;
+    bool accuracy = true;  ///< the panel with the plot
+    PlotDrag plot_drag = PlotDrag::None;
+    bool over_plot = false;  ///< the wheel is the plot's
+    Rect plot;               ///< where its curves are
+    CompareState compare;
     bool help = false;
     bool cells = false;
     float cells_opacity = 0.4f;
@@ -82,7 +91,7 @@ public:
     const WindowState& window() const { return window_; }
     bool paused() const { return paused_; }
     bool moving() const { return moving_; }
-    bool busy() const { return jobs_.pending() > 0 || !unsaved_.empty(); }
+    bool busy() const { return jobs_.pending() > 0 || !unsaved_.empty() || reference_job_ != nullptr; }
     double now() const { return now_; }
     std::int32_t selected_volume() const { return selected_volume_; }
     const std::optional<PickedPoint>& picked() const { return picked_; }
@@ -96,6 +105,16 @@ public:
     std::string wanted_backend() const { return worker_.wanted_backend(); }
     /// Number of the newest change of back end; 0 before the first.
     std::uint64_t backend_generation() const { return backend_generation_; }
+    /// The runs of this session as the accuracy panel shows them.
+    AccuracyModel& accuracy() { return accuracy_; }
+    const AccuracyModel& accuracy() const { return accuracy_; }
+    /// Null without one for the picture in the window.
+    const ReferencePicture* reference() const;
+    /// What a comparison shows in `view`; no tiles if there is none.
+    /// Of the one that is being made; empty if none is.
+    std::optional<ReferenceJob::Progress> reference_progress() const;
+    ComparePlan compare_plan(const Rect& view) const;
+    bool turns() const { return turns_.has_value(); }
     std::string title() const;
     ViewerPicture picture() const { return {scene_name_, status_.backend, asked_settings(), display_, limits_}; }
     std::string command_line() const;
@@ -119,6 +138,19 @@ public:
     void forget();
     void cancel();  ///< what Esc does
     void cancel_precomputation();
+
+    void set_compare_mode(CompareMode mode);
+    void step_compare(int steps);
+    void flip();  ///< to the other picture of a comparison
+    void choose_side(bool second, const SideChoice& choice);
+    void set_split(float share);
+    /// Pictures are compared where the cursor stands, so that it turns comparing on.
+    void set_cursor(const Cursor& cursor);
+    /// Makes a reference of the picture in the window, or goes on with the stored one. Rendering rests meanwhile.
+    void make_reference();
+    void stop_reference();
+    /// The present method and what it is compared with render in turns of equal time.
+    void set_turns(bool on);
 
     void set_exposure(float ev);
     void set_curve(ToneCurve curve);
@@ -167,6 +199,13 @@ private:
     std::string file_stem() const;
     void push_job(std::function<JobThread::Report()> job);
     void take_frame();
+    void take_runs();
+    void look_for_reference();
+    void adopt_reference(const std::shared_ptr<const StoredReference>& found);
+    void take_reference();
+    void hold_rendering();
+    CompareInput compare_input() const;
+    CompareSides sides_in_turns() const;
     void select(std::int32_t volume);
 
     const ViewerOptions& options_;
@@ -191,6 +230,12 @@ private:
     std::vector<std::filesystem::path> unsaved_;  ///< waiting for a frame with values
     double save_deadline_ = 0.0;
     std::shared_ptr<const PublishedFrame> frame_;
+    AccuracyModel accuracy_;
+    std::optional<ReferencePicture> reference_;  ///< the newest that was found or made; maybe of another picture
+    std::uint64_t looked_for_ = 0;               ///< picture that a reference was last looked for
+    std::optional<TurnMethods> turns_;
+    std::shared_ptr<const PublishedFrame> turn_frame_;  ///< of the second method in turns; frame_ is of the first
+    std::shared_ptr<const PublishedFrame> latest_;      ///< the newer one of both
     WorkerStatus status_;
     double mpaths_per_second_ = 0.0;
     FilmSlot measured_slot_;
@@ -199,6 +244,7 @@ private:
     double measured_seconds_ = 0.0;
 
     RenderWorker worker_;
+    std::unique_ptr<ReferenceJob> reference_job_;
     JobThread jobs_;  ///< last: its reports use what is above
 };
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/build_info.h"
 #include "app/commands.h"
 #include "app/measure/bench_plan.h"
 #include "app/measure/gate.h"
@@ -153,6 +154,7 @@ private:
                      .warm_up = planned.warm_up,
                      .device = backend->info().device,
                      .threads = backend->info().threads,
+                     .commit = std::string(commit_id()),
                      .series = {}};
         RunObserver observer{.on_point = {}, .on_work = show};
         if (!planned.warm_up && planned.seed == plan_.first_seed)
@@ -163,7 +165,8 @@ private:
         auto series = record_run(session,
                                  {.spp = scene.options.spp_limit(),
                                   .seconds = scene.options.time_limit_seconds,
-                                  .target_error = scene.options.target_error},
+                                  .target_error = scene.options.target_error,
+                                  .measure_share = 0.01 * scene.options.measure_percent},
                                  scene.reference->pixels(), interrupt_.flag(), observer);
         if (!series) return false;
         run.series = *std::move(series);

@@ -1,6 +1,7 @@
 #include "app/measure/bench_results.h"
 
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -76,9 +77,10 @@ Json comparisons_json(const BenchSummary& summary) {
 std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
 std::string series_csv(const std::vector<BenchRun>& runs) {
-    std::string text = "scene,method,backend,seed,warm_up,spp,load_s,build_s,place_s,precompute_s,learn_s,render_s,"
-                       "charged_s,mse,relmse,relmse_trimmed,mape,smape,bias,relative_bias,psnr_db,noise,squared_bias,"
-                       "squared_bias_error,paths,segments,zero_contribution_paths,invalid_samples,invalid_pixels\n";
+    std::string text =
+        "scene,method,backend,seed,warm_up,spp,load_s,build_s,upload_s,place_s,precompute_s,learn_s,render_s,"
+        "charged_s,mse,relmse,relmse_trimmed,mape,smape,bias,relative_bias,psnr_db,noise,squared_bias,"
+        "squared_bias_error,paths,segments,zero_contribution_paths,invalid_samples,invalid_pixels\n";
     for (const BenchRun& run : runs)
         for (const RunPoint& point : run.series.points) {
             const Clocks& t = point.clocks;
@@ -86,9 +88,9 @@ std::string series_csv(const std::vector<BenchRun>& runs) {
             text += fmt::format("{},{},{},{},{},{}", run.cell.scene, run.cell.method, run.cell.backend, run.seed,
                                 run.warm_up ? 1 : 0, point.spp);
             for (const double value :
-                 {t.load, t.build, t.place, t.precompute, t.learn, t.render, charged_seconds(t), m.mse, m.relmse,
-                  m.relmse_trimmed, m.mape, m.smape, m.bias, m.relative_bias, m.psnr_db, point.noise.value_or(NAN),
-                  point.squared_bias ? point.squared_bias->value : NAN,
+                 {t.load, t.build, t.upload, t.place, t.precompute, t.learn, t.render, charged_seconds(t), m.mse,
+                  m.relmse, m.relmse_trimmed, m.mape, m.smape, m.bias, m.relative_bias, m.psnr_db,
+                  point.noise.value_or(NAN), point.squared_bias ? point.squared_bias->value : NAN,
                   point.squared_bias ? point.squared_bias->error : NAN})
                 text.append(1, ',').append(csv_number(value));
             text += fmt::format(",{},{},{},{},{}\n", point.counters.paths, point.counters.path.segments,
@@ -140,6 +142,12 @@ std::string summary_markdown(const BenchSummary& summary) {
 
 }  // namespace
 
+std::vector<std::string> commits_of(const std::vector<BenchRun>& runs) {
+    std::set<std::string> commits;
+    for (const BenchRun& run : runs) commits.insert(run.commit);
+    return {commits.begin(), commits.end()};
+}
+
 Json interval_json(const Interval& interval) {
     return Json::array({number_json(interval.value), number_json(interval.low), number_json(interval.high)});
 }
@@ -159,6 +167,7 @@ void write_results(const BenchFolder& folder, const BenchResults& results) {
     write_json_file(folder.path() / "results.json",
                     {{"schema", kResultsSchema},
                      {"version", PL_VERSION},
+                     {"commits", commits_of(results.runs)},
                      {"complete", results.complete},
                      {"command", results.command},
                      {"date", results.date},

@@ -21,6 +21,8 @@ void write_results(const BenchFolder& folder, const BenchResults& results);
 /// What write_results() has written to results.json. Throws Error(Input).
 BenchResults read_results(const std::filesystem::path& file);
 
+/// What the programs were built from that made the runs: more than one if a bench was gone on with by another.
+std::vector<std::string> commits_of(const std::vector<BenchRun>& runs);
 /// [value, low, high]; not finite numbers are null.
 Json interval_json(const Interval& interval);
 /// "0.0123 (0.0120 to 0.0126)"; without the interval below kFewestRuns runs, "unknown" if there is no value.

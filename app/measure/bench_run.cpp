@@ -3,20 +3,11 @@
 #include <limits>
 
 #include "app/measure/metrics_json.h"
+#include "app/stats_json.h"
 #include "core/base/error.h"
 
 namespace pl {
 namespace {
-
-Json clocks_json(const Clocks& clocks) {
-    return {{"load", clocks.load},
-            {"build", clocks.build},
-            {"place", clocks.place},
-            {"precompute", clocks.precompute},
-            {"learn", clocks.learn},
-            {"render", clocks.render},
-            {"charged", charged_seconds(clocks)}};
-}
 
 Json estimate_json(const std::optional<Estimate>& estimate) {
     if (!estimate) return nullptr;
@@ -26,7 +17,7 @@ Json estimate_json(const std::optional<Estimate>& estimate) {
 Json point_json(const RunPoint& point) {
     const PassCounters& counters = point.counters;
     return {{"spp", point.spp},
-            {"seconds", clocks_json(point.clocks)},
+            {"seconds", clocks_json(point.clocks, {{"charged", charged_seconds(point.clocks)}})},
             {"metrics", metrics_json(point.metrics)},
             {"noise", point.noise ? Json(*point.noise) : Json(nullptr)},
             {"squared_bias", estimate_json(point.squared_bias)},
@@ -46,15 +37,6 @@ double number_or_infinity(const Json& json) {
 std::optional<Estimate> estimate_from(const Json& json) {
     if (json.is_null()) return std::nullopt;
     return Estimate{json.at("value").get<double>(), number_or_infinity(json.at("error"))};
-}
-
-Clocks clocks_from(const Json& json) {
-    return {.load = json.at("load"),
-            .build = json.at("build"),
-            .place = json.at("place"),
-            .precompute = json.at("precompute"),
-            .learn = json.at("learn"),
-            .render = json.at("render")};
 }
 
 Metrics metrics_from(const Json& json) {
@@ -94,11 +76,17 @@ RunPoint point_from(const Json& json) {
 Json run_json(const BenchRun& run) {
     Json points = Json::array();
     for (const RunPoint& point : run.series.points) points.push_back(point_json(point));
-    return {{"schema", kRunSchema},      {"scene", run.cell.scene},
-            {"method", run.cell.method}, {"backend", run.cell.backend},
-            {"seed", run.seed},          {"learned_before", "nothing"},
-            {"warm_up", run.warm_up},    {"device", run.device},
-            {"threads", run.threads},    {"measure_seconds", run.series.measure_seconds},
+    return {{"schema", kRunSchema},
+            {"scene", run.cell.scene},
+            {"method", run.cell.method},
+            {"backend", run.cell.backend},
+            {"seed", run.seed},
+            {"learned_before", "nothing"},
+            {"warm_up", run.warm_up},
+            {"device", run.device},
+            {"threads", run.threads},
+            {"commit", run.commit},
+            {"measure_seconds", run.series.measure_seconds},
             {"points", points}};
 }
 
@@ -108,6 +96,7 @@ BenchRun run_from_json(const Json& json) {
                  .warm_up = json.at("warm_up"),
                  .device = json.at("device"),
                  .threads = json.at("threads"),
+                 .commit = json.value("commit", "unknown"),
                  .series = {}};
     run.series.measure_seconds = json.at("measure_seconds");
     for (const Json& point : json.at("points")) run.series.points.push_back(point_from(point));

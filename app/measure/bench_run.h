@@ -29,6 +29,7 @@ struct BenchRun {
     bool warm_up = false;  ///< the first of its cell in a process: reported, and in no summary
     std::string device;
     int threads = 0;
+    std::string commit = "unknown";  ///< of the program that made it
     RunSeries series;
 
     const RunPoint& end() const { return series.points.back(); }

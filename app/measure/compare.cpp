@@ -8,6 +8,7 @@
 #include "app/measure/reference_store.h"
 #include "core/base/error.h"
 #include "core/io/image.h"
+#include "core/measure/flip.h"
 #include "core/measure/metrics.h"
 #include "core/measure/picture_identity.h"
 
@@ -72,15 +73,43 @@ Reference reference_for(const Picture& picture, const std::string& folder) {
                                            .max_depth = max_depth});
 }
 
-Metrics measure(const Picture& picture, const std::string& reference, Console& console) {
-    if (std::filesystem::is_directory(reference))
-        return measure_error(picture.image.pixels, reference_for(picture, reference).pixels());
-    const Picture other = read_picture(reference);
-    check_pair(picture, other, console);
-    return measure_error(picture.image.pixels, other.image.pixels);
+struct Comparison {
+    Metrics metrics;
+    std::optional<double> flip;
+};
+
+/// Pixels per degree that FLIP supposes; empty if it is not asked for.
+std::optional<double> flip_resolution(const Options& options) {
+    if (options.pixels_per_degree > 0.0 && !options.flip)
+        throw Error(ErrorKind::Usage, "--pixels-per-degree: expected --flip with it");
+    if (!options.flip) return std::nullopt;
+    return options.pixels_per_degree > 0.0 ? options.pixels_per_degree : kFlipPixelsPerDegree;
 }
 
-std::string text_of_metrics(const Metrics& m, const Picture& picture, const std::string& reference) {
+/// `resolution` is that of FLIP.
+Comparison compare(const Picture& picture, const ReferenceHalves& halves, Pixels mean,
+                   std::optional<double> resolution) {
+    Comparison result{.metrics = measure_error(picture.image.pixels, halves), .flip = {}};
+    if (resolution) result.flip = mean_of(flip_map(picture.image.pixels, mean, picture.image.width, *resolution));
+    return result;
+}
+
+Comparison compare(const Picture& picture, const std::string& reference, std::optional<double> resolution,
+                   Console& console) {
+    if (std::filesystem::is_directory(reference)) {
+        const Reference found = reference_for(picture, reference);
+        const auto& [first, second] = found.halves;
+        const std::vector<Vec3f> mean = weighted_mean(first.image.pixels, first.spp, second.image.pixels, second.spp);
+        return compare(picture, found.pixels(), mean, resolution);
+    }
+    const Picture other = read_picture(reference);
+    check_pair(picture, other, console);
+    return compare(picture, {other.image.pixels, other.image.pixels}, other.image.pixels, resolution);
+}
+
+std::string text_of(const Comparison& comparison, std::optional<double> resolution, const Picture& picture,
+                    const std::string& reference) {
+    const Metrics& m = comparison.metrics;
     std::string text =
         fmt::format("{} against {}, {}x{}\n", picture.path, reference, picture.image.width, picture.image.height);
     const auto row = [&text](std::string_view name, double value, const std::string& note) {
@@ -96,16 +125,21 @@ std::string text_of_metrics(const Metrics& m, const Picture& picture, const std:
     row("smape", m.smape, fmt::format("2 |x-r| / (|x| + |r| + {})", kEpsilon));
     row("bias", m.bias, fmt::format("luminance of x-r, {:+.4g} % of the reference", 100.0 * m.relative_bias));
     row("psnr", m.psnr_db, "dB, peak 1");
+    if (comparison.flip)
+        row("flip", *comparison.flip,
+            fmt::format("0 to 1, radiance above 1 is white, {} pixels per degree", *resolution));
     return text;
 }
 
 }  // namespace
 
 int run_compare(const CommandLine& line, Console& console) {
+    const std::optional<double> resolution = flip_resolution(line.options);
     const Picture picture = read_picture(line.options.inputs[0]);
     const std::string& reference = line.options.inputs[1];
-    const Metrics metrics = measure(picture, reference, console);
-    console.result(text_of_metrics(metrics, picture, reference));
+    const Comparison comparison = compare(picture, reference, resolution, console);
+    const Metrics& metrics = comparison.metrics;
+    console.result(text_of(comparison, resolution, picture, reference));
     if (metrics.invalid_reference > 0)
         console.log().warning(fmt::format("{}: {} pixels are NaN or infinite: the picture is not scored there",
                                           reference, metrics.invalid_reference));
@@ -114,6 +148,7 @@ int run_compare(const CommandLine& line, Console& console) {
                {"width", picture.image.width},
                {"height", picture.image.height}};
     event.update(metrics_json(metrics));
+    if (comparison.flip) event.update({{"flip", *comparison.flip}, {"pixels_per_degree", *resolution}});
     console.event("compare", event);
     if (const auto target = line.options.target_error; target && metrics.relmse > *target)
         throw Error(ErrorKind::Threshold,

@@ -5,15 +5,15 @@
 #include <fmt/format.h>
 
 #include "app/json_file.h"
-#include "app/progress.h"
 #include "core/base/hash.h"
 #include "core/base/timer.h"
 
 namespace pl {
 namespace {
 
-/// Work that a crash may lose.
+/// Work that a crash may lose; at first less, so that there is soon something in both halves.
 constexpr double kPartSeconds = 10.0;
+constexpr double kFirstPartSeconds = 1.0;
 
 /// Far from the small numbers that people choose, and different for every piece of work.
 std::uint64_t part_seed(std::uint64_t seed, std::size_t half, std::uint32_t part) {
@@ -26,10 +26,8 @@ std::uint64_t part_seed(std::uint64_t seed, std::size_t half, std::uint32_t part
 
 class ReferenceMaker {
 public:
-    ReferenceMaker(Session& session, const Options& options, const ReferenceStore& store,
-                   const InterruptGuard& interrupt, Console& console)
-        : session_(session), options_(options), store_(store), interrupt_(interrupt),
-          progress_(console, !options.no_progress && !options.quiet), seed_(session.settings().seed) {
+    ReferenceMaker(Session& session, const ReferencePlan& plan, const ReferenceStore& store)
+        : session_(session), plan_(plan), store_(store), seed_(session.settings().seed) {
         const PictureContent content = content_of(session.scene(), session.settings());
         if (auto found = store.find(content)) {
             reference_ = *std::move(found);
@@ -41,7 +39,7 @@ public:
 
     ReferenceOutcome run() {
         make_folder(store_.folder());
-        while (!is_done() && !interrupt_.raised()) {
+        while (!is_done() && !may_stop()) {
             const std::size_t half = reference_.halves[0].spp <= reference_.halves[1].spp ? 0 : 1;
             render_part(half);
             store_.save_half(reference_, half);
@@ -53,27 +51,29 @@ public:
     }
 
 private:
-    bool has_time() const { return !options_.time_limit_seconds || watch_.seconds() < *options_.time_limit_seconds; }
+    bool has_time() const { return !plan_.seconds || watch_.seconds() < *plan_.seconds; }
 
     std::uint32_t spp() const { return std::min(reference_.halves[0].spp, reference_.halves[1].spp); }
-    bool is_done() const { return spp() > 0 && (spp() >= options_.spp_limit() || !has_time()); }
+    bool is_done() const { return spp() > 0 && (spp() >= plan_.spp || !has_time()); }
+
+    bool may_stop() const { return plan_.stopped() && (spp() > 0 || !plan_.in_both_halves); }
 
     double part_seconds() const {
-        return options_.time_limit_seconds ? std::min(kPartSeconds, 0.25 * *options_.time_limit_seconds)
-                                           : kPartSeconds;
+        const double part = std::clamp(watch_.seconds(), kFirstPartSeconds, kPartSeconds);
+        return plan_.seconds ? std::min(part, 0.25 * *plan_.seconds) : part;
     }
 
     /// One stretch of passes into a half. Passes are always finished, so that all pixels have the same samples.
     void render_part(std::size_t index) {
         ReferenceHalf& half = reference_.halves[index];
         session_.apply(EditSeed{part_seed(seed_, index, half.parts)});
-        const std::uint32_t wanted = options_.spp_limit() - half.spp;
+        const std::uint32_t wanted = plan_.spp - half.spp;
         const Stopwatch watch;
         do {
             session_.advance();
             show(half.spp + session_.passes(), index);
         } while (session_.passes() == 0 ||
-                 (session_.passes() < wanted && !interrupt_.raised() && watch.seconds() < part_seconds()));
+                 (session_.passes() < wanted && !plan_.stopped() && watch.seconds() < part_seconds()));
         add(half, session_.snapshot(), watch.seconds());
     }
 
@@ -89,9 +89,9 @@ private:
 
     void show(std::uint32_t half_spp, std::size_t index) {
         const double both = static_cast<double>(half_spp) + reference_.halves[1 - index].spp;
-        double share = 0.5 * both / options_.spp_limit();
-        if (options_.time_limit_seconds) share = std::max(share, watch_.seconds() / *options_.time_limit_seconds);
-        progress_.show(
+        double share = 0.5 * both / plan_.spp;
+        if (plan_.seconds) share = std::max(share, watch_.seconds() / *plan_.seconds);
+        plan_.show(
             {.activity = "reference",
              .share = std::min(share, 1.0),
              .spp = half_spp,
@@ -101,7 +101,7 @@ private:
     Json about() const {
         const RenderSettings& settings = session_.settings();
         const auto vector = [](const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); };
-        return {{"scene", options_.scene},
+        return {{"scene", plan_.scene},
                 {"camera",
                  {{"eye", vector(settings.camera.eye)},
                   {"target", vector(settings.camera.target)},
@@ -114,10 +114,8 @@ private:
     }
 
     Session& session_;
-    const Options& options_;
+    const ReferencePlan& plan_;
     const ReferenceStore& store_;
-    const InterruptGuard& interrupt_;
-    ProgressDisplay progress_;
     Stopwatch watch_;
     std::uint64_t seed_;
     Reference reference_;
@@ -125,9 +123,20 @@ private:
 
 }  // namespace
 
+ReferenceOutcome make_reference(Session& session, const ReferencePlan& plan, const ReferenceStore& store) {
+    return ReferenceMaker(session, plan, store).run();
+}
+
 ReferenceOutcome make_reference(Session& session, const Options& options, const ReferenceStore& store,
                                 const InterruptGuard& interrupt, Console& console) {
-    return ReferenceMaker(session, options, store, interrupt, console).run();
+    ProgressDisplay progress(console, !options.no_progress && !options.quiet);
+    return make_reference(session,
+                          {.scene = options.scene,
+                           .spp = options.spp_limit(),
+                           .seconds = options.time_limit_seconds,
+                           .stopped = [&] { return interrupt.raised(); },
+                           .show = [&](const ProgressState& state) { progress.show(state); }},
+                          store);
 }
 
 }  // namespace pl

@@ -47,7 +47,7 @@ PictureContent content_of(const SceneDescription& scene, const RenderSettings& s
 }
 
 Noise Reference::noise() const {
-    return has_samples() ? estimate_noise({halves[0].image.pixels, halves[1].image.pixels}) : Noise{};
+    return has_samples() ? estimate_noise({halves[0].image.pixels, halves[1].image.pixels}, content.width) : Noise{};
 }
 
 fs::path ReferenceStore::half_path(const std::string& name, std::size_t half) const {

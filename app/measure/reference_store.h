@@ -9,7 +9,7 @@
 
 #include "app/events.h"
 #include "core/io/image.h"
-#include "core/measure/halves.h"
+#include "core/measure/noise.h"
 #include "core/session/settings.h"
 
 namespace pl {

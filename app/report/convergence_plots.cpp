@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -11,34 +12,45 @@ namespace {
 
 constexpr int kBandPoints = 32;
 
-/// Errors and costs of all runs at one step of the ladder.
-struct StepValues {
-    std::vector<double> errors;
-    std::vector<double> seconds;
-};
-
-std::map<std::uint32_t, StepValues> steps_of(const std::vector<BenchRun>& runs, const BenchCell& cell) {
-    std::map<std::uint32_t, StepValues> steps;
-    for (const BenchRun& run : runs) {
-        if (run.warm_up || run.cell != cell) continue;
-        for (const RunPoint& point : run.series.points) {
-            StepValues& step = steps[point.spp];
-            step.errors.push_back(point.metrics.relmse);
-            step.seconds.push_back(charged_seconds(point.clocks));
-        }
-    }
+/// Samples per pixel at which any run of a cell was measured. Not all were at the same ones: points are left out where
+/// measuring would take too long.
+std::set<std::uint32_t> steps_of(const std::vector<const BenchRun*>& runs) {
+    std::set<std::uint32_t> steps;
+    for (const BenchRun* run : runs)
+        for (const RunPoint& point : run->series.points) steps.insert(point.spp);
     return steps;
 }
 
-std::vector<PlotPoint> line_of(const std::vector<BenchRun>& runs, const CellSummary& cell, bool over_time) {
+/// Charged seconds over samples per pixel.
+Curve seconds_over_samples(const RunSeries& series) {
+    Curve curve;
+    for (const RunPoint& point : series.points)
+        curve.push_back({static_cast<double>(point.spp), charged_seconds(point.clocks)});
+    return curve;
+}
+
+/// Geometric mean over curves; empty unless all reach over it.
+std::optional<double> mean_at(const std::vector<Curve>& curves, double cost) {
+    const auto interval = error_interval_at(curves, cost);
+    return interval && interval->value > 0.0 ? std::optional(interval->value) : std::nullopt;
+}
+
+std::vector<PlotPoint> line_of(const std::vector<BenchRun>& all, const CellSummary& cell, bool over_time) {
+    std::vector<const BenchRun*> runs;
+    std::vector<Curve> seconds;
+    for (const BenchRun& run : all)
+        if (!run.warm_up && run.cell == cell.cell) {
+            runs.push_back(&run);
+            seconds.push_back(seconds_over_samples(run.series));
+        }
     std::vector<PlotPoint> line;
-    for (const auto& [spp, step] : steps_of(runs, cell.cell)) {
-        const double error = geometric_interval(step.errors).value;
-        const double seconds = geometric_interval(step.seconds).value;
-        if (step.errors.size() != cell.ends.size() || !(error > 0.0)) continue;
+    for (const std::uint32_t spp : steps_of(runs)) {
+        const auto error = mean_at(cell.over_samples, spp);
+        const auto time = mean_at(seconds, spp);
+        if (!error || !time) continue;
         line.push_back(
-            {over_time ? seconds : static_cast<double>(spp), error,
-             fmt::format("{}: {} samples, {:.3g} s, relMSE {:.3g}", cell.cell.title(), spp, seconds, error)});
+            {over_time ? *time : static_cast<double>(spp), *error,
+             fmt::format("{}: {} samples, {:.3g} s, relMSE {:.3g}", cell.cell.title(), spp, *time, *error)});
     }
     return line;
 }

@@ -89,7 +89,7 @@ std::string definitions() {
            "over channels and pixels, with the reference in two independent halves, "
            "(x-r<sub>1</sub>)(x-r<sub>2</sub>), so "
            "that its noise drops out; trimmed: without the worst 0.1 % of the pixels. Time is placing volumes, "
-           "precomputing, learning and rendering; loading, building and measuring are not in it. Every run starts "
+           "precomputing, learning and rendering; loading, building, uploading and measuring are not in it. Every run starts "
            "with "
            "nothing learned. Intervals are 95 %, Student's on logarithms over runs, ratios by Welch. The slope of "
            "error "
@@ -104,11 +104,12 @@ std::string about(const BenchResults& results) {
     double share = 0.0;
     for (const CellSummary& cell : results.summary.cells) share = std::max(share, cell.measure_share);
     return fmt::format(
-        "<p>{}; pathlight {}; {}. Runs are in shuffled blocks of one seed each; the first run of each "
+        "<p>{}; pathlight {}, commit {}; {}. Runs are in shuffled blocks of one seed each; the first run of each "
         "method is a warm-up and left out. Measuring took up to {:.1f} % on top of the charged time.</p>\n"
         "<pre>{}</pre>\n",
-        escape_markup(results.date), PL_VERSION, escape_markup(devices), 100.0 * share,
-        escape_markup(results.command));
+        escape_markup(results.date), PL_VERSION,
+        escape_markup(fmt::format("{}", fmt::join(commits_of(results.runs), ", "))), escape_markup(devices),
+        100.0 * share, escape_markup(results.command));
 }
 
 std::string warnings(const BenchResults& results) {

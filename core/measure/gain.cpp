@@ -76,7 +76,9 @@ std::string headline(const Gain& gain, const std::string& base_name) {
     std::string text = fmt::format(
         "needs {} samples than {}, each costs {}: {} to the same error", either(gain.samples.value, "fewer", "more"),
         base_name, either(gain.cost.value, "less", "more"), either(gain.net.value, "faster", "slower"));
-    if (gain.runs < kFewestRuns)
+    if (gain.runs == 1)
+        text += " (one run each: no interval)";
+    else if (gain.runs < kFewestRuns)
         text += fmt::format(" (only {} runs: no interval)", gain.runs);
     else
         text += fmt::format(" (95 %: {}{})", interval_text(gain.net), is_decided(gain.net) ? "" : ", so undecided");

@@ -5,32 +5,17 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/measure/chunks.h"
 
 namespace pl {
 namespace {
 
-void require_same_sizes(std::initializer_list<Pixels> pictures) {
-    for (const Pixels& picture : pictures)
-        if (picture.size() != pictures.begin()->size())
-            throw Error(ErrorKind::Input, "expected halves of the same size, got " +
-                                              std::to_string(pictures.begin()->size()) + " and " +
-                                              std::to_string(picture.size()) + " pixels");
-}
-
-double channel_mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3.0; }
-
-/// What makes a square relative, by channel.
-Vec3d relative_weight(const Vec3d& scale) { return Vec3d(1.0) / (scale * scale + Vec3d(kEpsilon)); }
-
-/// Means over square blocks of pixels, of which the error of their mean follows.
+/// Means over square blocks of pixels, of which the error of their mean follows. Threads may add to different blocks.
 class BlockMeans {
 public:
-    BlockMeans(std::size_t pixels, int width)
-        : width_(static_cast<std::size_t>(width)), columns_((width_ + kBlockSide - 1) / kBlockSide),
-          sums_(columns_ * ((pixels / width_ + kBlockSide - 1) / kBlockSide), 0.0), counts_(sums_.size(), 0.0) {}
+    explicit BlockMeans(std::size_t blocks) : sums_(blocks, 0.0), counts_(blocks, 0.0) {}
 
-    void add(std::size_t pixel, double value) {
-        const std::size_t block = pixel / width_ / kBlockSide * columns_ + pixel % width_ / kBlockSide;
+    void add(std::size_t block, double value) {
         sums_[block] += value;
         counts_[block] += 1.0;
     }
@@ -57,75 +42,123 @@ public:
     }
 
 private:
-    std::size_t width_;
-    std::size_t columns_;
     std::vector<double> sums_;
     std::vector<double> counts_;
 };
 
+/// Sums over pixels on the way to ErrorParts.
+struct PartSums {
+    double error = 0.0;
+    double variance = 0.0;
+    double reference_noise = 0.0;
+    double reference_luminance = 0.0;
+    std::size_t pixels = 0;
+    std::size_t invalid = 0;
+
+    void add(const PartSums& other) {
+        error += other.error;
+        variance += other.variance;
+        reference_noise += other.reference_noise;
+        reference_luminance += other.reference_luminance;
+        pixels += other.pixels;
+        invalid += other.invalid;
+    }
+};
+
+/// Takes apart row by row, one row of blocks after the other.
+class PartsTaker {
+public:
+    PartsTaker(const PictureHalves& picture, const ReferenceHalves& reference, std::size_t width)
+        : picture_(picture), reference_(reference), shares_(picture), width_(width),
+          columns_((width + kBlockSide - 1) / kBlockSide), rows_(picture.first.size() / width),
+          squared_bias_(columns_ * ((rows_ + kBlockSide - 1) / kBlockSide)), difference_(squared_bias_) {}
+
+    ErrorParts take(int threads) {
+        PartSums total;
+        for (const PartSums& sums : sums_of_chunks(rows_, kBlockSide, threads, PartSums{},
+                                                   [this](PartSums&sums, IndexRange rows) { add_rows(sums, rows); }))
+            total.add(sums);
+        ErrorParts parts;
+        parts.pixels = total.pixels;
+        parts.invalid = total.invalid;
+        if (total.pixels == 0) return parts;
+        const auto n = static_cast<double>(total.pixels);
+        parts.error = total.error / n;
+        parts.variance = total.variance / n;
+        parts.reference_noise = total.reference_noise / n;
+        parts.squared_bias = squared_bias_.finish();
+        parts.signed_bias = difference_.finish();
+        const double scale = total.reference_luminance == 0.0 ? 0.0 : n / total.reference_luminance;
+        parts.signed_bias.value *= scale;
+        parts.signed_bias.error *= std::fabs(scale);
+        return parts;
+    }
+
+private:
+    void add_rows(PartSums& sums, IndexRange rows) {
+        for (std::size_t row = rows.begin; row < rows.end; ++row)
+            for (std::size_t column = 0; column < width_; ++column)
+                add_pixel(sums, row * width_ + column, row / kBlockSide * columns_ + column / kBlockSide);
+    }
+
+    void add_pixel(PartSums& sums, std::size_t i, std::size_t block) {
+        if (!is_finite(picture_.first[i]) || !is_finite(picture_.second[i]) || !is_finite(reference_.first[i]) ||
+            !is_finite(reference_.second[i])) {
+            ++sums.invalid;
+            return;
+        }
+        const Vec3d a{picture_.first[i]}, b{picture_.second[i]};
+        const Vec3d r1{reference_.first[i]}, r2{reference_.second[i]};
+        const Vec3d x = shares_.mean(a, b), r = 0.5 * (r1 + r2);
+        const Vec3d weight = relative_weight(r);
+        sums.error += channel_mean(weight * (x - r1) * (x - r2));
+        sums.variance += channel_mean(weight * shares_.variance(a, b));
+        sums.reference_noise += channel_mean(weight * 0.25 * (r1 - r2) * (r1 - r2));
+        sums.reference_luminance += luminance_of(r);
+        squared_bias_.add(block, channel_mean(weight * (a - r1) * (b - r2)));
+        difference_.add(block, luminance_of(x - r));
+        ++sums.pixels;
+    }
+
+    const PictureHalves& picture_;
+    const ReferenceHalves& reference_;
+    HalfShares shares_;
+    std::size_t width_;
+    std::size_t columns_;
+    std::size_t rows_;
+    BlockMeans squared_bias_;
+    BlockMeans difference_;
+};
+
 }  // namespace
 
-bool Estimate::is_seen() const { return std::fabs(value) > 2.0 * error; }
-
-Noise estimate_noise(const PictureHalves& halves) {
-    require_same_sizes({halves.first, halves.second});
-    Noise noise;
-    for (std::size_t i = 0; i < halves.first.size(); ++i) {
-        if (!is_finite(halves.first[i]) || !is_finite(halves.second[i])) {
-            ++noise.invalid;
-            continue;
-        }
-        const Vec3d a{halves.first[i]};
-        const Vec3d b{halves.second[i]};
-        const Vec3d square = 0.25 * (a - b) * (a - b);
-        noise.mse += channel_mean(square);
-        noise.relmse += channel_mean(square * relative_weight(0.5 * (a + b)));
-        ++noise.pixels;
-    }
-    if (noise.pixels > 0) {
-        noise.mse /= static_cast<double>(noise.pixels);
-        noise.relmse /= static_cast<double>(noise.pixels);
-    }
-    return noise;
+void require_same_sizes(std::initializer_list<Pixels> pictures) {
+    for (const Pixels& picture : pictures)
+        if (picture.size() != pictures.begin()->size())
+            throw Error(ErrorKind::Input, "expected halves of the same size, got " +
+                                              std::to_string(pictures.begin()->size()) + " and " +
+                                              std::to_string(picture.size()) + " pixels");
 }
 
-ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& reference, int width) {
-    require_same_sizes({picture.first, picture.second, reference.first, reference.second});
-    const std::size_t pixels = picture.first.size();
+void require_full_rows(std::size_t pixels, int width) {
     if (width < 1 || pixels % static_cast<std::size_t>(width) != 0)
         throw Error(ErrorKind::Input, "expected full rows of pixels, got " + std::to_string(pixels) +
                                           " pixels in rows of " + std::to_string(width));
-    ErrorParts parts;
-    BlockMeans squared_bias(pixels, width);
-    BlockMeans difference(pixels, width);
-    double reference_luminance = 0.0;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        if (!is_finite(picture.first[i]) || !is_finite(picture.second[i]) || !is_finite(reference.first[i]) ||
-            !is_finite(reference.second[i])) {
-            ++parts.invalid;
-            continue;
-        }
-        const Vec3d a{picture.first[i]}, b{picture.second[i]};
-        const Vec3d r1{reference.first[i]}, r2{reference.second[i]};
-        const Vec3d x = 0.5 * (a + b), r = 0.5 * (r1 + r2);
-        const Vec3d weight = relative_weight(r);
-        parts.error += channel_mean(weight * (x - r1) * (x - r2));
-        parts.variance += channel_mean(weight * 0.25 * (a - b) * (a - b));
-        parts.reference_noise += channel_mean(weight * 0.25 * (r1 - r2) * (r1 - r2));
-        squared_bias.add(i, channel_mean(weight * (a - r1) * (b - r2)));
-        difference.add(i, luminance_of(x - r));
-        reference_luminance += luminance_of(r);
-        ++parts.pixels;
-    }
-    if (parts.pixels == 0) return parts;
-    const auto n = static_cast<double>(parts.pixels);
-    for (double* sum : {&parts.error, &parts.variance, &parts.reference_noise}) *sum /= n;
-    parts.squared_bias = squared_bias.finish();
-    parts.signed_bias = difference.finish();
-    const double scale = reference_luminance == 0.0 ? 0.0 : n / reference_luminance;
-    parts.signed_bias.value *= scale;
-    parts.signed_bias.error *= std::fabs(scale);
-    return parts;
+}
+
+bool Estimate::is_seen() const { return std::fabs(value) > 2.0 * error; }
+
+PictureHalves halves_of(const FilmHalves& halves) {
+    return {.first = halves.mean[0],
+            .second = halves.mean[1],
+            .first_weight = static_cast<double>(halves.samples[0]),
+            .second_weight = static_cast<double>(halves.samples[1])};
+}
+
+ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& reference, int width, int threads) {
+    require_same_sizes({picture.first, picture.second, reference.first, reference.second});
+    require_full_rows(picture.first.size(), width);
+    return PartsTaker(picture, reference, static_cast<std::size_t>(width)).take(threads);
 }
 
 std::vector<Vec3f> weighted_mean(Pixels first, double first_weight, Pixels second, double second_weight) {

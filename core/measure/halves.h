@@ -1,10 +1,12 @@
-// What two independent halves of a picture tell: its noise without any reference, and with a reference in two halves
-// which part of the error is noise and which part stays however long one renders.
+// What two independent halves of a picture and of its reference tell: which part of the error is noise, and which part stays
+// however long one renders. The number of threads changes no result.
 #pragma once
 
+#include <initializer_list>
 #include <vector>
 
 #include "core/measure/metrics.h"
+#include "core/session/backend.h"
 
 namespace pl {
 
@@ -13,18 +15,33 @@ namespace pl {
 struct PictureHalves {
     Pixels first;
     Pixels second;
+    double first_weight = 1.0;  ///< samples in the first half, in any unit; positive, as the other one
+    double second_weight = 1.0;
 };
 
-/// Squared noise, plain and relative as in Metrics, of the mean of both halves.
-struct Noise {
-    double mse = 0.0;
-    double relmse = 0.0;  ///< over the square of the picture itself, since there is no reference
-    std::size_t pixels = 0;
-    std::size_t invalid = 0;  ///< not finite in a half
+/// What a film was read as; both halves have to be there.
+PictureHalves halves_of(const FilmHalves& halves);
+
+/// The part of the samples that each half holds.
+struct HalfShares {
+    double first;
+    double second;
+
+    explicit HalfShares(const PictureHalves& halves)
+        : first(halves.first_weight / (halves.first_weight + halves.second_weight)), second(1.0 - first) {}
+    /// Of a pixel of the picture, out of those of its halves.
+    Vec3d mean(const Vec3d& a, const Vec3d& b) const { return first * a + second * b; }
+    /// Has the variance of mean() as its mean: (a-b)^2 / 4 for equal halves.
+    Vec3d variance(const Vec3d& a, const Vec3d& b) const { return first * second * (a - b) * (a - b); }
 };
 
-/// (a-b)^2 / 4 has the variance of (a+b) / 2 as its mean. Throws Error(Input) if sizes differ.
-Noise estimate_noise(const PictureHalves& halves);
+/// What makes a square relative, by channel.
+inline Vec3d relative_weight(const Vec3d& scale) { return Vec3d(1.0) / (scale * scale + Vec3d(kEpsilon)); }
+inline double channel_mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3.0; }
+
+/// Throw Error(Input).
+void require_same_sizes(std::initializer_list<Pixels> pictures);
+void require_full_rows(std::size_t pixels, int width);
 
 /// A value and how far it may be off.
 struct Estimate {
@@ -38,7 +55,7 @@ struct Estimate {
 /// The squared error of a picture taken apart. All but `signed_bias` in units of Metrics::relmse.
 struct ErrorParts {
     double error = 0.0;     ///< (x-r1)(x-r2): variance and bias together
-    double variance = 0.0;  ///< (a-b)^2 / 4
+    double variance = 0.0;  ///< HalfShares::variance()
     Estimate squared_bias;  ///< (a-r1)(b-r2): no noise enters twice, so all that is left is bias; may be negative
     Estimate signed_bias;   ///< luminance of x-r over the mean luminance of r
     double reference_noise = 0.0;  ///< (r1-r2)^2 / 4, of the mean of the halves
@@ -49,7 +66,7 @@ struct ErrorParts {
 /// Standard errors are those of means over blocks of kBlockSide x kBlockSide pixels, because neighboring pixels share
 /// what was learned. For one run they are too small where all pixels share a table: the true ones need several seeds.
 /// Throws Error(Input) if sizes differ or `width` does not divide them.
-ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& reference, int width);
+ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& reference, int width, int threads = 1);
 inline constexpr int kBlockSide = 16;
 
 /// Pixelwise mean of two pictures of `first_weight` and `second_weight` samples each.

@@ -22,13 +22,19 @@ bool is_labeled(int digit, int power, const Step& step) {
 
 }  // namespace
 
-LogAxis::LogAxis(double low, double high) : low_(low / kMargin), high_(high * kMargin) {
-    if (std::isfinite(low_) && std::isfinite(high_) && low > 0.0 && low <= high) return;
+LogAxis::LogAxis(double low, double high, double margin) : low_(low / margin), high_(high * margin) {
+    if (std::isfinite(low_) && std::isfinite(high_) && low > 0.0 && low_ < high_ && low <= high) return;
     low_ = 1.0 / std::sqrt(10.0);
     high_ = std::sqrt(10.0);
 }
 
+LogAxis::LogAxis(double low, double high) : LogAxis(low, high, kMargin) {}
+
+LogAxis LogAxis::exactly(double low, double high) { return {low, high, 1.0}; }
+
 double LogAxis::position(double value) const { return std::log(value / low_) / std::log(high_ / low_); }
+
+double LogAxis::value_at(double position) const { return low_ * std::pow(high_ / low_, position); }
 
 std::vector<AxisTick> LogAxis::ticks(int most_labels) const {
     const int first = static_cast<int>(std::floor(std::log10(low_)));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/measure/chunks.h"
 
 namespace pl {
 namespace {
@@ -43,6 +44,12 @@ public:
         largest_.pop_back();
     }
 
+    /// Adds the terms of another sum.
+    void add(const TrimmedSum& other) {
+        rest_ += other.rest_;
+        for (const double term : other.largest_) add(term);
+    }
+
     /// Without the `left_out` largest terms; at most as many as were kept apart.
     double sum(std::size_t left_out) const {
         std::vector<double> descending = largest_;
@@ -69,9 +76,14 @@ public:
         for (int c = 0; c < 3; ++c) {
             const double distance = std::fabs(x[c] - r[c]);
             plain += square[c];
-            relative += square[c] / (r[c] * r[c] + kEpsilon);
-            absolute_ += distance / (std::fabs(r[c]) + kEpsilon);
-            symmetric_ += 2.0 * distance / (std::fabs(x[c]) + std::fabs(r[c]) + kEpsilon);
+            // One division for three: of floats, the product of all is far from the ends of a double.
+            const double of_square = r[c] * r[c] + kEpsilon;
+            const double of_value = std::fabs(r[c]) + kEpsilon;
+            const double of_both = std::fabs(x[c]) + of_value;
+            const double inverse = 1.0 / (of_square * of_value * of_both);
+            relative += square[c] * (inverse * (of_value * of_both));
+            absolute_ += distance * (inverse * (of_square * of_both));
+            symmetric_ += 2.0 * distance * (inverse * (of_square * of_value));
         }
         squares_.add(plain / 3.0);
         relative_squares_.add(relative / 3.0);
@@ -80,7 +92,19 @@ public:
         reference_ += luminance_of(r);
     }
 
-    Metrics finish(std::size_t invalid, std::size_t invalid_reference) {
+    void add(const ErrorSums& other) {
+        squares_.add(other.squares_);
+        relative_squares_.add(other.relative_squares_);
+        pixels_ += other.pixels_;
+        invalid += other.invalid;
+        invalid_reference += other.invalid_reference;
+        absolute_ += other.absolute_;
+        symmetric_ += other.symmetric_;
+        difference_ += other.difference_;
+        reference_ += other.reference_;
+    }
+
+    Metrics finish() const {
         Metrics m{.pixels = pixels_, .invalid = invalid, .invalid_reference = invalid_reference};
         if (m.pixels == 0) return m;
         const auto n = static_cast<double>(m.pixels);
@@ -97,6 +121,9 @@ public:
         m.psnr_db = -10.0 * std::log10(std::max(m.mse, 0.0));
         return m;
     }
+
+    std::size_t invalid = 0;            ///< pixels that are not finite: not added
+    std::size_t invalid_reference = 0;  ///< in the reference alone
 
 private:
     TrimmedSum squares_;
@@ -127,29 +154,34 @@ std::size_t first_invalid(Pixels picture) {
         picture.begin());
 }
 
-Metrics measure_error(Pixels picture, Pixels reference) { return measure_error(picture, {reference, reference}); }
+Metrics measure_error(Pixels picture, Pixels reference, int threads) {
+    return measure_error(picture, {reference, reference}, threads);
+}
 
-Metrics measure_error(Pixels picture, const ReferenceHalves& reference) {
+Metrics measure_error(Pixels picture, const ReferenceHalves& reference, int threads) {
     require_same_size(picture, reference.first);
     require_same_size(picture, reference.second);
-    ErrorSums sums(picture.size());
-    std::size_t invalid = 0;
-    std::size_t invalid_reference = 0;
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-        if (!is_finite(picture[i])) {
-            ++invalid;
-            continue;
+    const auto add = [&](ErrorSums& sums, IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            if (!is_finite(picture[i])) {
+                ++sums.invalid;
+                continue;
+            }
+            if (!is_finite(reference.first[i]) || !is_finite(reference.second[i])) {
+                ++sums.invalid_reference;
+                continue;
+            }
+            const Vec3d x{picture[i]};
+            const Vec3d r1{reference.first[i]};
+            const Vec3d r2{reference.second[i]};
+            sums.add(x, 0.5 * (r1 + r2), (x - r1) * (x - r2));
         }
-        if (!is_finite(reference.first[i]) || !is_finite(reference.second[i])) {
-            ++invalid_reference;
-            continue;
-        }
-        const Vec3d x{picture[i]};
-        const Vec3d r1{reference.first[i]};
-        const Vec3d r2{reference.second[i]};
-        sums.add(x, 0.5 * (r1 + r2), (x - r1) * (x - r2));
-    }
-    return sums.finish(invalid, invalid_reference);
+    };
+    constexpr std::uint32_t kPixelChunk = 1u << 15;
+    ErrorSums total(picture.size());
+    for (const ErrorSums& sums : sums_of_chunks(picture.size(), kPixelChunk, threads, ErrorSums(picture.size()), add))
+        total.add(sums);
+    return total.finish();
 }
 
 }  // namespace pl

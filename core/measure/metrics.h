@@ -40,12 +40,12 @@ struct ReferenceHalves {
     Pixels second;
 };
 
-/// Throws Error(Input) if the numbers of pixels differ.
-Metrics measure_error(Pixels picture, Pixels reference);
+/// Throws Error(Input) if the numbers of pixels differ. The number of threads does not change the result.
+Metrics measure_error(Pixels picture, Pixels reference, int threads = 1);
 
 /// The same against two halves: squares are products (x-r1)(x-r2), unbiased by the noise of the reference and possibly
 /// negative near zero, which is left as it is; rmse is then 0 and psnr infinite. All else compares with the halves' mean.
-Metrics measure_error(Pixels picture, const ReferenceHalves& reference);
+Metrics measure_error(Pixels picture, const ReferenceHalves& reference, int threads = 1);
 
 bool is_finite(const Vec3f& pixel);
 double luminance_of(const Vec3d& radiance);

@@ -7,7 +7,7 @@
 
 namespace pl {
 
-std::string picture_hash(const SceneDescription& scene, const RenderSettings& settings) {
+std::uint64_t picture_key(const SceneDescription& scene, const RenderSettings& settings) {
     Fnv1a hash;
     hash.add(scene_hash(scene));
     const CameraDescription& camera = settings.camera;
@@ -16,7 +16,11 @@ std::string picture_hash(const SceneDescription& scene, const RenderSettings& se
     hash.add(camera.fov_deg);
     for (const int number : {settings.width, settings.height, settings.max_depth})
         hash.add(static_cast<std::uint64_t>(number));
-    return fmt::format("{:016x}", hash.value());
+    return hash.value();
+}
+
+std::string picture_hash(const SceneDescription& scene, const RenderSettings& settings) {
+    return fmt::format("{:016x}", picture_key(scene, settings));
 }
 
 }  // namespace pl

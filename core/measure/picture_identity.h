@@ -1,6 +1,7 @@
 // What decides a converged picture, and nothing else: references are found by it, and pictures of other light refused.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "core/scene/description.h"
@@ -11,8 +12,10 @@ namespace pl {
 /// The name of the hash in metadata of pictures and in manifests.
 inline constexpr const char* kPictureHashKey = "picture_hash";
 
-/// 16 hexadecimal digits over the scene's light (scene_hash), the camera, the size and the maximal depth. Not over
-/// method, next-event estimation, seed, field or back end: they change the noise, never the mean.
+/// Over the scene's light (scene_hash), the camera, the size and the maximal depth. Not over method, next-event
+/// estimation, seed, field or back end: they change the noise, never the mean.
+std::uint64_t picture_key(const SceneDescription& scene, const RenderSettings& settings);
+/// The same as 16 hexadecimal digits.
 std::string picture_hash(const SceneDescription& scene, const RenderSettings& settings);
 
 }  // namespace pl

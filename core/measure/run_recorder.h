@@ -8,6 +8,7 @@
 
 #include "core/measure/convergence.h"
 #include "core/measure/halves.h"
+#include "core/measure/measure_budget.h"
 #include "core/session/session.h"
 
 namespace pl {
@@ -16,19 +17,24 @@ namespace pl {
 /// same for all methods, and not in it.
 double charged_seconds(const Clocks& clocks);
 
+/// Threads to measure with: those that wait meanwhile, or all where a device renders.
+int measuring_threads(const Session& session);
+
 /// When a run ends: at the first limit that is met, after at least one sample per pixel.
 struct RunLimits {
     std::uint32_t spp = 64;
     std::optional<double> seconds{};       ///< charged
     std::optional<double> target_error{};  ///< Metrics::relmse, looked at where it is measured
+    /// Of the charged time, what measuring may take; points are left out for it, but for the first and the last one.
+    double measure_share = MeasureBudget::kDefaultShare;
 };
 
 struct RunPoint {
     std::uint32_t spp = 0;
     Clocks clocks;
     Metrics metrics;
-    /// The picture's own noise as relmse, from two halves of its passes, and the bias that they leave. Halves are equally
-    /// long only at steps of the ladder; after the last step the noise is scaled by the samples. Empty below two samples.
+    /// The picture's own noise as relmse, from two halves of its passes, and the bias that they leave. Empty below two
+    /// samples.
     std::optional<double> noise{};
     std::optional<Estimate> squared_bias{};
     std::optional<Estimate> signed_bias{};

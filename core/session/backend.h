@@ -1,6 +1,7 @@
 // The only virtual interface between a session and what runs its kernels; called a few times per pass.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -48,7 +49,7 @@ struct PassRequest {
     PinholeCamera camera;
     MixtureSettings mixture{};
     LearningSettings learning{};
-    std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel
+    std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel; decides the half of the film
     std::uint32_t first_pixel = 0;
     const StopFlag* stop = nullptr;
 };
@@ -64,12 +65,22 @@ struct PrecomputeRequest {
     const StopFlag* stop = nullptr;
 };
 
+/// A film as two disjoint halves of its samples: those of passes of even and of odd number.
+struct FilmHalves {
+    std::array<std::vector<Vec3f>, 2> mean;  ///< [row][column]; NaN where a half has no valid sample
+    std::array<std::uint64_t, 2> samples{};  ///< valid ones
+
+    /// Whether both halves hold anything: not before the second sample, and never where samples replace one another.
+    bool are_both_there() const { return samples[0] > 0 && samples[1] > 0; }
+};
+
 struct FilmReading {
     int width = 0;
     int height = 0;
     std::vector<Vec3f> mean;  ///< [row][column]; NaN where every sample was invalid
     std::uint64_t samples = 0;
     std::uint64_t invalid = 0;
+    FilmHalves halves{};  ///< only of read_halves()
 };
 
 /// A film as a window shows it, possibly still on its way from a device while the next pass runs.
@@ -100,6 +111,8 @@ public:
     /// Makes the film exist with this size and empties it.
     virtual void reset_film(FilmSlot slot, int width, int height) = 0;
     virtual FilmReading read_film(FilmSlot slot) const = 0;
+    /// The same with the film's halves, all of one moment.
+    virtual FilmReading read_halves(FilmSlot slot) const = 0;
     /// Starts to make the 8-bit frame of a film as it is now; later passes may begin at once.
     virtual DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) = 0;
     /// Largest range_value() of a film: where the colors of some views end.

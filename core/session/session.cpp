@@ -69,10 +69,12 @@ Session::Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const S
 }
 
 void Session::load_scene() {
-    const Stopwatch watch;
+    const Stopwatch build;
     packed_ = std::make_shared<const HostScene>(pack_scene(*scene_));
+    build_seconds_ = build.seconds();
+    const Stopwatch upload;
     backend_->upload_scene(packed_);
-    build_seconds_ = watch.seconds();
+    upload_seconds_ = upload.seconds();
 }
 
 void Session::apply(const SessionEdit& edit) {
@@ -88,6 +90,7 @@ void Session::apply(const SessionEdit& edit) {
 }
 
 void Session::clear_films() {
+    ++film_generation_;
     films_.fill(FilmState{});
     for (ParkedBackend& parked : parked_) parked.films.fill(FilmState{});
 }
@@ -102,9 +105,11 @@ void Session::switch_backend(const EditBackend& edit) {
             if (backend_->has_tables(method.id))
                 learned.emplace_back(method.id, backend_->download_tables(method.id));
     ParkedBackend next = unpark(edit.backend);
+    const Stopwatch upload;
     if (next.scene != packed_) next.backend->upload_scene(packed_);
     if (volumes_) next.backend->upload_volumes(volumes_, shape_);
     for (auto& [method, tables] : learned) next.backend->upload_tables(method, std::move(tables));
+    upload_seconds_ = upload.seconds();
     if (!edit.abandon_old && !edit.forget_old) parked_.push_back({backend_, films_, packed_});
     backend_ = std::move(next.backend);
     films_ = next.films;
@@ -150,8 +155,20 @@ void Session::ensure_film(FilmSlot slot) {
     FilmState& state = films_[static_cast<std::size_t>(slot.index())];
     if (state.allocated) return;
     backend_->reset_film(slot, settings_.width, settings_.height);
-    state = FilmState{};
+    state = FilmState{.origin = state.origin};
     state.allocated = true;
+}
+
+/// Notes what there was before the first piece of work on a film, be it precomputation.
+void Session::begin_film(FilmSlot slot) {
+    FilmOrigin& origin = films_[static_cast<std::size_t>(slot.index())].origin;
+    if (origin.number != 0) return;
+    const FieldProgress& learned = fields_[static_cast<std::size_t>(slot.method)];
+    origin = {.number = ++films_begun_,
+              .generation = film_generation_,
+              .warm = learned.passes > 0 || learned.precomputed_slices > 0 || learned.next_probe > 0,
+              .place_seconds = volumes_ ? place_seconds_ : 0.0,
+              .precompute_seconds = learned.precompute_seconds};
 }
 
 FeatureSet Session::needed_features() const {
@@ -220,6 +237,7 @@ std::uint32_t Session::probe_count() const {
 }
 
 Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
+    begin_film(target);
     ensure_film(target);
     FilmState& state = films_[static_cast<std::size_t>(target.index())];
     // What is learned changes under the map: restarting at powers of two keeps at least half of the samples recent.
@@ -264,6 +282,7 @@ void Session::publish_pass(FilmState& state) {
 }
 
 Progress Session::advance(const StopFlag* stop) {
+    begin_film(slot());
     const ViewInfo& view = info_of(settings_.view);
     if (view.needs_volumes) ensure_volumes();
     if (info_of(settings_.method).uses_field || view.needs_tables) ensure_tables();
@@ -292,9 +311,12 @@ std::optional<FieldStatus> Session::field_status() const {
 }
 
 Clocks Session::clocks() const {
+    const ViewInfo& view = info_of(settings_.view);
+    const bool needs_volumes = info_of(settings_.method).uses_field || view.needs_volumes || view.needs_tables;
     return {.load = load_seconds_,
             .build = build_seconds_,
-            .place = place_seconds_,
+            .upload = upload_seconds_,
+            .place = volumes_ && needs_volumes ? place_seconds_ : 0.0,
             .precompute = field().precompute_seconds,
             .learn = film().learn_seconds,
             .render = film().render_seconds};
@@ -306,6 +328,7 @@ Snapshot Session::summary() const {
             .width = settings_.width,
             .height = settings_.height,
             .pixels = {},
+            .halves = {},
             .passes = state.passes,
             .counters = state.counters,
             .clocks = clocks(),
@@ -317,12 +340,21 @@ Snapshot Session::summary() const {
 
 Snapshot Session::snapshot() const {
     Snapshot result = summary();
-    if (film().allocated)
-        result.pixels = backend_->read_film(slot()).mean;
-    else
-        result.pixels.assign(static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height),
-                             Vec3f{0.0f});
+    take_pixels(result, film().allocated ? backend_->read_film(slot()) : FilmReading{});
     return result;
+}
+
+Snapshot Session::snapshot_with_halves() const {
+    Snapshot result = summary();
+    take_pixels(result, film().allocated ? backend_->read_halves(slot()) : FilmReading{});
+    return result;
+}
+
+/// A film that is not there yet is black.
+void Session::take_pixels(Snapshot& snapshot, FilmReading film) const {
+    snapshot.pixels = std::move(film.mean);
+    snapshot.pixels.resize(film_pixels(settings_.width, settings_.height), Vec3f{0.0f});
+    snapshot.halves = std::move(film.halves);
 }
 
 ShownFilm Session::show_film(const DisplaySettings& display) {

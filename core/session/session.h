@@ -42,6 +42,8 @@ public:
 
     /// Copy of the current film and all statistics.
     Snapshot snapshot() const;
+    /// The same, and the film's two halves: they tell its noise.
+    Snapshot snapshot_with_halves() const;
     /// The same without the pixels: costs nothing.
     Snapshot summary() const;
     /// The current film as a window shows it.
@@ -71,9 +73,12 @@ public:
     std::optional<FieldStatus> field_status() const;
     /// Of the current film and method; cheap, unlike a snapshot.
     Clocks clocks() const;
+    /// Of the current film. A picture that is resumed keeps its origin; one that was emptied gets another.
+    FilmOrigin film_origin() const { return film().origin; }
 
 private:
     struct FilmState {
+        FilmOrigin origin;
         bool allocated = false;
         std::uint32_t passes = 0;      ///< complete ones
         std::uint32_t next_pixel = 0;  ///< where the running pass goes on
@@ -98,6 +103,8 @@ private:
     const FieldProgress& field() const { return fields_[static_cast<std::size_t>(settings_.method)]; }
 
     void load_scene();
+    void begin_film(FilmSlot slot);
+    void take_pixels(Snapshot& snapshot, FilmReading film) const;
     void switch_backend(const EditBackend& edit);
     ParkedBackend unpark(const std::shared_ptr<RenderBackend>& backend);
     void ensure_volumes();
@@ -124,7 +131,10 @@ private:
     std::array<FieldProgress, kMethodCount> fields_{};
     double load_seconds_ = 0.0;
     double build_seconds_ = 0.0;
+    double upload_seconds_ = 0.0;
     double place_seconds_ = 0.0;
+    std::uint64_t films_begun_ = 0;
+    std::uint64_t film_generation_ = 0;
 };
 
 }  // namespace pl

@@ -14,12 +14,22 @@ namespace pl {
 struct Clocks {
     double load = 0.0;        ///< reading and checking files; set by whoever loads
     double build = 0.0;       ///< packing the scene, building the hierarchy
-    double place = 0.0;       ///< placing volumes, building their tree
+    double upload = 0.0;      ///< sending the scene to a back end; in a switch of back ends, also what was learned
+    double place = 0.0;       ///< placing volumes, building their tree, sending both; 0 where nothing uses them
     double precompute = 0.0;  ///< filling the precomputed radiance map
     double learn = 0.0;       ///< publishing learned tables
     double render = 0.0;      ///< passes, including the records they make
 
-    double total() const { return load + build + place + precompute + learn + render; }
+    double total() const { return load + build + upload + place + precompute + learn + render; }
+};
+
+/// How a picture began: what tells one run of a method from the next.
+struct FilmOrigin {
+    std::uint64_t number = 0;      ///< of one session, counting up; 0 before the first piece of work
+    std::uint64_t generation = 0;  ///< grows when all pictures are emptied
+    bool warm = false;             ///< its method had learned something before the first sample
+    double place_seconds = 0.0;    ///< of the clocks, what had been spent before
+    double precompute_seconds = 0.0;
 };
 
 /// What is known about the learned field of the session's method.
@@ -38,6 +48,7 @@ struct Snapshot {
     int width = 0;
     int height = 0;
     std::vector<Vec3f> pixels;  ///< mean radiance or view values, linear; row 0 at the top
+    FilmHalves halves{};        ///< only of Session::snapshot_with_halves()
     std::uint32_t passes = 0;   ///< samples per pixel
     PassCounters counters;      ///< of this film
     Clocks clocks;

@@ -8,15 +8,15 @@ namespace {
 /// Apart from the paths, so that the kernels that trace hold no double arithmetic, which most devices do slowly, and
 /// so that neighbouring threads write neighbouring pixels.
 __global__ void __launch_bounds__(kThreadsPerBlock)
-    add_samples(FilmView film, Span<const Vec3f> samples, std::uint32_t first) {
+    add_samples(FilmView film, Span<const Vec3f> samples, std::uint32_t first, std::uint32_t pass) {
     const std::uint32_t i = thread_number();
-    if (i < samples.count) (void)accumulate(film, first + i, samples[i]);
+    if (i < samples.count) (void)accumulate(film, first + i, samples[i], pass);
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock)
-    set_samples(FilmView film, Span<const Vec3f> samples, std::uint32_t first) {
+    set_samples(FilmView film, Span<const Vec3f> samples, std::uint32_t first, std::uint32_t pass) {
     const std::uint32_t i = thread_number();
-    if (i < samples.count) (void)replace_sample(film, first + i, samples[i]);
+    if (i < samples.count) (void)replace_sample(film, first + i, samples[i], pass);
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Span<Vec3f> means, FilmTotals* totals) {
@@ -29,6 +29,19 @@ __global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Spa
     }
     add_up(totals->samples, own.samples);
     add_up(totals->invalid, own.invalid);
+}
+
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    read_halves(FilmView film, Span<Vec3f> first, Span<Vec3f> second, std::uint64_t* second_samples) {
+    const std::uint32_t i = thread_number();
+    std::uint64_t own = 0;
+    if (i < film.pixels.count) {
+        const FilmPixel& pixel = film.pixels[i];
+        first[i] = half_mean(pixel, false);
+        second[i] = half_mean(pixel, true);
+        own = pixel.second_samples;
+    }
+    add_up(*second_samples, own);
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock)
@@ -47,6 +60,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) largest_value(FilmView film,
 constinit const AddSamplesKernel kAddSamples = add_samples;
 constinit const AddSamplesKernel kSetSamples = set_samples;
 constinit const ReadFilmKernel kReadFilm = read_film;
+constinit const ReadHalvesKernel kReadHalves = read_halves;
 constinit const ShowFilmKernel kShowFilm = show_film;
 constinit const LargestValueKernel kLargestValue = largest_value;
 

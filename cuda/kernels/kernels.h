@@ -76,17 +76,23 @@ extern const VolumeValueKernel kVolumeValues;
 struct FilmTotals {
     std::uint64_t samples = 0;
     std::uint64_t invalid = 0;
+    std::uint64_t second_samples = 0;  ///< valid ones of the second half; only of kReadHalves
 };
 
 /// One thread per sample: adds the samples of a launch, whose first is that of pixel `first`, to the film, or puts them
-/// in the place of what is there.
-using AddSamplesKernel = void (*)(FilmView film, Span<const Vec3f> samples, std::uint32_t first);
+/// in the place of what is there. `pass` is their number.
+using AddSamplesKernel = void (*)(FilmView film, Span<const Vec3f> samples, std::uint32_t first, std::uint32_t pass);
 extern const AddSamplesKernel kAddSamples;
 extern const AddSamplesKernel kSetSamples;
 
 /// One thread per pixel: means for display and saving (see mean_or_nan), and the film's totals.
 using ReadFilmKernel = void (*)(FilmView film, Span<Vec3f> means, FilmTotals* totals);
 extern const ReadFilmKernel kReadFilm;
+
+/// One thread per pixel: means of both halves (see half_mean), and the number of the second one's samples.
+using ReadHalvesKernel = void (*)(FilmView film, Span<Vec3f> first, Span<Vec3f> second,
+                                  std::uint64_t* second_samples);
+extern const ReadHalvesKernel kReadHalves;
 
 /// One thread per pixel: the frame that a window shows.
 using ShowFilmKernel = void (*)(FilmView film, FrameStyle style, ToneCodes codes, Span<std::uint32_t> pixels);

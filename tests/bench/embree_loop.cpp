@@ -67,7 +67,7 @@ void trace_pixels(const SceneView& scene, const SingleRayQueries& queries, const
     for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) {
         auto state = begin_path<DefaultMethod>(camera, settings, film.width, film.height, pixel, sample);
         trace_path<F>(scene, queries, DefaultMethod{}, settings, state, counters.path);
-        accumulate(film, pixel, state.radiance);
+        accumulate(film, pixel, state.radiance, sample);
         ++counters.paths;
     }
 }

@@ -16,9 +16,10 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 Arguments bench(const std::string& folder, const Arguments& more = {}) {
-    Arguments arguments{"bench",     "cornell", "-o",        folder, "--size",          "16x16",
-                        "--spp",     "8",       "--seeds",   "2",    "--reference-spp", "32",
-                        "--backend", "cpu",     "--volumes", "40",   "--bins",          "16"};
+    Arguments arguments{"bench", "cornell", "-o", folder, "--size", "16x16", "--spp", "8", "--seeds", "2",
+                        "--reference-spp", "32", "--backend", "cpu", "--volumes", "40", "--bins", "16",
+                        // Pictures this small cost less to render than to measure.
+                        "--measure-share", "1000000"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
@@ -72,7 +73,7 @@ TEST_CASE("a bench leaves everything it knows") {
         for (const json& point : run.at("points")) steps.push_back(point.at("spp"));
         CHECK((steps == std::vector<int>{2, 4, 6, 8}));
         const json& seconds = run.at("points").back().at("seconds");
-        for (const char* clock : {"load", "build", "place", "precompute", "learn", "render"})
+        for (const char* clock : {"load", "build", "upload", "place", "precompute", "learn", "render"})
             CHECK(seconds.at(clock).get<double>() >= 0.0);
         const double charged = seconds.at("place").get<double>() + seconds.at("precompute").get<double>() +
                                seconds.at("learn").get<double>() + seconds.at("render").get<double>();
@@ -97,6 +98,25 @@ TEST_CASE("a bench leaves everything it knows") {
     CHECK_THAT(results.at("command").get<std::string>(),
                contains("pathlight bench cornell --backend cpu") && contains("--seeds 2"));
     CHECK(read_exr(folder / "b/pictures/cornell-default-cpu-8.exr").width == 16);
+}
+
+TEST_CASE("a bench leaves out points that take too long to measure, and its clocks name the commit and the upload") {
+    const TempDir folder;
+    make(folder / "b", {"--measure-share", "0", "--seeds", "5", "--spp", "16"});
+    const json results = results_in(folder / "b");
+    REQUIRE(results.at("commits").size() == 1);
+    CHECK_FALSE(results.at("commits").at(0).get<std::string>().empty());
+    for (const json& run : results.at("runs")) {
+        std::vector<int> steps;
+        for (const json& point : run.at("points")) steps.push_back(point.at("spp"));
+        CHECK((steps == std::vector<int>{2, 16}));
+        CHECK(run.at("commit") == results.at("commits").at(0));
+    }
+    CHECK_THAT(lines_of(read_all(folder / "b/series.csv")).front(), contains(",build_s,upload_s,place_s,"));
+    CHECK(run_program({"report", folder / "b"}).code == 0);
+    CHECK_THAT(read_all(folder / "b/report.html"),
+               contains("commit " + results.at("commits").at(0).get<std::string>()));
+    CHECK_THAT(read_all(folder / "b/cornell-time.svg"), contains("<polyline"));
 }
 
 TEST_CASE("the errors of a bench do not depend on its order or its folder") {

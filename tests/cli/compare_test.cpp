@@ -57,6 +57,24 @@ TEST_CASE("compare tells all metrics, as text and as an event") {
     CHECK(same.at("psnr_db").is_null());
 }
 
+TEST_CASE("compare tells FLIP if it is asked for") {
+    const TwoPictures files;
+    CHECK(run_program({"compare", files.picture, files.reference}).out.find("flip") == std::string::npos);
+    write_exr(files.picture, plain(3, 2, 0.5f));
+    const ProgramResult text = run_program({"compare", files.picture, files.reference, "--flip"});
+    CHECK(text.code == 0);
+    CHECK_THAT(text.out, contains("flip ") && contains("67 pixels per degree"));
+    const json event = json::parse(
+        run_program({"compare", files.picture, files.reference, "--flip", "--pixels-per-degree", "30", "--json"})
+            .out);
+    CHECK(event.at("pixels_per_degree") == 30.0);
+    CHECK(event.at("flip").get<double>() > 0.1);
+    CHECK(event.at("flip").get<double>() < 1.0);
+    check_refused(2, {"compare", files.picture, files.reference, "--pixels-per-degree", "30"}, "expected --flip");
+    check_refused(2, {"compare", files.picture, files.reference, "--flip", "--pixels-per-degree", "0"},
+                  "--pixels-per-degree: expected");
+}
+
 TEST_CASE("5: compare misses a target error") {
     const TwoPictures files;
     CHECK(run_program({"compare", files.picture, files.reference, "--target-error", "0.3"}).code == 0);

@@ -158,6 +158,18 @@ TEST_CASE("the limits: 64 samples unless something else is given") {
     CHECK(parse({"render", "s", "-o", "x.png", "--time-limit", "3"}).spp_limit() ==
           std::numeric_limits<std::uint32_t>::max());
     CHECK(parse({"render", "s", "-o", "x.png", "--time-limit", "3", "--spp", "5"}).spp_limit() == 5);
+    CHECK(parse({"render", "s", "-o", "x.png", "--target-error", "3"}).spp_limit() ==
+          std::numeric_limits<std::uint32_t>::max());
+}
+
+TEST_CASE("a target error in a scene is for rendered pictures of light only") {
+    SceneDescription scene;
+    scene.settings = {{"target-error", "0.5"}};
+    CHECK(parse({"render", "s", "-o", "x.png"}, scene).target_error == 0.5);
+    CHECK_FALSE(parse({"render", "s", "-o", "x.png", "--view", "normal"}, scene).target_error);
+    CHECK_FALSE(parse({"inspect", "s", "--at", "0,0,0", "-o", "x.png"}, scene).target_error);
+    CHECK_FALSE(parse({"bench", "s", "-o", "x"}, scene).target_error);
+    CHECK_FALSE(parse({"view", "s"}, scene).target_error);
 }
 
 TEST_CASE("spellings: aliases, equals signs, negative numbers, the last of two") {
@@ -188,6 +200,8 @@ TEST_CASE("help, version and lists are answers, whatever else is missing") {
     CHECK_THAT(*parse_command_line({"-h"}).answer, contains("Exit codes"));
     CHECK_THAT(*parse_command_line({"render", "--help"}).answer, contains("--bsdf-fraction"));
     CHECK_THAT(*parse_command_line({"--version"}).answer, contains("pathlight "));
+    CHECK(lines_of(*parse_command_line({"--version"}).answer).size() == 1);
+    CHECK_THAT(*parse_command_line({"--version", "-v"}).answer, contains("commit "));
     CHECK_THAT(*parse_command_line({"--list-methods"}).answer, contains("reinforcement"));
     CHECK_THAT(*parse_command_line({"render", "--list-views"}).answer,
                contains("radiance-map") && contains("bsdf-share"));

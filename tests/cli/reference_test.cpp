@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"
-#include "core/measure/halves.h"
+#include "core/measure/noise.h"
 #include "tests/cli/refusal.h"
 
 namespace pl::test {
@@ -74,7 +74,7 @@ TEST_CASE("a reference is two halves, a manifest, and nothing else") {
     const LinearImage second = read_exr(file_ending(folder / "refs", "-2.exr"));
     const LinearImage good = read_exr(file_ending(folder / "good", "-1.exr"));
     CHECK(first.pixels != second.pixels);
-    const double noise = estimate_noise({first.pixels, second.pixels}).mse;
+    const double noise = estimate_noise({first.pixels, second.pixels}, first.width).mse;
     // A few bright pixels decide both, so they agree roughly; halves with the same random numbers would have no noise.
     const double error = measure_error(weighted_mean(first.pixels, 1, second.pixels, 1), good.pixels).mse;
     CHECK(noise < 5.0 * error);

@@ -184,6 +184,71 @@ TEST_CASE("rendering stops at the first limit that is met") {
     CHECK(spp_of({"--time-limit", "0.000001"}) == 1);
 }
 
+TEST_CASE("rendering stops at a target error, and 5 tells that another limit came first") {
+    const TempDir folder;
+    const auto run = [&](const Arguments& more) {
+        Arguments arguments{"render", "cornell", "-o",    folder / "x.pfm", "--nee",
+                            "on",     "--size",  "32x32", "--stats",        folder / "s.json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_program(arguments);
+    };
+    const auto stats = [&] { return json::parse(read_all(folder / "s.json")); };
+
+    const ProgramResult met = run({"--target-error", "0.02"});
+    CAPTURE(met.out, met.err);
+    CHECK(met.code == 0);
+    CHECK_THAT(met.out, contains(", noise 0.0") && contains("(target 0.02)"));
+    CHECK(stats()["ended_by"] == "target-error");
+    CHECK(stats()["target_error"]["of"] == "noise");
+    CHECK(stats()["target_error"]["relmse"] == 0.02);
+    CHECK(stats()["target_error"]["measured"] <= 0.02);
+    CHECK(stats()["spp"] >= 16);  // noise is not trusted before
+
+    const ProgramResult missed = run({"--target-error", "1e-9", "--spp", "5"});
+    CHECK(missed.code == 5);
+    CHECK_THAT(missed.err,
+               contains("--target-error: expected noise of at most 1e-09") && contains("--spp was reached"));
+    CHECK(stats()["ended_by"] == "spp");
+    CHECK(read_pfm(folder / "x.pfm").width == 32);  // the picture is there all the same
+    CHECK(run({"--target-error", "1e-9", "--time-limit", "0.1"}).code == 5);
+    CHECK(stats()["ended_by"] == "time-limit");
+    // Good enough when another limit ends it: not missed. One sample has no halves, so nothing is known.
+    CHECK(run({"--target-error", "1000", "--spp", "2"}).code == 0);
+    CHECK(run({"--target-error", "1000", "--spp", "1"}).code == 5);
+    CHECK(stats()["target_error"]["measured"].is_null());
+
+    CHECK(run({"--spp", "2"}).code == 0);
+    CHECK(stats()["target_error"].is_null());
+}
+
+TEST_CASE("a target error is one against a reference if there is one") {
+    const TempDir folder;
+    const Arguments picture{"cornell", "--size", "16x16"};
+    const auto run = [&](Arguments arguments, const Arguments& more) {
+        arguments.insert(arguments.end(), picture.begin(), picture.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_program(arguments);
+    };
+    REQUIRE(run({"reference"}, {"--spp", "512", "-o", folder / "r"}).code == 0);
+    const Arguments to_target{"--nee", "on",          "-o",         folder / "x.exr", "--target-error",
+                              "0.02",  "--reference", folder / "r", "--stats",        folder / "s.json"};
+    const ProgramResult met = run({"render"}, to_target);
+    CAPTURE(met.out, met.err);
+    CHECK(met.code == 0);
+    CHECK_THAT(met.out, contains(", error ") && contains("(target 0.02)"));
+    const json target = json::parse(read_all(folder / "s.json"))["target_error"];
+    CHECK(target["of"] == "error");
+    // The same number from outside; the file holds floats, as the film was read.
+    const json compared = json::parse(run_program({"compare", folder / "x.exr", folder / "r", "--json"}).out);
+    CHECK_THAT(target["measured"].get<double>(), WithinRel(compared["relmse"].get<double>(), 1e-9));
+
+    Arguments deeper = to_target;
+    deeper.insert(deeper.end(), {"--max-depth", "3"});
+    const ProgramResult other = run({"render"}, deeper);
+    CHECK(other.code == 3);
+    CHECK_THAT(other.err, contains("differs in depth"));
+}
+
 TEST_CASE("an interruption writes the partial picture, marks it and exits with 130") {
     for (const std::string name : {"x.exr", "x.png", "x.pfm"}) {
         const TempDir folder;

@@ -21,9 +21,12 @@ std::string between(const std::string& text, const std::string& before, const st
 
 TEST_CASE("a report is one page with plots, sentences, tables and pictures") {
     const TempDir folder;
-    const Arguments bench{
-        "bench", "cornell",   "door", "-o",        folder / "b", "--size",          "16x12", "--spp",  "8", "--seeds",
-        "5",     "--backend", "cpu",  "--volumes", "40",         "--reference-spp", "16",    "--bins", "16"};
+    const Arguments bench{"bench",      "cornell",   "door",  "-o",
+                          folder / "b", "--size",    "16x12", "--spp",
+                          "8",          "--seeds",   "5",     "--backend",
+                          "cpu",        "--volumes", "40",    "--reference-spp",
+                          "16",         "--bins",    "16",    "--measure-share",
+                          "1000000"};
     REQUIRE(run_program(bench).code == 0);
     const ProgramResult result = run_program({"report", folder / "b"});
     CAPTURE(result.err);

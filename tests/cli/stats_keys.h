@@ -22,6 +22,8 @@ inline const std::vector<std::string> kStatsKeys{"schema",
                                                  "max_depth",
                                                  "nee",
                                                  "seconds",
+                                                 "ended_by",
+                                                 "target_error",
                                                  "paths",
                                                  "segments",
                                                  "shadow_rays",
@@ -35,8 +37,8 @@ inline const std::vector<std::string> kStatsKeys{"schema",
                                                  "effects_compiled",
                                                  "kernel"};
 
-inline const std::vector<std::string> kSecondsKeys{"load",  "build",  "place", "precompute",
-                                                   "learn", "render", "total"};
+inline const std::vector<std::string> kSecondsKeys{"load",       "build", "upload", "place",
+                                                   "precompute", "learn", "render", "total"};
 
 inline const std::vector<std::string> kFieldKeys{"volumes", "bins", "bytes", "passes", "records", "lookup_misses"};
 

@@ -95,7 +95,7 @@ TEST_CASE("the limits of values are values") {
 }
 
 TEST_CASE("what a later version will have is refused by name") {
-    CHECK_THAT(complaint(render_with({"--target-error", "0.1"})),
+    CHECK_THAT(complaint({"view", "s", "--target-error", "0.1"}),
                contains("--target-error") && contains("this version does not have it"));
     CHECK_THAT(complaint({"view", "s", "--save-field", "f"}),
                contains("--save-field: the viewer saves") && contains("Ctrl+Shift+S"));

@@ -87,6 +87,36 @@ TEST_CASE("A pass of a heat map replaces the one before") {
     }
 }
 
+TEST_CASE("The halves of a film are its passes of even and of odd number") {
+    const Room room;
+    const FilmSlot slot{MethodId::Default, View::Beauty};
+    const auto render = [&](std::initializer_list<std::uint32_t> passes) {
+        const auto backend = make_backend(room, {.threads = 2});
+        backend->reset_film(slot, kWidth, kHeight);
+        for (const std::uint32_t sample : passes) {
+            PassRequest request = pass_of(room, slot);
+            request.sample = sample;
+            backend->run_pass(request);
+        }
+        return backend->read_halves(slot);
+    };
+    const FilmReading all = render({0, 1, 2, 3, 4});
+    CHECK(all.halves.samples == std::array<std::uint64_t, 2>{3 * kWidth * kHeight, 2 * kWidth * kHeight});
+    CHECK(all.halves.are_both_there());
+    const FilmReading even = render({0, 2, 4});
+    const FilmReading odd = render({1, 3});
+    CHECK_FALSE(even.halves.are_both_there());
+    CHECK(same_bits(odd.mean, odd.halves.mean[1]));
+    // Sums differ by a few roundings of doubles, which a float shows at most once.
+    const auto same_but_for_rounding = [](const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
+        return std::ranges::equal(
+            a, b, [](Vec3f x, Vec3f y) { return max_component(glm::abs(x - y)) <= 2e-7f * max_component(x); });
+    };
+    CHECK(same_but_for_rounding(even.mean, all.halves.mean[0]));
+    CHECK(same_bits(odd.mean, all.halves.mean[1]));
+    CHECK_FALSE(same_but_for_rounding(all.mean, all.halves.mean[0]));
+}
+
 TEST_CASE("A stopped pass has done a prefix of the pixels, and can be resumed") {
     const Room room;
     for (const View view : {View::Beauty, View::Direct}) {

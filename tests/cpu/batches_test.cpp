@@ -59,7 +59,7 @@ Outcome loop_over_paths(const Room& room) {
         for (std::uint32_t pixel = 0; pixel < pixels.size(); ++pixel) {
             auto state = begin_path<M>(room.camera, settings, kWidth, kHeight, pixel, sample);
             trace_path<F>(scene, BvhIntersector{scene}, method, settings, state, outcome.counters.path);
-            count_path(outcome.counters, state.radiance, accumulate(film, pixel, state.radiance));
+            count_path(outcome.counters, state.radiance, accumulate(film, pixel, state.radiance, sample));
         }
         if constexpr (std::is_same_v<M, ReinforcementMethod>)
             for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)

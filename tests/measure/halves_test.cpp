@@ -1,6 +1,7 @@
-// Noise without a reference, and error taken apart: by hand, and on noise whose size is known.
+// Error taken apart, on noise whose size is known.
 #include "core/measure/halves.h"
 
+#include <cmath>
 #include <random>
 
 #include "core/base/error.h"
@@ -24,23 +25,14 @@ Picture noisy(double mean, double deviation, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("noise of halves by hand") {
-    const Picture a{Vec3f(1.0f), Vec3f(2.0f)};
-    const Picture b{Vec3f(3.0f), Vec3f(2.0f)};
-    const Noise noise = estimate_noise({a, b});
-    CHECK_THAT(noise.mse, WithinRel((4.0 / 4.0 + 0.0) / 2.0, 1e-12));
-    CHECK_THAT(noise.relmse, WithinRel((1.0 / 4.01) / 2.0, 1e-12));
-    CHECK(noise.pixels == 2);
-    CHECK_THROWS_AS(estimate_noise({a, Picture(3)}), Error);
-}
-
-TEST_CASE("halves tell the noise of their mean") {
-    // 16384 pixels: the estimate has a relative deviation of sqrt(2 / 16384) = 1.1 %; 5.5 % are five of them.
-    const Picture a = noisy(1.0, 0.2, 1);
-    const Picture b = noisy(1.0, 0.2, 2);
-    CHECK_THAT(estimate_noise({a, b}).mse, WithinRel(0.5 * 0.04, 0.055));
-    const Picture mean = weighted_mean(a, 1.0, b, 1.0);
-    CHECK_THAT(measure_error(mean, Picture(a.size(), Vec3f(1.0f))).mse, WithinRel(0.5 * 0.04, 0.055));
+TEST_CASE("halves of unlike length weigh as they are long") {
+    // 16384 pixels; a third and two thirds of the samples, so variances of 0.03 and 0.015 make one of 0.01.
+    const Picture a = noisy(1.0, std::sqrt(0.03), 51), b = noisy(1.0, std::sqrt(0.015), 52);
+    const Picture truth(a.size(), Vec3f(1.0f));
+    const ErrorParts parts =
+        take_apart({.first = a, .second = b, .first_weight = 1.0, .second_weight = 2.0}, {truth, truth}, kSide);
+    CHECK_THAT(parts.variance, WithinRel(0.01 / 1.01, 0.055));
+    CHECK_THAT(parts.error, WithinRel(measure_error(weighted_mean(a, 1.0, b, 2.0), truth).relmse, 1e-5));
 }
 
 TEST_CASE("a bias of half a percent is found as bias, and noise alone is not taken for one") {

@@ -27,6 +27,15 @@ TEST_CASE("equal factors are equal distances") {
     CHECK(axis.position(1000.0) < 1.0);
 }
 
+TEST_CASE("an exact axis ends where it was told to, and positions lead back to values") {
+    const LogAxis axis = LogAxis::exactly(0.02, 5.0);
+    CHECK(axis.low() == 0.02);
+    CHECK(axis.high() == 5.0);
+    for (const double position : {-0.5, 0.0, 0.3, 1.0, 1.7})
+        CHECK_THAT(axis.position(axis.value_at(position)), WithinAbs(position, 1e-12));
+    CHECK(LogAxis::exactly(3.0, 3.0).low() < LogAxis::exactly(3.0, 3.0).high());
+}
+
 TEST_CASE("ticks are 1, 2 and 5 while there is room") {
     CHECK((labels_of(LogAxis(0.9, 22.0), 10) == std::vector<std::string>{"1", "2", "5", "10", "20"}));
     CHECK((labels_of(LogAxis(0.9, 22.0), 4) == std::vector<std::string>{"1", "10"}));

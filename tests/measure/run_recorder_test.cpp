@@ -2,6 +2,7 @@
 #include "core/measure/run_recorder.h"
 
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
@@ -25,8 +26,15 @@ struct FurnaceRun {
         : scene(furnace_scene(kEmission, albedo)), settings(quick_learner(scene, {method, false}, side, seed)),
           truth(static_cast<std::size_t>(side * side), Vec3f(kEmission / (1.0f - albedo))) {}
 
-    std::optional<RunSeries> record(const RunLimits& limits, const RunObserver& observer = {},
+    /// Measured at every step: pictures this small cost less to render than to measure.
+    std::optional<RunSeries> record(RunLimits limits, const RunObserver& observer = {},
                                     const StopFlag* stop = nullptr) const {
+        limits.measure_share = std::numeric_limits<double>::infinity();
+        return record_within(limits, observer, stop);
+    }
+
+    std::optional<RunSeries> record_within(const RunLimits& limits, const RunObserver& observer = {},
+                                           const StopFlag* stop = nullptr) const {
         Session session = make_session(scene, settings);
         return record_run(session, limits, {truth, truth}, stop, observer);
     }
@@ -100,6 +108,21 @@ TEST_CASE("a run ends at the limit that is met first, and measures its last samp
     const auto target = run.record({.spp = 1000000, .seconds = {}, .target_error = 1e-2});
     CHECK(target->points.back().metrics.relmse <= 1e-2);
     CHECK(target->points[target->points.size() - 2].metrics.relmse > 1e-2);
+}
+
+TEST_CASE("points are left out that measuring has no time for, but for the first and the last one") {
+    const FurnaceRun run(0.5f, MethodId::Default, 16, 1);
+    const auto none = run.record_within({.spp = 200, .measure_share = 0.0});
+    REQUIRE(none->points.size() == 2);
+    CHECK(none->points.front().spp == 2);
+    CHECK(none->points.back().spp == 200);
+    // Nearly as much time for measuring as for rendering: more points, and within that share but for the two.
+    const auto some = run.record_within({.spp = 2000, .measure_share = 0.5});
+    const auto all = run.record({.spp = 2000});
+    CAPTURE(some->points.size(), all->points.size(), some->measure_seconds);
+    CHECK(some->points.size() > 2);
+    CHECK(some->points.size() <= all->points.size());
+    CHECK(some->measure_seconds < 0.5 * charged_seconds(some->points.back().clocks) + all->measure_seconds);
 }
 
 TEST_CASE("time spent on measuring is on no clock") {

@@ -31,11 +31,14 @@ struct State {
 };
 
 inline State state_of(Session& session) {
-    return {session.snapshot(), session.backend_access().download_tables(session.settings().method)};
+    return {session.snapshot_with_halves(), session.backend_access().download_tables(session.settings().method)};
 }
 
 inline bool same_film(const State& a, const State& b) {
-    return a.snapshot.passes == b.snapshot.passes && same_bits(a.snapshot.pixels, b.snapshot.pixels);
+    const FilmHalves& x = a.snapshot.halves;
+    const FilmHalves& y = b.snapshot.halves;
+    return a.snapshot.passes == b.snapshot.passes && same_bits(a.snapshot.pixels, b.snapshot.pixels) &&
+           x.samples == y.samples && same_bits(x.mean[0], y.mean[0]) && same_bits(x.mean[1], y.mean[1]);
 }
 inline bool same_state(const State& a, const State& b) {
     return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) && same_bits(a.tables, b.tables);

@@ -97,6 +97,12 @@ public:
         const Film& film = films_.at(slot.index());
         return {film.width, film.height, film.pixels, 0, 0};
     }
+    /// Every sample is alike, so the halves are too.
+    FilmReading read_halves(FilmSlot slot) const override {
+        FilmReading reading = read_film(slot);
+        reading.halves = {.mean = {reading.mean, reading.mean}, .samples = {1, 1}};
+        return reading;
+    }
 
     DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override {
         require_device();

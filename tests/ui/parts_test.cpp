@@ -68,7 +68,7 @@ TEST_CASE("Motion resolution: small pictures are not divided beyond recognition"
 }
 
 TEST_CASE("Layout: panels, picture and bars fill the window without overlap") {
-    const Layout layout = make_layout(1440.0f, 900.0f, 16.0f, true);
+    const Layout layout = make_layout(1440.0f, 900.0f, 16.0f, true, false);
     CHECK(layout.left.x == 0.0f);
     CHECK(layout.view.x == layout.left.width);
     CHECK(layout.right.x == layout.view.x + layout.view.width);
@@ -78,23 +78,23 @@ TEST_CASE("Layout: panels, picture and bars fill the window without overlap") {
         CHECK(rect.y + rect.height == layout.status.y);
     }
     CHECK(layout.status.y + layout.status.height == 900.0f);
-    const Layout bare = make_layout(1440.0f, 900.0f, 16.0f, false);
+    const Layout bare = make_layout(1440.0f, 900.0f, 16.0f, false, false);
     CHECK(bare.view.width == 1440.0f);
     CHECK(bare.view.height == 900.0f);
     CHECK(bare.left.width == 0.0f);
 }
 
 TEST_CASE("Layout: in a narrow window the panels shrink, then float over the picture") {
-    const Layout narrow = make_layout(1024.0f, 700.0f, 16.0f, true);
+    const Layout narrow = make_layout(1024.0f, 700.0f, 16.0f, true, false);
     CHECK(narrow.left.width < 18.0f * 16.0f);
     CHECK(narrow.right.width < 25.0f * 16.0f);
     CHECK(narrow.view.width > 400.0f);
     CHECK(narrow.view.width == narrow.clear.width);
-    const Layout floating = make_layout(800.0f, 600.0f, 16.0f, true);
+    const Layout floating = make_layout(800.0f, 600.0f, 16.0f, true, false);
     CHECK(floating.view.width == 800.0f);
     CHECK(floating.clear.width < 800.0f);
     for (const float width : {1.0f, 100.0f, 400.0f, 640.0f}) {
-        const Layout tiny = make_layout(width, 20.0f, 16.0f, true);
+        const Layout tiny = make_layout(width, 20.0f, 16.0f, true, false);
         CHECK(tiny.left.height >= 1.0f);
         CHECK(tiny.left.width + tiny.right.width <= width);
         CHECK(tiny.clear.width >= 0.0f);

@@ -29,12 +29,13 @@ TEST_CASE("Script: every command is understood") {
                                        "\n"
                                        "2 down left\n2 up right\n3 wheel -2\n4 key W shift alt\n5 keyup W\n"
                                        "6 tap F12 shift\n7 resize 1280 720\n8 drop a file.obj\n9 shot out dir/a.png\n"
-                                       "10 expect method == default\n11 wait spp >= 16\n12 wait_spp 4\n13 quit",
+                                       "10 expect method == default\n11 wait spp >= 16\n12 wait_spp 4\n13 quit\n"
+                                       "14 aim_plot 0.5 1.1",
                                        "tour.script");
     using Kind = ScriptCommand::Kind;
-    const std::vector<Kind> kinds{Kind::Move, Kind::Aim,    Kind::Down, Kind::Up,     Kind::Wheel,
-                                  Kind::Key,  Kind::KeyUp,  Kind::Tap,  Kind::Resize, Kind::Drop,
-                                  Kind::Shot, Kind::Expect, Kind::Wait, Kind::Wait,   Kind::Quit};
+    const std::vector<Kind> kinds{Kind::Move,  Kind::Aim,  Kind::Down,   Kind::Up,     Kind::Wheel, Kind::Key,
+                                  Kind::KeyUp, Kind::Tap,  Kind::Resize, Kind::Drop,   Kind::Shot,  Kind::Expect,
+                                  Kind::Wait,  Kind::Wait, Kind::Quit,   Kind::AimPlot};
     REQUIRE(commands.size() == kinds.size());
     for (std::size_t i = 0; i < kinds.size(); ++i) CHECK(commands[i].kind == kinds[i]);
     CHECK(commands[0].where == "tour.script:2");
@@ -49,6 +50,7 @@ TEST_CASE("Script: every command is understood") {
     CHECK(commands[12].condition.value == "16");
     CHECK(commands[13].condition.name == "spp");
     CHECK(commands[13].condition.op == ">=");
+    CHECK(commands[15].y == 1.1);
     CHECK(parse_script("", "x").empty());
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/kernel/film/heat_color.h"
+#include "ui/compare/half_image.h"
 #include "ui/overlays/overlays.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/widgets.h"
@@ -88,12 +89,31 @@ void draw_precompute_progress(ViewerModel& model, const Layout& layout, double s
     ImGui::End();
 }
 
-}  // namespace
+/// What is compared, and how.
+void add_compare_badges(BadgeRow& row, const ViewerModel& model, const ComparePlan& plan) {
+    if (model.window().compare.mode == CompareMode::Off) return;
+    row.add(fmt::format("compare: {}", name_of(model.window().compare.mode)), colors::kAccent);
+    if (plan.has_heat) row.add_heat_legend(error_map_legend());
+    if (!plan.hint.empty()) row.add(plan.hint, colors::kWarning);
+}
 
-void draw_badges(ViewerModel& model, const Layout& layout) {
-    const Rect& view = layout.clear;
-    BadgeRow row({view.x + em(0.6f), view.y + em(0.6f)}, view.x + view.width - em(0.6f));
-    if (model.frame() != nullptr) add_picture_badges(row, *model.frame());
+void add_turns_badge(BadgeRow& row, const WorkerStatus& status) {
+    if (!status.turns) return;
+    const TurnsStatus& turns = *status.turns;
+    row.add("in turns of equal time: half the speed each", colors::kWarning);
+    if (turns.catching_up)
+        row.add(
+            fmt::format("{} catches up", info_of(turns.methods[turns.seconds[0] < turns.seconds[1] ? 0 : 1]).label),
+            colors::kWarning);
+}
+
+void add_reference_badge(BadgeRow& row, const ViewerModel& model) {
+    if (const auto making = model.reference_progress())
+        row.add(fmt::format("making the reference, {:.0f} %: {}", 100.0 * making->share, making->detail),
+                colors::kWarning);
+}
+
+void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     const WorkerStatus& status = model.status();
     if (status.state == WorkerState::Starting) row.add("starting", colors::kWarning);
     const std::string wanted = model.wanted_backend();
@@ -104,9 +124,23 @@ void draw_badges(ViewerModel& model, const Layout& layout) {
     if (status.state == WorkerState::Failed) row.add("rendering failed, see the log", colors::kError);
     if (info_of(model.settings().method).learns && status.state == WorkerState::Rendering && status.field)
         row.add(fmt::format("learning  {}", status.field->passes), colors::kGood);
+}
+
+}  // namespace
+
+void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& plan) {
+    const Rect& view = layout.clear;
+    BadgeRow row({view.x + em(0.6f), view.y + em(0.6f)}, view.x + view.width - em(0.6f));
+    // Compared pictures tell on themselves what they are.
+    if (model.frame() != nullptr && plan.tiles.empty()) add_picture_badges(row, *model.frame());
+    add_compare_badges(row, model, plan);
+    const WorkerStatus& status = model.status();
+    add_turns_badge(row, status);
+    add_reference_badge(row, model);
+    add_state_badges(row, model);
     if (model.window().cells)
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.window().cells_opacity), colors::kText);
-    if (model.busy()) row.add("working", colors::kFaint);
+    if (model.busy() && !model.reference_progress()) row.add("working", colors::kFaint);
     if (status.state == WorkerState::Precomputing && status.field)
         draw_precompute_progress(model, layout, status.field->precomputed_share);
 }

@@ -52,6 +52,7 @@ void draw_help(ViewerModel& model, const Layout& layout) {
         draw_heading("Mouse");
         for (const MouseAction& action : mouse_actions()) draw_line(action.keys, action.text);
         ImGui::Dummy({0.0f, em(0.3f)});
+        draw_group(ActionGroup::Compare);
         draw_group(ActionGroup::Window);
         ImGui::TableNextColumn();
         draw_group(ActionGroup::Render);

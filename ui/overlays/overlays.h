@@ -15,11 +15,16 @@ void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32
 /// Hemisphere of the selected volume where it stands, with the ray of the hovered direction.
 void draw_hemisphere(const ViewerModel& model, const Rect& image);
 
+/// Names of the pictures that are compared, and the line between two of them, which can be dragged.
+void draw_comparison(ViewerModel& model, const ComparePlan& plan);
+/// Where the names begin, from above; below the window without a comparison.
+float top_of_names(const ComparePlan& plan);
+
 /// What the picture is: method, samples, and everything about it that could be mistaken.
-void draw_badges(ViewerModel& model, const Layout& layout);
+void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& plan);
 
 /// Messages that go away by themselves, and the camera's speed after it changed.
-void draw_toasts(const ViewerModel& model, const Layout& layout);
+void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePlan& plan);
 
 /// All keys, from the table that dispatches them.
 void draw_help(ViewerModel& model, const Layout& layout);

@@ -33,10 +33,11 @@ float draw_toast(ImDrawList& list, ImVec2 corner, float max_width, LogLevel leve
 
 }  // namespace
 
-void draw_toasts(const ViewerModel& model, const Layout& layout) {
+void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePlan& plan) {
     const Rect& view = layout.clear;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImVec2 corner{view.x + em(0.6f), view.y + view.height - em(0.6f)};
+    corner.y = std::min(corner.y, top_of_names(plan) - em(0.6f));
     const float width = std::min(view.width - em(1.2f), em(34.0f));
     for (auto toast = model.toasts().rbegin(); toast != model.toasts().rend(); ++toast)
         corner.y -= draw_toast(list, corner, width, toast->level, toast->text) + em(0.35f);

@@ -111,6 +111,8 @@ void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hover
         return;
     }
     model.window().values_shown = true;
+    if (model.window().compare.mode != CompareMode::Off)
+        faint_text("Of the live picture, not of those that are compared.");
     draw_pixel_values(*frame, *hovered);
     ImGui::Separator();
     draw_surface(*frame, *hovered);

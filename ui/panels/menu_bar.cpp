@@ -31,6 +31,7 @@ void draw_menu_bar(ViewerModel& model, const Layout& layout) {
         draw_group(model, ActionGroup::Method);
         draw_group(model, ActionGroup::View);
         draw_group(model, ActionGroup::Overlay);
+        draw_group(model, ActionGroup::Compare);
         draw_group(model, ActionGroup::Fly);
         draw_group(model, ActionGroup::Window);
         const std::string title = model.title();

@@ -18,6 +18,7 @@ struct HoveredPixel {
 void draw_menu_bar(ViewerModel& model, const Layout& layout);
 void draw_settings_panel(ViewerModel& model, const Layout& layout);
 void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered);
+void draw_accuracy_panel(ViewerModel& model, const Layout& layout);
 void draw_status_bar(const ViewerModel& model, const Layout& layout);
 
 // Tabs of the right panel.

@@ -31,6 +31,7 @@ void draw_clocks(const Clocks& clocks) {
     const double total = clocks.total();
     clock_row("Load", clocks.load, total, "Reading and checking the scene's files.");
     clock_row("Build", clocks.build, total, "Packing the scene, building the hierarchy.");
+    clock_row("Upload", clocks.upload, total, "Sending the scene to the back end.");
     clock_row("Place volumes", clocks.place, total, "Placing radiance volumes and building their tree.");
     clock_row("Precompute", clocks.precompute, total, "Filling the precomputed radiance map.");
     clock_row("Learn", clocks.learn, total, "Publishing learned tables between passes.");

@@ -6,10 +6,15 @@
 
 namespace pl {
 
-struct FilmPixel {
-    Vec3d sum{0.0};  ///< of valid samples, linear sRGB radiance
-    double sum_squared_luminance = 0.0;
+/// The passes of a film fall into two halves by the parity of their number. What both say alike is signal, the rest noise.
+PL_HD inline bool in_second_half(std::uint32_t pass) { return (pass & 1u) != 0; }
+
+/// One cache line, which adding a sample touches alone.
+struct alignas(64) FilmPixel {
+    Vec3d sum{0.0};             ///< of valid samples, linear sRGB radiance
+    Vec3d second_sum{0.0};      ///< of those of the second half
     std::uint32_t samples = 0;  ///< valid ones: what the mean divides by
+    std::uint32_t second_samples = 0;
     std::uint32_t invalid = 0;  ///< NaN, infinite or negative ones: dropped, counted, shown
 };
 
@@ -19,25 +24,27 @@ struct FilmView {
     std::uint32_t height = 0;
 };
 
-/// Adds one sample; every pixel has one writer at a time. Returns false if the sample was invalid.
-PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f radiance) {
+/// Adds the sample of a pass; every pixel has one writer at a time. Returns false if the sample was invalid.
+PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass) {
     FilmPixel& p = film.pixels[pixel];
     if (!is_valid_radiance(radiance)) {
         ++p.invalid;
         return false;
     }
     const Vec3d value{radiance};
-    const double y = 0.2126 * value.x + 0.7152 * value.y + 0.0722 * value.z;
     p.sum += value;
-    p.sum_squared_luminance += y * y;
     ++p.samples;
+    if (in_second_half(pass)) {
+        p.second_sum += value;
+        ++p.second_samples;
+    }
     return true;
 }
 
 /// Makes one sample all that a pixel holds. Returns false if the sample was invalid.
-PL_HD inline bool replace_sample(const FilmView& film, std::uint32_t pixel, Vec3f value) {
+PL_HD inline bool replace_sample(const FilmView& film, std::uint32_t pixel, Vec3f value, std::uint32_t pass) {
     film.pixels[pixel] = {};
-    return accumulate(film, pixel, value);
+    return accumulate(film, pixel, value, pass);
 }
 
 /// Mean radiance of a pixel; 0 before the first sample.
@@ -50,6 +57,14 @@ PL_HD inline Vec3f mean_radiance(const FilmPixel& pixel) {
 PL_HD inline Vec3f mean_or_nan(const FilmPixel& pixel) {
     const bool all_invalid = pixel.samples == 0 && pixel.invalid > 0;
     return all_invalid ? Vec3f{kNan} : mean_radiance(pixel);
+}
+
+/// Mean of one half of a pixel's samples; NaN if it has none.
+PL_HD inline Vec3f half_mean(const FilmPixel& pixel, bool second) {
+    const std::uint32_t samples = second ? pixel.second_samples : pixel.samples - pixel.second_samples;
+    if (samples == 0) return Vec3f{kNan};
+    const Vec3d sum = second ? pixel.second_sum : pixel.sum - pixel.second_sum;
+    return Vec3f{sum * (1.0 / static_cast<double>(samples))};
 }
 
 }  // namespace pl

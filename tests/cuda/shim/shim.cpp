@@ -166,7 +166,8 @@ cudaError_t cudaFuncGetAttributes(cudaFuncAttributes*, const void*) {
 cudaError_t cudaMalloc(void** memory, std::size_t bytes) {
     const cudaError_t code = called("cudaMalloc");
     if (code != cudaSuccess) return code;
-    *memory = std::malloc(bytes);
+    constexpr std::size_t kAlignment = 256;  // as on a device
+    *memory = std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment);
     std::memset(*memory, 0xff, bytes);  // NaNs: nobody may count on cleared memory
     device_memory[*memory] = bytes;
     return cudaSuccess;

@@ -1,0 +1,279 @@
+#include "core/measure/live_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+#include <tuple>
+
+#include "core/base/error.h"
+#include "core/base/half.h"
+#include "core/base/timer.h"
+#include "core/measure/picture_identity.h"
+
+namespace pl {
+namespace {
+
+/// Runs whose figures are kept. A day of trying out makes a few hundred; what is dropped is the oldest of another picture.
+constexpr std::size_t kMostRuns = 500;
+
+/// From one point to the next: twelve in a decade.
+const double kPointRatio = std::pow(10.0, 1.0 / 12.0);
+
+/// What was spent on this picture, and not on what a warm one found there.
+Clocks own_clocks(Clocks clocks, const FilmOrigin& origin) {
+    if (!origin.warm) return clocks;
+    clocks.place = std::max(clocks.place - origin.place_seconds, 0.0);
+    clocks.precompute = std::max(clocks.precompute - origin.precompute_seconds, 0.0);
+    return clocks;
+}
+
+/// The part of the clocks that grows with samples: were the ladder one of all charged time, what comes soon after a long
+/// precomputation would be missed.
+double passing_seconds(const Clocks& clocks) { return clocks.learn + clocks.render; }
+
+/// A picture that may be dropped for memory. Those that are needed least come first: those of another picture from the
+/// oldest run on, then those whose neighbors in time are closest to each other; the last one of a run comes at the end.
+struct Droppable {
+    bool shows_the_present = false;
+    std::size_t run = 0;
+    std::size_t point = 0;
+    double gap = 0.0;  ///< logarithm of the time between its neighbors
+
+    bool operator<(const Droppable& other) const {
+        const auto key = [](const Droppable& d) {
+            return std::make_tuple(d.shows_the_present, d.shows_the_present ? 0 : d.run, d.gap, d.run, d.point);
+        };
+        return key(*this) < key(other);
+    }
+};
+
+void add_droppable(std::vector<Droppable>& pictures, const LiveRun& run, std::size_t index, bool present) {
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < run.points.size(); ++i)
+        if (run.points[i].picture) kept.push_back(i);
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        double gap = std::numeric_limits<double>::infinity();
+        if (k + 1 < kept.size()) {
+            const double before = charged_seconds(run.points[kept[k > 0 ? k - 1 : 0]].clocks);
+            gap = std::log(charged_seconds(run.points[kept[k + 1]].clocks) / before);
+        }
+        pictures.push_back({.shows_the_present = present, .run = index, .point = kept[k], .gap = gap});
+    }
+}
+
+}  // namespace
+
+HalfPicture half_picture(int width, int height, Pixels pixels) {
+    HalfPicture picture{.width = width, .height = height, .rgb = {}};
+    picture.rgb.reserve(3 * pixels.size());
+    for (const Vec3f& pixel : pixels)
+        for (const float value : {pixel.x, pixel.y, pixel.z}) picture.rgb.push_back(to_half(value));
+    return picture;
+}
+
+std::vector<Vec3f> pixels_of(const HalfPicture& picture) {
+    std::vector<Vec3f> pixels(picture.rgb.size() / 3);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = {from_half(picture.rgb[3 * i]), from_half(picture.rgb[3 * i + 1]),
+                     from_half(picture.rgb[3 * i + 2])};
+    return pixels;
+}
+
+LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details, double measure_share)
+    : picture_bytes_cap_(picture_bytes_cap), details_(std::move(details)), budget_(measure_share) {
+    publish();
+}
+
+void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
+    if (reference) {
+        const std::size_t pixels = film_pixels(reference->width, reference->height);
+        if (reference->first.size() != pixels || reference->second.size() != pixels)
+            throw Error(ErrorKind::Input, "expected halves of " + std::to_string(pixels) + " pixels, got " +
+                                              std::to_string(reference->first.size()) + " and " +
+                                              std::to_string(reference->second.size()));
+    }
+    reference_ = std::move(reference);
+    const Stopwatch watch;
+    const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+        if (!has_reference(runs_[i]->label.picture)) continue;
+        change(i, [&](LiveRun& run) {
+            for (LivePoint& point : run.points)
+                if (point.picture && !point.metrics)
+                    point.metrics = measure_error(pixels_of(*point.picture), reference_halves(), threads);
+        });
+    }
+    catching_up_seconds_ += watch.seconds();
+    publish();
+}
+
+bool LiveRuns::observe(const Session& session) {
+    const FilmOrigin origin = session.film_origin();
+    if (origin.number == 0) return false;
+    bool changed = origin.generation != generation_ && leave_generation(origin.generation);
+    const bool is_measured = session.settings().view == View::Beauty;
+    changed = work_on(is_measured ? origin.number : 0) || changed;
+    changed = (is_measured && is_due(session, origin) && add_point(session, origin)) || changed;
+    if (changed) publish();
+    return changed;
+}
+
+/// Forgets what hardly began. The films of the old generation are gone, so nothing can be added to its runs.
+bool LiveRuns::leave_generation(std::uint64_t next) {
+    generation_ = next;
+    const std::size_t before = runs_.size();
+    std::erase_if(runs_, [this](const std::shared_ptr<const LiveRun>& run) {
+        return run->points.size() < 2 && tracks_.count(run->number) > 0;
+    });
+    tracks_.clear();
+    return runs_.size() != before;
+}
+
+bool LiveRuns::work_on(std::uint64_t number) {
+    if (number == number_) return false;
+    number_ = number;
+    bool changed = false;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+        if (runs_[i]->in_progress == (runs_[i]->number == number)) continue;
+        change(i, [&](LiveRun& run) { run.in_progress = run.number == number; });
+        changed = true;
+    }
+    return changed;
+}
+
+bool LiveRuns::is_due(const Session& session, const FilmOrigin& origin) {
+    Track& track = tracks_[origin.number];
+    const double charged = charged_seconds(own_clocks(session.clocks(), origin));
+    charged_seconds_ += charged - track.charged_seconds;
+    track.charged_seconds = charged;
+    if (session.passes() == track.passes) return false;  // a part of a pass
+    track.passes = session.passes();
+    const double passing = passing_seconds(session.clocks());
+    if (session.passes() < 2 || passing < track.next_seconds || !budget_.allows(charged_seconds_)) return false;
+    track.next_seconds = passing * kPointRatio;
+    return true;
+}
+
+bool LiveRuns::add_point(const Session& session, const FilmOrigin& origin) {
+    const Stopwatch watch;
+    const std::optional<std::size_t> known = find(origin.number);
+    const RunLabel label = known ? runs_[*known]->label : label_of(session, origin);
+    std::optional<LivePoint> point = measure(session, origin, label.picture);
+    if (point) {
+        if (!known)
+            runs_.push_back(std::make_shared<const LiveRun>(
+                LiveRun{.number = origin.number, .label = label, .points = {}, .in_progress = true}));
+        change(known.value_or(runs_.size() - 1), [&](LiveRun& run) { run.points.push_back(*std::move(point)); });
+        limit_runs();
+        limit_pictures(label.picture);
+    }
+    budget_.spend(watch.seconds());
+    return point.has_value();
+}
+
+RunLabel LiveRuns::label_of(const Session& session, const FilmOrigin& origin) const {
+    return {.method = session.settings().method,
+            .backend = session.backend().name,
+            .next_event = session.settings().next_event,
+            .warm = origin.warm,
+            .picture = picture_key(session.scene(), session.settings()),
+            .details = details_ ? details_(session) : std::string()};
+}
+
+/// Empty if a half holds no valid sample at all.
+std::optional<LivePoint> LiveRuns::measure(const Session& session, const FilmOrigin& origin,
+                                           std::uint64_t picture) const {
+    const int threads = measuring_threads(session);
+    const Snapshot snapshot = session.snapshot_with_halves();
+    if (!snapshot.halves.are_both_there()) return std::nullopt;
+    const PictureHalves halves = halves_of(snapshot.halves);
+    LivePoint point{.spp = snapshot.passes,
+                    .clocks = own_clocks(snapshot.clocks, origin),
+                    .counters = snapshot.counters,
+                    .noise = estimate_noise(halves, snapshot.width, threads).relmse};
+    if (has_reference(picture)) {
+        const ErrorParts parts = take_apart(halves, reference_halves(), snapshot.width, threads);
+        point.metrics = measure_error(snapshot.pixels, reference_halves(), threads);
+        point.squared_bias = parts.squared_bias;
+        point.signed_bias = parts.signed_bias;
+    }
+    point.picture =
+        std::make_shared<const HalfPicture>(half_picture(snapshot.width, snapshot.height, snapshot.pixels));
+    return point;
+}
+
+void LiveRuns::forget(std::uint64_t number) {
+    std::erase_if(runs_, [&](const std::shared_ptr<const LiveRun>& run) { return run->number == number; });
+    if (const auto track = tracks_.find(number); track != tracks_.end()) track->second.next_seconds = 0.0;
+    publish();
+}
+
+void LiveRuns::forget_all() {
+    runs_.clear();
+    for (auto& [number, track] : tracks_) track.next_seconds = 0.0;
+    publish();
+}
+
+bool LiveRuns::has_reference(std::uint64_t picture) const {
+    return reference_ != nullptr && reference_->picture == picture;
+}
+
+ReferenceHalves LiveRuns::reference_halves() const { return {reference_->first, reference_->second}; }
+
+std::optional<std::size_t> LiveRuns::find(std::uint64_t number) const {
+    for (std::size_t i = 0; i < runs_.size(); ++i)
+        if (runs_[i]->number == number) return i;
+    return std::nullopt;
+}
+
+/// Puts a changed copy in the place of a run: what was published stays as it was.
+template <class Change>
+void LiveRuns::change(std::size_t index, Change&& change) {
+    LiveRun copy = *runs_[index];
+    change(copy);
+    runs_[index] = std::make_shared<const LiveRun>(std::move(copy));
+}
+
+void LiveRuns::limit_runs() {
+    while (runs_.size() > kMostRuns) {
+        const std::uint64_t present = runs_.back()->label.picture;
+        const auto oldest = [&](bool of_another_picture) {
+            return std::find_if(runs_.begin(), runs_.end(), [&](const std::shared_ptr<const LiveRun>& run) {
+                return !run->in_progress && (!of_another_picture || run->label.picture != present);
+            });
+        };
+        const auto other = oldest(true);
+        runs_.erase(other != runs_.end() ? other : oldest(false));
+    }
+}
+
+void LiveRuns::limit_pictures(std::uint64_t present) {
+    std::size_t bytes = picture_bytes();
+    if (bytes <= picture_bytes_cap_) return;
+    while (bytes > picture_bytes_cap_) {
+        std::vector<Droppable> pictures;
+        for (std::size_t i = 0; i < runs_.size(); ++i)
+            add_droppable(pictures, *runs_[i], i, runs_[i]->label.picture == present);
+        const Droppable first = *std::min_element(pictures.begin(), pictures.end());
+        bytes -= runs_[first.run]->points[first.point].picture->bytes();
+        change(first.run, [&](LiveRun& run) { run.points[first.point].picture = nullptr; });
+    }
+}
+
+std::size_t LiveRuns::picture_bytes() const {
+    std::size_t bytes = 0;
+    for (const auto& run : runs_)
+        for (const LivePoint& point : run->points) bytes += point.picture ? point.picture->bytes() : 0;
+    return bytes;
+}
+
+void LiveRuns::publish() {
+    current_ = std::make_shared<const LiveRunSet>(
+        LiveRunSet{.runs = runs_,
+                   .picture_bytes = picture_bytes(),
+                   .picture_bytes_cap = picture_bytes_cap_,
+                   .measure_seconds = budget_.spent_seconds() + catching_up_seconds_});
+}
+
+}  // namespace pl

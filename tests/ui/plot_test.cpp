@@ -1,0 +1,147 @@
+// The plot without a window: axes, panning and zooming, what is near the pointer, thinning, dashes.
+#include <cmath>
+
+#include "tests/catch.hpp"
+#include "tests/ui/hand_made_runs.h"
+#include "ui/plot/plot_drag.h"
+#include "ui/plot/plot_lines.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr Rect kFrame{100.0f, 50.0f, 300.0f, 200.0f};
+
+PlotLine line_of(const LiveRun& run) {
+    PlotLine line;
+    line.run = run.number;
+    line.points = plot_points(run, {});
+    return line;
+}
+
+}  // namespace
+
+TEST_CASE("Plot: values and places in the window lead to each other") {
+    const PlotView view({.x_low = 0.1, .x_high = 100.0, .y_low = 1e-4, .y_high = 1.0});
+    const Vec2f corner = view.to_window({0.1, 1e-4}, kFrame);
+    CHECK_THAT(corner.x, WithinAbs(100.0, 1e-3));
+    CHECK_THAT(corner.y, WithinAbs(250.0, 1e-3));  // low errors are at the bottom
+    CHECK_THAT(view.to_window({1.0, 1e-2}, kFrame).x, WithinAbs(200.0, 1e-3));
+    CHECK_THAT(view.to_window({1.0, 1e-2}, kFrame).y, WithinAbs(150.0, 1e-3));
+    const PlotValue back = view.to_value({250.0f, 75.0f}, kFrame);
+    CHECK_THAT(view.to_window(back, kFrame).x, WithinAbs(250.0, 1e-3));
+    CHECK_THAT(view.to_window(back, kFrame).y, WithinAbs(75.0, 1e-3));
+}
+
+TEST_CASE("Plot: what lies under the pointer stays there while panning and zooming") {
+    const PlotView before({.x_low = 0.1, .x_high = 100.0, .y_low = 1e-4, .y_high = 1.0});
+    const Vec2f at{170.0f, 90.0f};
+    const PlotValue value = before.to_value(at, kFrame);
+    PlotView view = before;
+    view.zoom(3.0f, at, kFrame);
+    CHECK(view.x_axis().high() / view.x_axis().low() < 1000.0);
+    CHECK_THAT(view.to_window(value, kFrame).x, WithinAbs(at.x, 1e-2));
+    CHECK_THAT(view.to_window(value, kFrame).y, WithinAbs(at.y, 1e-2));
+    view.pan({25.0f, -40.0f}, kFrame);
+    CHECK_THAT(view.to_window(value, kFrame).x, WithinAbs(at.x + 25.0, 1e-2));
+    CHECK_THAT(view.to_window(value, kFrame).y, WithinAbs(at.y - 40.0, 1e-2));
+}
+
+TEST_CASE("Plot: no wheel and no drag leads where there is nothing to see") {
+    PlotView view({.x_low = 0.1, .x_high = 100.0, .y_low = 1e-4, .y_high = 1.0});
+    for (int i = 0; i < 200; ++i) view.zoom(1.0f, {150.0f, 60.0f}, kFrame);
+    CHECK_THAT(std::log10(view.x_axis().high() / view.x_axis().low()), WithinAbs(PlotView::kLeastDecades, 1e-6));
+    for (int i = 0; i < 400; ++i) view.zoom(-1.0f, {150.0f, 60.0f}, kFrame);
+    CHECK_THAT(std::log10(view.y_axis().high() / view.y_axis().low()), WithinAbs(PlotView::kMostDecades, 1e-6));
+    for (int i = 0; i < 400; ++i) view.pan({5000.0f, -5000.0f}, kFrame);
+    CHECK(view.x_axis().low() > 0.0);
+    CHECK(std::isfinite(view.y_axis().high()));
+    CHECK_FALSE(view.x_axis().ticks(5).empty());
+}
+
+TEST_CASE("Plot: the fitted range is rounded to ticks, and there is one for nothing at all") {
+    const std::vector<PlotValue> values{{0.12, 3e-3}, {31.0, 0.4}, {0.0, 1.0}, {1.0, -1.0}, {NAN, 1.0}};
+    const PlotRange range = fit_range(values);
+    CHECK_THAT(range.x_low, WithinRel(0.1, 1e-9));
+    CHECK_THAT(range.x_high, WithinRel(50.0, 1e-9));
+    CHECK_THAT(range.y_low, WithinRel(2e-3, 1e-9));
+    CHECK_THAT(range.y_high, WithinRel(0.5, 1e-9));
+    const std::vector<PlotValue> one{{2.0, 5.0}};
+    CHECK(fit_range(one).x_low < 2.0);
+    CHECK(fit_range(one).y_high > 5.0);
+    CHECK(fit_range(std::span<const PlotValue>{}).x_low > 0.0);
+    CHECK(fit_range(std::span<const PlotLine>{}).x_low < fit_range(std::span<const PlotLine>{}).x_high);
+}
+
+TEST_CASE("Plot: runs of another picture and hidden ones do not stretch the axes") {
+    std::vector<PlotLine> lines{line_of(*make_run({})), line_of(*make_run({.error_of_sample = 1e6}))};
+    lines[1].comparable = false;
+    CHECK(fit_range(lines).y_high <= 1.0 + 1e-9);
+    lines[0].hidden = true;
+    CHECK(fit_range(lines).y_high >= 1e6);  // there is nothing else to show
+}
+
+TEST_CASE("Plot: points that logarithmic axes cannot show are left out") {
+    auto run = make_run({.last_sample = 8});
+    run->points[1].metrics->relmse = -1e-6;  // below what the reference resolves
+    run->points[2].metrics.reset();
+    const std::vector<PlotPoint> points = plot_points(*run, {});
+    REQUIRE(points.size() == 2);
+    CHECK(points[1].index == 3);
+}
+
+TEST_CASE("Plot: thinned lines keep ends, peaks and order") {
+    std::vector<PlotPoint> points;
+    for (std::size_t i = 0; i < 20000; ++i)
+        points.push_back({{1.0 + static_cast<double>(i), i == 7777 ? 100.0 : (i == 12345 ? 0.01 : 1.0)}, i});
+    const std::vector<PlotPoint> thinned = thin_out(points, kMostPoints);
+    CHECK(thinned.size() <= kMostPoints);
+    CHECK(thinned.front().index == 0);
+    CHECK(thinned.back().index == 19999);
+    CHECK(std::ranges::is_sorted(thinned, {}, &PlotPoint::index));
+    CHECK(std::ranges::count(thinned, std::size_t{7777}, &PlotPoint::index) == 1);
+    CHECK(std::ranges::count(thinned, std::size_t{12345}, &PlotPoint::index) == 1);
+    CHECK(thin_out({points.begin(), points.begin() + 10}, kMostPoints).size() == 10);
+}
+
+TEST_CASE("Plot: the nearest point is found within reach, on lines that are shown") {
+    std::vector<PlotLine> lines{line_of(*make_run({})), line_of(*make_run({.number = 2, .error_of_sample = 0.5}))};
+    const PlotView view(fit_range(lines));
+    const Vec2f at = view.to_window(lines[1].points[3].value, kFrame);
+    const auto hit = nearest_point(lines, view, kFrame, at + Vec2f{2.0f, 1.0f}, 10.0f);
+    REQUIRE(hit.has_value());
+    CHECK(hit->line == 1);
+    CHECK(hit->point == 3);
+    CHECK_FALSE(nearest_point(lines, view, kFrame, at + Vec2f{0.0f, 300.0f}, 10.0f).has_value());
+    lines[1].hidden = true;
+    const auto other = nearest_point(lines, view, kFrame, at, 10.0f);
+    CHECK((!other || other->line == 0));
+    // A point outside of the frame cannot be pointed at.
+    PlotView zoomed = view;
+    zoomed.pan({-1000.0f, 0.0f}, kFrame);
+    CHECK_FALSE(nearest_point(lines, zoomed, kFrame, zoomed.to_window(lines[0].points[3].value, kFrame), 10.0f));
+}
+
+TEST_CASE("Plot: a press takes hold of cursors and axes, else of the plot") {
+    CHECK(drag_at({200.0f, 100.0f}, kFrame, {}, {}) == PlotDrag::Pan);
+    CHECK(drag_at({200.0f, 260.0f}, kFrame, {}, {}) == PlotDrag::EqualCost);
+    CHECK(drag_at({80.0f, 100.0f}, kFrame, {}, {}) == PlotDrag::EqualError);
+    CHECK(drag_at({80.0f, 260.0f}, kFrame, {}, {}) == PlotDrag::None);
+    CHECK(drag_at({200.0f, 40.0f}, kFrame, {}, {}) == PlotDrag::None);
+    CHECK(drag_at({204.0f, 100.0f}, kFrame, 200.0f, {}) == PlotDrag::EqualCost);
+    CHECK(drag_at({220.0f, 100.0f}, kFrame, 200.0f, {}) == PlotDrag::Pan);
+    CHECK(drag_at({204.0f, 100.0f}, kFrame, {}, 97.0f) == PlotDrag::EqualError);
+}
+
+TEST_CASE("Plot: dashes go on around corners, and gaps stay gaps") {
+    const std::vector<Vec2f> corner{{0.0f, 0.0f}, {10.0f, 0.0f}, {10.0f, 10.0f}};
+    const std::vector<Vec2f> pieces = dashes(corner, 4.0f, 2.0f);
+    REQUIRE(pieces.size() % 2 == 0);
+    float drawn = 0.0f;
+    for (std::size_t i = 0; i < pieces.size(); i += 2) drawn += glm::length(pieces[i + 1] - pieces[i]);
+    // 20 pixels are three dashes with gaps and a rest of two.
+    CHECK_THAT(drawn, WithinAbs(3 * 4.0 + 2.0, 1e-4));
+    CHECK_THAT(pieces[2].x, WithinAbs(6.0, 1e-5));  // after the first gap
+    CHECK(dashes(std::vector<Vec2f>{{1.0f, 1.0f}}, 4.0f, 2.0f).empty());
+}

@@ -1,0 +1,105 @@
+#include "ui/accuracy/run_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace pl {
+namespace {
+
+constexpr std::array<ErrorMetricInfo, kErrorMetricCount> kMetrics{{
+    {ErrorMetric::RelMse, "relMSE", "Squared error over the square of the reference, mean of all pixels.", -1.0},
+    {ErrorMetric::RelMseTrimmed, "relMSE without the worst 0.1 %", "The same without the worst 0.1 % of the pixels.",
+     -1.0},
+    {ErrorMetric::Mse, "MSE", "Squared error in linear radiance: bright pixels count most.", -1.0},
+    {ErrorMetric::Smape, "SMAPE", "Error over the mean of picture and reference: no square.", -0.5},
+    {ErrorMetric::Noise, "own noise as relMSE", "What two halves of the picture differ by: needs no reference.",
+     -1.0},
+}};
+
+std::optional<double> metric_of(const Metrics& metrics, ErrorMetric metric) {
+    switch (metric) {
+    case ErrorMetric::RelMse: return metrics.relmse;
+    case ErrorMetric::RelMseTrimmed: return metrics.relmse_trimmed;
+    case ErrorMetric::Mse: return metrics.mse;
+    case ErrorMetric::Smape: return metrics.smape;
+    case ErrorMetric::Noise: break;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+const ErrorMetricInfo& info_of(ErrorMetric metric) { return kMetrics[static_cast<std::size_t>(metric)]; }
+
+std::optional<double> error_of(const LivePoint& point, ErrorMetric metric) {
+    if (metric == ErrorMetric::Noise) return point.noise;
+    return point.metrics ? metric_of(*point.metrics, metric) : std::nullopt;
+}
+
+double cost_of(const LivePoint& point, CostAxis axis) {
+    return axis == CostAxis::Seconds ? charged_seconds(point.clocks) : static_cast<double>(point.spp);
+}
+
+Curve curve_of(const LiveRun& run, const CurveKind& kind) {
+    Curve curve;
+    for (const LivePoint& point : run.points)
+        if (const auto error = error_of(point, kind.metric)) curve.push_back({cost_of(point, kind.axis), *error});
+    return curve;
+}
+
+Curve other_cost_of(const LiveRun& run, CostAxis axis) {
+    const CostAxis other = axis == CostAxis::Seconds ? CostAxis::Samples : CostAxis::Seconds;
+    Curve curve;
+    for (const LivePoint& point : run.points) curve.push_back({cost_of(point, axis), cost_of(point, other)});
+    return curve;
+}
+
+std::string name_of(const RunLabel& label) {
+    std::string backend = label.backend;
+    for (char& letter : backend) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    std::string name = fmt::format("{} {}", info_of(label.method).label, backend);
+    if (label.next_event) name += " NEE";
+    if (!label.details.empty()) name += " " + label.details;
+    if (label.warm) name += ", warm";
+    return name;
+}
+
+std::uint32_t color_of(MethodId method) {
+    switch (method) {
+    case MethodId::Default: return 0xff56b4e9u;
+    case MethodId::Precomputed: return 0xffe69f00u;
+    case MethodId::Reinforcement: return 0xff26c48fu;
+    }
+    return 0xffcc79a7u;
+}
+
+LineStyle style_of(const std::string& backend) {
+    if (backend == "cpu") return LineStyle::Full;
+    return backend == "cuda" ? LineStyle::Dashed : LineStyle::Dotted;
+}
+
+std::shared_ptr<const LiveRun> find_run(RunList runs, std::uint64_t number) {
+    const auto found = std::ranges::find(runs, number, [](const auto& run) { return run->number; });
+    return found != runs.end() ? *found : nullptr;
+}
+
+std::shared_ptr<const LiveRun> base_of(RunList runs, const LiveRun& run) {
+    std::shared_ptr<const LiveRun> best;
+    int best_likeness = -1;
+    for (const auto& other : runs) {
+        const RunLabel& label = other->label;
+        if (label.method != MethodId::Default || label.picture != run.label.picture) continue;
+        const int likeness = (label.next_event == run.label.next_event ? 4 : 0) +
+                             (label.backend == run.label.backend ? 2 : 0) +
+                             (label.details == run.label.details ? 1 : 0);
+        if (likeness < best_likeness || other->points.empty()) continue;
+        best = other;
+        best_likeness = likeness;
+    }
+    return best && best->number != run.number ? best : nullptr;
+}
+
+}  // namespace pl

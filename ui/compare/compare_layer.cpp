@@ -1,0 +1,60 @@
+#include "ui/compare/compare_layer.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
+#include "ui/picture.h"
+
+namespace pl {
+
+const HalfCodes& CompareLayer::codes(const DisplaySettings& display) {
+    if (!codes_ || !(codes_->display() == display)) codes_.emplace(display);
+    return *codes_;
+}
+
+void CompareLayer::fill(Slot& slot, const TileContent& content, const DisplaySettings& display) {
+    using What = TileContent::What;
+    if (content.what == What::Frame) {
+        const DisplayFrame& frame = content.frame->picture;
+        try {
+            (void)frame.pixels();  // before the texture is locked, whose old pixels are lost then
+        } catch (const Error&) {
+            return;  // the device is lost: the render thread finds out, and tells it
+        }
+        if (slot.texture.resize(frame.width, frame.height)) slot.filled = false;
+        slot.texture.fill([&](std::uint32_t* out, std::size_t pitch) { write_picture(frame, {}, out, pitch); });
+        slot.filled = true;
+        return;
+    }
+    const HalfPicture& picture = *content.picture;
+    slot.texture.resize(picture.width, picture.height);
+    slot.texture.fill([&](std::uint32_t* out, std::size_t pitch) {
+        if (content.what == What::Difference)
+            write_difference(picture, *content.other, display, out, pitch);
+        else if (content.what == What::ErrorMap)
+            write_error_map(picture, *content.other, out, pitch);
+        else
+            write_half_picture(picture, codes(display), out, pitch);
+    });
+    slot.filled = true;
+}
+
+void CompareLayer::draw(const ComparePlan& plan, const DisplaySettings& display) {
+    for (std::size_t i = 0; i < std::min(plan.tiles.size(), slots_.size()); ++i) {
+        const CompareTile& tile = plan.tiles[i];
+        Slot& slot = slots_[i];
+        if (!slot.filled || !(slot.shown == tile.content) || !(slot.display == display)) {
+            fill(slot, tile.content, display);
+            slot.shown = tile.content;
+            slot.display = display;
+        }
+        if (slot.filled) slot.texture.draw(tile.place, tile.clip);
+    }
+    // What is not shown any more is not kept either.
+    for (std::size_t i = plan.tiles.size(); i < slots_.size(); ++i) {
+        slots_[i].shown = {};
+        slots_[i].filled = false;
+    }
+}
+
+}  // namespace pl

@@ -1,0 +1,36 @@
+// Draws a comparison into the window: pixels by textures that are filled when something changed, words and the line over
+// them.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "ui/compare/compare_plan.h"
+#include "ui/compare/half_image.h"
+#include "ui/stream_texture.h"
+
+namespace pl {
+
+class CompareLayer {
+public:
+    explicit CompareLayer(SDL_Renderer* renderer) : slots_{Slot(renderer), Slot(renderer)} {}
+
+    void draw(const ComparePlan& plan, const DisplaySettings& display);
+
+private:
+    struct Slot {
+        explicit Slot(SDL_Renderer* renderer) : texture(renderer) {}
+        StreamTexture texture;
+        TileContent shown;
+        DisplaySettings display;
+        bool filled = false;
+    };
+
+    void fill(Slot& slot, const TileContent& content, const DisplaySettings& display);
+    const HalfCodes& codes(const DisplaySettings& display);
+
+    std::array<Slot, 2> slots_;
+    std::optional<HalfCodes> codes_;
+};
+
+}  // namespace pl

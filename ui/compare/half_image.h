@@ -1,0 +1,47 @@
+// Stored pictures on their way into the window: half floats to 8-bit pixels, differences, maps of the error.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/kernel/film/tone_table.h"
+#include "core/measure/live_runs.h"
+#include "core/session/settings.h"
+
+namespace pl {
+
+/// The 8-bit code of every half float under a display setting: a picture is then shown by looking up.
+class HalfCodes {
+public:
+    explicit HalfCodes(const DisplaySettings& display);
+
+    const DisplaySettings& display() const { return display_; }
+    /// Opaque ARGB of three channels; the marker of invalid pixels if one is NaN.
+    std::uint32_t pixel(const std::uint16_t* rgb) const;
+
+private:
+    static constexpr std::uint16_t kNaN = 0x100;  ///< no code
+
+    DisplaySettings display_;
+    std::vector<std::uint16_t> codes_;
+};
+
+/// ARGB rows, `pitch` pixels apart.
+void write_half_picture(const HalfPicture& picture, const HalfCodes& codes, std::uint32_t* out, std::size_t pitch);
+
+/// |a - b| by channel, under the same exposure and curve. Sizes must agree.
+void write_difference(const HalfPicture& a, const HalfPicture& b, const DisplaySettings& display, std::uint32_t* out,
+                      std::size_t pitch);
+
+/// Relative errors that the darkest and the lightest color of an error map stand for; the scale is logarithmic.
+inline constexpr float kLowError = 0.01f;
+inline constexpr float kHighError = 10.0f;
+/// The root of what Metrics::relmse averages, for one pixel; NaN where a number is not finite.
+float pixel_error(Vec3f picture, Vec3f reference);
+/// Colors of heat_color(). Sizes must agree.
+void write_error_map(const HalfPicture& picture, const HalfPicture& reference, std::uint32_t* out, std::size_t pitch);
+/// What the colors stand for.
+std::string error_map_legend();
+
+}  // namespace pl

@@ -1,0 +1,80 @@
+// Words and handles over the pictures of a comparison.
+#include <algorithm>
+#include <limits>
+
+#include "ui/compare/half_image.h"
+#include "ui/overlays/overlays.h"
+#include "ui/plot/draw_plot.h"
+
+namespace pl {
+namespace {
+
+constexpr float kHandlePixels = 12.0f;
+
+ImVec2 label_padding() { return {em(0.45f), em(0.2f)}; }
+
+float label_wrap(const CompareTile& tile) {
+    return std::max(tile.clip.width - em(1.2f) - 2.0f * label_padding().x, em(4.0f));
+}
+
+/// At the lower left or right corner of a tile, inside of what is shown of it.
+Rect label_place(const CompareTile& tile) {
+    const ImVec2 pad = label_padding();
+    const ImVec2 size = ImGui::CalcTextSize(tile.label.c_str(), nullptr, false, label_wrap(tile));
+    const Rect& part = tile.clip;
+    const float width = size.x + 2.0f * pad.x;
+    const float height = size.y + 2.0f * pad.y;
+    const float x = tile.label_right ? part.x + part.width - width - em(0.6f) : part.x + em(0.6f);
+    return {x, part.y + part.height - height - em(0.6f), width, height};
+}
+
+void draw_label(ImDrawList& list, const CompareTile& tile) {
+    const ImVec2 pad = label_padding();
+    const Rect& part = tile.clip;
+    const Rect place = label_place(tile);
+    list.PushClipRect({part.x, part.y}, {part.x + part.width, part.y + part.height}, true);
+    list.AddRectFilled({place.x, place.y}, {place.x + place.width, place.y + place.height}, colors::kBadge, em(0.2f));
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {place.x + pad.x, place.y + pad.y},
+                 to_imgui_color(tile.color), tile.label.c_str(), nullptr, label_wrap(tile));
+    list.PopClipRect();
+}
+
+/// A narrow window of its own around the line, so that a press on it is the line's and no other is.
+void draw_handle(ViewerModel& model, const Rect& place, float x) {
+    ImGui::SetNextWindowPos({x - 0.5f * kHandlePixels, place.y});
+    ImGui::SetNextWindowSize({kHandlePixels, place.height});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+    ImGui::Begin("split", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::InvisibleButton("line", {kHandlePixels, place.height});
+    const bool held = ImGui::IsItemActive();
+    const bool lit = held || ImGui::IsItemHovered();
+    if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+    if (held) model.set_split((ImGui::GetIO().MousePos.x - place.x) / place.width);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float middle = place.y + 0.5f * place.height;
+    list.AddRectFilled({x - 1.0f, place.y}, {x + 1.0f, place.y + place.height},
+                       lit ? colors::kAccent : colors::kText);
+    list.AddCircleFilled({x, middle}, em(0.5f), lit ? colors::kAccent : colors::kText, 20);
+}
+
+}  // namespace
+
+float top_of_names(const ComparePlan& plan) {
+    float top = std::numeric_limits<float>::infinity();
+    for (const CompareTile& tile : plan.tiles) top = std::min(top, label_place(tile).y);
+    return top;
+}
+
+void draw_comparison(ViewerModel& model, const ComparePlan& plan) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    for (const CompareTile& tile : plan.tiles) draw_label(list, tile);
+    if (plan.split_x) draw_handle(model, plan.tiles.front().place, *plan.split_x);
+}
+
+}  // namespace pl

@@ -1,0 +1,105 @@
+#include "ui/plot/plot_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pl {
+namespace {
+
+constexpr double kZoomStep = 1.2;        ///< factor of a span in decades per notch
+constexpr double kFarthestPower = 15.0;  ///< beyond 10^this, and 10^-this, there is nothing to look for
+
+/// Moves the axis by a share of its length.
+LogAxis moved(const LogAxis& axis, double share) {
+    const double span = std::log10(axis.high() / axis.low());
+    const double low = std::clamp(std::log10(axis.low()) + share * span, -kFarthestPower, kFarthestPower - span);
+    return LogAxis::exactly(std::pow(10.0, low), std::pow(10.0, low + span));
+}
+
+/// Multiplies the length of the axis, with `position` kept in its place.
+LogAxis scaled(const LogAxis& axis, double factor, double position) {
+    const double span = std::log10(axis.high() / axis.low());
+    const double wanted = std::clamp(span * factor, PlotView::kLeastDecades, PlotView::kMostDecades);
+    const double fixed = std::log10(axis.low()) + position * span;
+    const double low = std::clamp(fixed - position * wanted, -kFarthestPower, kFarthestPower - wanted);
+    return LogAxis::exactly(std::pow(10.0, low), std::pow(10.0, low + wanted));
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above `value`, or the smallest not below it.
+double round_to_tick(double value, bool up) {
+    constexpr double kSlack = 1.0 + 1.0e-9;  // a tick is its own neighbor
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    if (up) {
+        for (const double digit : {1.0, 2.0, 5.0, 10.0})
+            if (digit * power * kSlack >= value) return digit * power;
+        return 10.0 * power;
+    }
+    for (const double digit : {5.0, 2.0})
+        if (digit * power <= value * kSlack) return digit * power;
+    return power;
+}
+
+struct Bounds {
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0.0;
+
+    void add(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    /// At least one step of ticks wide.
+    void round_out() {
+        low = round_to_tick(low, false);
+        high = round_to_tick(high, true);
+        if (high <= low) {
+            low = round_to_tick(0.9 * low, false);
+            high = round_to_tick(1.1 * high, true);
+        }
+    }
+};
+
+bool can_be_shown(const PlotValue& value) {
+    return value.x > 0.0 && value.y > 0.0 && std::isfinite(value.x) && std::isfinite(value.y);
+}
+
+}  // namespace
+
+PlotView::PlotView(const PlotRange& range)
+    : x_(LogAxis::exactly(range.x_low, range.x_high)), y_(LogAxis::exactly(range.y_low, range.y_high)) {}
+
+Vec2f PlotView::to_window(const PlotValue& value, const Rect& frame) const {
+    return {frame.x + static_cast<float>(x_.position(value.x)) * frame.width,
+            frame.y + (1.0f - static_cast<float>(y_.position(value.y))) * frame.height};
+}
+
+PlotValue PlotView::to_value(Vec2f window, const Rect& frame) const {
+    return {x_.value_at((window.x - frame.x) / frame.width), y_.value_at(1.0f - (window.y - frame.y) / frame.height)};
+}
+
+void PlotView::pan(Vec2f pixels, const Rect& frame) {
+    x_ = moved(x_, -pixels.x / frame.width);
+    y_ = moved(y_, pixels.y / frame.height);
+}
+
+void PlotView::zoom(float notches, Vec2f at, const Rect& frame) {
+    const double factor = std::pow(kZoomStep, -static_cast<double>(notches));
+    x_ = scaled(x_, factor, (at.x - frame.x) / frame.width);
+    y_ = scaled(y_, factor, 1.0f - (at.y - frame.y) / frame.height);
+}
+
+PlotRange fit_range(std::span<const PlotValue> values) {
+    Bounds x;
+    Bounds y;
+    for (const PlotValue& value : values) {
+        if (!can_be_shown(value)) continue;
+        x.add(value.x);
+        y.add(value.y);
+    }
+    if (!(x.high > 0.0)) return {.x_low = 0.1, .x_high = 10.0, .y_low = 0.1, .y_high = 10.0};
+    x.round_out();
+    y.round_out();
+    return {x.low, x.high, y.low, y.high};
+}
+
+}  // namespace pl

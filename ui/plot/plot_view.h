@@ -1,0 +1,54 @@
+// Which stretch of two logarithmic axes a plot shows, and where its values lie in the window. Knows no window library.
+#pragma once
+
+#include <span>
+
+#include "core/measure/log_axis.h"
+#include "ui/overlays/draw_list.h"
+
+namespace pl {
+
+/// Bounds of both axes, positive.
+struct PlotRange {
+    double x_low = 1.0;
+    double x_high = 10.0;
+    double y_low = 1.0;
+    double y_high = 10.0;
+};
+
+/// A point on the plot, in the units of its axes.
+struct PlotValue {
+    double x = 0.0;
+    double y = 0.0;
+};
+
+class PlotView {
+public:
+    /// What a person can zoom to, in powers of ten.
+    static constexpr double kLeastDecades = 0.2;
+    static constexpr double kMostDecades = 16.0;
+
+    explicit PlotView(const PlotRange& range = {});
+
+    const LogAxis& x_axis() const { return x_; }
+    const LogAxis& y_axis() const { return y_; }
+
+    /// Where a value lies, for a plot that fills `frame`; may be outside of it. Values must be positive.
+    Vec2f to_window(const PlotValue& value, const Rect& frame) const;
+    PlotValue to_value(Vec2f window, const Rect& frame) const;
+
+    /// What lies under the pointer follows it.
+    void pan(Vec2f pixels, const Rect& frame);
+    /// Towards `at` where notches are positive, which stays in its place.
+    void zoom(float notches, Vec2f at, const Rect& frame);
+
+private:
+    LogAxis x_;
+    LogAxis y_;
+};
+
+/// The bounds of all values that are positive and finite, rounded outwards to 1, 2 and 5 times powers of ten, so that
+/// axes stand still while curves grow. Two decades around 1 if there are none.
+PlotRange fit_range(std::span<const PlotValue> values);
+
+}  // namespace pl
