@@ -24,17 +24,6 @@ float power_of_two_above(float value) {
     return std::ldexp(1.0f, std::clamp(exponent, -kMaxExponent, kMaxExponent));
 }
 
-/// Diagonal of the bounds of all triangles.
-float extent_of(const HostScene& scene) {
-    Bounds bounds;
-    for (const Triangle& triangle : scene.triangles)
-        for (const std::uint32_t corner : {triangle.v0, triangle.v1, triangle.v2}) {
-            bounds.low = glm::min(bounds.low, scene.positions[corner]);
-            bounds.high = glm::max(bounds.high, scene.positions[corner]);
-        }
-    return bounds.diagonal();
-}
-
 template <class Storage>
 std::size_t bytes_of_all(const Storage& storage) {
     std::size_t bytes = 0;
@@ -70,7 +59,7 @@ FieldShape make_field_shape(const HostScene& scene, const FieldSettings& setting
     }
     return {.cells = {side_of(settings.bins)},
             .radiance_unit = power_of_two_above(brightest),
-            .extent = extent_of(scene),
+            .extent = bounds_of(scene).diagonal(),
             .rate = settings.rate,
             .uniform_floor = settings.uniform_floor,
             .lookup = settings.lookup};

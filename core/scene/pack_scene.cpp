@@ -91,11 +91,14 @@ Vec3d safe_unit(Vec3d v) {
 Bounds bounds_of(const SceneDescription& scene) {
     Bounds bounds;
     for (const TriangleDescription& t : scene.triangles)
-        for (int corner = 0; corner < 3; ++corner) {
-            const Vec3f p = scene.positions[t.vertex[corner]];
-            bounds.low = glm::min(bounds.low, p);
-            bounds.high = glm::max(bounds.high, p);
-        }
+        for (int corner = 0; corner < 3; ++corner) bounds.add(scene.positions[t.vertex[corner]]);
+    return bounds;
+}
+
+Bounds bounds_of(const HostScene& scene) {
+    Bounds bounds;
+    for (const Triangle& t : scene.triangles)
+        for (const std::uint32_t corner : {t.v0, t.v1, t.v2}) bounds.add(scene.positions[corner]);
     return bounds;
 }
 

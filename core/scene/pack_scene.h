@@ -12,12 +12,17 @@ struct Bounds {
     Vec3f low{kInfinity};
     Vec3f high{-kInfinity};
 
+    void add(Vec3f point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
     bool empty() const { return !(low.x <= high.x); }
     Vec3f center() const { return 0.5f * (low + high); }
     float diagonal() const { return empty() ? 0.0f : glm::length(high - low); }
 };
 
 Bounds bounds_of(const SceneDescription& scene);
+Bounds bounds_of(const HostScene& scene);
 
 /// Packs triangles, materials and lights and builds the hierarchy. The description must be valid.
 /// Smooth normals are packed only if a triangle has them: triangles without get their geometric normal.

@@ -11,6 +11,11 @@ using namespace pl::test;
 
 namespace {
 
+void record_light(TestField& field, float bsdf_ratio, float radiance) {
+    const FieldView view = field.view();
+    record_mixture(view, 0, bsdf_ratio, light_weight(view, 0, bsdf_ratio, radiance));
+}
+
 /// A hemisphere in two halves: what BSDF and table give each, and what arrives from there.
 struct TwoHalves {
     double bsdf[2] = {0.5, 0.5};
@@ -42,8 +47,8 @@ void learn(TestField& field, const TwoHalves& halves, int passes, int records, U
         const double a = static_cast<double>(field.tables.bsdf_fraction[0]);
         for (int i = 0; i < records; ++i) {
             const int half = static_cast<double>(random.next()) < halves.density(a, 0) ? 0 : 1;
-            record_mixture(field.view(), 0, static_cast<float>(halves.bsdf[half] / halves.density(a, half)),
-                           static_cast<float>(halves.radiance[half]));
+            record_light(field, static_cast<float>(halves.bsdf[half] / halves.density(a, half)),
+                         static_cast<float>(halves.radiance[half]));
         }
         move_mixture(field.publication(), 0);
     }
@@ -56,7 +61,7 @@ TEST_CASE("A volume that knows nothing leaves half to the BSDF") {
     CHECK(field.tables.bsdf_fraction[0] == kInitialBsdfFraction);
     field.publish();
     CHECK(field.tables.bsdf_fraction[0] == kInitialBsdfFraction);
-    record_mixture(field.view(), 0, 0.1f, 1.0f);  // but nothing is expected there: no scale
+    record_light(field, 0.1f, 1.0f);  // but nothing is expected there: no scale
     field.publish();
     CHECK(field.tables.bsdf_fraction[0] == kInitialBsdfFraction);
 }
@@ -100,8 +105,8 @@ TEST_CASE("The order of records does not move the share by a bit") {
     for (std::size_t i = 0; i < records.size(); ++i) {
         const Vec2f first = records[i];
         const Vec2f last = records[records.size() - 1 - i];
-        record_mixture(forward.view(), 0, first.x, first.y);
-        record_mixture(backward.view(), 0, last.x, last.y);
+        record_light(forward, first.x, first.y);
+        record_light(backward, last.x, last.y);
     }
     move_mixture(forward.publication(), 0);
     move_mixture(backward.publication(), 0);
@@ -114,7 +119,7 @@ TEST_CASE("Bad and huge numbers leave a share that is one") {
         for (const float radiance : {kNan, kInfinity, -1.0f, 0.0f, 3e38f}) {
             TestField field(4);
             field.tables.mean_radiance[0] = 1e-30f;
-            for (int i = 0; i < 10000; ++i) record_mixture(field.view(), 0, ratio, radiance);
+            for (int i = 0; i < 10000; ++i) record_light(field, ratio, radiance);
             CHECK(field.tables.pending_curvature[0] >= 0);
             move_mixture(field.publication(), 0);
             INFO("ratio " << ratio << ", radiance " << radiance);

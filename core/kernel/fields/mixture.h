@@ -38,10 +38,9 @@ PL_HD inline float light_weight(const FieldView& field, std::int32_t volume, flo
 /// Adds one direction that was sampled at a volume and what arrived from there.
 /// With y = (p_bsdf - p_table) / q = (bsdf_ratio - 1) / (1 - a) and w = f L cos / q relative to its mean, the
 /// derivatives of the divergence by a are -E[w y] and E[w y^2]; the factors of 1-a, the same for all records of a pass,
-/// are left to move_mixture().
-PL_HD inline void record_mixture(const FieldView& field, std::int32_t volume, float bsdf_ratio, float radiance) {
+/// are left to move_mixture(). `weight` is light_weight().
+PL_HD inline void record_mixture(const FieldView& field, std::int32_t volume, float bsdf_ratio, float weight) {
     const auto index = static_cast<std::uint32_t>(volume);
-    const float weight = light_weight(field, volume, bsdf_ratio, radiance);
     if (!(weight > 0.0f)) return;
     const float excess = bsdf_ratio - 1.0f;
     const float slope = -weight * excess * kMixtureStepsPerUnit;

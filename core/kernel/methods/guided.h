@@ -181,8 +181,9 @@ struct GuidedSampling {
     }
     /// What the mixture and the reach learn from it.
     PL_HD void record_light(const TableEntry& entry, float light) const {
-        record_reach(field, entry.volume, light_weight(field, entry.volume, entry.bsdf_ratio, light), entry.distance);
-        if (mixture.learned != 0) record_mixture(field, entry.volume, entry.bsdf_ratio, light);
+        const float weight = light_weight(field, entry.volume, entry.bsdf_ratio, light);
+        record_reach(field, entry.volume, weight, entry.distance);
+        if (mixture.learned != 0) record_mixture(field, entry.volume, entry.bsdf_ratio, weight);
     }
 
 private:
