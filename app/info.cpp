@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/commands.h"
 #include "app/make_backend.h"
@@ -16,6 +17,19 @@ namespace {
 
 Json vector_json(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
+bool has_lobe(const MaterialDescription& material, bool rough) {
+    return material.kind != SurfaceKind::Diffuse && (material.roughness > 0.0f) == rough;
+}
+
+/// "of 2 materials: mirror, window"
+template <class Pick>
+std::string materials_that(const SceneDescription& scene, Pick pick) {
+    std::vector<std::string> names;
+    for (const MaterialDescription& material : scene.materials)
+        if (pick(material)) names.push_back(material.name);
+    return fmt::format("of {} material{}: {}", names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", "));
+}
+
 /// Why an effect is needed, in words.
 std::string reason_of(Feature feature, const SceneDescription& scene) {
     switch (feature) {
@@ -28,6 +42,14 @@ std::string reason_of(Feature feature, const SceneDescription& scene) {
     case Feature::Environment:
         return fmt::format("the environment shines with radiance {}", print_vector(scene.environment));
     case Feature::NextEventEstimation: return "asked for by --nee on";
+    case Feature::Specular: return materials_that(scene, [](const auto& m) { return has_lobe(m, false); });
+    case Feature::Rough: return materials_that(scene, [](const auto& m) { return has_lobe(m, true); });
+    case Feature::Plastic: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Plastic; });
+    case Feature::Textures: return materials_that(scene, [](const auto& m) { return m.textures.any(); });
+    case Feature::CutOuts:
+        return materials_that(scene, [](const auto& m) { return m.textures.opacity != kNoTexture; });
+    case Feature::EnvironmentMap: return "light from far away depends on the direction";
+    case Feature::ThinLens: return fmt::format("the camera's lens has a radius of {}", scene.camera.aperture_radius);
     }
     return "";
 }

@@ -1,24 +1,48 @@
 #include "core/scene/needed_effects.h"
 
+#include <string_view>
+
 namespace pl {
+
+namespace {
+
+/// A lobe of a rough surface; one that a texture may make rough or smooth counts as both.
+FeatureSet effects_of(const SurfaceLobes& lobes) {
+    if (lobes.kind == SurfaceKind::Diffuse) return {};
+    const FeatureSet set = features(lobes.roughness > 0.0f ? Feature::Rough : Feature::Specular);
+    return lobes.kind == SurfaceKind::Plastic ? set.with(Feature::Plastic) : set;
+}
+
+std::string_view name_of(Feature feature) {
+    switch (feature) {
+    case Feature::SmoothNormals: return "smooth-normals";
+    case Feature::Environment: return "environment";
+    case Feature::NextEventEstimation: return "next-event-estimation";
+    case Feature::Specular: return "specular";
+    case Feature::Rough: return "rough";
+    case Feature::Plastic: return "plastic";
+    case Feature::Textures: return "textures";
+    case Feature::CutOuts: return "cut-outs";
+    case Feature::EnvironmentMap: return "environment-map";
+    case Feature::ThinLens: return "thin-lens";
+    }
+    return "";
+}
+
+}  // namespace
 
 FeatureSet needed_effects(const HostScene& scene) {
     FeatureSet set;
     if (!scene.triangle_normals.empty()) set = set.with(Feature::SmoothNormals);
     if (!is_black(scene.environment)) set = set.with(Feature::Environment);
+    for (const SurfaceLobes& lobes : scene.lobes) set = set.with(effects_of(lobes));
     return set;
 }
 
 std::vector<std::string> effect_names(FeatureSet set) {
     std::vector<std::string> names;
-    for (const Feature feature : kAllFeatures) {
-        if (!set.has(feature)) continue;
-        switch (feature) {
-        case Feature::SmoothNormals: names.emplace_back("smooth-normals"); break;
-        case Feature::Environment: names.emplace_back("environment"); break;
-        case Feature::NextEventEstimation: names.emplace_back("next-event-estimation"); break;
-        }
-    }
+    for (const Feature feature : kAllFeatures)
+        if (set.has(feature)) names.emplace_back(name_of(feature));
     return names;
 }
 

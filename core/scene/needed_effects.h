@@ -9,11 +9,12 @@
 
 namespace pl {
 
-/// Effects that the scene itself needs: smooth normals, environment light.
+/// Effects that the scene itself needs; not those that settings or the camera ask for.
 FeatureSet needed_effects(const HostScene& scene);
 
-/// Stable names of the effects in a set, for `info` and `--stats`: "smooth-normals", "environment",
-/// "next-event-estimation".
+/// Stable names of the effects in a set, in the order of kAllFeatures, for `info`, `--stats` and `--force-effects`:
+/// "smooth-normals", "environment", "next-event-estimation", "specular", "rough", "plastic", "textures", "cut-outs",
+/// "environment-map", "thin-lens".
 std::vector<std::string> effect_names(FeatureSet set);
 
 }  // namespace pl

@@ -14,6 +14,8 @@ struct SceneStorage {
     Array<Vec3f> normals;
     Array<TriangleNormals> triangle_normals;
     Array<Material> materials;
+    Array<SurfaceLobes> lobes;
+    Array<float> directional_albedo;
     Array<Light> lights;
     Array<BvhNode> bvh_nodes;
     Array<std::uint32_t> bvh_primitives;
@@ -27,6 +29,8 @@ struct SceneStorage {
                 .normals = view_of(normals),
                 .triangle_normals = view_of(triangle_normals),
                 .materials = view_of(materials),
+                .lobes = view_of(lobes),
+                .directional_albedo = view_of(directional_albedo),
                 .lights = view_of(lights),
                 .bvh = {.nodes = view_of(bvh_nodes), .primitives = view_of(bvh_primitives)},
                 .light_power = light_power,
@@ -45,6 +49,8 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.normals, to.normals);
     fn(from.triangle_normals, to.triangle_normals);
     fn(from.materials, to.materials);
+    fn(from.lobes, to.lobes);
+    fn(from.directional_albedo, to.directional_albedo);
     fn(from.lights, to.lights);
     fn(from.bvh_nodes, to.bvh_nodes);
     fn(from.bvh_primitives, to.bvh_primitives);

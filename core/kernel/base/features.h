@@ -9,30 +9,57 @@
 namespace pl {
 
 enum class Feature : std::uint32_t {
-    SmoothNormals = 1u << 0,       ///< shading normals differ from geometric ones
-    Environment = 1u << 1,         ///< rays that leave the scene see light
-    NextEventEstimation = 1u << 2  ///< shadow rays towards lights, combined by multiple importance sampling
+    SmoothNormals = 1u << 0,        ///< shading normals differ from geometric ones
+    Environment = 1u << 1,          ///< rays that leave the scene see light, the same in all directions
+    NextEventEstimation = 1u << 2,  ///< shadow rays towards lights, combined by multiple importance sampling
+    Specular = 1u << 3,             ///< mirrors and clear glass: lobes of a single direction
+    Rough = 1u << 4,                ///< rough metals and rough glass: microfacets
+    Plastic = 1u << 5,              ///< Lambert under a coat
+    Textures = 1u << 6,             ///< images on surfaces
+    CutOuts = 1u << 7,              ///< holes in surfaces
+    EnvironmentMap = 1u << 8,       ///< light from far away that depends on the direction: an image, a sun
+    ThinLens = 1u << 9,             ///< an aperture with a size
 };
 
-inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment,
-                                           Feature::NextEventEstimation};
+inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
+                                           Feature::Specular,      Feature::Rough,       Feature::Plastic,
+                                           Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
+                                           Feature::ThinLens};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {
     std::uint32_t bits = 0;
 
     PL_HD constexpr bool has(Feature feature) const { return (bits & static_cast<std::uint32_t>(feature)) != 0; }
+    PL_HD constexpr bool has_any(FeatureSet other) const { return (bits & other.bits) != 0; }
     PL_HD constexpr bool covers(FeatureSet needed) const { return (needed.bits & ~bits) == 0; }
     PL_HD constexpr FeatureSet with(Feature feature) const { return {bits | static_cast<std::uint32_t>(feature)}; }
+    PL_HD constexpr FeatureSet with(FeatureSet other) const { return {bits | other.bits}; }
     PL_HD friend constexpr bool operator==(FeatureSet, FeatureSet) = default;
 };
 
+template <class... Features>
+PL_HD constexpr FeatureSet features(Features... list) {
+    return {(0u | ... | static_cast<std::uint32_t>(list))};
+}
+
+/// What makes a surface more than a Lambert reflector.
+inline constexpr FeatureSet kLobeFeatures = features(Feature::Specular, Feature::Rough, Feature::Plastic);
+
+inline constexpr FeatureSet kEveryFeature = [] {
+    FeatureSet all;
+    for (const Feature feature : kAllFeatures) all = all.with(feature);
+    return all;
+}();
+
 /// The sets that are compiled, smallest first; the last one holds every feature.
 inline constexpr FeatureSet kCompiledSets[] = {
-    FeatureSet{},
-    FeatureSet{}.with(Feature::NextEventEstimation),
-    FeatureSet{}.with(Feature::SmoothNormals).with(Feature::Environment),
-    FeatureSet{}.with(Feature::SmoothNormals).with(Feature::Environment).with(Feature::NextEventEstimation),
+    features(),
+    features(Feature::NextEventEstimation),
+    features(Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation),
+    features(Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation, Feature::Specular,
+             Feature::Rough, Feature::Plastic),
+    kEveryFeature,
 };
 inline constexpr int kCompiledSetCount = static_cast<int>(sizeof(kCompiledSets) / sizeof(kCompiledSets[0]));
 
@@ -43,7 +70,7 @@ constexpr int smallest_superset(FeatureSet needed) {
     return kCompiledSetCount - 1;
 }
 
-static_assert(kCompiledSets[kCompiledSetCount - 1].has(Feature::SmoothNormals));
+static_assert(kCompiledSets[kCompiledSetCount - 1] == kEveryFeature);
 static_assert(smallest_superset(FeatureSet{}) == 0);
 
 }  // namespace pl

@@ -4,6 +4,7 @@
 #include "core/kernel/base/span.h"
 #include "core/kernel/geometry/bvh_view.h"
 #include "core/kernel/shading/material.h"
+#include "core/kernel/shading/surface_lobes.h"
 
 namespace pl {
 
@@ -39,6 +40,8 @@ struct SceneView {
     Span<const Vec3f> normals;                     ///< empty unless the scene has smooth normals
     Span<const TriangleNormals> triangle_normals;  ///< one per triangle, or empty
     Span<const Material> materials;
+    Span<const SurfaceLobes> lobes;        ///< [material]; empty if all are diffuse
+    Span<const float> directional_albedo;  ///< tables that they refer to
     Span<const Light> lights;
     BvhView bvh;
     float light_power = 0.0f;  ///< sum over lights of area x luminance of the emission
