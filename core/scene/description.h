@@ -59,7 +59,7 @@ enum class TextureContent : std::uint32_t {
 /// An image on surfaces. Texels are linear (LDR files are decoded from sRGB where they hold colors), row by row from
 /// the top; u runs to the right, v upwards, as in OBJ files.
 struct TextureDescription {
-    std::filesystem::path source;
+    std::filesystem::path source{};
     TextureContent content = TextureContent::Color;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
