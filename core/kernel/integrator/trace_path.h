@@ -1,7 +1,7 @@
 // The main loop: one path from its first segment to its end.
 #pragma once
 
-#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/holes.h"
 #include "core/kernel/integrator/steps.h"
 
 namespace pl {
@@ -9,15 +9,15 @@ namespace pl {
 /// One segment of a path, with the shadow ray at its end.
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline PathStatus trace_segment(const SceneView& scene, const I& intersector, const M& method,
-                                      const PathSettings& settings, PathState<M>& state, PathCounters& counters) {
-    const Hit hit = intersector.closest_hit(state.ray);
+                                      const PathSettings& settings, PathState<F, M>& state, PathCounters& counters) {
+    const Hit hit = closest_solid_hit<F>(scene, intersector, state.ray);
     const VertexNumbers numbers = draw_vertex_numbers<F>(settings, state);
     ShadowRequest shadow;
     const PathStatus status = extend_path<F>(scene, method, settings, hit, numbers, state, shadow, counters);
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (shadow.wanted) {
             ++counters.shadow_rays;
-            if (!intersector.occluded(shadow.ray)) connect_light(method, shadow, state, counters);
+            if (!is_blocked<F>(scene, intersector, shadow.ray)) connect_light(method, shadow, state, counters);
         }
     }
     if (status == PathStatus::Finished) end_path(method, state, counters);
@@ -26,7 +26,7 @@ PL_HD inline PathStatus trace_segment(const SceneView& scene, const I& intersect
 
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline void trace_path(const SceneView& scene, const I& intersector, const M& method,
-                             const PathSettings& settings, PathState<M>& state, PathCounters& counters) {
+                             const PathSettings& settings, PathState<F, M>& state, PathCounters& counters) {
     PathStatus status = PathStatus::Continues;
     while (status == PathStatus::Continues)
         status = trace_segment<F>(scene, intersector, method, settings, state, counters);
