@@ -1,6 +1,7 @@
 #include "core/scene/directional_albedo.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/kernel/shading/fresnel.h"
 #include "core/kernel/shading/microfacet.h"
@@ -8,10 +9,18 @@
 namespace pl {
 namespace {
 
-/// Facets per table entry, on a grid over the unit square.
-constexpr int kSamplesSide = 24;
+/// Facets per table entry: values are then off by 1e-3 or so. A grid of as many is off by ten times that.
+constexpr int kSamples = 1024;
 /// Rows below this roughness hold what a smooth surface reflects: facets are too small a matter to tell.
 constexpr float kSmooth = 1e-3f;
+
+/// Additive recurrence of low discrepancy in the unit square, by the plastic number.   [Roberts 2018, "The Unreasonable
+/// Effectiveness of Quasirandom Sequences"]
+Vec2f spread_point(int i) {
+    const double x = 0.5 + i * 0.7548776662466927;
+    const double y = 0.5 + i * 0.5698402909980532;
+    return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
+}
 
 /// Mean over the facets that a direction sees, of what those return by `value(ggx, wo, m)`.
 template <class Value>
@@ -19,12 +28,8 @@ float mean_over_facets(float roughness, float cos_theta, Value value) {
     const Ggx ggx{square(roughness)};
     const Vec3f wo{safe_sqrt(1.0f - cos_theta * cos_theta), 0.0f, cos_theta};
     double sum = 0.0;
-    for (int y = 0; y < kSamplesSide; ++y)
-        for (int x = 0; x < kSamplesSide; ++x) {
-            const Vec2f u = (Vec2f{static_cast<float>(x), static_cast<float>(y)} + Vec2f{0.5f}) / float{kSamplesSide};
-            sum += static_cast<double>(value(ggx, wo, ggx.sample(wo, u)));
-        }
-    return static_cast<float>(sum / (kSamplesSide * kSamplesSide));
+    for (int i = 0; i < kSamples; ++i) sum += static_cast<double>(value(ggx, wo, ggx.sample(wo, spread_point(i))));
+    return static_cast<float>(sum / kSamples);
 }
 
 /// Share of the light mirrored by a facet that leaves the surface.   [Heitz 2018, eq. 19: f cos / pdf = F G2 / G1]

@@ -121,7 +121,7 @@ public:
         }
         return 0.0f;
     }
-    /// A unit direction with density pdf_sa(); u in [0,1)^2, `choice` in [0, 1).
+    /// A unit direction with density pdf_sa(), or 0, a sample without value; u in [0,1)^2, `choice` in [0, 1).
     PL_HD Vec3f sample(const SurfacePoint& surface, Vec2f u, float choice) const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return lambert_sample(surface, u);
@@ -136,7 +136,9 @@ private:
     static constexpr float kGrazing = 1e-5f;
 
     PL_HD bool smooth() const { return lobes_.kind != SurfaceKind::Diffuse && lobes_.roughness == 0.0f; }
-    PL_HD Vec3f to_world(Vec3f local) const { return glm::normalize(frame_.to_world(local)); }
+    PL_HD Vec3f to_world(Vec3f local) const {
+        return is_black(local) ? local : glm::normalize(frame_.to_world(local));
+    }
     PL_HD Ggx ggx() const { return {square(lobes_.roughness)}; }
 
     PL_HD RoughConductor conductor() const { return {{tables_}, lobes_.specular, lobes_.roughness, wo_}; }

@@ -34,11 +34,13 @@ struct RoughDielectric {
         return (1.0f - facet.reflectance) * common * facet.cos_o * facet.cos_i *
                square(eta / (facet.cos_o - eta * facet.cos_i));
     }
-    /// Reflected where `choice` in [0, 1) is below the facet's reflectance. The direction may be on the wrong side.
+    /// Reflected where `choice` in [0, 1) is below the facet's reflectance. 0 if the facet sends it to the wrong side of the
+    /// surface, where other facets send light, too.
     PL_HD Vec3f sample(Vec2f u, float choice) const {
         const Vec3f m = ggx.sample(wo, u);
-        return choice < fresnel_dielectric(min_of(glm::dot(wo, m), 1.0f), eta) ? reflect_at(wo, m)
-                                                                               : refract_at(wo, m, eta);
+        const bool reflects = choice < fresnel_dielectric(clamp_to(glm::dot(wo, m), 0.0f, 1.0f), eta);
+        const Vec3f wi = reflects ? reflect_at(wo, m) : refract_at(wo, m, eta);
+        return reflects == (wi.z > 0.0f) ? wi : Vec3f{0.0f};
     }
 
 private:
