@@ -146,13 +146,14 @@ int run_info(const CommandLine& line, Console& console) {
     const HostScene packed = pack_scene(*loaded.scene);
     FeatureSet needed = needed_effects(packed);
     if (options.render.next_event) needed = needed.with(Feature::NextEventEstimation);
+    const FeatureSet served = needed.with(options.render.forced_effects);
     const auto backend = make_backend(options.backend, options.threads);
     const SceneReport report{.scene = *loaded.scene,
                              .packed = packed,
                              .bounds = bounds_of(*loaded.scene),
                              .effects = effects_of(needed, *loaded.scene),
-                             .compiled = effect_names(kCompiledSets[smallest_superset(needed)]),
-                             .kernel = backend->kernel_name(options.render.method, options.render.view, needed)};
+                             .compiled = effect_names(kCompiledSets[smallest_superset(served)]),
+                             .kernel = backend->kernel_name(options.render.method, options.render.view, served)};
     console.result(text_of(report));
     console.event("info", json_of(report));
     return 0;

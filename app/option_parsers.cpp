@@ -10,6 +10,7 @@
 #include "app/parse_values.h"
 #include "core/base/error.h"
 #include "core/io/nearest_name.h"
+#include "core/scene/needed_effects.h"
 
 namespace pl {
 namespace {
@@ -209,6 +210,20 @@ void parse_learn_from(Options& options, const std::string& text) {
 }
 void parse_roulette(Options& options, const std::string& text) {
     parse_named(options.render.roulette, kRoulettes, text);
+}
+
+void parse_forced_effects(Options& options, const std::string& text) {
+    if (text == "all") {
+        options.render.forced_effects = kEveryFeature;
+        return;
+    }
+    const std::vector<std::string> names = effect_names(kEveryFeature);
+    for (const std::string& item : split_at_commas(text)) {
+        const auto found = std::find(names.begin(), names.end(), item);
+        if (found == names.end()) fail_choice(names, item);
+        const Feature feature = kAllFeatures[static_cast<std::size_t>(found - names.begin())];
+        options.render.forced_effects = options.render.forced_effects.with(feature);
+    }
 }
 
 void parse_knobs(Options& options, const std::string& text) {

@@ -32,6 +32,8 @@ void parse_learning_rate(Options& options, const std::string& text);
 void parse_learn_target(Options& options, const std::string& text);
 void parse_learn_from(Options& options, const std::string& text);
 void parse_roulette(Options& options, const std::string& text);
+/// "NAME,NAME..." or "all".
+void parse_forced_effects(Options& options, const std::string& text);
 /// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
 void parse_knobs(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);

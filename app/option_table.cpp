@@ -3,11 +3,13 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/camera_file.h"
 #include "app/option_parsers.h"
 #include "app/parse_values.h"
 #include "core/base/error.h"
+#include "core/scene/needed_effects.h"
 
 namespace pl {
 namespace {
@@ -169,6 +171,11 @@ const auto kTable = std::to_array<OptionSpec>({
              "reflectances alone; field: what is learned alone",
      .commands = kSampling, .in_scene_files = true, .parse = parse_roulette,
      .print = [](const Options& o) { return std::string(name_of(o.render.roulette)); }},
+    {.name = "force-effects", .flags = "--force-effects", .value = "NAME,..", .group = kPicture,
+     .help = "Use a kernel that can do these effects, too, although the scene lacks them: it is slower, and the picture "
+             "stays the same to the bit. Names as 'info' prints them, or all",
+     .commands = kWithScene, .parse = parse_forced_effects,
+     .print = [](const Options& o) { return fmt::format("{}", fmt::join(effect_names(o.render.forced_effects), ",")); }},
     {.name = "knob", .flags = "--knob", .value = "NAME=VALUE", .group = kPicture,
      .help = "Turn a knob of the scene; may be given several times ('info' lists them)",
      .commands = kWithScene, .repeatable = true, .parse = parse_knobs, .print = print_knobs},

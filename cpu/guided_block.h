@@ -17,7 +17,7 @@ concept GuidedMethod = std::derived_from<M, GuidedSampling>;
 inline constexpr std::uint32_t kGuidedBlock = 64;
 
 /// At most kGuidedBlock paths. Gives every path what M::sample_direction would alone.
-template <GuidedMethod M>
+template <FeatureSet F, GuidedMethod M>
 class GuidedDepartures {
 public:
     GuidedDepartures(const M& method, const PathSettings& settings) : method_(method), settings_(settings) {}
@@ -26,9 +26,9 @@ public:
     void clear() { count_ = 0; }
 
     /// Where the next path may put down its departure; add() makes it count.
-    Departure<M>& next() { return departures_[count_]; }
-    void add(std::uint32_t path, const PathState<M>& state, Vec4f u) {
-        const Departure<M>& departure = departures_[count_];
+    Departure<F, M>& next() { return departures_[count_]; }
+    void add(std::uint32_t path, const PathState<F, M>& state, Vec4f u) {
+        const Departure<F, M>& departure = departures_[count_];
         const std::int32_t volume = departure.vertex.volume;
         if (volume != kNoVolume) __builtin_prefetch(method_.field.row_cdf.data + volume * method_.field.cells.side);
         GuidedGroup& group = groups_[count_ / kGroupSize];
@@ -56,7 +56,7 @@ public:
     }
 
     std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
-    const Departure<M>& departure(std::uint32_t i) const { return departures_[i]; }
+    const Departure<F, M>& departure(std::uint32_t i) const { return departures_[i]; }
     DirectionSample direction(std::uint32_t i) const { return directions_[i / kGroupSize].get(i % kGroupSize); }
 
 private:
@@ -76,7 +76,7 @@ private:
     LaneKernels kernels_ = best_lane_kernels();
     std::uint32_t count_ = 0;
     std::uint32_t paths_[kGuidedBlock];
-    Departure<M> departures_[kGuidedBlock];
+    Departure<F, M> departures_[kGuidedBlock];
     GuidedGroup groups_[kGuidedBlock / kGroupSize];
     DirectionGroup directions_[kGuidedBlock / kGroupSize];
 };
@@ -118,13 +118,13 @@ private:
 };
 
 /// What a block of paths needs while it is extended; nothing for methods that are not guided.
-template <class M>
+template <FeatureSet F, class M>
 struct BlockMemory {
     BlockMemory(const M&, const PathSettings&) {}
 };
-template <GuidedMethod M>
-struct BlockMemory<M> {
-    GuidedDepartures<M> departures;
+template <FeatureSet F, GuidedMethod M>
+struct BlockMemory<F, M> {
+    GuidedDepartures<F, M> departures;
     GuidedRecords<M> records;
 
     BlockMemory(const M& method, const PathSettings& settings) : departures(method, settings), records(method) {}

@@ -55,13 +55,13 @@ PassCounters run_picture_pass(const PicturePass& pass) {
         method.mixture = pass.mixture;
     }
     if constexpr (FollowingMethod<M>) method.learning = pass.learning;
-    const PictureWork<M> work{pass.camera, pass.sample, pass.film};
+    const PictureWork<F, M> work{pass.camera, pass.sample, pass.film};
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }
 
-template <Method M>
+template <Method M, KernelRange range = KernelRange::Full>
 constexpr PassKernels<PicturePass> make_picture_kernels() {
-    return make_kernel_row<PassCounters (*)(const PicturePass&)>(
+    return make_kernel_row<PassCounters (*)(const PicturePass&), range>(
         []<FeatureSet F>() { return run_picture_pass<F, M>; });
 }
 

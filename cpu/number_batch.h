@@ -14,8 +14,8 @@ public:
     NumberBatch(std::uint32_t capacity, bool with_light)
         : counters_(group_count(capacity)), scatter_(counters_.size()), light_(with_light ? counters_.size() : 0) {}
 
-    template <class M>
-    void set_path(std::uint32_t index, const PathState<M>& state) {
+    template <FeatureSet F, class M>
+    void set_path(std::uint32_t index, const PathState<F, M>& state) {
         CounterGroup& group = counters_[index / kGroupSize];
         const std::uint32_t lane = index % kGroupSize;
         group.pixel[lane] = state.pixel;

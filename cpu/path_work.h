@@ -8,7 +8,7 @@
 namespace pl {
 
 /// One path per pixel, into a film.
-template <class M>
+template <FeatureSet F, class M>
 struct PictureWork {
     static constexpr Purpose kStartPurpose = Purpose::Pixel;
 
@@ -17,14 +17,15 @@ struct PictureWork {
     FilmView film;
 
     std::uint32_t count() const { return film.pixels.count; }
-    PathState<M> begin(std::uint32_t pixel, Vec4f u) const {
+    PathState<F, M> begin(std::uint32_t pixel, Vec4f u) const {
         __builtin_prefetch(&film.pixels[pixel], 1);  // the film does not stay in the cache, the batch does
-        return begin_path<M>(camera, film.width, film.height, pixel, sample, u);
+        return begin_path<F, M>(camera, film.width, film.height, pixel, sample, u);
     }
-    bool finish(const PathState<M>& state) const { return accumulate(film, state.pixel, state.radiance, sample); }
+    bool finish(const PathState<F, M>& state) const { return accumulate(film, state.pixel, state.radiance, sample); }
 };
 
 /// One path per cell of every volume, into a table.
+template <FeatureSet F>
 struct ProbeWork {
     static constexpr Purpose kStartPurpose = Purpose::Probe;
 
@@ -33,10 +34,10 @@ struct ProbeWork {
     std::uint32_t strata_side = 1;
 
     std::uint32_t count() const { return field.normals.count * static_cast<std::uint32_t>(field.cells.count()); }
-    PathState<ProbeMethod> begin(std::uint32_t probe, Vec4f u) const {
-        return begin_probe(field, probe, sample, strata_side, u);
+    PathState<F, ProbeMethod> begin(std::uint32_t probe, Vec4f u) const {
+        return begin_probe<F>(field, probe, sample, strata_side, u);
     }
-    bool finish(const PathState<ProbeMethod>& state) const {
+    bool finish(const PathState<F, ProbeMethod>& state) const {
         finish_probe(field, state);
         return is_valid_radiance(state.radiance);
     }

@@ -28,15 +28,15 @@ struct PassSetup {
 };
 
 /// Where paths start and end. Paths are numbered from 0; finish() says whether the sample was valid.
-template <class W, class M>
-concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<M>& state) {
+template <class W, FeatureSet F, class M>
+concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<F, M>& state) {
     { work.count() } -> std::same_as<std::uint32_t>;
-    { work.begin(number, u) } -> std::same_as<PathState<M>>;
+    { work.begin(number, u) } -> std::same_as<PathState<F, M>>;
     { work.finish(state) } -> std::same_as<bool>;
 };
 
 /// The paths of one thread, the live ones first.
-template <FeatureSet F, Method M, BatchIntersector I, PathWork<M> W>
+template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 class PathBatch {
 public:
     PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work)
@@ -67,7 +67,7 @@ private:
         Vec4f u;
         if (!source.next(number, u)) return false;
         // Made in its place: copying what was just written in smaller pieces would wait for the writes.
-        ::new (static_cast<void*>(&states_[i])) PathState<M>(work_.begin(number, u));
+        ::new (static_cast<void*>(&states_[i])) PathState<F, M>(work_.begin(number, u));
         prepare(i);
         return true;
     }
@@ -106,17 +106,31 @@ private:
             const VertexNumbers numbers = numbers_.numbers(i);
             statuses_[i] = arrive<F>(setup_.scene, method_, setup_.path, rays_.hit(i), numbers, states_[i],
                                      block_.departures.next(), record, shadow, counters_.path);
-            if (statuses_[i] == PathStatus::Continues) block_.departures.add(i, states_[i], numbers.scatter);
+            if (statuses_[i] == PathStatus::Continues) send(i, numbers.scatter, record);
             block_.records.push(record);
             push(shadow, i);
         }
         block_.departures.choose_directions();
         for (std::uint32_t i = 0; i < block_.departures.count(); ++i) {
             const std::uint32_t path = block_.departures.path(i);
+            typename M::Record none{};
             statuses_[path] = leave(method_, block_.departures.departure(i), block_.departures.direction(i),
-                                    states_[path], counters_.path);
+                                    states_[path], none, counters_.path);
         }
         block_.records.commit();
+    }
+
+    /// Lets path i wait for its direction, which many Lambert reflectors get at once; at other surfaces it goes on alone.
+    void send(std::uint32_t i, Vec4f u, typename M::Record& record) {
+        if constexpr (F.has_any(kLobeFeatures)) {
+            const Departure<F, M>& departure = block_.departures.next();
+            if (!departure.bsdf.is_lambert()) {
+                const Rng rng = path_rng(setup_.path, states_[i].pixel, states_[i].sample);
+                statuses_[i] = leave_by_lobe(method_, departure, rng, u, states_[i], record, counters_.path);
+                return;
+            }
+        }
+        block_.departures.add(i, states_[i], u);
     }
 
     void push(const ShadowRequest& shadow, std::uint32_t path) {
@@ -155,27 +169,27 @@ private:
         }
     }
 
-    void finish(const PathState<M>& state) { count_path(counters_, state.radiance, work_.finish(state)); }
+    void finish(const PathState<F, M>& state) { count_path(counters_, state.radiance, work_.finish(state)); }
 
     const PassSetup& setup_;
     const I& intersector_;
     const M& method_;
     const W& work_;
-    std::vector<PathState<M>> states_;
+    std::vector<PathState<F, M>> states_;
     std::vector<PathStatus> statuses_;
     NumberBatch numbers_;
     RayBatch rays_;
     std::vector<ShadowRequest> shadows_;
     std::vector<std::uint32_t> shadow_paths_;
     RayBatch shadow_rays_;
-    [[no_unique_address]] BlockMemory<M> block_;
+    [[no_unique_address]] BlockMemory<F, M> block_;
     std::uint32_t active_ = 0;
     std::uint32_t shadow_count_ = 0;
     PassCounters counters_;
 };
 
 /// Traces the paths of `work` on all threads.
-template <FeatureSet F, Method M, BatchIntersector I, PathWork<M> W>
+template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& method, const W& work) {
     ChunkQueue queue(setup.first_path, work.count(), kPathChunk, setup.stop);
     std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));

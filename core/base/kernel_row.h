@@ -13,11 +13,13 @@ namespace pl {
 template <class Kernel>
 using KernelRow = std::array<Kernel, kCompiledSetCount>;
 
-/// The row of what choose.operator()<F>() returns for every compiled set F.
-template <class Kernel, class Choose>
+/// The row of what choose.operator()<F>() returns for every compiled set F of a range; the other sets are served by the
+/// next larger one.
+template <class Kernel, KernelRange range = KernelRange::Full, class Choose>
 constexpr KernelRow<Kernel> make_kernel_row(Choose choose) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
-        return KernelRow<Kernel>{choose.template operator()<kCompiledSets[I]>()...};
+        return KernelRow<Kernel>{
+            choose.template operator()<kCompiledSets[smallest_superset(kCompiledSets[I], range)]>()...};
     }
     (std::make_index_sequence<kCompiledSetCount>{});
 }

@@ -83,12 +83,17 @@ private:
             const Hit hit = intersector_.closest_hit(ray);
             if (!hit.found()) return;
             const std::uint32_t surface = surfaces_.of_triangle[hit.primitive];
-            if (surface == kNoSurface) return;
             const SurfacePoint point = make_surface_point<FeatureSet{}>(view_, hit, -ray.direction);
-            ++(point.front ? arrivals_[surface].front : arrivals_[surface].back);
-            const Vec4f u = rng.draw(vertex + 2, Purpose::Placement);
-            ray = spawn_ray(point, lambert_sample(point, {u.x, u.y}));
+            const LayeredBsdf bsdf = make_bsdf<kLobeFeatures>(view_, point, -ray.direction);
+            if (!bsdf.scatters()) return;
+            if (surface != kNoSurface) ++(point.front ? arrivals_[surface].front : arrivals_[surface].back);
+            ray = spawn_ray(point, leave(point, bsdf, rng.draw(vertex + 2, Purpose::Placement)));
         }
+    }
+
+    static Vec3f leave(const SurfacePoint& point, const LayeredBsdf& bsdf, Vec4f u) {
+        if (u.z < bsdf.delta_probability()) return bsdf.sample_delta(point, u.w).wi;
+        return bsdf.sample(point, {u.x, u.y}, u.w);
     }
 
     const HostScene& scene_;

@@ -1,9 +1,12 @@
 #include "core/scene/pack_scene.h"
 
 #include <cmath>
+#include <map>
 #include <utility>
 
+#include "core/kernel/shading/bsdf.h"
 #include "core/scene/build_bvh.h"
+#include "core/scene/directional_albedo.h"
 #include "core/scene/triangle_planes.h"
 
 namespace pl {
@@ -47,10 +50,75 @@ void pack_normals(const SceneDescription& scene, HostScene& packed) {
     }
 }
 
+/// Albedo of what tables guide at such a surface; 0 where none does.
+Vec3f guided_albedo(const MaterialDescription& m) {
+    switch (m.kind) {
+    case SurfaceKind::Diffuse:
+    case SurfaceKind::Plastic: return m.albedo;
+    case SurfaceKind::Conductor: return m.roughness < kMinGuidedRoughness ? Vec3f{0.0f} : Vec3f{m.specular};
+    case SurfaceKind::Dielectric: return Vec3f{0.0f};
+    }
+    return Vec3f{0.0f};
+}
+
 void pack_materials(const SceneDescription& scene, HostScene& packed) {
     packed.materials.reserve(scene.materials.size());
     for (const MaterialDescription& m : scene.materials)
-        packed.materials.push_back({m.albedo, m.emission, m.two_sided_emission ? 1u : 0u});
+        packed.materials.push_back({guided_albedo(m), m.emission, m.two_sided_emission ? 1u : 0u});
+}
+
+/// Puts tables of directional albedos into a scene, each once.
+class AlbedoTables {
+public:
+    explicit AlbedoTables(std::vector<float>& values) : values_(values) {}
+
+    std::uint32_t first_for(SurfaceKind kind, float ior) {
+        const auto [place, is_new] = first_.try_emplace({kind, ior}, static_cast<std::uint32_t>(values_.size()));
+        if (is_new) {
+            switch (kind) {
+            case SurfaceKind::Diffuse: break;
+            case SurfaceKind::Conductor: add(lossless_albedo()); break;
+            case SurfaceKind::Plastic: add(coat_albedo(ior)); break;
+            case SurfaceKind::Dielectric:
+                add(glass_albedo(ior));
+                add(glass_albedo(1.0f / ior));
+                break;
+            }
+        }
+        return place->second;
+    }
+
+private:
+    void add(const std::vector<float>& table) { values_.insert(values_.end(), table.begin(), table.end()); }
+
+    std::vector<float>& values_;
+    std::map<std::pair<SurfaceKind, float>, std::uint32_t> first_;
+};
+
+/// Glass that hardly refracts has no facets to speak of.
+float usable_roughness(const MaterialDescription& m) {
+    constexpr float kLeastContrast = 1e-3f;
+    const bool refracts = m.kind != SurfaceKind::Dielectric || std::fabs(m.ior - 1.0f) > kLeastContrast;
+    return refracts ? m.roughness : 0.0f;
+}
+
+void pack_lobes(const SceneDescription& scene, HostScene& packed) {
+    bool any = false;
+    for (const MaterialDescription& m : scene.materials) any = any || m.kind != SurfaceKind::Diffuse;
+    if (!any) return;
+    AlbedoTables tables(packed.directional_albedo);
+    packed.lobes.reserve(scene.materials.size());
+    for (const MaterialDescription& m : scene.materials) {
+        SurfaceLobes lobes{.kind = m.kind,
+                           .roughness = usable_roughness(m),
+                           .ior = m.ior,
+                           .specular = m.specular,
+                           .transmission = m.transmission};
+        const bool uses_table = lobes.kind == SurfaceKind::Plastic || lobes.roughness > 0.0f;
+        // A metal's table does not depend on its index of refraction.
+        if (uses_table) lobes.table = tables.first_for(m.kind, m.kind == SurfaceKind::Conductor ? 1.0f : m.ior);
+        packed.lobes.push_back(lobes);
+    }
 }
 
 /// Collects the emitting triangles. Sums are taken in double and rounded once.
@@ -107,6 +175,7 @@ HostScene pack_scene(const SceneDescription& scene) {
     pack_triangles(scene, packed);
     pack_normals(scene, packed);
     pack_materials(scene, packed);
+    pack_lobes(scene, packed);
     pack_lights(packed);
     packed.environment = scene.environment;
     Bvh bvh = build_bvh(view_of(std::as_const(packed.positions)), view_of(std::as_const(packed.triangles)));

@@ -176,8 +176,10 @@ FeatureSet Session::needed_features() const {
     return settings_.next_event ? scene.with(Feature::NextEventEstimation) : scene;
 }
 
+FeatureSet Session::served_features() const { return needed_features().with(settings_.forced_effects); }
+
 std::string Session::kernel_name() const {
-    return backend_->kernel_name(settings_.method, settings_.view, needed_features());
+    return backend_->kernel_name(settings_.method, settings_.view, served_features());
 }
 
 PathSettings Session::path_settings() const {
@@ -212,7 +214,7 @@ Progress Session::precompute_slice(const StopFlag* stop) {
     const auto slices = static_cast<std::uint32_t>(settings_.field.precompute_samples);
     const PassCounters counters =
         backend_->precompute({.method = settings_.method,
-                              .features = needed_features(),
+                              .features = served_features(),
                               .path = path,
                               .sample = state.precomputed_slices,
                               .strata_side = static_cast<std::uint32_t>(std::lround(std::sqrt(slices))),
@@ -252,7 +254,7 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
     if (is_heat_map(target.view)) sample = 0;
     const PassCounters counters =
         backend_->run_pass({.slot = target,
-                            .features = needed_features(),
+                            .features = served_features(),
                             .path = path_settings(),
                             .camera = make_camera(settings_.camera, settings_.width, settings_.height),
                             .mixture = mixture_of(target.method),

@@ -68,6 +68,8 @@ public:
     RenderBackend& backend_access() { return *backend_; }
     /// Effects that scene and settings call for.
     FeatureSet needed_features() const;
+    /// Those, and the forced ones: the kernel covers them.
+    FeatureSet served_features() const;
     std::string kernel_name() const;
     std::uint32_t passes() const { return film().passes; }
     std::optional<FieldStatus> field_status() const;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/fields/make_field.h"
+#include "core/kernel/base/features.h"
 #include "core/kernel/film/tonemap.h"
 #include "core/kernel/inspect/views.h"
 #include "core/kernel/integrator/path.h"
@@ -25,6 +26,8 @@ struct RenderSettings {
     RouletteRule roulette = RouletteRule::Spare;
     MixtureSettings mixture{};
     FieldSettings field;
+    FeatureSet
+        forced_effects;  ///< the kernel has to be able to do these, too, needed or not: no picture changes by it
 };
 
 /// Display only: never touches what was accumulated or learned.

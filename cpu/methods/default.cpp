@@ -5,7 +5,7 @@ namespace {
 
 template <FeatureSet F>
 PassCounters run_probe_pass(const ProbePass& pass) {
-    const ProbeWork work{pass.field, pass.sample, pass.strata_side};
+    const ProbeWork<F> work{pass.field, pass.sample, pass.strata_side};
     return run_paths<F>(pass.setup, pass.tracer, ProbeMethod{}, work);
 }
 
@@ -13,6 +13,7 @@ PassCounters run_probe_pass(const ProbePass& pass) {
 
 constinit const PassKernels<PicturePass> kDefaultKernels = make_picture_kernels<DefaultMethod>();
 constinit const PassKernels<ProbePass> kProbeKernels =
-    make_kernel_row<PassCounters (*)(const ProbePass&)>([]<FeatureSet F>() { return run_probe_pass<F>; });
+    make_kernel_row<PassCounters (*)(const ProbePass&), KernelRange::Sparse>(
+        []<FeatureSet F>() { return run_probe_pass<F>; });
 
 }  // namespace pl

@@ -2,6 +2,7 @@
 
 namespace pl {
 
-constinit const PassKernels<PicturePass> kMonteCarloKernels = make_picture_kernels<MonteCarloMethod>();
+constinit const PassKernels<PicturePass> kMonteCarloKernels =
+    make_picture_kernels<MonteCarloMethod, KernelRange::Sparse>();
 
 }  // namespace pl

@@ -2,6 +2,6 @@
 
 namespace pl {
 
-constinit const PassKernels<PicturePass> kSarsaKernels = make_picture_kernels<SarsaMethod>();
+constinit const PassKernels<PicturePass> kSarsaKernels = make_picture_kernels<SarsaMethod, KernelRange::Sparse>();
 
 }  // namespace pl

@@ -3,6 +3,6 @@
 namespace pl::cuda {
 
 constinit const KernelRow<PictureKernel<MonteCarloMethod>> kMonteCarloKernels =
-    make_picture_kernels<MonteCarloMethod>();
+    make_picture_kernels<MonteCarloMethod, KernelRange::Sparse>();
 
 }  // namespace pl::cuda

@@ -3,6 +3,6 @@
 namespace pl::cuda {
 
 constinit const KernelRow<ProbeKernel> kProbeKernels =
-    make_kernel_row<ProbeKernel>([]<FeatureSet F>() { return trace_paths<F.bits, ProbeMethod, ProbePaths>; });
+    make_kernel_row<ProbeKernel, KernelRange::Sparse>([]<FeatureSet F>() { return trace_paths<F.bits, ProbeMethod, ProbePaths>; });
 
 }  // namespace pl::cuda

@@ -11,29 +11,30 @@
 
 namespace pl::cuda {
 
-template <class M>
-__device__ inline PathState<M> begin(const PixelPaths& paths, const PathSettings& settings, std::uint32_t pixel) {
-    return begin_path<M>(paths.camera, settings, paths.width, paths.height, pixel, paths.sample);
+template <FeatureSet F, class M>
+__device__ inline PathState<F, M> begin(const PixelPaths& paths, const PathSettings& settings, std::uint32_t pixel) {
+    return begin_path<F, M>(paths.camera, settings, paths.width, paths.height, pixel, paths.sample);
 }
-template <class M>
-__device__ inline PathState<M> begin(const ProbePaths& paths, const PathSettings& settings, std::uint32_t probe) {
-    return begin_probe(paths.field, settings, probe, paths.sample, paths.strata_side);
+template <FeatureSet F, class M>
+__device__ inline PathState<F, M> begin(const ProbePaths& paths, const PathSettings& settings, std::uint32_t probe) {
+    return begin_probe<F>(paths.field, settings, probe, paths.sample, paths.strata_side);
 }
 
-template <class M>
-__device__ inline void finish(const PixelPaths& paths, const PathState<M>& state) {
+template <FeatureSet F, class M>
+__device__ inline void finish(const PixelPaths& paths, const PathState<F, M>& state) {
     paths.radiance[state.pixel - paths.first] = state.radiance;
 }
-__device__ inline void finish(const ProbePaths& paths, const PathState<ProbeMethod>& state) {
+template <FeatureSet F>
+__device__ inline void finish(const ProbePaths& paths, const PathState<F, ProbeMethod>& state) {
     finish_probe(paths.field, state);
 }
 
 /// The next path for a thread; false if there is none.
-template <class M, class Paths>
-__device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathState<M>& state) {
+template <FeatureSet F, class M, class Paths>
+__device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathState<F, M>& state) {
     const std::uint32_t taken = claim(*setup.claimed);
     if (taken >= setup.range.end - setup.range.first) return false;
-    state = begin<M>(paths, setup.path, setup.range.first + taken);
+    state = begin<F, M>(paths, setup.path, setup.range.first + taken);
     return true;
 }
 
@@ -42,7 +43,7 @@ template <std::uint32_t kFeatureBits, Method M, class Paths>
 __global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup, M method, Paths paths) {
     const BvhIntersector intersector{setup.scene};
     PassCounters counters;
-    PathState<M> state;
+    PathState<FeatureSet{kFeatureBits}, M> state;
     bool active = start(setup, paths, state);
     while (active) {
         const PathStatus status = trace_segment<FeatureSet{kFeatureBits}>(setup.scene, intersector, method,
@@ -55,9 +56,9 @@ __global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup
     add_up(*setup.counters, counters);
 }
 
-template <Method M>
+template <Method M, KernelRange range = KernelRange::Full>
 constexpr KernelRow<PictureKernel<M>> make_picture_kernels() {
-    return make_kernel_row<PictureKernel<M>>([]<FeatureSet F>() { return trace_paths<F.bits, M, PixelPaths>; });
+    return make_kernel_row<PictureKernel<M>, range>([]<FeatureSet F>() { return trace_paths<F.bits, M, PixelPaths>; });
 }
 
 }  // namespace pl::cuda

@@ -57,7 +57,7 @@ Outcome loop_over_paths(const Room& room) {
         method.field = field_view(room.shape, *room.volumes, outcome.tables);
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
         for (std::uint32_t pixel = 0; pixel < pixels.size(); ++pixel) {
-            auto state = begin_path<M>(room.camera, settings, kWidth, kHeight, pixel, sample);
+            auto state = begin_path<F, M>(room.camera, settings, kWidth, kHeight, pixel, sample);
             trace_path<F>(scene, BvhIntersector{scene}, method, settings, state, outcome.counters.path);
             count_path(outcome.counters, state.radiance, accumulate(film, pixel, state.radiance, sample));
         }
@@ -135,7 +135,7 @@ TEST_CASE("Batches of probes equal single probes") {
     settings.stream = Stream::Precompute;
     PassCounters counters;
     for (std::uint32_t probe = 0; probe < field.normals.count * 16; ++probe) {
-        auto state = begin_probe(field, settings, probe, 2, 4);
+        auto state = begin_probe<kLights>(field, settings, probe, 2, 4);
         trace_path<kLights>(scene, BvhIntersector{scene}, ProbeMethod{}, settings, state, counters.path);
         finish_probe(field, state);
         count_path(counters, state.radiance, true);

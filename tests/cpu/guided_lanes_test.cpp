@@ -97,9 +97,9 @@ TEST_CASE("Every instruction set chooses the guided directions of one path alone
 TEST_CASE("Where there is no volume at all a block of paths is sent on by the BSDF") {
     PrecomputedMethod method;
     const PathSettings settings;
-    GuidedDepartures<PrecomputedMethod> departures(method, settings);
-    departures.next() = {.surface = SurfacePoint{}, .albedo = Vec3f{0.5f}};
-    departures.add(7, PathState<PrecomputedMethod>{}, {0.25f, 0.75f, 0.125f, 0.0f});
+    GuidedDepartures<FeatureSet{}, PrecomputedMethod> departures(method, settings);
+    departures.next() = {.surface = SurfacePoint{}, .bsdf = {Vec3f{0.5f}}};
+    departures.add(7, PathState<FeatureSet{}, PrecomputedMethod>{}, {0.25f, 0.75f, 0.125f, 0.0f});
     departures.choose_directions();
     REQUIRE(departures.count() == 1);
     CHECK(departures.path(0) == 7);

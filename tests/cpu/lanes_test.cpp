@@ -51,7 +51,7 @@ TEST_CASE("A batch of numbers gives what a vertex draws alone") {
     constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);
     const PathSettings settings{.seed = 0x123456789abcdef0u, .stream = Stream::Precompute, .next_event = 1};
     Uniforms random(8);
-    std::vector<PathState<DefaultMethod>> states(37);
+    std::vector<PathState<kLights, DefaultMethod>> states(37);
     NumberBatch batch(37, true);
     for (std::uint32_t i = 0; i < 37; ++i) {
         states[i].pixel = random.bits();

@@ -23,10 +23,10 @@ constexpr int kVertices = 12;
 /// Throughput of a path behind its last vertex; 0 if roulette ended it.
 template <Method M>
 float survive(const M& method, const PathSettings& settings, Uniforms& random) {
-    PathState<M> state;
+    PathState<FeatureSet{}, M> state;
     for (int vertex = 0; vertex < kVertices; ++vertex) {
         ++state.vertices;
-        if (play_roulette(method, settings, {}, Vec3f{kAlbedo}, random.next(), state) == 0.0f) return 0.0f;
+        if (play_roulette(method, settings, typename M::Vertex{}, Vec3f{kAlbedo}, random.next(), state) == 0.0f) return 0.0f;
         state.throughput *= kAlbedo;
     }
     return state.throughput.x;

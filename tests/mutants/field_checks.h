@@ -91,7 +91,7 @@ inline Decision check_probed_cells() {
     for (int cell = 0; cell < tables.cells.count(); ++cell)
         for (std::uint32_t sample = 0; sample < 16; ++sample) {
             PathCounters counters;
-            auto state = begin_probe(tables, settings, tables.cell_index(volume, cell), sample, 4);
+            auto state = begin_probe<FeatureSet{}>(tables, settings, tables.cell_index(volume, cell), sample, 4);
             trace_path<FeatureSet{}>(view, BvhIntersector{view}, ProbeMethod{}, settings, state, counters);
             finish_probe(tables, state);
         }

@@ -18,7 +18,7 @@ inline Decision check_cube_wall(const CubeReference& reference, const HostScene&
     std::array<Moments, 3> channels;
     const PathSettings settings{.seed = 1, .next_event = F.has(Feature::NextEventEstimation) ? 1u : 0u};
     trace_many<F>(scene, camera_at_center(wall, kCubeLow, kCubeHigh), method, settings, samples,
-                  [&](const PathState<M>& state, const PathCounters&) {
+                  [&](const PathState<F, M>& state, const PathCounters&) {
                       for (int c = 0; c < 3; ++c)
                           channels[static_cast<std::size_t>(c)].add(static_cast<double>(state.radiance[c]));
                   });
@@ -105,7 +105,7 @@ inline Decision check_equilibrium() {
     for (std::uint32_t sample = 0; sample < kPaths; ++sample) {
         Vec3d product{1.0};
         PathCounters counters;
-        auto state = begin_path<DefaultMethod>(camera, settings, 1, 1, 0, sample);
+        auto state = begin_path<FeatureSet{}, DefaultMethod>(camera, settings, 1, 1, 0, sample);
         trace_path<FeatureSet{}>(view, AlbedoProduct{BvhIntersector{view}, &product}, DefaultMethod{}, settings,
                                  state, counters);
         const double tolerance = 4.0 * (state.vertices + 1) * static_cast<double>(kRoundoff);

@@ -26,7 +26,7 @@ void trace_many(const HostScene& scene, const CameraDescription& camera, const M
     const PinholeCamera pinhole = make_camera(camera, 1, 1);
     for (std::uint32_t i = 0; i < samples.count; ++i) {
         PathCounters counters;
-        auto state = begin_path<M>(pinhole, settings, 1, 1, 0, samples.first + i);
+        auto state = begin_path<F, M>(pinhole, settings, 1, 1, 0, samples.first + i);
         trace_path<F>(view, intersector, method, settings, state, counters);
         each(state, counters);
     }

@@ -82,7 +82,7 @@ void check_replay(const std::string& name, bool next_event) {
     double brightest = 0.0;
     int lit = 0;
     for (std::uint32_t i = 0; i < kSide * kSide * kSamples; ++i) {
-        auto state = begin_path<ReplayedMethod>(camera, path, kSide, kSide, i / kSamples, i % kSamples);
+        auto state = begin_path<F, ReplayedMethod>(camera, path, kSide, kSide, i / kSamples, i % kSamples);
         PathCounters counters;
         trace_path<F>(view, BvhIntersector{view}, method, path, state, counters);
         if (counters.method.cut_returns > 0) continue;

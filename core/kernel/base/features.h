@@ -63,12 +63,20 @@ inline constexpr FeatureSet kCompiledSets[] = {
 };
 inline constexpr int kCompiledSetCount = static_cast<int>(sizeof(kCompiledSets) / sizeof(kCompiledSets[0]));
 
-/// Index into kCompiledSets of the first (smallest) set that covers `needed`.
-constexpr int smallest_superset(FeatureSet needed) {
-    for (int i = 0; i < kCompiledSetCount; ++i)
+/// How many of the sets a kernel is compiled for.
+enum class KernelRange {
+    Full,
+    Sparse,  ///< every second set, the smallest and the largest among them: for kernels that are asked for less often
+};
+
+/// Index into kCompiledSets of the first (smallest) set of a range that covers `needed`.
+constexpr int smallest_superset(FeatureSet needed, KernelRange range = KernelRange::Full) {
+    const int step = range == KernelRange::Sparse ? 2 : 1;
+    for (int i = 0; i < kCompiledSetCount; i += step)
         if (kCompiledSets[i].covers(needed)) return i;
     return kCompiledSetCount - 1;
 }
+static_assert(kCompiledSetCount % 2 == 1, "the largest set is in both ranges");
 
 static_assert(kCompiledSets[kCompiledSetCount - 1] == kEveryFeature);
 static_assert(smallest_superset(FeatureSet{}) == 0);

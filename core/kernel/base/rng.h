@@ -16,6 +16,7 @@ enum class Purpose : std::uint32_t {
     Light = 3,       ///< which light, and where on it
     Probe = 4,       ///< first direction of a precomputation path
     Placement = 5,   ///< where volumes are placed
+    Lobe = 6,        ///< which lobe of a surface that has several
 };
 
 /// Which family of paths draws: pictures and precomputation never share a number.

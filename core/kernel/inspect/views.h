@@ -50,15 +50,15 @@ PL_HD inline Vec3f shown_volume(View view, const ShownField& shown, std::int32_t
 }
 
 /// The classic ray tracer: emission plus one shadow ray, no light from other surfaces.
-template <Intersector I>
+template <FeatureSet F, Intersector I>
 PL_HD inline Vec3f direct_radiance(const SceneView& scene, const I& intersector, const SurfacePoint& surface,
-                                   const Rng& rng) {
-    const Material& material = scene.materials[surface.material];
-    const Vec3f emitted = emitted_radiance(material, surface.front);
+                                   Vec3f wo, const Rng& rng) {
+    const Vec3f emitted = emitted_radiance(scene.materials[surface.material], surface.front);
     const Vec4f u = rng.draw(0, Purpose::Light);
-    const DirectLight sample = sample_direct_light(scene, surface, {u.x, u.y, u.z});
+    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, wo);
+    const DirectLight sample = sample_direct_light(scene, surface, bsdf, {u.x, u.y, u.z});
     if (!(sample.pdf_sa > 0.0f) || intersector.occluded(spawn_shadow_ray(surface, sample.light))) return emitted;
-    return emitted + lambert_eval(material.albedo, sample.cos_i) * sample.emitted * (1.0f / sample.pdf_sa);
+    return emitted + bsdf.eval(surface, sample.wi, sample.cos_i) * sample.emitted * (1.0f / sample.pdf_sa);
 }
 
 /// Learned mean radiance around a point: the nearest volumes, blended with weights that fall to zero at the
@@ -81,13 +81,13 @@ PL_HD inline float interpolated_mean_radiance(const FieldView& field, const Surf
 
 /// Value of one view at the first surface; the camera ray has missed nothing. Depth is in scene units, heat maps are
 /// numbers as they are, three times the same.
-template <Intersector I>
+template <FeatureSet F, Intersector I>
 PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& intersector, const ShownField& shown,
-                                const SurfacePoint& surface, float distance, const Rng& rng) {
+                                const SurfacePoint& surface, Vec3f wo, float distance, const Rng& rng) {
     const Material& material = scene.materials[surface.material];
     switch (view) {
     case View::Beauty: return Vec3f{0.0f};
-    case View::Direct: return direct_radiance(scene, intersector, surface, rng);
+    case View::Direct: return direct_radiance<F>(scene, intersector, surface, wo, rng);
     case View::RadianceMap: {
         const Vec3f emitted = emitted_radiance(material, surface.front);
         return emitted + material.albedo * interpolated_mean_radiance(shown.field, surface);
@@ -111,11 +111,12 @@ template <FeatureSet F, Intersector I>
 PL_HD inline Vec3f sample_view(View view, const SceneView& scene, const I& intersector, const ShownField& shown,
                                const PinholeCamera& camera, const PathSettings& settings, std::uint32_t width,
                                std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
-    const auto state = begin_path<DefaultMethod>(camera, settings, width, height, pixel, sample);
+    const auto state = begin_path<F, DefaultMethod>(camera, settings, width, height, pixel, sample);
     const Hit hit = intersector.closest_hit(state.ray);
     if (!hit.found()) return view == View::Direct && F.has(Feature::Environment) ? scene.environment : Vec3f{0.0f};
     const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
-    return surface_view(view, scene, intersector, shown, surface, hit.t, path_rng(settings, pixel, sample));
+    return surface_view<F>(view, scene, intersector, shown, surface, -state.ray.direction, hit.t,
+                           path_rng(settings, pixel, sample));
 }
 
 }  // namespace pl

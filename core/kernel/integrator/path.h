@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
+#include "core/kernel/base/features.h"
 #include "core/kernel/base/rng.h"
 #include "core/kernel/geometry/ray.h"
 #include "core/kernel/methods/method.h"
@@ -28,7 +30,17 @@ struct PathSettings {
     std::uint32_t next_event = 0;  ///< 1: sample lights at every vertex, combined with the method's directions
 };
 
-template <class M>
+struct Nothing {};
+
+/// What a path has seen since it left the last vertex that learns: mirrors and glass have no tables, they pass light on.
+struct Passage {
+    Vec3f weight{1.0f};   ///< product of f cos / pdf, and of roulette weights, at the surfaces that passed it on
+    Vec3f emitted{0.0f};  ///< radiance that these emitted, as seen from that vertex
+    float distance = 0.0f;
+    bool is_open = false;  ///< there were such surfaces
+};
+
+template <FeatureSet F, class M>
 struct PathState {
     Ray ray;                        ///< the segment to trace next
     Vec3f throughput{1.0f};         ///< product of BSDF x cosine / pdf, and of roulette weights
@@ -38,6 +50,7 @@ struct PathState {
     std::uint32_t pixel = 0;        ///< or the probe's index
     std::uint32_t sample = 0;
     std::uint32_t vertices = 0;  ///< surface points met so far
+    [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), Passage, Nothing> passage{};
     [[no_unique_address]] typename M::Memory memory{};
     [[no_unique_address]] typename M::Expectation expectation{};
 };

@@ -40,13 +40,14 @@ PL_HD inline ProbeTarget probe_target(const FieldView& field, std::uint32_t prob
 
 /// Starts a path that measures the radiance arriving through one cell. Directions are stratified: sample s of S
 /// (a square number) takes one of S sub-cells. `u` is drawn for vertex 0 and Purpose::Probe.
-PL_HD inline PathState<ProbeMethod> begin_probe(const FieldView& field, std::uint32_t probe, std::uint32_t sample,
-                                                std::uint32_t strata_side, Vec4f u) {
+template <FeatureSet F>
+PL_HD inline PathState<F, ProbeMethod> begin_probe(const FieldView& field, std::uint32_t probe, std::uint32_t sample,
+                                                   std::uint32_t strata_side, Vec4f u) {
     const ProbeTarget target = probe_target(field, probe);
     const Vec2f stratum{static_cast<float>(sample % strata_side), static_cast<float>(sample / strata_side)};
     const Vec2f in_cell = (stratum + Vec2f{u.x, u.y}) * (1.0f / static_cast<float>(strata_side));
     const Vec3f local = square_to_cosine_hemisphere(field.cells.point_in_cell(target.cell, in_cell));
-    PathState<ProbeMethod> state;
+    PathState<F, ProbeMethod> state;
     state.ray =
         spawn_ray(field.sites[static_cast<std::uint32_t>(target.volume)], field.frame(target.volume).to_world(local));
     state.pixel = probe;
@@ -54,15 +55,17 @@ PL_HD inline PathState<ProbeMethod> begin_probe(const FieldView& field, std::uin
     return state;
 }
 
-PL_HD inline PathState<ProbeMethod> begin_probe(const FieldView& field, const PathSettings& settings,
-                                                std::uint32_t probe, std::uint32_t sample,
-                                                std::uint32_t strata_side) {
+template <FeatureSet F>
+PL_HD inline PathState<F, ProbeMethod> begin_probe(const FieldView& field, const PathSettings& settings,
+                                                   std::uint32_t probe, std::uint32_t sample,
+                                                   std::uint32_t strata_side) {
     const Vec4f u = path_rng(settings, probe, sample).draw(0, Purpose::Probe);
-    return begin_probe(field, probe, sample, strata_side, u);
+    return begin_probe<F>(field, probe, sample, strata_side, u);
 }
 
 /// Stores what a finished probe path brought.
-PL_HD inline void finish_probe(const FieldView& field, const PathState<ProbeMethod>& state) {
+template <FeatureSet F>
+PL_HD inline void finish_probe(const FieldView& field, const PathState<F, ProbeMethod>& state) {
     constexpr float kWeightPerUnit = 256.0f;  // before anything is published nobody knows what is much
     const ProbeTarget target = probe_target(field, state.pixel);
     const float light = luminance(state.radiance);

@@ -3,7 +3,7 @@
 // that handles several paths at once calls the parts of extend_path: arrive, the method's choice of a direction, leave.
 #pragma once
 
-#include "core/kernel/integrator/path.h"
+#include "core/kernel/integrator/departure.h"
 #include "core/kernel/scene/camera.h"
 #include "core/kernel/shading/lights.h"
 
@@ -24,7 +24,7 @@ struct VertexNumbers {
 };
 
 template <FeatureSet F, class M>
-PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, const PathState<M>& state) {
+PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, const PathState<F, M>& state) {
     const Rng rng = path_rng(settings, state.pixel, state.sample);
     VertexNumbers numbers{.scatter = rng.draw(state.vertices + 1, Purpose::Scatter)};
     if constexpr (F.has(Feature::NextEventEstimation)) {
@@ -34,29 +34,30 @@ PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, con
 }
 
 /// Starts a path at the camera, somewhere in a pixel; `u` is drawn for vertex 0 and Purpose::Pixel.
-template <class M>
-PL_HD inline PathState<M> begin_path(const PinholeCamera& camera, std::uint32_t width, std::uint32_t height,
-                                     std::uint32_t pixel, std::uint32_t sample, Vec4f u) {
+template <FeatureSet F, class M>
+PL_HD inline PathState<F, M> begin_path(const PinholeCamera& camera, std::uint32_t width, std::uint32_t height,
+                                        std::uint32_t pixel, std::uint32_t sample, Vec4f u) {
     const Vec2f film{static_cast<float>(pixel % width) + u.x, static_cast<float>(pixel / width) + u.y};
-    PathState<M> state;
+    PathState<F, M> state;
     state.ray = generate_ray(camera, film, {static_cast<float>(width), static_cast<float>(height)});
     state.pixel = pixel;
     state.sample = sample;
     return state;
 }
 
-template <class M>
-PL_HD inline PathState<M> begin_path(const PinholeCamera& camera, const PathSettings& settings, std::uint32_t width,
-                                     std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
+template <FeatureSet F, class M>
+PL_HD inline PathState<F, M> begin_path(const PinholeCamera& camera, const PathSettings& settings,
+                                        std::uint32_t width, std::uint32_t height, std::uint32_t pixel,
+                                        std::uint32_t sample) {
     const Vec4f u = path_rng(settings, pixel, sample).draw(0, Purpose::Pixel);
-    return begin_path<M>(camera, width, height, pixel, sample, u);
+    return begin_path<F, M>(camera, width, height, pixel, sample, u);
 }
 
 /// Emission of the surface just met, as the path sees it. Where the previous vertex sampled lights too, the two
 /// strategies share it. Returns the share that the path brings.
 template <FeatureSet F, class M>
 PL_HD inline float add_emission(const SceneView& scene, const PathSettings& settings, const SurfacePoint& surface,
-                                Vec3f emitted, PathState<M>& state) {
+                                Vec3f emitted, PathState<F, M>& state) {
     float weight = 1.0f;
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (settings.next_event != 0 && state.direction_pdf_sa > 0.0f)
@@ -68,20 +69,24 @@ PL_HD inline float add_emission(const SceneView& scene, const PathSettings& sett
 }
 
 /// Light sample at a vertex; `shadow.wanted` stays false if it cannot contribute.
-template <Method M>
-PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, const typename M::Vertex& vertex,
-                                     const SurfacePoint& surface, Vec3f albedo, Vec4f u, PathState<M>& state,
-                                     ShadowRequest& shadow) {
-    const DirectLight sample = sample_direct_light(scene, surface, {u.x, u.y, u.z});
+template <FeatureSet F, Method M>
+PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, const Departure<F, M>& from, Vec4f u,
+                                     PathState<F, M>& state, ShadowRequest& shadow) {
+    const DirectLight sample = sample_direct_light(scene, from.surface, from.bsdf, {u.x, u.y, u.z});
     if (!(sample.pdf_sa > 0.0f)) return;
-    const float weight = balance_weight(sample.pdf_sa, method.pdf_sa(vertex, surface, sample.wi));
-    shadow.ray = spawn_shadow_ray(surface, sample.light);
-    shadow.contribution =
-        state.throughput * lambert_eval(albedo, sample.cos_i) * sample.emitted * (weight / sample.pdf_sa);
+    const float weight = balance_weight(sample.pdf_sa, departure_pdf_sa(method, from, sample.wi));
+    const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
+    shadow.ray = spawn_shadow_ray(from.surface, sample.light);
+    shadow.contribution = state.throughput * reflectance * sample.emitted * (weight / sample.pdf_sa);
     shadow.wanted = true;
-    if constexpr (FollowingMethod<M>)
-        method.request_light(state.memory,
-                             lambert_eval(albedo, sample.cos_i) * sample.emitted * (weight / sample.pdf_sa));
+    if constexpr (FollowingMethod<M>) {
+        Vec3f learned = reflectance * sample.emitted * (weight / sample.pdf_sa);
+        if constexpr (F.has_any(kLobeFeatures)) {
+            // What passes light on has brought it by its directions alone.
+            learned = from.bsdf.passes_on() ? Vec3f{0.0f} : state.passage.weight * learned;
+        }
+        method.request_light(state.memory, learned);
+    }
 }
 
 /// Chance of going on. An opinion may be wrong, and most are at first, so by RouletteRule::Spare it can spare a path but not
@@ -96,9 +101,9 @@ PL_HD inline float survival_probability(const PathSettings& settings, float wort
 
 /// Plays Russian roulette with the method's opinion of what the path is still worth. Returns 0 if the path ends, else the
 /// weight of those that go on.
-template <Method M>
+template <FeatureSet F, Method M>
 PL_HD inline float play_roulette(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
-                                 Vec3f albedo, float u, PathState<M>& state) {
+                                 Vec3f albedo, float u, PathState<F, M>& state) {
     state.survival *= max_component(albedo);
     const float worth = method.roulette_worth(vertex, albedo, state.throughput, state.survival, state.expectation);
     if (state.vertices < settings.roulette_start) return 1.0f;
@@ -109,19 +114,32 @@ PL_HD inline float play_roulette(const M& method, const PathSettings& settings, 
     return 1.0f / probability;
 }
 
-/// Where a path stands before its next direction is chosen.
-template <class M>
-struct Departure {
-    SurfacePoint surface;
-    Vec3f albedo{0.0f};
-    [[no_unique_address]] typename M::Vertex vertex{};
-};
+/// What the path learns where its segment ends; returns what the method knows about the place.
+template <FeatureSet F, Method M>
+PL_HD inline typename M::Vertex learn_at(const M& method, const SurfacePoint& surface, const Bsdf<F>& bsdf,
+                                         const Arrival& arrival, PathState<F, M>& state, typename M::Record& record,
+                                         PathCounters& counters) {
+    typename M::Vertex vertex{};
+    if constexpr (F.has_any(kLobeFeatures)) {
+        if (bsdf.passes_on()) {
+            state.passage.emitted += state.passage.weight * arrival.emitted;
+            state.passage.distance += arrival.distance;
+            state.passage.is_open = true;
+            return vertex;
+        }
+    }
+    if (bsdf.scatters()) vertex = method.arrive(surface, counters.method);
+    record = method.learn(state.memory, seen_from_last_vertex(state, arrival), vertex, counters.method);
+    if constexpr (F.has_any(kLobeFeatures))
+        state.passage.is_open = false;  // the weight is needed until the path leaves
+    return vertex;
+}
 
 /// Consumes the hit of the path's segment: collects emission, lets the method learn, asks for a shadow ray and decides
 /// whether the path goes on. `shadow` and `record` come in cleared; `departure` is only good if the path continues.
 template <FeatureSet F, Method M>
 PL_HD inline PathStatus arrive(const SceneView& scene, const M& method, const PathSettings& settings, const Hit& hit,
-                               const VertexNumbers& numbers, PathState<M>& state, Departure<M>& departure,
+                               const VertexNumbers& numbers, PathState<F, M>& state, Departure<F, M>& departure,
                                typename M::Record& record, ShadowRequest& shadow, PathCounters& counters) {
     ++counters.segments;
     if (!hit.found()) {
@@ -129,92 +147,66 @@ PL_HD inline PathStatus arrive(const SceneView& scene, const M& method, const Pa
         Vec3f environment{0.0f};
         if constexpr (F.has(Feature::Environment)) environment = scene.environment;
         state.radiance += state.throughput * environment;
-        record = method.learn(state.memory, {.emitted = environment}, typename M::Vertex{}, counters.method);
+        record = method.learn(state.memory, seen_from_last_vertex(state, {.emitted = environment}),
+                              typename M::Vertex{}, counters.method);
         return PathStatus::Finished;
     }
     const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
-    const Material& material = scene.materials[surface.material];
-    const Vec3f emitted = emitted_radiance(material, surface.front);
+    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, -state.ray.direction);
+    const Vec3f albedo = bsdf.albedo();
+    const Vec3f emitted = emitted_radiance(scene.materials[surface.material], surface.front);
     float light_share = 1.0f;
-    if (!is_black(emitted)) light_share = add_emission<F>(scene, settings, surface, emitted, state);
+    if (!is_black(emitted)) light_share = add_emission(scene, settings, surface, emitted, state);
 
-    typename M::Vertex vertex{};
-    if (material.reflects()) vertex = method.arrive(surface, counters.method);
-    record = method.learn(
-        state.memory, {.emitted = emitted, .albedo = material.albedo, .light_share = light_share, .distance = hit.t},
-        vertex, counters.method);
-
+    const Arrival arrival{.emitted = emitted, .albedo = albedo, .light_share = light_share, .distance = hit.t};
+    const typename M::Vertex vertex = learn_at<F>(method, surface, bsdf, arrival, state, record, counters);
     ++state.vertices;
-    if (!material.reflects()) return PathStatus::Finished;
+    if (!bsdf.scatters()) return PathStatus::Finished;
     if (state.vertices >= settings.max_depth) {
         ++counters.truncated;
-        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
-        return PathStatus::Finished;
+        return cut_path(method, state, record, counters);
     }
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (settings.next_event != 0)
-            request_shadow_ray(scene, method, vertex, surface, material.albedo, numbers.light, state, shadow);
+            request_shadow_ray<F, M>(scene, method, {surface, bsdf, vertex}, numbers.light, state, shadow);
     }
-    const float roulette_weight = play_roulette(method, settings, vertex, material.albedo, numbers.scatter.w, state);
-    if (roulette_weight == 0.0f) {
-        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
-        return PathStatus::Finished;
-    }
+    const float roulette_weight = play_roulette(method, settings, vertex, albedo, numbers.scatter.w, state);
+    if (roulette_weight == 0.0f) return cut_path(method, state, record, counters);
     if constexpr (FollowingMethod<M>) state.memory.roulette_weight = roulette_weight;
-    departure = {surface, material.albedo, vertex};
-    return PathStatus::Continues;
-}
-
-/// Moves the path's ray into the chosen direction. Ends the path if the surface does not reflect that way.
-template <Method M>
-PL_HD inline PathStatus leave(const M& method, const Departure<M>& departure, const DirectionSample& direction,
-                              PathState<M>& state, PathCounters& counters) {
-    const float cos_i = reflection_cosine(departure.surface, direction.wi);
-    if (!(direction.pdf_sa > 0.0f) || cos_i == 0.0f) {
-        ++counters.zero_directions;
-        if constexpr (FollowingMethod<M>) method.stop(state.memory, counters.method);
-        return PathStatus::Finished;
+    if constexpr (F.has_any(kLobeFeatures)) {
+        if (bsdf.passes_on()) state.passage.weight *= roulette_weight;
     }
-    const Vec3f weight = lambert_eval(departure.albedo, cos_i) * (1.0f / direction.pdf_sa);
-    state.throughput *= weight;
-    if constexpr (FollowingMethod<M>)
-        method.depart(state.memory, departure.vertex,
-                      {state.memory.roulette_weight * weight, departure.albedo, direction}, counters.method);
-    else
-        state.memory = method.remember(departure.vertex, direction);
-    state.ray = spawn_ray(departure.surface, direction.wi);
-    state.direction_pdf_sa = direction.pdf_sa;
+    departure = {surface, bsdf, vertex};
     return PathStatus::Continues;
 }
 
 /// All that happens where a segment ends: the path's ray is then the next segment. `shadow` comes in cleared.
 template <FeatureSet F, Method M>
 PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, const PathSettings& settings,
-                                    const Hit& hit, const VertexNumbers& numbers, PathState<M>& state,
+                                    const Hit& hit, const VertexNumbers& numbers, PathState<F, M>& state,
                                     ShadowRequest& shadow, PathCounters& counters) {
-    Departure<M> departure;
+    Departure<F, M> departure;
     typename M::Record record{};
-    const PathStatus status =
-        arrive<F>(scene, method, settings, hit, numbers, state, departure, record, shadow, counters);
+    PathStatus status = arrive<F>(scene, method, settings, hit, numbers, state, departure, record, shadow, counters);
+    if (status == PathStatus::Continues) {
+        const Rng rng = path_rng(settings, state.pixel, state.sample);
+        status = choose_and_leave(method, departure, rng, numbers.scatter, state, record, counters);
+    }
     method.commit(record);
-    if (status == PathStatus::Finished) return status;
-    const Rng rng = path_rng(settings, state.pixel, state.sample);
-    const DirectionSample direction =
-        method.sample_direction(departure.vertex, departure.surface, rng, state.vertices, numbers.scatter);
-    return leave(method, departure, direction, state, counters);
+    return status;
 }
 
 /// Adds a light sample whose shadow ray found nothing in between.
-template <Method M>
-PL_HD inline void connect_light(const M& method, const ShadowRequest& shadow, PathState<M>& state,
+template <FeatureSet F, Method M>
+PL_HD inline void connect_light(const M& method, const ShadowRequest& shadow, PathState<F, M>& state,
                                 PathCounters& counters) {
     state.radiance += shadow.contribution;
     if constexpr (FollowingMethod<M>) method.receive_light(state.memory, counters.method);
 }
 
 /// The path is over, and so is its last shadow ray: what can be learned only from whole paths is learned.
-template <Method M>
-PL_HD inline void end_path(const M& method, PathState<M>& state, PathCounters& counters) {
+template <FeatureSet F, Method M>
+PL_HD inline void end_path(const M& method, PathState<F, M>& state, PathCounters& counters) {
     if constexpr (FollowingMethod<M>) method.finish(state.memory, counters.method);
 }
 

@@ -9,7 +9,7 @@ namespace pl {
 /// One segment of a path, with the shadow ray at its end.
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline PathStatus trace_segment(const SceneView& scene, const I& intersector, const M& method,
-                                      const PathSettings& settings, PathState<M>& state, PathCounters& counters) {
+                                      const PathSettings& settings, PathState<F, M>& state, PathCounters& counters) {
     const Hit hit = intersector.closest_hit(state.ray);
     const VertexNumbers numbers = draw_vertex_numbers<F>(settings, state);
     ShadowRequest shadow;
@@ -26,7 +26,7 @@ PL_HD inline PathStatus trace_segment(const SceneView& scene, const I& intersect
 
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline void trace_path(const SceneView& scene, const I& intersector, const M& method,
-                             const PathSettings& settings, PathState<M>& state, PathCounters& counters) {
+                             const PathSettings& settings, PathState<F, M>& state, PathCounters& counters) {
     PathStatus status = PathStatus::Continues;
     while (status == PathStatus::Continues)
         status = trace_segment<F>(scene, intersector, method, settings, state, counters);

@@ -22,6 +22,14 @@ struct DefaultMethod {
         return lambert_pdf_sa(surface, wi);
     }
 
+    PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const LayeredBsdf& bsdf,
+                                           const Rng&, std::uint32_t, Vec4f u, float choice) const {
+        return sample_bsdf(surface, bsdf, u, choice);
+    }
+    PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, const LayeredBsdf& bsdf, Vec3f wi) const {
+        return bsdf.pdf_sa(surface, wi);
+    }
+
     PL_HD float roulette_worth(const Vertex&, Vec3f, Vec3f, float survival, Expectation&) const { return survival; }
 
     PL_HD Memory remember(const Vertex&, const DirectionSample&) const { return {}; }

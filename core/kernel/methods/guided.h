@@ -62,23 +62,39 @@ struct GuidedMixture {
         const FrameOf<N> frame = make_frame(select(guided, volume_normal, place.shading_normal));
         const Real3<N> direction = frame.to_world(square_to_cosine_hemisphere(square));
         const Parallax<N> parallax = parallax_of(index, place.position);
-        return weigh(place, parallax, select(guided, parallax.to_point(direction), direction));
+        const Real3<N> wi = select(guided, parallax.to_point(direction), direction);
+        return weigh(place, parallax, wi, cosine_pdf_sa<N>(dot(wi, place.shading_normal)));
     }
 
-    /// A direction with all its densities, as if it had been sampled.
+    /// A direction with all its densities, as if it had been sampled, at a Lambert reflector.
     template <class N>
     PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Real3<N>& wi) const {
-        const typename N::Mask served = place.volume >= 0;
-        return weigh(place, parallax_of(select(served, place.volume, N::constant(0)), place.position), wi);
+        return weigh(place, wi, cosine_pdf_sa<N>(dot(wi, place.shading_normal)));
     }
+    /// The same where BSDF sampling has another density.
+    template <class N>
+    PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Real3<N>& wi,
+                                       typename N::Real bsdf_pdf_sa) const {
+        const typename N::Mask served = place.volume >= 0;
+        return weigh(place, parallax_of(select(served, place.volume, N::constant(0)), place.position), wi,
+                     bsdf_pdf_sa);
+    }
+
+    /// A direction from the table alone, at a place that a volume serves.
+    PL_HD Vec3f sample_table(const GuidedPlace<One>& place, Vec2f u, Vec2f jitter) const {
+        const Real2<One> square = sample_square(tables_of<One>(place.volume), unpack(u), unpack(jitter));
+        const Real3<One> direction =
+            make_frame(normal_of<One>(place.volume)).to_world(square_to_cosine_hemisphere(square));
+        return pack(parallax_of<One>(place.volume, place.position).to_point(direction));
+    }
+    PL_HD float bsdf_share(std::int32_t volume) const { return fraction_of<One>(volume); }
 
 private:
     template <class N>
-    PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Parallax<N>& parallax,
-                                       const Real3<N>& wi) const {
+    PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Parallax<N>& parallax, const Real3<N>& wi,
+                                       typename N::Real bsdf_pdf_sa) const {
         const typename N::Mask served = place.volume >= 0;
         const auto index = select(served, place.volume, N::constant(0));
-        const auto bsdf_pdf_sa = cosine_pdf_sa<N>(dot(wi, place.shading_normal));
         const SiteDirection<N> seen = parallax.to_site(wi);
         const Real3<N> local = make_frame(normal_of<N>(index)).to_local(seen.direction);
         const TableDensity<N> table = table_density(tables_of<N>(index), local);
@@ -155,6 +171,20 @@ struct GuidedSampling {
         return pack(mixture_view().sample(place_of(vertex, surface), u.x, {u.y, u.z}, draw_jitter));
     }
 
+    PL_HD float pdf_sa(const GuidedVertex& vertex, const SurfacePoint& surface, const LayeredBsdf& bsdf,
+                       Vec3f wi) const {
+        return weigh(vertex, surface, bsdf, wi).pdf_sa;
+    }
+    PL_HD DirectionSample sample_direction(const GuidedVertex& vertex, const SurfacePoint& surface,
+                                           const LayeredBsdf& bsdf, const Rng& rng, std::uint32_t index, Vec4f u,
+                                           float choice) const {
+        if (vertex.volume == kNoVolume || u.x < mixture_view().bsdf_share(vertex.volume))
+            return weigh(vertex, surface, bsdf, bsdf.sample(surface, {u.y, u.z}, choice));
+        const Vec4f jitter = rng.draw(index, Purpose::CellJitter);
+        const Vec3f wi = mixture_view().sample_table(place_of(vertex, surface), {u.y, u.z}, {jitter.x, jitter.y});
+        return weigh(vertex, surface, bsdf, wi);
+    }
+
     /// What the path can still bring, by what is learned, as a share of what its first vertex was expected to. A
     /// direction guided towards light weighs little but leads where much is expected, so it is not ended for its low
     /// throughput; one that strays into the dark is.   [after Vorba and Krivanek 2016, "Adjoint-Driven Russian
@@ -187,6 +217,12 @@ struct GuidedSampling {
     }
 
 private:
+    PL_HD DirectionSample weigh(const GuidedVertex& vertex, const SurfacePoint& surface, const LayeredBsdf& bsdf,
+                                Vec3f wi) const {
+        const float bsdf_pdf_sa = bsdf.pdf_sa(surface, wi);
+        if (vertex.volume == kNoVolume) return {wi, bsdf_pdf_sa, bsdf_pdf_sa};
+        return pack(mixture_view().weigh(place_of(vertex, surface), unpack(wi), bsdf_pdf_sa));
+    }
     static PL_HD GuidedPlace<One> place_of(const GuidedVertex& vertex, const SurfacePoint& surface) {
         return {vertex.volume, unpack(surface.position), unpack(surface.shading_normal)};
     }

@@ -6,7 +6,7 @@
 
 #include "core/kernel/base/rng.h"
 #include "core/kernel/scene/surface_point.h"
-#include "core/kernel/shading/lambert.h"
+#include "core/kernel/shading/bsdf.h"
 
 namespace pl {
 
@@ -21,6 +21,14 @@ struct DirectionSample {
 /// A direction as BSDF sampling alone weighs it.
 PL_HD inline DirectionSample weigh_lambert(const SurfacePoint& surface, Vec3f wi) {
     const float pdf_sa = lambert_pdf_sa(surface, wi);
+    return {wi, pdf_sa, pdf_sa};
+}
+
+/// A direction by BSDF sampling alone; u.y, u.z and `choice` are used up.
+PL_HD inline DirectionSample sample_bsdf(const SurfacePoint& surface, const LayeredBsdf& bsdf, Vec4f u,
+                                         float choice) {
+    const Vec3f wi = bsdf.sample(surface, {u.y, u.z}, choice);
+    const float pdf_sa = bsdf.pdf_sa(surface, wi);
     return {wi, pdf_sa, pdf_sa};
 }
 
@@ -53,16 +61,23 @@ struct MethodCounters {
 /// `Record` is one observation on its way into the tables: learn() makes it, commit() adds it, any thread at any time
 /// before the pass ends. Methods that learn nothing have empty ones, which cost no byte of path state.
 ///
+/// sample_direction() and pdf_sa() are for Lambert reflectors, and, with a LayeredBsdf, for lobes of any other surface; the
+/// latter get a further number that chooses between its lobes.
+///
 /// roulette_worth(vertex, albedo, throughput, survival, expectation): what the path can still bring, as a share of
 /// what it could at its first vertex: Russian roulette is played on it. Called once per vertex. `survival` is the product of the
 /// albedos, divided by the chances of earlier roulettes.
 template <class M>
 concept Method = requires(const M& method, const typename M::Vertex& vertex, typename M::Memory& memory,
                           const SurfacePoint& surface, const Rng& rng, Vec3f wi, Vec4f u, const Arrival& arrival,
-                          MethodCounters& counters, typename M::Expectation& expectation) {
+                          MethodCounters& counters, typename M::Expectation& expectation, const LayeredBsdf& bsdf) {
     { method.arrive(surface, counters) } -> std::same_as<typename M::Vertex>;
     { method.sample_direction(vertex, surface, rng, std::uint32_t{}, u) } -> std::same_as<DirectionSample>;
     { method.pdf_sa(vertex, surface, wi) } -> std::same_as<float>;
+    {
+        method.sample_direction(vertex, surface, bsdf, rng, std::uint32_t{}, u, float{})
+        } -> std::same_as<DirectionSample>;
+    { method.pdf_sa(vertex, surface, bsdf, wi) } -> std::same_as<float>;
     { method.remember(vertex, DirectionSample{}) } -> std::same_as<typename M::Memory>;
     { method.roulette_worth(vertex, wi, wi, float{}, expectation) } -> std::same_as<float>;
     { method.learn(memory, arrival, vertex, counters) } -> std::same_as<typename M::Record>;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/kernel/base/warp.h"
-#include "core/kernel/shading/lambert.h"
+#include "core/kernel/shading/bsdf.h"
 
 namespace pl {
 
@@ -57,14 +57,16 @@ struct DirectLight {
 };
 
 /// Samples a light for a surface; u in [0,1)^3. No visibility: the caller traces the shadow ray.
-PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const SurfacePoint& surface, Vec3f u) {
+template <class B>
+PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
+                                             Vec3f u) {
     if (scene.lights.empty()) return {};
     DirectLight sample{.light = sample_light(scene, surface.position, u)};
     const Vec3f segment = sample.light.position - surface.position;
     const float distance2 = glm::dot(segment, segment);
     if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};
     sample.wi = segment * (1.0f / std::sqrt(distance2));
-    sample.cos_i = reflection_cosine(surface, sample.wi);
+    sample.cos_i = bsdf.cosine(surface, sample.wi);
     sample.emitted = emitted_radiance(scene.materials[sample.light.material], sample.light.front);
     if (sample.cos_i > 0.0f && !is_black(sample.emitted))
         sample.pdf_sa = light_pdf_sa(scene, surface.position, sample.light, sample.wi);

@@ -1,0 +1,178 @@
+// What a surface does to light at one point. Kernels are templates over it: where a scene has diffuse surfaces alone it is
+// LambertBsdf, an albedo and nothing else.
+#pragma once
+
+#include "core/kernel/base/features.h"
+#include "core/kernel/shading/conductor.h"
+#include "core/kernel/shading/dielectric.h"
+#include "core/kernel/shading/lambert.h"
+#include "core/kernel/shading/plastic.h"
+
+namespace pl {
+
+/// Metals rougher than this are guided by tables: their lobes are wider than a cell of 16 x 16.
+inline constexpr float kMinGuidedRoughness = 0.3f;
+
+/// A lobe of a single direction.
+struct DeltaDirection {
+    Vec3f wi{0.0f};
+    Vec3f weight{0.0f};  ///< f / density; black: it cannot go there
+};
+
+struct LambertBsdf {
+    Vec3f reflectance{0.0f};
+
+    PL_HD Vec3f albedo() const { return reflectance; }
+    PL_HD bool scatters() const { return !is_black(reflectance); }
+    static PL_HD constexpr bool is_lambert() { return true; }
+    static PL_HD constexpr bool passes_on() { return false; }
+    /// |cos| of a direction that can be sampled; 0 for one that cannot.
+    PL_HD float cosine(const SurfacePoint& surface, Vec3f wi) const { return reflection_cosine(surface, wi); }
+    PL_HD Vec3f eval(const SurfacePoint&, Vec3f, float cos_i) const { return lambert_eval(reflectance, cos_i); }
+};
+
+/// Any surface. A vertex takes a delta lobe with probability delta_probability(), else one of the lobes that eval(), pdf_sa()
+/// and sample() are for; densities and weights of both are those of the lobes alone.
+class LayeredBsdf {
+public:
+    LayeredBsdf() = default;
+
+    /// `albedo`, `lobes`: of the material at this point; `tables`: SceneView::directional_albedo.
+    PL_HD LayeredBsdf(const SurfacePoint& surface, Vec3f wo, Vec3f albedo, const SurfaceLobes& lobes,
+                      Span<const float> tables)
+        : reflectance_(albedo), lobes_(lobes), tables_(tables.data + lobes.table) {
+        if (is_lambert()) return;
+        // A shading normal may face away from the viewer; the true one never does.
+        const bool usable = glm::dot(wo, surface.shading_normal) > kGrazing;
+        frame_ = make_frame(usable ? surface.shading_normal : surface.geometric_normal);
+        wo_ = frame_.to_local(wo);
+        wo_.z = max_of(wo_.z, kGrazing);
+        // A coat is on both sides; glass is left from its back.
+        inside_ = lobes.kind == SurfaceKind::Dielectric && !surface.front;
+        eta_ = inside_ ? 1.0f / lobes.ior : lobes.ior;
+    }
+
+    PL_HD bool is_lambert() const { return lobes_.kind == SurfaceKind::Diffuse; }
+    /// No table chooses directions here: what is seen is passed on to the vertex before.
+    PL_HD bool passes_on() const { return is_black(reflectance_) && scatters(); }
+    PL_HD bool scatters() const { return lobes_.kind == SurfaceKind::Dielectric || !is_black(albedo()); }
+
+    /// Share of light from all around that leaves towards the viewer.
+    PL_HD Vec3f albedo() const {
+        switch (lobes_.kind) {
+        case SurfaceKind::Diffuse: return reflectance_;
+        case SurfaceKind::Conductor:
+            return smooth() ? fresnel_conductor(wo_.z, lobes_.specular) : conductor().albedo();
+        case SurfaceKind::Dielectric: return glm::max(lobes_.specular, lobes_.transmission);
+        case SurfaceKind::Plastic: return plastic().albedo();
+        }
+        return Vec3f{0.0f};
+    }
+
+    PL_HD float delta_probability() const {
+        if (!smooth()) return 0.0f;
+        return lobes_.kind == SurfaceKind::Plastic ? plastic().coat_probability() : 1.0f;
+    }
+    /// u in [0, 1).
+    PL_HD DeltaDirection sample_delta(const SurfacePoint& surface, float u) const {
+        const Vec3f up{0.0f, 0.0f, 1.0f};
+        DeltaDirection delta{reflect_at(wo_, up), Vec3f{0.0f}};
+        if (lobes_.kind == SurfaceKind::Conductor) {
+            delta.weight = fresnel_conductor(wo_.z, lobes_.specular);
+        } else if (lobes_.kind == SurfaceKind::Plastic) {
+            delta.weight = lobes_.specular * fresnel_dielectric(wo_.z, eta_);
+        } else if (u < fresnel_dielectric(min_of(wo_.z, 1.0f), eta_)) {
+            delta.weight = lobes_.specular;
+        } else {
+            delta = {refract_at(wo_, up, eta_), lobes_.transmission * (1.0f / (eta_ * eta_))};
+        }
+        const bool passes = delta.wi.z < 0.0f;
+        delta.wi = glm::normalize(frame_.to_world(delta.wi));
+        if ((glm::dot(delta.wi, surface.geometric_normal) < 0.0f) != passes) delta.weight = Vec3f{0.0f};
+        return delta;
+    }
+
+    /// |cos| of a direction that eval() may not be black for; 0 for others.
+    PL_HD float cosine(const SurfacePoint& surface, Vec3f wi) const {
+        if (is_lambert()) return reflection_cosine(surface, wi);
+        const float above = glm::dot(wi, surface.geometric_normal);
+        const float z = glm::dot(wi, frame_.z);
+        if (!(above * z > 0.0f)) return 0.0f;
+        if (z < 0.0f && lobes_.kind != SurfaceKind::Dielectric) return 0.0f;
+        return smooth() && lobes_.kind != SurfaceKind::Plastic ? 0.0f : std::fabs(z);
+    }
+    /// BSDF times |cos|, per steradian, for a direction whose cosine() is not 0.
+    PL_HD Vec3f eval(const SurfacePoint&, Vec3f wi, float cos_i) const {
+        switch (lobes_.kind) {
+        case SurfaceKind::Diffuse: return lambert_eval(reflectance_, cos_i);
+        case SurfaceKind::Conductor: return conductor().eval(frame_.to_local(wi));
+        case SurfaceKind::Dielectric: return dielectric().eval(frame_.to_local(wi));
+        case SurfaceKind::Plastic: return plastic().eval(frame_.to_local(wi));
+        }
+        return Vec3f{0.0f};
+    }
+    PL_HD float pdf_sa(const SurfacePoint& surface, Vec3f wi) const {
+        switch (lobes_.kind) {
+        case SurfaceKind::Diffuse: return lambert_pdf_sa(surface, wi);
+        case SurfaceKind::Conductor: return conductor().pdf_sa(frame_.to_local(wi));
+        case SurfaceKind::Dielectric: return dielectric().pdf_sa(frame_.to_local(wi));
+        case SurfaceKind::Plastic: return plastic().pdf_sa(frame_.to_local(wi));
+        }
+        return 0.0f;
+    }
+    /// A unit direction with density pdf_sa(), or 0, a sample without value; u in [0,1)^2, `choice` in [0, 1).
+    PL_HD Vec3f sample(const SurfacePoint& surface, Vec2f u, float choice) const {
+        switch (lobes_.kind) {
+        case SurfaceKind::Diffuse: return lambert_sample(surface, u);
+        case SurfaceKind::Conductor: return to_world(conductor().sample(u, choice));
+        case SurfaceKind::Dielectric: return to_world(dielectric().sample(u, choice));
+        case SurfaceKind::Plastic: return to_world(plastic().sample(u, choice));
+        }
+        return Vec3f{0.0f};
+    }
+
+private:
+    static constexpr float kGrazing = 1e-5f;
+
+    PL_HD bool smooth() const { return lobes_.kind != SurfaceKind::Diffuse && lobes_.roughness == 0.0f; }
+    PL_HD Vec3f to_world(Vec3f local) const {
+        return is_black(local) ? local : glm::normalize(frame_.to_world(local));
+    }
+    PL_HD Ggx ggx() const { return {square(lobes_.roughness)}; }
+
+    PL_HD RoughConductor conductor() const { return {{tables_}, lobes_.specular, lobes_.roughness, wo_}; }
+    PL_HD RoughDielectric dielectric() const {
+        const AlbedoTable side{tables_ + (inside_ ? AlbedoTable::kSize : 0)};
+        return {ggx(), eta_, lobes_.specular, lobes_.transmission, wo_, side.at(lobes_.roughness, wo_.z)};
+    }
+    PL_HD Plastic plastic() const {
+        Plastic plastic{ggx(), reflectance_, lobes_.specular, eta_, {tables_}, lobes_.roughness, wo_, 0.0f};
+        plastic.coated = plastic.reflected_by_coat(wo_.z);
+        return plastic;
+    }
+
+    Vec3f reflectance_{0.0f};
+    SurfaceLobes lobes_{};
+    const float* tables_ = nullptr;
+    Frame frame_{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+    Vec3f wo_{0.0f, 0.0f, 1.0f};
+    float eta_ = 1.0f;
+    bool inside_ = false;
+};
+
+template <FeatureSet F>
+using Bsdf = std::conditional_t<F.has_any(kLobeFeatures), LayeredBsdf, LambertBsdf>;
+
+/// The BSDF of a surface that is seen from wo.
+template <FeatureSet F>
+PL_HD inline Bsdf<F> make_bsdf(const SceneView& scene, const SurfacePoint& surface, Vec3f wo) {
+    const Vec3f albedo = scene.materials[surface.material].albedo;
+    if constexpr (F.has_any(kLobeFeatures)) {
+        if (scene.lobes.empty()) return {surface, wo, albedo, SurfaceLobes{}, {}};
+        return {surface, wo, albedo, scene.lobes[surface.material], scene.directional_albedo};
+    } else {
+        return {albedo};
+    }
+}
+
+}  // namespace pl

@@ -1,0 +1,61 @@
+// Metals: a mirror, or GGX with what bounces more than once between its facets.
+#pragma once
+
+#include "core/kernel/shading/directional_albedo.h"
+#include "core/kernel/shading/fresnel.h"
+#include "core/kernel/shading/microfacet.h"
+
+namespace pl {
+
+/// Local directions, wo.z > 0. Single reflections as [Walter et al. 2007]; the rest as a lobe that is reciprocal and gives back
+/// all that is missing where facets absorb nothing.   [Kulla and Conty 2017, "Revisiting Physically Based Shading at
+/// Imageworks"; Turquin 2019 for the tint by several reflections]
+struct RoughConductor {
+    Ggx ggx;
+    Vec3f f0;  ///< reflectance at normal incidence
+    AlbedoTable lossless;
+    float roughness;
+    Vec3f wo;
+    float returned;  ///< lossless.at(roughness, wo.z)
+
+    PL_HD RoughConductor(AlbedoTable table, Vec3f f0_of_metal, float roughness_of_surface, Vec3f direction)
+        : ggx{square(roughness_of_surface)}, f0(f0_of_metal), lossless(table), roughness(roughness_of_surface),
+          wo(direction), returned(table.at(roughness_of_surface, direction.z)) {}
+
+    /// What is reflected of light from all around.
+    PL_HD Vec3f albedo() const {
+        const Vec3f single = fresnel_conductor(wo.z, f0) * returned;
+        return single + (1.0f - returned) * several_tint();
+    }
+
+    /// f cos, per steradian.
+    PL_HD Vec3f eval(Vec3f wi) const {
+        if (!(wi.z > 0.0f)) return Vec3f{0.0f};
+        const Vec3f m = half_vector(wo, wi);
+        const Vec3f single =
+            fresnel_conductor(glm::dot(wo, m), f0) * (ggx.density(m) * ggx.visible(wo, wi) / (4.0f * wo.z));
+        const float missing = max_of(1.0f - lossless.mean(roughness), 1e-6f);
+        const float several = (1.0f - returned) * (1.0f - lossless.at(roughness, wi.z)) / missing;
+        return single + several_tint() * (several * wi.z * kInvPi);
+    }
+    PL_HD float pdf_sa(Vec3f wi) const {
+        if (!(wi.z > 0.0f)) return 0.0f;
+        const Vec3f m = half_vector(wo, wi);
+        const float single = ggx.visible(wo) * ggx.density(m) / (4.0f * wo.z);
+        return returned * single + (1.0f - returned) * wi.z * kInvPi;
+    }
+    /// `choice` in [0, 1) takes one of the two lobes. The direction may be below the horizon.
+    PL_HD Vec3f sample(Vec2f u, float choice) const {
+        if (choice >= returned) return square_to_cosine_hemisphere(u);
+        return reflect_at(wo, ggx.sample(wo, u));
+    }
+
+private:
+    PL_HD Vec3f several_tint() const {
+        const Vec3f f = mean_fresnel_conductor(f0);
+        const float mean = lossless.mean(roughness);
+        return f * f * mean / (Vec3f{1.0f} - f * (1.0f - mean));
+    }
+};
+
+}  // namespace pl

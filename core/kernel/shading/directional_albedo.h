@@ -1,0 +1,47 @@
+// How much of the light from one direction a rough interface returns: tables over roughness and angle, made by
+// core/scene/directional_albedo.h, so that energy that single reflections lose can be given back.
+#pragma once
+
+#include "core/kernel/base/math.h"
+#include "core/kernel/base/span.h"
+
+namespace pl {
+
+/// One table in SceneView::directional_albedo: rows of roughness from 0 to 1, in each the values over the root of the
+/// cosine from 0 to 1, then the rows' means over directions, weighted with their cosines.
+struct AlbedoTable {
+    static constexpr int kRoughnesses = 32;
+    static constexpr int kCosines = 32;
+    static constexpr int kSize = kRoughnesses * kCosines + kRoughnesses;
+
+    const float* values = nullptr;
+
+    PL_HD float at(float roughness, float cos_theta) const {
+        const Step row = step_of(roughness, kRoughnesses);
+        const Step column = step_of(safe_sqrt(cos_theta), kCosines);
+        return mix_rows(row, in_row(row.below, column), in_row(row.below + 1, column));
+    }
+    PL_HD float mean(float roughness) const {
+        const Step row = step_of(roughness, kRoughnesses);
+        const float* means = values + kRoughnesses * kCosines;
+        return mix_rows(row, means[row.below], means[row.below + 1]);
+    }
+
+private:
+    struct Step {
+        int below;
+        float share;  ///< of the next one
+    };
+    static PL_HD Step step_of(float x, int count) {
+        const float scaled = clamp_to(x, 0.0f, 1.0f) * static_cast<float>(count - 1);
+        const int below = min_of(static_cast<int>(scaled), count - 2);
+        return {below, scaled - static_cast<float>(below)};
+    }
+    PL_HD float in_row(int row, Step column) const {
+        const float* first = values + row * kCosines + column.below;
+        return first[0] + (first[1] - first[0]) * column.share;
+    }
+    static PL_HD float mix_rows(Step row, float below, float above) { return below + (above - below) * row.share; }
+};
+
+}  // namespace pl
