@@ -10,18 +10,6 @@
 
 namespace pl {
 
-namespace {
-
-/// In lower case.
-std::string suffix_of(const std::filesystem::path& path) {
-    std::string suffix = path.extension().string();
-    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix;
-}
-
-}  // namespace
-
 ImageKind image_kind(const std::filesystem::path& path) {
     const std::string suffix = suffix_of(path);
     if (suffix == ".exr") {
@@ -75,6 +63,13 @@ void require_plausible(const std::filesystem::path& path, long long width, long 
     if (width <= 0 || height <= 0 || width > kMostPixels / height) {
         fail_image(path, fmt::format("a size of {}x{} is not supported", width, height));
     }
+}
+
+std::string suffix_of(const std::filesystem::path& path) {
+    std::string suffix = path.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return suffix;
 }
 
 void fail_image(const std::filesystem::path& path, const std::string& why) {

@@ -53,6 +53,19 @@ SceneDescription load_file(const fs::path& path, const KnobValues& knobs) {
     return scene;
 }
 
+/// Textures need coordinates: without them all of a triangle shows one point.
+void warn_of_missing_uvs(SceneDescription& scene) {
+    const auto lacks = [&](const TriangleDescription& t) {
+        return scene.materials[t.material].textures.any() && t.uv.x == TriangleDescription::kNoUv;
+    };
+    const auto count = std::count_if(scene.triangles.begin(), scene.triangles.end(), lacks);
+    if (count > 0) {
+        scene.warnings.push_back(fmt::format("{}: {} triangles have a texture but no texture points (vt): they show "
+                                             "the point (0, 0) of it",
+                                             scene.source.string(), count));
+    }
+}
+
 [[noreturn]] void fail_unknown(const std::string& name, const fs::path& assets_dir) {
     std::error_code ignored;
     if (fs::exists(name, ignored)) {
@@ -79,6 +92,7 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     SceneDescription scene = load_file(path, knobs);
     require_known_knobs(scene, knobs);
     validate_scene(scene);
+    warn_of_missing_uvs(scene);
     const glm::vec3 up = usable_up(scene.camera);
     if (up != scene.camera.up) {
         scene.camera.up = up;

@@ -28,9 +28,11 @@ struct Polygons {
     struct Corner {
         std::uint32_t vertex;
         std::uint32_t normal;  ///< or TriangleDescription::kNoNormal
+        std::uint32_t uv;      ///< or TriangleDescription::kNoUv
     };
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> uvs;
     std::vector<Corner> corners;
     std::vector<std::size_t> first_corner;  ///< per polygon
     std::vector<std::uint32_t> material;    ///< per polygon: index into `material_names`, or kNoMaterial
@@ -46,6 +48,8 @@ void on_vertex(void* user_data, float x, float y, float z, float) {
 }
 
 void on_normal(void* user_data, float x, float y, float z) { polygons(user_data).normals.emplace_back(x, y, z); }
+
+void on_texture_point(void* user_data, float u, float v, float) { polygons(user_data).uvs.emplace_back(u, v); }
 
 void on_material(void* user_data, const char* word, int) {
     Polygons& to = polygons(user_data);
@@ -64,9 +68,10 @@ void on_face(void* user_data, tinyobj::index_t* indices, int count) {
     to.first_corner.push_back(to.corners.size());
     to.material.push_back(to.current);
     for (int i = 0; i < count; ++i) {
-        // 0 - 1 is kNoNormal.
+        // 0 - 1 is kNoNormal, and kNoUv.
         to.corners.push_back({static_cast<std::uint32_t>(indices[i].vertex_index) - 1u,
-                              static_cast<std::uint32_t>(indices[i].normal_index) - 1u});
+                              static_cast<std::uint32_t>(indices[i].normal_index) - 1u,
+                              static_cast<std::uint32_t>(indices[i].texcoord_index) - 1u});
     }
 }
 
@@ -75,6 +80,7 @@ Polygons parse(std::string clean_text, std::size_t face_count) {
     tinyobj::callback_t callbacks;
     callbacks.vertex_cb = on_vertex;
     callbacks.normal_cb = on_normal;
+    callbacks.texcoord_cb = on_texture_point;
     callbacks.usemtl_cb = on_material;
     callbacks.index_cb = on_face;
     result.first_corner.reserve(face_count + 1);
@@ -96,6 +102,7 @@ public:
         : scene_(scene), in_(std::move(input)), face_lines_(checked.face_lines), face_groups_(checked.face_groups),
           groups_(groups) {
         scene_.positions = std::move(in_.positions);
+        scene_.uvs = std::move(in_.uvs);
         scene_.triangles.reserve(in_.corners.size() - 2 * face_lines_.size());
         set_normals();
     }
@@ -142,10 +149,13 @@ private:
         TriangleDescription triangle;
         int normals = 0;
         int usable = 0;
+        bool has_uvs = true;
         for (int i = 0; i < 3; ++i) {
             const Polygons::Corner& corner = corners[static_cast<std::size_t>(i)];
             triangle.vertex[i] = corner.vertex;
             triangle.normal[i] = corner.normal;
+            triangle.uv[i] = corner.uv;
+            has_uvs = has_uvs && corner.uv != TriangleDescription::kNoUv;
             const bool given = corner.normal != TriangleDescription::kNoNormal;
             normals += given ? 1 : 0;
             usable += given && scene_.normals[corner.normal] != glm::vec3(0.0f) ? 1 : 0;
@@ -159,6 +169,9 @@ private:
         }
         if (usable < 3) {
             triangle.normal = glm::uvec3(TriangleDescription::kNoNormal);
+        }
+        if (!has_uvs) {
+            triangle.uv = glm::uvec3(TriangleDescription::kNoUv);
         }
         triangle.material = material;
         scene_.triangles.push_back(triangle);

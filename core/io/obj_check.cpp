@@ -74,7 +74,7 @@ private:
             copy_numbers("vn", numbers(), 3);
             count_one(normals_);
         } else if (keyword == "vt") {
-            count_one(texture_points_);
+            texture_point();
         } else if (keyword == "usemtl") {
             const std::string word = encode_name(reader_.arguments());
             result_.material_lines.try_emplace(decode_name(word), reader_.line());
@@ -109,6 +109,16 @@ private:
         }
         copy_numbers("v", words, 3);
         count_one(vertices_);
+    }
+
+    /// One to three numbers, of which two count.
+    void texture_point() {
+        std::vector<std::string_view> words = numbers();
+        if (words.size() == 1) {
+            words.push_back("0");
+        }
+        copy_numbers("vt", words, 2);
+        count_one(texture_points_);
     }
 
     /// The words of the statement, each of which is a number.
@@ -176,8 +186,11 @@ private:
                 fmt::format("expected a face corner such as 1, 1/2, 1//3 or 1/2/3, got {}", in_quotes(word)));
         }
         fmt::format_to(std::back_inserter(result_.text), " {}", v);
+        if (t != kNone) {
+            fmt::format_to(std::back_inserter(result_.text), "/{}", t);
+        }
         if (n != kNone) {
-            fmt::format_to(std::back_inserter(result_.text), "//{}", n);
+            fmt::format_to(std::back_inserter(result_.text), "{}{}", t != kNone ? "/" : "//", n);
         }
     }
 

@@ -17,8 +17,8 @@ struct MaterialLibraries {
     int line = 0;
 };
 
-/// An OBJ text that is safe to hand on: only `v x y z`, `vn x y z`, `f` with absolute indices in range (`v` or
-/// `v//n` per corner, at least three), and `usemtl` with a name encoded by encode_name().
+/// An OBJ text that is safe to hand on: only `v x y z`, `vn x y z`, `vt u v`, `f` with absolute indices in range
+/// (`v`, `v/t`, `v//n` or `v/t/n` per corner, at least three), and `usemtl` with a name encoded by encode_name().
 struct CheckedObj {
     std::string text;
     std::vector<int> face_lines;               ///< line in the file of each `f` in `text`

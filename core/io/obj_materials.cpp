@@ -5,7 +5,6 @@
 #include <set>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -58,9 +57,7 @@ std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path&
                     fmt::format("{}: material file {} not found", place(obj, library.line), in_quotes(name)));
                 continue;
             }
-            for (MaterialDescription& material : load_mtl(path, scene.warnings)) {
-                scene.materials.push_back(std::move(material));
-            }
+            load_mtl(path, scene);
         }
     }
     return missing;

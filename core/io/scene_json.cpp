@@ -9,9 +9,9 @@
 #include "core/io/files.h"
 #include "core/io/frame_camera.h"
 #include "core/io/json_document.h"
-#include "core/io/nearest_name.h"
 #include "core/io/obj.h"
 #include "core/io/scene_knobs.h"
+#include "core/io/scene_materials.h"
 
 namespace pl {
 
@@ -43,68 +43,14 @@ void read_camera(const JsonDocument& file, SceneDescription& scene) {
     if (scene.camera.eye == scene.camera.target) {
         file.fail("/camera/eye", "eye and target are the same point");
     }
-    if (file.number("/camera/aperture_radius").value_or(0.0f) != 0.0f) {
-        file.fail("/camera/aperture_radius", "this version has a pinhole camera only: expected 0");
+    scene.camera.aperture_radius = file.number("/camera/aperture_radius").value_or(0.0f);
+    if (scene.camera.aperture_radius < 0.0f) {
+        file.fail("/camera/aperture_radius", "expected a number of at least 0");
     }
-    if (!(file.number("/camera/focus_distance").value_or(1.0f) > 0.0f)) {
+    const float to_target = glm::length(scene.camera.target - scene.camera.eye);
+    scene.camera.focus_distance = file.number("/camera/focus_distance").value_or(to_target);
+    if (!(scene.camera.focus_distance > 0.0f)) {
         file.fail("/camera/focus_distance", "expected a number above 0");
-    }
-}
-
-/// Radiance or emission: three finite numbers of at least 0.
-std::optional<glm::vec3> read_light(const JsonDocument& file, const std::string& pointer) {
-    const std::optional<glm::vec3> value = file.vector(pointer);
-    if (value && glm::any(glm::lessThan(*value, glm::vec3(0.0f)))) {
-        file.fail(pointer, "expected numbers of at least 0");
-    }
-    return value;
-}
-
-void read_environment(const JsonDocument& file, SceneDescription& scene) {
-    const nlohmann::json* const environment =
-        file.object("/environment", {"radiance", "map", "scale", "rotation_deg"});
-    if (environment == nullptr) {
-        return;
-    }
-    for (const char* key : {"map", "scale", "rotation_deg"}) {
-        if (environment->contains(key)) {
-            file.fail(std::string("/environment/") + key,
-                      "this version has no environment maps: expected 'radiance' [r, g, b] only");
-        }
-    }
-    scene.environment = read_light(file, "/environment/radiance").value_or(glm::vec3(0.0f));
-}
-
-MaterialDescription& find_material(const JsonDocument& file, SceneDescription& scene, const std::string& name) {
-    std::vector<std::string> names;
-    for (MaterialDescription& material : scene.materials) {
-        if (material.name == name) {
-            return material;
-        }
-        names.push_back(material.name);
-    }
-    file.fail("/materials" + pointer_step(name),
-              fmt::format("the scene has no such material, did you mean '{}'?", nearest_name(name, names)));
-}
-
-void read_materials(const JsonDocument& file, SceneDescription& scene) {
-    const auto all = file.root().find("materials");
-    if (all == file.root().end()) {
-        return;
-    }
-    if (!all->is_object()) {
-        file.fail("/materials", "expected an object { ... }");
-    }
-    for (const auto& [name, overrides] : all->items()) {
-        const std::string at = "/materials" + pointer_step(name);
-        file.object(at, {"albedo", "emission", "two_sided_emission"});
-        MaterialDescription& material = find_material(file, scene, name);
-        material.albedo = read_light(file, at + "/albedo").value_or(material.albedo);
-        if (glm::any(glm::greaterThan(material.albedo, glm::vec3(1.0f)))) {
-            file.fail(at + "/albedo", "expected numbers within [0, 1]");
-        }
-        material.emission = read_light(file, at + "/emission").value_or(material.emission);
-        material.two_sided_emission = file.boolean(at + "/two_sided_emission").value_or(material.two_sided_emission);
     }
 }
 

@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "core/base/error.h"
-#include "core/base/half.h"
 #include "core/base/timer.h"
+#include "core/kernel/base/half.h"
 #include "core/measure/picture_identity.h"
 
 namespace pl {

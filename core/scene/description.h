@@ -27,6 +27,14 @@ struct TextureUse {
     bool any() const { return (albedo & roughness & emission & opacity) != kNoTexture; }
 };
 
+/// Indices of refraction that a surface may have. Those of solids and liquids are below 4.
+inline constexpr float kLeastIor = 1.0f;
+inline constexpr float kMostIor = 4.0f;
+
+/// Angles of a sun's diameter, in degrees: what floats resolve, and half of the sky.
+inline constexpr float kLeastSunAngle = 0.01f;
+inline constexpr float kMostSunAngle = 180.0f;
+
 /// A surface that may also emit. Colors are linear RGB.
 struct MaterialDescription {
     std::string name;
@@ -41,23 +49,31 @@ struct MaterialDescription {
     TextureUse textures{};
 };
 
-/// An image on surfaces. Texels are linear (LDR files are decoded from sRGB where they hold colors), row by row from the
-/// top; u runs to the right, v upwards, as in OBJ files.
+/// What the numbers of an image file mean.
+enum class TextureContent : std::uint32_t {
+    Color,    ///< LDR files are decoded from sRGB
+    Number,   ///< as they are; the first channel counts
+    Opacity,  ///< as they are; the opacity is the alpha channel if it says anything, else the first one
+};
+
+/// An image on surfaces. Texels are linear (LDR files are decoded from sRGB where they hold colors), row by row from
+/// the top; u runs to the right, v upwards, as in OBJ files.
 struct TextureDescription {
-    std::filesystem::path source;
+    std::filesystem::path source{};
+    TextureContent content = TextureContent::Color;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    bool repeats = true;            ///< outside of [0, 1]: else the border texels go on
-    std::vector<glm::vec4> texels;  ///< red, green, blue, opacity
+    bool repeats = true;              ///< outside of [0, 1]: else the border texels go on
+    std::vector<glm::vec4> texels{};  ///< red, green, blue, opacity
 };
 
 /// Light from far away that depends on the direction: an image over all directions in latitude and longitude.
 struct EnvironmentMapDescription {
-    std::filesystem::path source;
+    std::filesystem::path source{};
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    float rotation_deg = 0.0f;      ///< counter-clockwise about +y, seen from above
-    std::vector<glm::vec3> texels;  ///< radiance; first row looks up (+y), its middle column along -z
+    float rotation_deg = 0.0f;        ///< counter-clockwise about +y, seen from above
+    std::vector<glm::vec3> texels{};  ///< radiance; first row looks up (+y), its middle column along -z
 };
 
 /// A disc in the sky.

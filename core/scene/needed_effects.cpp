@@ -36,6 +36,10 @@ FeatureSet needed_effects(const HostScene& scene) {
     if (!scene.triangle_normals.empty()) set = set.with(Feature::SmoothNormals);
     if (!is_black(scene.environment)) set = set.with(Feature::Environment);
     for (const SurfaceLobes& lobes : scene.lobes) set = set.with(effects_of(lobes));
+    if (!scene.images.empty()) set = set.with(Feature::Textures);
+    for (const MaterialImages& images : scene.material_images)
+        if (images.opacity != kNoImage) set = set.with(Feature::CutOuts);
+    if (scene.far_probability > 0.0f) set = set.with(Feature::EnvironmentMap);
     return set;
 }
 

@@ -7,6 +7,8 @@
 #include "core/kernel/shading/bsdf.h"
 #include "core/scene/build_bvh.h"
 #include "core/scene/directional_albedo.h"
+#include "core/scene/pack_far_lights.h"
+#include "core/scene/pack_textures.h"
 #include "core/scene/triangle_planes.h"
 
 namespace pl {
@@ -176,8 +178,10 @@ HostScene pack_scene(const SceneDescription& scene) {
     pack_normals(scene, packed);
     pack_materials(scene, packed);
     pack_lobes(scene, packed);
+    pack_textures(scene, packed);  // emission becomes its mean
     pack_lights(packed);
     packed.environment = scene.environment;
+    pack_far_lights(scene, packed);
     Bvh bvh = build_bvh(view_of(std::as_const(packed.positions)), view_of(std::as_const(packed.triangles)));
     packed.bvh_nodes = std::move(bvh.nodes);
     packed.bvh_primitives = std::move(bvh.primitives);
@@ -196,7 +200,12 @@ PinholeCamera make_camera(const CameraDescription& camera, int width, int height
     const Vec3d up = glm::cross(right, forward);
     const double half_height = std::tan(0.5 * static_cast<double>(camera.fov_deg) * kDegree);
     const double half_width = half_height * static_cast<double>(width) / static_cast<double>(height);
-    return {camera.eye, Vec3f{forward}, Vec3f{half_width * right}, Vec3f{half_height * up}};
+    return {.eye = camera.eye,
+            .forward = Vec3f{forward},
+            .right = Vec3f{half_width * right},
+            .up = Vec3f{half_height * up},
+            .aperture_radius = camera.aperture_radius,
+            .focus_distance = camera.focus_distance};
 }
 
 }  // namespace pl

@@ -1,5 +1,8 @@
 #include "core/scene/scene_hash.h"
 
+#include <bit>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "core/base/hash.h"
@@ -18,6 +21,80 @@ void add(Fnv1a& hash, const glm::uvec3& v) {
     hash.add(std::uint64_t{v.y});
     hash.add(std::uint64_t{v.z});
 }
+
+/// Adds what decides the light beyond Lambert's law, in one of many ways: names of parts keep them apart. Nothing is
+/// added for what a scene does not have, so that its hash is what it was before there was such a thing.
+class PartHasher {
+public:
+    explicit PartHasher(Fnv1a& hash) : hash_(hash) {}
+
+    void add_surfaces(const std::vector<MaterialDescription>& materials) {
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            const MaterialDescription& m = materials[i];
+            if (m.kind == SurfaceKind::Diffuse) continue;
+            begin("surface", i);
+            hash_.add(std::uint64_t{static_cast<std::uint32_t>(m.kind)});
+            hash_.add(m.roughness);
+            hash_.add(m.ior);
+            add(hash_, m.specular);
+            add(hash_, m.transmission);
+        }
+    }
+
+    void add_textures(const SceneDescription& scene) {
+        bool any = false;
+        for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+            const TextureUse& use = scene.materials[i].textures;
+            if (!use.any()) continue;
+            any = true;
+            begin("textures of material", i);
+            for (const std::uint32_t index : {use.albedo, use.roughness, use.emission, use.opacity})
+                hash_.add(std::uint64_t{index});
+        }
+        if (!any) return;
+        for (std::size_t i = 0; i < scene.textures.size(); ++i) add_texture(scene.textures[i], i);
+        begin("image coordinates", scene.uvs.size());
+        for (const glm::vec2& uv : scene.uvs) add_pair(uv.x, uv.y);
+        for (const TriangleDescription& triangle : scene.triangles) add(hash_, triangle.uv);
+    }
+
+    void add_far_lights(const SceneDescription& scene) {
+        const EnvironmentMapDescription& map = scene.environment_map;
+        if (!map.texels.empty()) {
+            begin("environment map", map.width);
+            hash_.add(map.rotation_deg);
+            for (const glm::vec3& texel : map.texels) add(hash_, texel);
+        }
+        if (scene.sun.radiance != glm::vec3(0.0f)) {
+            begin("sun", 0);
+            add(hash_, scene.sun.direction);
+            add(hash_, scene.sun.radiance);
+            hash_.add(scene.sun.angle_deg);
+        }
+    }
+
+private:
+    void begin(std::string_view part, std::size_t number) {
+        hash_.add(part);
+        hash_.add(std::uint64_t{number});
+    }
+    void add_texture(const TextureDescription& texture, std::size_t number) {
+        begin("texture", number);
+        hash_.add(std::uint64_t{texture.width});
+        hash_.add(std::uint64_t{texture.repeats});
+        for (const glm::vec4& texel : texture.texels) {
+            add_pair(texel.x, texel.y);
+            add_pair(texel.z, texel.w);
+        }
+    }
+    /// Two numbers at a time: images are large.
+    void add_pair(float a, float b) {
+        const std::uint64_t high = std::bit_cast<std::uint32_t>(a == 0.0f ? 0.0f : a);
+        hash_.add(high << 32 | std::bit_cast<std::uint32_t>(b == 0.0f ? 0.0f : b));
+    }
+
+    Fnv1a& hash_;
+};
 
 }  // namespace
 
@@ -40,6 +117,10 @@ std::string scene_hash(const SceneDescription& scene) {
         hash.add(std::uint64_t{material.two_sided_emission});
     }
     add(hash, scene.environment);
+    PartHasher parts(hash);
+    parts.add_surfaces(scene.materials);
+    parts.add_textures(scene);
+    parts.add_far_lights(scene);
     return fmt::format("{:016x}", hash.value());
 }
 

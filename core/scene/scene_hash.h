@@ -7,7 +7,7 @@
 
 namespace pl {
 
-/// 16 hexadecimal digits over everything that decides the light: geometry, normals, materials, environment. Names,
+/// 16 hexadecimal digits over everything that decides the light: geometry, normals, materials, textures, environment. Names,
 /// paths, the camera and settings do not count: they are told apart by what is recorded beside the hash.
 std::string scene_hash(const SceneDescription& scene);
 

@@ -16,13 +16,27 @@ struct SceneStorage {
     Array<Material> materials;
     Array<SurfaceLobes> lobes;
     Array<float> directional_albedo;
+    Array<Vec2f> uvs;
+    Array<TriangleUvs> triangle_uvs;
+    Array<Image> images;
+    Array<Texel> texels;
+    Array<MaterialImages> material_images;
     Array<Light> lights;
+    Array<Vec3f> map_texels;
+    Array<float> map_row_cdf;
+    Array<float> map_column_cdf;
     Array<BvhNode> bvh_nodes;
     Array<std::uint32_t> bvh_primitives;
     float light_power = 0.0f;
     Vec3f environment{0.0f};
+    FarLights far_lights;  ///< all but its arrays
+    float far_probability = 0.0f;
 
     SceneView view() const {
+        FarLights far = far_lights;
+        far.map.texels = view_of(map_texels);
+        far.map.row_cdf = view_of(map_row_cdf);
+        far.map.column_cdf = view_of(map_column_cdf);
         return {.positions = view_of(positions),
                 .triangles = view_of(triangles),
                 .planes = view_of(planes),
@@ -31,10 +45,17 @@ struct SceneStorage {
                 .materials = view_of(materials),
                 .lobes = view_of(lobes),
                 .directional_albedo = view_of(directional_albedo),
+                .textures = {.uvs = view_of(uvs),
+                             .triangle_uvs = view_of(triangle_uvs),
+                             .images = view_of(images),
+                             .texels = view_of(texels),
+                             .of_material = view_of(material_images)},
                 .lights = view_of(lights),
                 .bvh = {.nodes = view_of(bvh_nodes), .primitives = view_of(bvh_primitives)},
                 .light_power = light_power,
-                .environment = environment};
+                .environment = environment,
+                .far_lights = far,
+                .far_probability = far_probability};
     }
 };
 
@@ -51,11 +72,21 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.materials, to.materials);
     fn(from.lobes, to.lobes);
     fn(from.directional_albedo, to.directional_albedo);
+    fn(from.uvs, to.uvs);
+    fn(from.triangle_uvs, to.triangle_uvs);
+    fn(from.images, to.images);
+    fn(from.texels, to.texels);
+    fn(from.material_images, to.material_images);
     fn(from.lights, to.lights);
+    fn(from.map_texels, to.map_texels);
+    fn(from.map_row_cdf, to.map_row_cdf);
+    fn(from.map_column_cdf, to.map_column_cdf);
     fn(from.bvh_nodes, to.bvh_nodes);
     fn(from.bvh_primitives, to.bvh_primitives);
     to.light_power = from.light_power;
     to.environment = from.environment;
+    to.far_lights = from.far_lights;
+    to.far_probability = from.far_probability;
 }
 
 }  // namespace pl

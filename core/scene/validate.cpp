@@ -60,6 +60,7 @@ void check_numbers(std::string& list, std::string_view what, const std::vector<g
 void check_triangles(std::string& list, const SceneDescription& scene) {
     Complaint vertex(list);
     Complaint normal(list);
+    Complaint uv(list);
     Complaint material(list);
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const TriangleDescription& t = scene.triangles[i];
@@ -69,6 +70,9 @@ void check_triangles(std::string& list, const SceneDescription& scene) {
         for (int k = 0; k < 3; ++k) {
             if (t.vertex[k] >= scene.positions.size()) {
                 vertex.add([&] { return out_of_range("vertex", t.vertex[k], scene.positions.size()); });
+            }
+            if (t.uv[k] != TriangleDescription::kNoUv && t.uv[k] >= scene.uvs.size()) {
+                uv.add([&] { return out_of_range("texture point", t.uv[k], scene.uvs.size()); });
             }
             if (t.normal[k] != TriangleDescription::kNoNormal && t.normal[k] >= scene.normals.size()) {
                 normal.add([&] { return out_of_range("normal", t.normal[k], scene.normals.size()); });
@@ -97,6 +101,97 @@ void check_materials(std::string& list, const SceneDescription& scene) {
     }
 }
 
+bool within(float x, float low, float high) { return x >= low && x <= high; }
+
+void check_surfaces(std::string& list, const std::vector<MaterialDescription>& materials) {
+    Complaint number(list);
+    Complaint color(list);
+    for (const MaterialDescription& m : materials) {
+        if (!within(m.roughness, 0.0f, 1.0f)) {
+            number.add(
+                [&] { return fmt::format("material '{}': roughness {} is not within [0, 1]", m.name, m.roughness); });
+        }
+        if (!within(m.ior, kLeastIor, kMostIor)) {
+            number.add([&] {
+                return fmt::format("material '{}': index of refraction {} is not within [{}, {}]", m.name, m.ior,
+                                   kLeastIor, kMostIor);
+            });
+        }
+        for (const auto& [what, value] : {std::pair{"specular", m.specular}, {"transmission", m.transmission}}) {
+            if (!is_albedo(value)) {
+                color.add([&, what = what, value = value] {
+                    return fmt::format("material '{}': {} {} is not within [0, 1]", m.name, what, show(value));
+                });
+            }
+        }
+    }
+}
+
+void check_textures(std::string& list, const SceneDescription& scene) {
+    Complaint index(list);
+    Complaint light(list);
+    Complaint size(list);
+    Complaint value(list);
+    std::vector<float> brightest;
+    for (const TextureDescription& t : scene.textures) {
+        if (t.width == 0 || t.height == 0 || t.texels.size() != std::size_t{t.width} * t.height) {
+            size.add([&] {
+                return fmt::format("texture '{}': {}x{} with {} texels", t.source.string(), t.width, t.height,
+                                   t.texels.size());
+            });
+        }
+        float most = 0.0f;
+        for (const glm::vec4& texel : t.texels) {
+            if (!is_light(glm::vec3(texel)) || !within(texel.w, 0.0f, 1.0f)) {
+                value.add([&] { return fmt::format("texture '{}': a texel is no color", t.source.string()); });
+            }
+            most = glm::max(most, glm::max(texel.x, glm::max(texel.y, texel.z)));
+        }
+        brightest.push_back(most);
+    }
+    for (const MaterialDescription& m : scene.materials) {
+        const TextureUse& use = m.textures;
+        for (const std::uint32_t texture : {use.albedo, use.roughness, use.emission, use.opacity}) {
+            if (texture != kNoTexture && texture >= scene.textures.size()) {
+                index.add([&] { return fmt::format("material '{}': there is no texture {}", m.name, texture); });
+            }
+        }
+        if (use.emission < brightest.size() && !is_finite(m.emission * brightest[use.emission])) {
+            light.add([&] { return fmt::format("material '{}': emission times its texture is not finite", m.name); });
+        }
+    }
+}
+
+void check_far_lights(std::string& list, const SceneDescription& scene) {
+    const EnvironmentMapDescription& map = scene.environment_map;
+    if (map.texels.size() != std::size_t{map.width} * map.height) {
+        list += fmt::format("\n  environment map: {}x{} with {} texels", map.width, map.height, map.texels.size());
+    }
+    Complaint value(list);
+    for (const glm::vec3& texel : map.texels) {
+        if (!is_light(texel)) {
+            value.add([&] {
+                return fmt::format("environment map: radiance {} is not finite and at least 0", show(texel));
+            });
+        }
+    }
+    if (!std::isfinite(map.rotation_deg)) {
+        list += "\n  environment map: the rotation is not finite";
+    }
+    const SunDescription& sun = scene.sun;
+    const float length = glm::length(sun.direction);
+    if (!is_light(sun.radiance)) {
+        list += fmt::format("\n  sun: radiance {} is not finite and at least 0", show(sun.radiance));
+    }
+    if (!std::isfinite(length) || !(length > 0.0f)) {
+        list += fmt::format("\n  sun: {} is no direction", show(sun.direction));
+    }
+    if (!within(sun.angle_deg, kLeastSunAngle, kMostSunAngle)) {
+        list += fmt::format("\n  sun: angle {} is not within [{}, {}] degrees", sun.angle_deg, kLeastSunAngle,
+                            kMostSunAngle);
+    }
+}
+
 void check_camera(std::string& list, const CameraDescription& camera) {
     if (!is_finite(camera.eye) || !is_finite(camera.target) || !is_finite(camera.up)) {
         list += "\n  camera: eye, target and up must be finite";
@@ -105,6 +200,12 @@ void check_camera(std::string& list, const CameraDescription& camera) {
     }
     if (!(camera.fov_deg > 0.0f && camera.fov_deg < 180.0f)) {
         list += fmt::format("\n  camera: field of view {} is not within (0, 180) degrees", camera.fov_deg);
+    }
+    if (!(std::isfinite(camera.aperture_radius) && camera.aperture_radius >= 0.0f)) {
+        list += fmt::format("\n  camera: aperture radius {} is not finite and at least 0", camera.aperture_radius);
+    }
+    if (!(std::isfinite(camera.focus_distance) && camera.focus_distance > 0.0f)) {
+        list += fmt::format("\n  camera: focus distance {} is not finite and above 0", camera.focus_distance);
     }
 }
 
@@ -119,6 +220,9 @@ void validate_scene(const SceneDescription& scene) {
     check_numbers(list, "normal", scene.normals);
     check_triangles(list, scene);
     check_materials(list, scene);
+    check_surfaces(list, scene.materials);
+    check_textures(list, scene);
+    check_far_lights(list, scene);
     check_camera(list, scene.camera);
     if (!is_light(scene.environment)) {
         list += fmt::format("\n  environment radiance {} is not finite and at least 0", show(scene.environment));

@@ -6,8 +6,9 @@
 namespace pl {
 
 /// Throws one Error(Input) that lists every kind of complaint, each with its first place and number: no triangles,
-/// indices out of range, numbers that are not finite, albedo outside [0, 1], negative light, a camera whose eye and
-/// target coincide or whose angle is not within (0, 180) degrees.
+/// indices out of range, numbers that are not finite, albedo outside [0, 1], negative light, surfaces, textures and far
+/// lights with numbers beyond their ranges, a camera whose eye and target coincide or whose angle is not within (0, 180)
+/// degrees.
 void validate_scene(const SceneDescription& scene);
 
 /// The camera's up vector if it spans a plane with the viewing direction, else the axis that does so best.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/io/image.h"
 #include "core/io/load_scene.h"
 #include "core/io/nearest_name.h"
 #include "tests/catch.hpp"
@@ -47,8 +48,11 @@ TEST_CASE("Everything a scene file may say") {
     const SceneDescription scene =
         load(", \"name\": \"Test\", \"camera\": {\"eye\": [1, 2, 3], \"target\": [4, 5, 6.5], \"up\": [0, 0, "
              "1], \"fov_deg\": 30,"
-             "\"aperture_radius\": 0, \"focus_distance\": 2.5}, \"environment\": {\"radiance\": [0.5, 1, 2]},"
-             "\"materials\": {\"wall\": {\"albedo\": [0.1, 0.2, 1]}, \"la/mp~\": {\"emission\": [7, 8, 9], "
+             "\"aperture_radius\": 0.25, \"focus_distance\": 2.5}, \"environment\": {\"radiance\": [0.5, 1, 2],"
+             "\"sun\": {\"direction\": [0, 2, 0], \"radiance\": [9, 8, 7], \"angle_deg\": 2}},"
+             "\"materials\": {\"wall\": {\"albedo\": [0.1, 0.2, 1], \"surface\": \"plastic\", \"roughness\": 0.5, "
+             "\"ior\": 1.25, \"specular\": [1, 0.5, 1], \"transmission\": [0, 0.5, 1]}, \"la/mp~\": {\"emission\": "
+             "[7, 8, 9], "
              "\"two_sided_emission\": true}},"
              "\"settings\": {\"spp\": 128, \"nee\": true, \"method\": \"reinforcement\", \"exposure\": -1.5, "
              "\"size\": \"640x480\"}");
@@ -57,8 +61,18 @@ TEST_CASE("Everything a scene file may say") {
     CHECK(scene.camera.target == glm::vec3(4, 5, 6.5f));
     CHECK(scene.camera.up == glm::vec3(0, 0, 1));
     CHECK(scene.camera.fov_deg == 30.0f);
+    CHECK(scene.camera.aperture_radius == 0.25f);
+    CHECK(scene.camera.focus_distance == 2.5f);
     CHECK(scene.environment == glm::vec3(0.5f, 1, 2));
+    CHECK(scene.sun.direction == glm::vec3(0, 2, 0));
+    CHECK(scene.sun.radiance == glm::vec3(9, 8, 7));
+    CHECK(scene.sun.angle_deg == 2.0f);
     CHECK(scene.materials[0].albedo == glm::vec3(0.1f, 0.2f, 1));
+    CHECK(scene.materials[0].kind == SurfaceKind::Plastic);
+    CHECK(scene.materials[0].roughness == 0.5f);
+    CHECK(scene.materials[0].ior == 1.25f);
+    CHECK(scene.materials[0].specular == glm::vec3(1, 0.5f, 1));
+    CHECK(scene.materials[0].transmission == glm::vec3(0, 0.5f, 1));
     CHECK(scene.materials[1].emission == glm::vec3(7, 8, 9));
     CHECK(scene.materials[1].two_sided_emission);
     using Setting = std::pair<std::string, std::string>;
@@ -112,10 +126,21 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         Case{"\"camera\": {\"fov_deg\": 180}", "within (0, 180)"},
         Case{"\"camera\": {\"fov_deg\": -20}", "within (0, 180)"},
         Case{"\"camera\": {\"eye\": [1, 1, 1], \"target\": [1, 1, 1]}", "same point"},
-        Case{"\"camera\": {\"aperture_radius\": 0.1}", "pinhole camera only"},
+        Case{"\"camera\": {\"aperture_radius\": -0.1}", "at least 0"},
         Case{"\"camera\": {\"focus_distance\": 0}", "above 0"},
-        Case{"\"environment\": {\"map\": \"sky.hdr\"}", "no environment maps"},
-        Case{"\"environment\": {\"scale\": 2}", "no environment maps"},
+        Case{"\"environment\": {\"map\": \"../sky.hdr\"}", "in the folder of the scene"},
+        Case{"\"environment\": {\"map\": \"\"}", "in the folder of the scene"},
+        Case{"\"environment\": {\"scale\": -2}", "at least 0"},
+        Case{"\"environment\": {\"rotation_deg\": \"left\"}", "expected a number"},
+        Case{"\"environment\": {\"sun\": {\"direction\": [0, 0, 0]}}", "no length"},
+        Case{"\"environment\": {\"sun\": {\"angle_deg\": 0}}", "within [0.01, 180]"},
+        Case{"\"environment\": {\"sun\": {\"radiance\": [1, 1, -1]}}", "at least 0"},
+        Case{"\"materials\": {\"wall\": {\"surface\": \"metal\"}}", "expected one of diffuse, conductor"},
+        Case{"\"materials\": {\"wall\": {\"roughness\": 2}}", "within [0, 1]"},
+        Case{"\"materials\": {\"wall\": {\"ior\": 0.5}}", "within [1, 4]"},
+        Case{"\"materials\": {\"wall\": {\"specular\": [0, 0, 2]}}", "within [0, 1]"},
+        Case{"\"materials\": {\"wall\": {\"wrap\": \"mirror\"}}", "expected repeat or clamp"},
+        Case{"\"materials\": {\"wall\": {\"albedo_map\": \"/etc/x.png\"}}", "in the folder of the scene"},
         Case{"\"environment\": {\"radiance\": [0, -1, 0]}", "at least 0"},
         Case{"\"materials\": 1", "expected an object"}, Case{"\"materials\": {\"wall\": 1}", "expected an object"},
         Case{"\"materials\": {\"wall\": {\"albedo\": [2, 0, 0]}}", "within [0, 1]"},
@@ -184,4 +209,41 @@ TEST_CASE("The nearest name") {
     CHECK(nearest_name("pre-computed", names) == "precomputed");
     CHECK(nearest_name("x", {"ab", "a", "b"}) == "a");
     CHECK(nearest_name("x", {}).empty());
+}
+
+TEST_CASE("Environment maps are scaled; one that cannot be read is refused") {
+    const TemporaryFolder folder;
+    folder.write("s.obj", "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    write_pfm(folder.path() / "sky.pfm", {.width = 2, .height = 1, .pixels = {glm::vec3(1, 2, 3), glm::vec3(0.5f)}});
+    const auto load_with = [&](const std::string& environment) {
+        const std::string text =
+            "{\"schema\": \"pathlight.scene/1\", \"obj\": \"s.obj\", \"environment\": " + environment + "}";
+        return load_scene(folder.write("scene.json", text).string(), folder.path());
+    };
+    const SceneDescription scene = load_with("{\"map\": \"sky.pfm\", \"scale\": 2, \"rotation_deg\": 90}");
+    CHECK(scene.environment_map.width == 2);
+    CHECK(scene.environment_map.height == 1);
+    CHECK(scene.environment_map.rotation_deg == 90.0f);
+    CHECK(scene.environment_map.texels == std::vector<glm::vec3>{{2, 4, 6}, {1, 1, 1}});
+    CHECK_THAT(input_error([&] { load_with("{\"map\": \"gone.hdr\"}"); }), contains("gone.hdr"));
+    CHECK_THAT(input_error([&] { load_with("{\"map\": \"s.obj\"}"); }), contains("expected an image"));
+}
+
+TEST_CASE("Textures that a scene file names, and triangles without texture points") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\n");
+    folder.write("s.obj", "mtllib m.mtl\nusemtl wall\nv -1 0 0\nv 1 0 0\nv 0 2 0\nvt 0.25 0.5\nvt 1 0 0\nvt 2\n"
+                          "f 1/1 2/2 3/3\nf 1/1 3/3 2\n");
+    write_png8(folder.path() / "t.png", {.width = 1, .height = 1, .rgb = {255, 188, 0}});
+    const std::string text = "{\"schema\": \"pathlight.scene/1\", \"obj\": \"s.obj\", \"materials\": {\"wall\": "
+                             "{\"albedo_map\": \"t.png\", \"wrap\": \"clamp\"}}}";
+    const SceneDescription scene = load_scene(folder.write("scene.json", text).string(), folder.path());
+    REQUIRE(scene.textures.size() == 1);
+    CHECK_FALSE(scene.textures[0].repeats);
+    CHECK(scene.materials[0].textures.albedo == 0);
+    CHECK(scene.uvs == std::vector<glm::vec2>{{0.25f, 0.5f}, {1, 0}, {2, 0}});
+    CHECK(scene.triangles[0].uv == glm::uvec3(0, 1, 2));
+    CHECK(scene.triangles[1].uv == glm::uvec3(TriangleDescription::kNoUv));
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK_THAT(scene.warnings[0], contains("1 triangles have a texture but no texture points"));
 }

@@ -1,5 +1,5 @@
 // Half floats: every one there and back, and what lies between, beyond and beside them.
-#include "core/base/half.h"
+#include "core/kernel/base/half.h"
 
 #include <cmath>
 #include <limits>

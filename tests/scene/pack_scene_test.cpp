@@ -122,7 +122,9 @@ TEST_CASE("An environment is an effect") {
     CHECK(effect_names(needed_effects(pack_scene(scene))) == std::vector<std::string>{"environment"});
     FeatureSet all;
     for (const Feature feature : kAllFeatures) all = all.with(feature);
-    CHECK(effect_names(all) == std::vector<std::string>{"smooth-normals", "environment", "next-event-estimation"});
+    CHECK(effect_names(all) == std::vector<std::string>{"smooth-normals", "environment", "next-event-estimation",
+                                                        "specular", "rough", "plastic", "textures", "cut-outs",
+                                                        "environment-map", "thin-lens"});
     CHECK(effect_names(FeatureSet{}).empty());
 }
 
@@ -210,4 +212,88 @@ TEST_CASE("Narrow and wide and tiny and far cameras keep their angle") {
             const double expected = std::tan(0.5 * static_cast<double>(fov) * 3.14159265358979323846 / 180.0);
             CHECK(std::fabs(static_cast<double>(glm::length(basis.up)) / expected - 1.0) < 4e-7);
         }
+}
+
+namespace {
+
+/// Two triangles; the first one's material has a texture of two texels for the given use, the second is plain.
+SceneDescription textured(std::uint32_t TextureUse::*use, glm::vec4 left, glm::vec4 right) {
+    SceneDescription scene;
+    scene.materials = {gray(0.5f), gray(0.5f), gray(0.5f)};
+    scene.materials[0].emission = Vec3f{2, 4, 8};
+    scene.materials[0].textures.*use = 1;
+    scene.materials[2].textures.*use = 0;  // of no triangle
+    scene.textures = {{.width = 1, .height = 1, .texels = {glm::vec4(0.0f)}},
+                      {.width = 2, .height = 1, .repeats = false, .texels = {left, right}}};
+    scene.uvs = {{0, 0}, {0, 1}, {1, 1}};
+    add_right_triangle(scene, 1, 0, 0);
+    add_right_triangle(scene, 1, 1, 1);
+    scene.triangles[0].uv = {0, 1, 2};
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("Only images of materials in use are packed, with coordinates for all triangles") {
+    const HostScene packed = pack_scene(textured(&TextureUse::albedo, glm::vec4(0.25f), glm::vec4(1.0f)));
+    REQUIRE(packed.images.size() == 1);
+    CHECK(packed.images[0].repeats == 0);
+    CHECK(packed.texels.size() == 2);
+    CHECK(unpack(packed.texels[0]) == Vec4f{0.25f});
+    REQUIRE(packed.material_images.size() == 3);
+    CHECK(packed.material_images[0].albedo == 0);
+    CHECK(packed.material_images[1].albedo == kNoImage);
+    CHECK(packed.material_images[2].albedo == kNoImage);
+    REQUIRE(packed.triangle_uvs.size() == 2);
+    CHECK(packed.uvs[packed.triangle_uvs[0].t2] == Vec2f{1, 1});
+    CHECK(packed.uvs[packed.triangle_uvs[1].t0] == Vec2f{0, 0});
+    CHECK(needed_effects(packed) == features(Feature::Textures));
+    SceneDescription unused = textured(&TextureUse::albedo, glm::vec4(0.25f), glm::vec4(1.0f));
+    unused.triangles.erase(unused.triangles.begin());
+    CHECK(pack_scene(unused).images.empty());
+    CHECK(pack_scene(unused).triangle_uvs.empty());
+    CHECK(needed_effects(pack_scene(unused)) == FeatureSet{});
+}
+
+TEST_CASE("The power of a textured light is that of the mean of its image") {
+    const HostScene packed = pack_scene(textured(&TextureUse::emission, {0.5f, 0, 1, 1}, {1.5f, 0, 0, 1}));
+    CHECK(packed.materials[0].emission == Vec3f{2, 0, 4});
+    CHECK(packed.material_images[0].emission_scale == Vec3f{1, 0, 2});
+    CHECK(packed.light_power == Approx(0.5f * luminance(Vec3f{2, 0, 4})));
+    const HostScene black = pack_scene(textured(&TextureUse::emission, glm::vec4(0.0f), glm::vec4(0.0f)));
+    CHECK(black.lights.empty());
+    CHECK(black.images.empty());
+}
+
+TEST_CASE("An image without holes is no cut-out") {
+    CHECK(pack_scene(textured(&TextureUse::opacity, glm::vec4(0.5f), glm::vec4(1.0f))).images.empty());
+    const HostScene packed = pack_scene(textured(&TextureUse::opacity, glm::vec4(0.49f), glm::vec4(1.0f)));
+    CHECK(packed.images.size() == 1);
+    CHECK(needed_effects(packed) == features(Feature::Textures, Feature::CutOuts));
+}
+
+TEST_CASE("Images that change nothing are not packed") {
+    SceneDescription scene = textured(&TextureUse::roughness, glm::vec4(0.5f), glm::vec4(1.0f));
+    CHECK(pack_scene(scene).images.empty());  // diffuse
+    scene.materials[0].kind = SurfaceKind::Conductor;
+    CHECK(pack_scene(scene).images.empty());  // smooth
+    scene.materials[0].roughness = 0.5f;
+    CHECK(pack_scene(scene).images.size() == 1);
+    SceneDescription black = textured(&TextureUse::albedo, glm::vec4(0.5f), glm::vec4(1.0f));
+    black.materials[0].albedo = Vec3f{0.0f};
+    CHECK(pack_scene(black).images.empty());
+}
+
+TEST_CASE("Far lights are chosen by the power that the scene catches") {
+    SceneDescription scene;
+    scene.materials = {glowing({1, 1, 1})};
+    add_right_triangle(scene, 2, 0, 0);
+    scene.sun = {.direction = {0, 3, 0}, .radiance = Vec3f{1.0f}, .angle_deg = 20};
+    const HostScene packed = pack_scene(scene);
+    CHECK(packed.far_lights.sun.direction == Vec3f{0, 1, 0});
+    CHECK(packed.far_lights.map_probability == 0.0f);
+    // pi r^2 L omega against pi A L, with 2 r the diagonal of the bounds: r^2 = 2, A = 2, omega = 2 pi (1 - cos 10 deg).
+    const float far = 2.0f * 2.0f * kPi * (1.0f - std::cos(10.0f * kPi / 180.0f));
+    CHECK(packed.far_probability == Approx(max_of(far / (far + 2.0f), 0.1f)).epsilon(1e-4));
+    CHECK(needed_effects(packed) == features(Feature::EnvironmentMap));
 }

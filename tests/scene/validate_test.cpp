@@ -85,3 +85,48 @@ TEST_CASE("A usable up vector is kept, any other is replaced by one that is") {
         CHECK(glm::length(glm::cross(glm::normalize(view), up)) > 0.5f);
     }
 }
+
+TEST_CASE("Each kind of fault of surfaces, textures, far lights and lenses is named") {
+    struct Case {
+        std::function<void(SceneDescription&)> spoil;
+        std::string told;
+    };
+    const Case sample = GENERATE(
+        Case{[](SceneDescription& s) { s.materials[0].roughness = 1.5f; }, "roughness 1.5"},
+        Case{[](SceneDescription& s) { s.materials[0].roughness = kNan; }, "roughness nan"},
+        Case{[](SceneDescription& s) { s.materials[0].ior = 0.9f; }, "index of refraction 0.9 is not within [1, 4]"},
+        Case{[](SceneDescription& s) { s.materials[0].specular.x = 2.0f; }, "specular (2"},
+        Case{[](SceneDescription& s) { s.materials[0].transmission.x = kNan; }, "transmission (nan"},
+        Case{[](SceneDescription& s) { s.triangles[0].uv.x = 0; }, "texture point 0 is out of range"},
+        Case{[](SceneDescription& s) { s.materials[0].textures.albedo = 0; }, "there is no texture 0"},
+        Case{[](SceneDescription& s) { s.textures.push_back({.source = "t.png", .width = 1, .height = 2}); },
+             "1x2 with 0 texels"},
+        Case{[](SceneDescription& s) {
+                 s.textures.push_back({.source = "t.png", .width = 1, .height = 1, .texels = {{1, 1, kNan, 1}}});
+             },
+             "a texel is no color"},
+        Case{[](SceneDescription& s) {
+                 s.textures.push_back({.source = "t.png", .width = 1, .height = 1, .texels = {{1e5f, 1, 1, 1}}});
+                 s.materials[0].emission = glm::vec3(1e38f);
+                 s.materials[0].textures.emission = 0;
+             },
+             "emission times its texture is not finite"},
+        Case{[](SceneDescription& s) {
+                 s.environment_map.width = 1;
+                 s.environment_map.height = 1;
+             },
+             "1x1 with 0 texels"},
+        Case{[](SceneDescription& s) {
+                 s.environment_map = {.width = 1, .height = 1, .texels = {{1, -1, 1}}};
+             },
+             "environment map: radiance (1 -1 1)"},
+        Case{[](SceneDescription& s) { s.sun.radiance.x = kInfinity; }, "sun: radiance"},
+        Case{[](SceneDescription& s) { s.sun.direction = glm::vec3(0.0f); }, "is no direction"},
+        Case{[](SceneDescription& s) { s.sun.angle_deg = 0.0f; }, "sun: angle 0"},
+        Case{[](SceneDescription& s) { s.camera.aperture_radius = -1.0f; }, "aperture radius -1"},
+        Case{[](SceneDescription& s) { s.camera.focus_distance = 0.0f; }, "focus distance 0"});
+    INFO(sample.told);
+    SceneDescription scene = good();
+    sample.spoil(scene);
+    CHECK_THAT(input_error([&] { validate_scene(scene); }), contains(sample.told));
+}

@@ -1,7 +1,7 @@
 // Which two pictures are compared, where they are drawn, and with which pixels; and whose turn it is.
 #include <cmath>
 
-#include "core/base/half.h"
+#include "core/kernel/base/half.h"
 #include "core/kernel/film/frame_pixel.h"
 #include "tests/catch.hpp"
 #include "tests/ui/hand_made_runs.h"

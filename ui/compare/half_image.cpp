@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/half.h"
+#include "core/kernel/base/half.h"
 #include "core/kernel/film/frame_pixel.h"
 #include "core/measure/metrics.h"
 

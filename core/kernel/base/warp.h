@@ -67,4 +67,19 @@ PL_HD inline Vec2f square_to_triangle(Vec2f u) {
     return {u.x - b2, b2};
 }
 
+/// Triangular density on [-1, 1] from a uniform number: one cell to each side.
+template <class N>
+PL_INLINE typename N::Real sample_tent(typename N::Real u) {
+    const typename N::Mask low = u < 0.5f;
+    const auto root = N::sqrt(2.0f * select(low, u, 1.0f - u));
+    return select(low, root - 1.0f, 1.0f - root);
+}
+
+/// Folds a coordinate that left [0, side] by less than one cell back in, and keeps it below `side`.
+template <class N>
+PL_INLINE typename N::Real reflect_into(typename N::Real x, float side) {
+    const auto folded = select(x < 0.0f, -x, select(x > side, 2.0f * side - x, x));
+    return clamp_real<N>(folded, 0.0f, side);
+}
+
 }  // namespace pl

@@ -3,6 +3,8 @@
 
 #include "core/kernel/base/span.h"
 #include "core/kernel/geometry/bvh_view.h"
+#include "core/kernel/scene/texture.h"
+#include "core/kernel/shading/far_lights.h"
 #include "core/kernel/shading/material.h"
 #include "core/kernel/shading/surface_lobes.h"
 
@@ -42,10 +44,13 @@ struct SceneView {
     Span<const Material> materials;
     Span<const SurfaceLobes> lobes;        ///< [material]; empty if all are diffuse
     Span<const float> directional_albedo;  ///< tables that they refer to
+    Textures textures;
     Span<const Light> lights;
     BvhView bvh;
-    float light_power = 0.0f;  ///< sum over lights of area x luminance of the emission
-    Vec3f environment{0.0f};   ///< radiance of everything that no surface covers
+    float light_power = 0.0f;      ///< sum over lights of area x luminance of the emission
+    Vec3f environment{0.0f};       ///< radiance of everything that no surface covers
+    FarLights far_lights;          ///< added to it
+    float far_probability = 0.0f;  ///< that a light sample is one of the far lights rather than of `lights`
 };
 
 }  // namespace pl

@@ -1,8 +1,10 @@
-// 16-bit floats as pictures in memory: three digits, which are more than their noise leaves.
+// 16-bit floats: three digits, enough for pictures and textures in memory.
 #pragma once
 
 #include <bit>
 #include <cstdint>
+
+#include "core/kernel/base/platform.h"
 
 namespace pl {
 
@@ -10,7 +12,7 @@ inline constexpr float kLargestHalf = 65504.0f;
 
 /// Nearest half float, ties to even. What exceeds kLargestHalf becomes that, as in files; NaN stays NaN.
 /// [IEEE 754-2008, binary16]
-inline std::uint16_t to_half(float value) {
+PL_HD inline std::uint16_t to_half(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     const std::uint32_t sign = bits >> 16 & 0x8000u;
     const std::uint32_t size = bits & 0x7fffffffu;
@@ -27,7 +29,7 @@ inline std::uint16_t to_half(float value) {
 }
 
 /// Exact.
-inline float from_half(std::uint16_t half) {
+PL_HD inline float from_half(std::uint16_t half) {
     const std::uint32_t sign = (half & 0x8000u) << 16;
     const std::uint32_t size = half & 0x7fffu;
     if (size >= 0x7c00u) return std::bit_cast<float>(sign | 0x7f800000u | (size & 0x3ffu) << 13);

@@ -1,0 +1,37 @@
+// One material of an MTL file as it is written, before anybody says what it means.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "core/kernel/shading/surface_lobes.h"
+
+namespace pl {
+
+/// A `map_` statement.
+struct MtlMap {
+    std::string name;  ///< of the file; empty: there is none
+    bool clamps = false;
+
+    explicit operator bool() const { return !name.empty(); }
+};
+
+/// Values are checked: colors at least 0 and reflectances at most 1, numbers finite and in the ranges below.
+struct MtlEntry {
+    std::string name;
+    int line = 0;
+    std::optional<glm::vec3> kd, ke, ks, tf;
+    std::optional<float> ns;          ///< at least 0
+    std::optional<float> ni;          ///< within [kLeastIor, kMostIor]
+    std::optional<float> d;           ///< in [0, 1]; 1 - Tr
+    std::optional<float> pr, pm, pc;  ///< in [0, 1]
+    std::optional<int> illum;
+    MtlMap map_kd, map_ke, map_pr, map_ns, map_d;
+    bool two_sided = false;
+    std::optional<SurfaceKind> surface;       ///< Pl_surface
+    std::optional<float> roughness, own_ior;  ///< Pl_roughness, Pl_ior
+};
+
+}  // namespace pl

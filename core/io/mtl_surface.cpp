@@ -1,0 +1,131 @@
+#include "core/io/mtl_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pl {
+
+namespace {
+
+/// Exponents from here on, the largest of the format, mean a mirror.
+constexpr float kMirrorExponent = 1000.0f;
+
+/// An index of refraction that is no index: programs write 1 where they mean nothing.
+constexpr float kNoRefraction = 1.01f;
+
+/// Facets of a rough interface of nothing to nothing are undefined; below this it is smooth.
+constexpr float kLeastRoughIor = 1.05f;
+
+float strongest(const std::optional<glm::vec3>& color) {
+    return color ? std::max(color->x, std::max(color->y, color->z)) : 0.0f;
+}
+
+bool has_index(const MtlEntry& entry) { return entry.ni && *entry.ni > kNoRefraction; }
+
+bool is_metal(const MtlEntry& entry) { return entry.pm && *entry.pm >= 0.5f; }
+
+/// The illumination models of the format; 0 and 1 are matte, 2 has a highlight.
+bool is_mirror_model(int illum) { return illum == 3 || illum == 5 || illum == 8; }
+bool is_glass_model(int illum) { return illum == 4 || illum == 6 || illum == 7 || illum == 9; }
+
+SurfaceKind kind_of(const MtlEntry& entry) {
+    if (entry.surface) {
+        return *entry.surface;
+    }
+    const int illum = entry.illum.value_or(2);
+    if (is_metal(entry)) {
+        return SurfaceKind::Conductor;
+    }
+    const bool lets_through = entry.d.value_or(1.0f) < 1.0f;
+    if (is_glass_model(illum) || (lets_through && (entry.tf || has_index(entry)))) {
+        return SurfaceKind::Dielectric;
+    }
+    if (is_mirror_model(illum) && strongest(entry.ks) > 0.0f) {
+        // Programs write model 3 for every surface with a highlight: what is mostly matte is no mirror.
+        return 2.0f * strongest(entry.ks) >= strongest(entry.kd) ? SurfaceKind::Conductor : SurfaceKind::Plastic;
+    }
+    const bool shines = strongest(entry.ks) > 0.0f && (entry.ns || entry.pr);
+    const bool is_coated = entry.pc.value_or(0.0f) > 0.0f;
+    return illum >= 2 && (shines || is_coated) ? SurfaceKind::Plastic : SurfaceKind::Diffuse;
+}
+
+float roughness_of(const MtlEntry& entry, SurfaceKind kind) {
+    float roughness = 0.0f;
+    if (entry.roughness || entry.pr) {
+        roughness = entry.roughness ? *entry.roughness : *entry.pr;
+    } else if (entry.map_pr || entry.map_ns) {
+        roughness = 1.0f;  // the image says it
+    } else if (kind != SurfaceKind::Dielectric && entry.ns && *entry.ns < kMirrorExponent) {
+        roughness = roughness_of_exponent(*entry.ns);
+    }
+    return roughness < kLeastRoughness ? 0.0f : roughness;
+}
+
+/// Programs write 1, or nothing, where they mean the usual one; where light passes without being bent, 1 is meant.
+float ior_of(const MtlEntry& entry, SurfaceKind kind) {
+    if (entry.own_ior) {
+        return *entry.own_ior;
+    }
+    const float usual = MaterialDescription{}.ior;
+    if (kind == SurfaceKind::Dielectric) {
+        return entry.ni.value_or(usual);
+    }
+    return has_index(entry) ? *entry.ni : usual;
+}
+
+glm::vec3 specular_of(const MtlEntry& entry, SurfaceKind kind) {
+    const bool has_ks = strongest(entry.ks) > 0.0f;
+    const bool has_kd = strongest(entry.kd) > 0.0f;
+    if (kind == SurfaceKind::Conductor) {
+        // In the metal workflow the base color is the metal's.
+        const bool by_base = (is_metal(entry) && has_kd) || !has_ks;
+        return by_base ? entry.kd.value_or(glm::vec3(1.0f)) : *entry.ks;
+    }
+    if (kind == SurfaceKind::Plastic && has_ks) {
+        return *entry.ks / strongest(entry.ks);  // how much is reflected is Fresnel's law
+    }
+    return glm::vec3(1.0f);
+}
+
+glm::vec3 albedo_of(const MtlEntry& entry, SurfaceKind kind) {
+    if (kind == SurfaceKind::Conductor || kind == SurfaceKind::Dielectric) {
+        return glm::vec3(0.0f);
+    }
+    return entry.kd.value_or(entry.map_kd ? glm::vec3(1.0f) : glm::vec3(0.0f));
+}
+
+}  // namespace
+
+float roughness_of_exponent(float ns) { return std::sqrt(std::sqrt(2.0f / (ns + 2.0f))); }
+
+MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& notes) {
+    MaterialDescription material{.name = entry.name};
+    material.kind = kind_of(entry);
+    material.albedo = albedo_of(entry, material.kind);
+    material.emission = entry.ke.value_or(glm::vec3(entry.map_ke ? 1.0f : 0.0f));
+    material.two_sided_emission = entry.two_sided;
+    const bool says_color = entry.kd || entry.ke || entry.map_kd || entry.map_ke;
+    if (!says_color && (material.kind == SurfaceKind::Diffuse || material.kind == SurfaceKind::Plastic)) {
+        material.albedo = kDefaultAlbedo;
+        notes.push_back("has neither Kd nor Ke and is shown in the default color");
+    }
+    if (entry.d.value_or(1.0f) < 1.0f && material.kind != SurfaceKind::Dielectric) {
+        notes.push_back("is partly transparent (d, Tr) without refraction (Tf, Ni): shown opaque");
+    }
+    if (material.kind == SurfaceKind::Diffuse) {
+        return material;
+    }
+    material.roughness = roughness_of(entry, material.kind);
+    material.ior = ior_of(entry, material.kind);
+    material.specular = specular_of(entry, material.kind);
+    if (material.kind == SurfaceKind::Dielectric) {
+        material.transmission = strongest(entry.tf) > 0.0f ? *entry.tf : glm::vec3(1.0f);
+        if (material.roughness > 0.0f && material.ior < kLeastRoughIor) {
+            material.roughness = 0.0f;
+            notes.push_back("is rough glass of almost no refraction (Ni): shown smooth");
+        }
+    }
+    return material;
+}
+
+}  // namespace pl

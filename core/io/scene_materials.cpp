@@ -1,0 +1,164 @@
+#include "core/io/scene_materials.h"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/io/mtl_surface.h"
+#include "core/io/nearest_name.h"
+#include "core/io/surface_names.h"
+#include "core/io/texture_file.h"
+
+namespace pl {
+
+namespace {
+
+/// Radiance or emission: three finite numbers of at least 0.
+std::optional<glm::vec3> read_light(const JsonDocument& file, const std::string& pointer) {
+    const std::optional<glm::vec3> value = file.vector(pointer);
+    if (value && glm::any(glm::lessThan(*value, glm::vec3(0.0f)))) {
+        file.fail(pointer, "expected numbers of at least 0");
+    }
+    return value;
+}
+
+std::optional<glm::vec3> read_share(const JsonDocument& file, const std::string& pointer) {
+    const std::optional<glm::vec3> value = read_light(file, pointer);
+    if (value && glm::any(glm::greaterThan(*value, glm::vec3(1.0f)))) {
+        file.fail(pointer, "expected numbers within [0, 1]");
+    }
+    return value;
+}
+
+std::optional<float> read_within(const JsonDocument& file, const std::string& pointer, float least, float most) {
+    const std::optional<float> value = file.number(pointer);
+    if (value && !(*value >= least && *value <= most)) {
+        file.fail(pointer, fmt::format("expected a number within [{}, {}], got {}", least, most, *value));
+    }
+    return value;
+}
+
+std::filesystem::path image_path(const JsonDocument& file, const SceneDescription& scene, const std::string& pointer,
+                                 const std::string& name) {
+    const std::filesystem::path path = path_inside(scene.source.parent_path(), name);
+    if (path.empty()) {
+        file.fail(pointer, fmt::format("expected a file in the folder of the scene, got '{}'", name));
+    }
+    return path;
+}
+
+MaterialDescription& find_material(const JsonDocument& file, SceneDescription& scene, const std::string& name) {
+    std::vector<std::string> names;
+    for (MaterialDescription& material : scene.materials) {
+        if (material.name == name) {
+            return material;
+        }
+        names.push_back(material.name);
+    }
+    file.fail("/materials" + pointer_step(name),
+              fmt::format("the scene has no such material, did you mean '{}'?", nearest_name(name, names)));
+}
+
+void read_surface(const JsonDocument& file, const std::string& at, MaterialDescription& material) {
+    if (const std::optional<std::string> name = file.text(at + "/surface")) {
+        const std::optional<SurfaceKind> kind = surface_kind(*name);
+        if (!kind) {
+            file.fail(at + "/surface",
+                      fmt::format("expected one of {}, got '{}'", fmt::join(kSurfaceNames, ", "), *name));
+        }
+        material.kind = *kind;
+    }
+    material.roughness = read_within(file, at + "/roughness", 0.0f, 1.0f).value_or(material.roughness);
+    if (material.roughness < kLeastRoughness) {
+        material.roughness = 0.0f;
+    }
+    material.ior = read_within(file, at + "/ior", kLeastIor, kMostIor).value_or(material.ior);
+    material.specular = read_share(file, at + "/specular").value_or(material.specular);
+    material.transmission = read_share(file, at + "/transmission").value_or(material.transmission);
+}
+
+void read_images(const JsonDocument& file, const std::string& at, SceneDescription& scene, TextureUse& use) {
+    const std::string wrap = file.text(at + "/wrap").value_or("repeat");
+    if (wrap != "repeat" && wrap != "clamp") {
+        file.fail(at + "/wrap", fmt::format("expected repeat or clamp, got '{}'", wrap));
+    }
+    struct Slot {
+        const char* key;
+        std::uint32_t TextureUse::*index;
+        TextureContent content;
+    };
+    for (const Slot& slot : {Slot{"/albedo_map", &TextureUse::albedo, TextureContent::Color},
+                             Slot{"/roughness_map", &TextureUse::roughness, TextureContent::Number},
+                             Slot{"/emission_map", &TextureUse::emission, TextureContent::Color},
+                             Slot{"/opacity_map", &TextureUse::opacity, TextureContent::Opacity}}) {
+        const std::optional<std::string> name = file.text(at + slot.key);
+        if (!name) {
+            continue;
+        }
+        use.*slot.index = name->empty() ? kNoTexture
+                                        : add_texture(scene, image_path(file, scene, at + slot.key, *name),
+                                                      slot.content, wrap == "repeat");
+    }
+}
+
+void read_sun(const JsonDocument& file, SunDescription& sun) {
+    if (file.object("/environment/sun", {"direction", "radiance", "angle_deg"}) == nullptr) {
+        return;
+    }
+    sun.direction = file.vector("/environment/sun/direction").value_or(sun.direction);
+    if (sun.direction == glm::vec3(0.0f)) {
+        file.fail("/environment/sun/direction", "expected a direction, got a vector of no length");
+    }
+    sun.radiance = read_light(file, "/environment/sun/radiance").value_or(glm::vec3(0.0f));
+    sun.angle_deg =
+        read_within(file, "/environment/sun/angle_deg", kLeastSunAngle, kMostSunAngle).value_or(sun.angle_deg);
+}
+
+void read_map(const JsonDocument& file, SceneDescription& scene) {
+    const std::optional<std::string> name = file.text("/environment/map");
+    const float scale = file.number("/environment/scale").value_or(1.0f);
+    const float rotation_deg = file.number("/environment/rotation_deg").value_or(0.0f);
+    if (scale < 0.0f) {
+        file.fail("/environment/scale", fmt::format("expected a number of at least 0, got {}", scale));
+    }
+    if (name) {
+        scene.environment_map = read_environment_map(image_path(file, scene, "/environment/map", *name), scale,
+                                                     rotation_deg, scene.warnings);
+    }
+}
+
+}  // namespace
+
+void read_materials(const JsonDocument& file, SceneDescription& scene) {
+    const auto all = file.root().find("materials");
+    if (all == file.root().end()) {
+        return;
+    }
+    if (!all->is_object()) {
+        file.fail("/materials", "expected an object { ... }");
+    }
+    for (const auto& [name, overrides] : all->items()) {
+        const std::string at = "/materials" + pointer_step(name);
+        file.object(at, {"albedo", "emission", "two_sided_emission", "surface", "roughness", "ior", "specular",
+                         "transmission", "albedo_map", "roughness_map", "emission_map", "opacity_map", "wrap"});
+        MaterialDescription& material = find_material(file, scene, name);
+        material.albedo = read_share(file, at + "/albedo").value_or(material.albedo);
+        material.emission = read_light(file, at + "/emission").value_or(material.emission);
+        material.two_sided_emission = file.boolean(at + "/two_sided_emission").value_or(material.two_sided_emission);
+        read_surface(file, at, material);
+        read_images(file, at, scene, material.textures);
+    }
+}
+
+void read_environment(const JsonDocument& file, SceneDescription& scene) {
+    if (file.object("/environment", {"radiance", "map", "scale", "rotation_deg", "sun"}) == nullptr) {
+        return;
+    }
+    scene.environment = read_light(file, "/environment/radiance").value_or(glm::vec3(0.0f));
+    read_map(file, scene);
+    read_sun(file, scene.sun);
+}
+
+}  // namespace pl

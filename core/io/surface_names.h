@@ -1,0 +1,24 @@
+// Kinds of surfaces as files write them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/kernel/shading/surface_lobes.h"
+
+namespace pl {
+
+/// [SurfaceKind]
+inline constexpr std::array<std::string_view, 4> kSurfaceNames = {"diffuse", "conductor", "dielectric", "plastic"};
+
+inline std::optional<SurfaceKind> surface_kind(std::string_view name) {
+    for (std::size_t i = 0; i < kSurfaceNames.size(); ++i) {
+        if (kSurfaceNames[i] == name) {
+            return static_cast<SurfaceKind>(i);
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace pl

@@ -1,0 +1,38 @@
+// Angles in turns (1 is all the way round), by own functions: the library's differ between CPU and GPU.
+#pragma once
+
+#include "core/kernel/base/numbers.h"
+
+namespace pl {
+
+struct SineCosine {
+    float sine, cosine;
+};
+
+/// Of an angle of at most a million turns; errors below 1e-6 for less than one.
+PL_HD inline SineCosine sine_cosine_of_turns(float turns) {
+    const float quarters = 4.0f * turns;
+    const float nearest = std::floor(quarters + 0.5f);
+    const float x = (quarters - nearest) * (2.0f * kPiOver4);
+    const float sine = sin_quarter<One>(x);
+    const float cosine = cos_quarter<One>(x);
+    switch (static_cast<int>(nearest) & 3) {
+    case 0: return {sine, cosine};
+    case 1: return {cosine, -sine};
+    case 2: return {-sine, -cosine};
+    default: return {-cosine, sine};
+    }
+}
+
+/// atan2(y, x) in turns, in [-1/2, 1/2]; 0 at the origin. Error below 1e-7.
+PL_HD inline float turns_of(float y, float x) {
+    const float across = std::fabs(y);
+    const float along = std::fabs(x);
+    if (across == 0.0f && along == 0.0f) return 0.0f;
+    const float angle =
+        across <= along ? atan_unit<One>(across / along) : 2.0f * kPiOver4 - atan_unit<One>(along / across);
+    const float turns = angle * (0.5f * kInvPi);
+    return std::copysign(x < 0.0f ? 0.5f - turns : turns, y);
+}
+
+}  // namespace pl

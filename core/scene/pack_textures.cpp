@@ -1,0 +1,103 @@
+#include "core/scene/pack_textures.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace pl {
+namespace {
+
+Texel pack_texel(const glm::vec4& t) { return {to_half(t.x), to_half(t.y), to_half(t.z), to_half(t.w)}; }
+
+/// As kernels will see it.
+Vec3f mean_of(const TextureDescription& texture) {
+    Vec3d sum{0.0};
+    for (const glm::vec4& texel : texture.texels) sum += Vec3d{Vec3f{unpack(pack_texel(texel))}};
+    return Vec3f{sum / static_cast<double>(texture.texels.size())};
+}
+
+bool has_holes(const TextureDescription& texture) {
+    return std::any_of(texture.texels.begin(), texture.texels.end(),
+                       [](const glm::vec4& texel) { return unpack(pack_texel(texel)).w < kLeastOpacity; });
+}
+
+float inverse_or_zero(float x) { return x > 0.0f ? 1.0f / x : 0.0f; }
+
+/// What an albedo texture multiplies.
+Vec3f tinted(const MaterialDescription& material) {
+    if (material.kind == SurfaceKind::Conductor) return material.specular;
+    return material.kind == SurfaceKind::Dielectric ? Vec3f{0.0f} : material.albedo;
+}
+
+class ImagePacker {
+public:
+    ImagePacker(const SceneDescription& scene, HostScene& packed)
+        : scene_(scene), packed_(packed), image_of_(scene.textures.size(), kNoImage) {}
+
+    MaterialImages pack(const MaterialDescription& material, Material& packed_material) {
+        MaterialImages images;
+        const TextureUse& use = material.textures;
+        if (use.albedo != kNoTexture && !is_black(tinted(material))) images.albedo = image(use.albedo);
+        if (use.roughness != kNoTexture && material.kind != SurfaceKind::Diffuse && material.roughness > 0.0f)
+            images.roughness = image(use.roughness);
+        if (use.opacity != kNoTexture && has_holes(scene_.textures[use.opacity])) images.opacity = image(use.opacity);
+        if (use.emission != kNoTexture && packed_material.emits()) {
+            const Vec3f mean = mean_of(scene_.textures[use.emission]);
+            packed_material.emission *= mean;
+            images.emission_scale = {inverse_or_zero(mean.x), inverse_or_zero(mean.y), inverse_or_zero(mean.z)};
+            if (packed_material.emits()) images.emission = image(use.emission);
+        }
+        return images;
+    }
+
+private:
+    /// Each texture is packed once.
+    std::uint32_t image(std::uint32_t texture) {
+        std::uint32_t& index = image_of_[texture];
+        if (index != kNoImage) return index;
+        const TextureDescription& from = scene_.textures[texture];
+        index = static_cast<std::uint32_t>(packed_.images.size());
+        packed_.images.push_back(
+            {static_cast<std::uint32_t>(packed_.texels.size()), from.width, from.height, from.repeats ? 1u : 0u});
+        packed_.texels.reserve(packed_.texels.size() + from.texels.size());
+        for (const glm::vec4& texel : from.texels) packed_.texels.push_back(pack_texel(texel));
+        return index;
+    }
+
+    const SceneDescription& scene_;
+    HostScene& packed_;
+    std::vector<std::uint32_t> image_of_;
+};
+
+bool has_uvs(const TriangleDescription& t) {
+    return t.uv.x != TriangleDescription::kNoUv && t.uv.y != TriangleDescription::kNoUv &&
+           t.uv.z != TriangleDescription::kNoUv;
+}
+
+void pack_uvs(const SceneDescription& scene, HostScene& packed) {
+    packed.uvs = scene.uvs;
+    const auto origin = static_cast<std::uint32_t>(packed.uvs.size());
+    packed.uvs.emplace_back(0.0f);
+    packed.triangle_uvs.reserve(scene.triangles.size());
+    for (const TriangleDescription& t : scene.triangles) {
+        const glm::uvec3 uv = has_uvs(t) ? t.uv : glm::uvec3{origin};
+        packed.triangle_uvs.push_back({uv.x, uv.y, uv.z});
+    }
+}
+
+}  // namespace
+
+void pack_textures(const SceneDescription& scene, HostScene& packed) {
+    if (scene.textures.empty()) return;
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const TriangleDescription& t : scene.triangles) used[t.material] = true;
+    ImagePacker packer(scene, packed);
+    std::vector<MaterialImages> of_material(scene.materials.size());
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        if (used[m] && scene.materials[m].textures.any())
+            of_material[m] = packer.pack(scene.materials[m], packed.materials[m]);
+    if (packed.images.empty()) return;
+    packed.material_images = std::move(of_material);
+    pack_uvs(scene, packed);
+}
+
+}  // namespace pl
