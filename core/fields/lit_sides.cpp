@@ -3,7 +3,7 @@
 
 #include "core/fields/surfaces.h"
 #include "core/kernel/base/rng.h"
-#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/holes.h"
 #include "core/kernel/shading/lights.h"
 
 namespace pl {
@@ -80,7 +80,7 @@ public:
 private:
     void walk(Ray ray, const Rng& rng) {
         for (std::uint32_t vertex = 0; vertex < kMaxVertices; ++vertex) {
-            const Hit hit = intersector_.closest_hit(ray);
+            const Hit hit = closest_solid_hit<features(Feature::CutOuts)>(view_, intersector_, ray);
             if (!hit.found()) return;
             const std::uint32_t surface = surfaces_.of_triangle[hit.primitive];
             const SurfacePoint point = make_surface_point<FeatureSet{}>(view_, hit, -ray.direction);
