@@ -14,6 +14,7 @@
 #include "cpu/guided_block.h"
 #include "cpu/path_source.h"
 #include "cpu/ray_batch.h"
+#include "cpu/solid_hits.h"
 
 namespace pl {
 
@@ -43,13 +44,14 @@ public:
         : setup_(setup), intersector_(intersector), method_(method), work_(work), states_(setup.batch_paths),
           statuses_(setup.batch_paths), numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0),
           rays_(setup.batch_paths), shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
-          shadow_rays_(static_cast<std::uint32_t>(shadows_.size())), block_(method, setup.path) {}
+          shadow_rays_(static_cast<std::uint32_t>(shadows_.size())),
+          solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method, setup.path) {}
 
     /// Traces paths until the source has no more, and finishes those under way.
     PassCounters run(PathSource& source) {
         while (active_ < setup_.batch_paths && start(source, active_)) ++active_;
         while (active_ > 0) {
-            intersector_.find_closest(rays_, active_);
+            solid_hits_.find_closest(rays_, active_);
             numbers_.draw(setup_.path, active_);
             extend();
             if constexpr (kSamplesLights) connect();
@@ -143,11 +145,18 @@ private:
     }
 
     void connect() {
-        intersector_.find_occluded(shadow_rays_, shadow_count_);
+        find_blocked();
         for (std::uint32_t i = 0; i < shadow_count_; ++i)
             if (!shadow_rays_.occluded(i))
                 connect_light(method_, shadows_[i], states_[shadow_paths_[i]], counters_.path);
         counters_.path.shadow_rays += shadow_count_;
+    }
+
+    /// Which shadow rays something solid is in the way of.
+    void find_blocked() {
+        if (!solid_hits_.wanted(setup_.scene)) return intersector_.find_occluded(shadow_rays_, shadow_count_);
+        solid_hits_.find_closest(shadow_rays_, shadow_count_);
+        for (std::uint32_t i = 0; i < shadow_count_; ++i) shadow_rays_.set_occluded(i, shadow_rays_.hit(i).found());
     }
 
     /// Hands in the finished paths and puts new ones, or the last ones, into their places.
@@ -182,6 +191,7 @@ private:
     std::vector<ShadowRequest> shadows_;
     std::vector<std::uint32_t> shadow_paths_;
     RayBatch shadow_rays_;
+    SolidHits<F, I> solid_hits_;
     [[no_unique_address]] BlockMemory<F, M> block_;
     std::uint32_t active_ = 0;
     std::uint32_t shadow_count_ = 0;

@@ -3,7 +3,7 @@
 
 #include "core/fields/surfaces.h"
 #include "core/kernel/base/rng.h"
-#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/holes.h"
 #include "core/kernel/shading/lights.h"
 
 namespace pl {
@@ -64,7 +64,7 @@ public:
           sphere_(bounding_sphere(scene)), arrivals_(surfaces.list.size()) {}
 
     std::vector<Arrivals> walk_all() {
-        const bool sky = !is_black(scene_.environment);
+        const bool sky = !is_black(scene_.environment) || !view_.far_lights.empty();
         const bool lights = !scene_.lights.empty();
         if (!sky && !lights) return arrivals_;
         for (std::uint32_t i = 0; i < kWalks; ++i) {
@@ -80,11 +80,11 @@ public:
 private:
     void walk(Ray ray, const Rng& rng) {
         for (std::uint32_t vertex = 0; vertex < kMaxVertices; ++vertex) {
-            const Hit hit = intersector_.closest_hit(ray);
+            const Hit hit = closest_solid_hit<features(Feature::CutOuts)>(view_, intersector_, ray);
             if (!hit.found()) return;
             const std::uint32_t surface = surfaces_.of_triangle[hit.primitive];
             const SurfacePoint point = make_surface_point<FeatureSet{}>(view_, hit, -ray.direction);
-            const LayeredBsdf bsdf = make_bsdf<kLobeFeatures>(view_, point, -ray.direction);
+            const LayeredBsdf bsdf = make_bsdf<kLobeFeatures>(view_, point, hit_weights(hit), -ray.direction);
             if (!bsdf.scatters()) return;
             if (surface != kNoSurface) ++(point.front ? arrivals_[surface].front : arrivals_[surface].back);
             ray = spawn_ray(point, leave(point, bsdf, rng.draw(vertex + 2, Purpose::Placement)));

@@ -53,6 +53,11 @@ int volume_count(const FieldSettings& settings) {
 
 FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings) {
     float brightest = luminance(scene.environment);
+    for (const Vec3f& texel : scene.map_texels) brightest = std::max(brightest, luminance(texel));
+    // A sun is so small and bright that the light of all else would be lost in its roundings: its mean over half of the sky
+    // leaves room for both.
+    const Sun& sun = scene.far_lights.sun;
+    brightest = std::max(brightest, luminance(sun.radiance) * 0.5f * sun.chord2);
     for (const Light& light : scene.lights) {
         const Material& material = scene.materials[scene.triangles[light.primitive].material];
         brightest = std::max(brightest, luminance(material.emission));

@@ -14,6 +14,10 @@ std::uint64_t picture_key(const SceneDescription& scene, const RenderSettings& s
     for (const glm::vec3& v : {camera.eye, camera.target, camera.up})
         for (int i = 0; i < 3; ++i) hash.add(v[i]);
     hash.add(camera.fov_deg);
+    if (camera.aperture_radius > 0.0f) {
+        hash.add(camera.aperture_radius);
+        hash.add(camera.focus_distance);
+    }
     for (const int number : {settings.width, settings.height, settings.max_depth})
         hash.add(static_cast<std::uint64_t>(number));
     return hash.value();

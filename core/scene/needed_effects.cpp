@@ -37,10 +37,13 @@ FeatureSet needed_effects(const HostScene& scene) {
     if (!is_black(scene.environment)) set = set.with(Feature::Environment);
     for (const SurfaceLobes& lobes : scene.lobes) set = set.with(effects_of(lobes));
     if (!scene.images.empty()) set = set.with(Feature::Textures);
-    for (const MaterialImages& images : scene.material_images)
-        if (images.opacity != kNoImage) set = set.with(Feature::CutOuts);
+    if (scene.has_holes != 0) set = set.with(Feature::CutOuts);
     if (scene.far_probability > 0.0f) set = set.with(Feature::EnvironmentMap);
     return set;
+}
+
+FeatureSet needed_effects(const CameraDescription& camera) {
+    return camera.aperture_radius > 0.0f ? features(Feature::ThinLens) : FeatureSet{};
 }
 
 std::vector<std::string> effect_names(FeatureSet set) {

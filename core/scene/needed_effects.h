@@ -5,12 +5,15 @@
 #include <vector>
 
 #include "core/kernel/base/features.h"
+#include "core/scene/description.h"
 #include "core/scene/scene_storage.h"
 
 namespace pl {
 
 /// Effects that the scene itself needs; not those that settings or the camera ask for.
 FeatureSet needed_effects(const HostScene& scene);
+/// Those that the camera needs.
+FeatureSet needed_effects(const CameraDescription& camera);
 
 /// Stable names of the effects in a set, in the order of kAllFeatures, for `info`, `--stats` and `--force-effects`:
 /// "smooth-normals", "environment", "next-event-estimation", "specular", "rough", "plastic", "textures", "cut-outs",

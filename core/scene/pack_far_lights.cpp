@@ -77,6 +77,7 @@ void pack_far_lights(const SceneDescription& scene, HostScene& packed) {
     const double radius = 0.5 * static_cast<double>(bounds_of(scene).diagonal());
     // Emitting surfaces give pi x area x radiance; the scene's disc takes pi r^2 x the light from everywhere.
     packed.far_probability = share_of(radius * radius * (map + sun), static_cast<double>(packed.light_power));
+    if (packed.far_probability < 1.0f) packed.light_power /= 1.0f - packed.far_probability;
 }
 
 }  // namespace pl

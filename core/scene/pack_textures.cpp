@@ -39,7 +39,10 @@ public:
         if (use.albedo != kNoTexture && !is_black(tinted(material))) images.albedo = image(use.albedo);
         if (use.roughness != kNoTexture && material.kind != SurfaceKind::Diffuse && material.roughness > 0.0f)
             images.roughness = image(use.roughness);
-        if (use.opacity != kNoTexture && has_holes(scene_.textures[use.opacity])) images.opacity = image(use.opacity);
+        if (use.opacity != kNoTexture && has_holes(scene_.textures[use.opacity])) {
+            images.opacity = image(use.opacity);
+            packed_.has_holes = 1;
+        }
         if (use.emission != kNoTexture && packed_material.emits()) {
             const Vec3f mean = mean_of(scene_.textures[use.emission]);
             packed_material.emission *= mean;

@@ -29,6 +29,7 @@ struct SceneStorage {
     Array<std::uint32_t> bvh_primitives;
     float light_power = 0.0f;
     Vec3f environment{0.0f};
+    std::uint32_t has_holes = 0;
     FarLights far_lights;  ///< all but its arrays
     float far_probability = 0.0f;
 
@@ -49,7 +50,8 @@ struct SceneStorage {
                              .triangle_uvs = view_of(triangle_uvs),
                              .images = view_of(images),
                              .texels = view_of(texels),
-                             .of_material = view_of(material_images)},
+                             .of_material = view_of(material_images),
+                             .has_holes = has_holes},
                 .lights = view_of(lights),
                 .bvh = {.nodes = view_of(bvh_nodes), .primitives = view_of(bvh_primitives)},
                 .light_power = light_power,
@@ -85,6 +87,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.bvh_primitives, to.bvh_primitives);
     to.light_power = from.light_power;
     to.environment = from.environment;
+    to.has_holes = from.has_holes;
     to.far_lights = from.far_lights;
     to.far_probability = from.far_probability;
 }

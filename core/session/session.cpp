@@ -6,7 +6,7 @@
 #include "core/base/timer.h"
 #include "core/fields/volume_grid.h"
 #include "core/kernel/fields/direction_table.h"
-#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/holes.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/scene_hash.h"
@@ -172,8 +172,8 @@ void Session::begin_film(FilmSlot slot) {
 }
 
 FeatureSet Session::needed_features() const {
-    const FeatureSet scene = needed_effects(*packed_);
-    return settings_.next_event ? scene.with(Feature::NextEventEstimation) : scene;
+    const FeatureSet needed = needed_effects(*packed_).with(needed_effects(settings_.camera));
+    return settings_.next_event ? needed.with(Feature::NextEventEstimation) : needed;
 }
 
 FeatureSet Session::served_features() const { return needed_features().with(settings_.forced_effects); }
@@ -436,7 +436,7 @@ std::optional<PickedPoint> Session::pick(Vec2f film_point) {
     const PinholeCamera camera = make_camera(settings_.camera, settings_.width, settings_.height);
     const Ray ray =
         generate_ray(camera, film_point, {static_cast<float>(settings_.width), static_cast<float>(settings_.height)});
-    const Hit hit = BvhIntersector{scene}.closest_hit(ray);
+    const Hit hit = closest_solid_hit<kEveryFeature>(scene, BvhIntersector{scene}, ray);
     if (!hit.found()) return std::nullopt;
     const auto surface = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
     return PickedPoint{.position = surface.position,

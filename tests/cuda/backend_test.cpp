@@ -7,6 +7,7 @@
 #include "tests/cuda/shim/control.h"
 #include "tests/session/same_bits.h"
 #include "tests/session/small_settings.h"
+#include "tests/statistical/image_scenes.h"
 #include "tests/statistical/shipped_scenes.h"
 #include "tests/statistical/variants.h"
 
@@ -32,10 +33,10 @@ State render(Session session, std::uint32_t passes = 3) {
 }  // namespace
 
 TEST_CASE("Every method gives the bits of the CPU back end") {
-    for (const char* name : {"cornell", "door", "furnace"}) {
-        const SceneDescription scene = shipped_scene(name);
+    for (const SceneDescription& scene :
+         {shipped_scene("cornell"), shipped_scene("door"), shipped_scene("furnace"), every_effect()}) {
         for (const Estimator estimator : kEstimators) {
-            INFO(name << ", " << estimator);
+            INFO(scene.name << ", " << estimator);
             const RenderSettings settings = small_settings(scene, estimator);
             const State expected = render(make_session(scene, settings));
             for (const int threads : {1, 3}) {
@@ -64,17 +65,17 @@ TEST_CASE("Every target, rate and rule of roulette gives the bits of the CPU bac
 
 TEST_CASE("Every view gives the bits of the CPU back end") {
     shim::reset();
-    const SceneDescription scene = shipped_scene("cornell");
-    for (const ViewInfo& view : all_views())
-        for (const MethodInfo& method : all_methods()) {
-            INFO(view.name << ", " << method.name);
-            RenderSettings settings = small_settings(scene, {method.id, false});
-            settings.view = view.id;
-            const State expected = render(make_session(scene, settings));
-            const State got = render(make_cuda_session(scene, settings));
-            CHECK(same_film(got, expected));
-            CHECK(same_events(got.snapshot.counters, expected.snapshot.counters));
-        }
+    for (const SceneDescription& scene : {shipped_scene("cornell"), every_effect()})
+        for (const ViewInfo& view : all_views())
+            for (const MethodInfo& method : all_methods()) {
+                INFO(view.name << ", " << method.name);
+                RenderSettings settings = small_settings(scene, {method.id, false});
+                settings.view = view.id;
+                const State expected = render(make_session(scene, settings));
+                const State got = render(make_cuda_session(scene, settings));
+                CHECK(same_film(got, expected));
+                CHECK(same_events(got.snapshot.counters, expected.snapshot.counters));
+            }
 }
 
 TEST_CASE("Frames of every view have the bits of the CPU back end") {

@@ -23,6 +23,16 @@ TEST_CASE("everything that decides the converged picture changes its hash") {
         [](SceneDescription&, RenderSettings& r) { r.camera.target.y += 0.01f; },
         [](SceneDescription&, RenderSettings& r) { r.camera.up.x += 0.01f; },
         [](SceneDescription&, RenderSettings& r) { r.camera.fov_deg += 0.01f; },
+        [](SceneDescription&, RenderSettings& r) { r.camera.aperture_radius = 0.01f; },
+        [](SceneDescription& s, RenderSettings&) { s.sun.radiance = glm::vec3(1.0f); },
+        [](SceneDescription& s, RenderSettings&) {
+            s.environment_map = {.width = 1, .height = 1, .texels = {{1, 1, 1}}};
+        },
+        [](SceneDescription& s, RenderSettings&) { s.materials[0].kind = SurfaceKind::Plastic; },
+        [](SceneDescription& s, RenderSettings&) {
+            s.textures = {{.width = 1, .height = 1, .texels = {{1, 1, 1, 1}}}};
+            s.materials[0].textures.albedo = 0;
+        },
         [](SceneDescription&, RenderSettings& r) { ++r.width; },
         [](SceneDescription&, RenderSettings& r) { std::swap(r.width, ++r.height); },
         [](SceneDescription&, RenderSettings& r) { --r.max_depth; },
@@ -47,7 +57,10 @@ TEST_CASE("what only decides the noise does not change the hash") {
     settings.mixture.bsdf_fraction = 0.3f;
     scene.name = "another";
     scene.materials[0].name = "renamed";
-    scene.camera.eye.x += 1.0f;  // the scene's own camera is not the one that is looked through
+    scene.camera.eye.x += 1.0f;             // the scene's own camera is not the one that is looked through
+    settings.camera.focus_distance = 7.0f;  // of a pinhole
+    scene.textures = {{.width = 1, .height = 1, .texels = {{1, 1, 1, 1}}}};  // of no material
+    scene.uvs = {{0, 0}};
     CHECK(picture_hash(scene, settings) == hash);
 }
 

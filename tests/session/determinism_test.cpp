@@ -7,6 +7,7 @@
 #include "tests/session/interruption.h"
 #include "tests/session/same_bits.h"
 #include "tests/session/small_settings.h"
+#include "tests/statistical/image_scenes.h"
 #include "tests/statistical/shipped_scenes.h"
 #include "tests/statistical/variants.h"
 
@@ -33,6 +34,23 @@ TEST_CASE("Threads and batches do not change a bit of films, tables and counters
         CHECK(same_state(one, render(scene, settings, {.threads = 7})));
         CHECK(same_state(one, render(scene, settings, {.threads = 2, .batch_paths = 37})));
         CHECK(one.tables.radiance.empty() == !info_of(estimator.method).uses_field);
+    }
+}
+
+TEST_CASE("Threads, batches, intersectors and stops do not change a bit of a scene that needs every effect") {
+    const SceneDescription scene = every_effect();
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        const RenderSettings settings = small_settings(scene, estimator);
+        const State one = render(scene, settings, {.threads = 1});
+        CHECK(one.snapshot.counters.invalid_samples == 0);
+        CHECK(same_state(one, render(scene, settings, {.threads = 3, .batch_paths = 37})));
+        CHECK(same_state(one, render(scene, settings, {.threads = 2, .intersector = IntersectorChoice::Bvh})));
+        Session stopped = make_session(scene, settings, 2);
+        StopFlag stop = true;
+        CHECK(stopped.advance(&stop) == Progress::Stopped);
+        render_passes(stopped, one.snapshot.passes);
+        CHECK(same_state(one, state_of(stopped)));
     }
 }
 
@@ -201,4 +219,30 @@ TEST_CASE("Each effect changes the picture of a scene that needs it") {
     CHECK_FALSE(same_film(expected, render(sky, settings, {.threads = 2})));
     CHECK_FALSE(same_film(expected, render(smooth, settings, {.threads = 2})));
     CHECK_FALSE(same_film(expected, render(plain, small_settings(plain, {}), {.threads = 2})));
+
+    SceneDescription painted = plain;
+    painted.textures.push_back({.width = 1, .height = 1, .texels = {glm::vec4(0.9f, 0.9f, 0.9f, 1.0f)}});
+    for (MaterialDescription& material : painted.materials) material.textures.albedo = 0;
+    SceneDescription mapped = plain;
+    mapped.environment_map = linear_sky(1.0f, 0.5f);
+    SceneDescription sunny = plain;
+    sunny.sun = {.direction = {0, 1, -1}, .radiance = glm::vec3(1.0f), .angle_deg = 60.0f};
+    SceneDescription lens = plain;
+    lens.camera.aperture_radius = 5.0f;
+    for (const SceneDescription& changed :
+         {painted, mapped, sunny, with_lattices(plain, glm::vec3(0.0f), glm::vec3(500.0f))})
+        CHECK_FALSE(same_film(expected, render(changed, settings, {.threads = 2})));
+    CHECK_FALSE(same_film(expected, render(plain, small_settings(lens, {MethodId::Default, true}), {.threads = 2})));
+}
+
+TEST_CASE("Forcing every effect on changes no bit, and a lens without an aperture is a pinhole") {
+    const SceneDescription scene = shipped_scene("cornell");
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        RenderSettings settings = small_settings(scene, estimator);
+        const State expected = render(scene, settings, {.threads = 2});
+        settings.forced_effects = kEveryFeature;
+        settings.camera.focus_distance = 3.0f;
+        CHECK(same_state(expected, render(scene, settings, {.threads = 2})));
+    }
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/kernel/fields/field_view.h"
-#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/holes.h"
 #include "core/kernel/integrator/steps.h"
 #include "core/kernel/methods/default.h"
 
@@ -49,16 +49,36 @@ PL_HD inline Vec3f shown_volume(View view, const ShownField& shown, std::int32_t
     return is_heat_map(view) ? Vec3f{shown.volume_values[number]} : color_of_id(number);
 }
 
+/// The first surface that a pixel sees.
+struct FirstSurface {
+    SurfacePoint point;
+    Vec3f weights{0.0f};  ///< barycentric
+    Vec3f wo{0.0f};       ///< towards the camera
+    float distance = 0.0f;
+};
+
 /// The classic ray tracer: emission plus one shadow ray, no light from other surfaces.
 template <FeatureSet F, Intersector I>
-PL_HD inline Vec3f direct_radiance(const SceneView& scene, const I& intersector, const SurfacePoint& surface,
-                                   Vec3f wo, const Rng& rng) {
-    const Vec3f emitted = emitted_radiance(scene.materials[surface.material], surface.front);
+PL_HD inline Vec3f direct_radiance(const SceneView& scene, const I& intersector, const FirstSurface& surface,
+                                   const Rng& rng) {
+    const Vec3f emitted = emitted_at<F>(scene, surface.point, surface.weights);
     const Vec4f u = rng.draw(0, Purpose::Light);
-    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, wo);
-    const DirectLight sample = sample_direct_light(scene, surface, bsdf, {u.x, u.y, u.z});
-    if (!(sample.pdf_sa > 0.0f) || intersector.occluded(spawn_shadow_ray(surface, sample.light))) return emitted;
-    return emitted + bsdf.eval(surface, sample.wi, sample.cos_i) * sample.emitted * (1.0f / sample.pdf_sa);
+    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface.point, surface.weights, surface.wo);
+    const DirectLight sample = sample_direct_light<F>(scene, surface.point, bsdf, {u.x, u.y, u.z}, u.w);
+    if (!(sample.pdf_sa > 0.0f) || is_blocked<F>(scene, intersector, shadow_ray_to<F>(surface.point, sample)))
+        return emitted;
+    return emitted + bsdf.eval(surface.point, sample.wi, sample.cos_i) * sample.emitted * (1.0f / sample.pdf_sa);
+}
+
+/// What the camera sees where there is no surface.
+template <FeatureSet F>
+PL_HD inline Vec3f background(const SceneView& scene, Vec3f direction) {
+    Vec3f radiance{0.0f};
+    if constexpr (F.has(Feature::Environment)) radiance = scene.environment;
+    if constexpr (F.has(Feature::EnvironmentMap)) {
+        if (!scene.far_lights.empty()) radiance += far_radiance(scene.far_lights, direction);
+    }
+    return radiance;
 }
 
 /// Learned mean radiance around a point: the nearest volumes, blended with weights that fall to zero at the
@@ -83,25 +103,25 @@ PL_HD inline float interpolated_mean_radiance(const FieldView& field, const Surf
 /// numbers as they are, three times the same.
 template <FeatureSet F, Intersector I>
 PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& intersector, const ShownField& shown,
-                                const SurfacePoint& surface, Vec3f wo, float distance, const Rng& rng) {
-    const Material& material = scene.materials[surface.material];
+                                const FirstSurface& surface, const Rng& rng) {
     switch (view) {
     case View::Beauty: return Vec3f{0.0f};
-    case View::Direct: return direct_radiance<F>(scene, intersector, surface, wo, rng);
+    case View::Direct: return direct_radiance<F>(scene, intersector, surface, rng);
     case View::RadianceMap: {
-        const Vec3f emitted = emitted_radiance(material, surface.front);
-        return emitted + material.albedo * interpolated_mean_radiance(shown.field, surface);
+        return emitted_at<F>(scene, surface.point, surface.weights) +
+               albedo_at<F>(scene, surface.point, surface.weights) *
+                   interpolated_mean_radiance(shown.field, surface.point);
     }
-    case View::Normal: return 0.5f * (surface.shading_normal + Vec3f{1.0f});
-    case View::Albedo: return material.albedo;
-    case View::Depth: return Vec3f{distance};
+    case View::Normal: return 0.5f * (surface.point.shading_normal + Vec3f{1.0f});
+    case View::Albedo: return albedo_at<F>(scene, surface.point, surface.weights);
+    case View::Depth: return Vec3f{surface.distance};
     case View::Voronoi:
     case View::Visits:
     case View::Irradiance:
     case View::Entropy:
     case View::BsdfShare:
     case View::Change:
-    case View::Unvisited: return shown_volume(view, shown, shown.field.volume_at(surface));
+    case View::Unvisited: return shown_volume(view, shown, shown.field.volume_at(surface.point));
     }
     return Vec3f{0.0f};
 }
@@ -112,11 +132,11 @@ PL_HD inline Vec3f sample_view(View view, const SceneView& scene, const I& inter
                                const PinholeCamera& camera, const PathSettings& settings, std::uint32_t width,
                                std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
     const auto state = begin_path<F, DefaultMethod>(camera, settings, width, height, pixel, sample);
-    const Hit hit = intersector.closest_hit(state.ray);
-    if (!hit.found()) return view == View::Direct && F.has(Feature::Environment) ? scene.environment : Vec3f{0.0f};
-    const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
-    return surface_view<F>(view, scene, intersector, shown, surface, -state.ray.direction, hit.t,
-                           path_rng(settings, pixel, sample));
+    const Hit hit = closest_solid_hit<F>(scene, intersector, state.ray);
+    if (!hit.found()) return view == View::Direct ? background<F>(scene, state.ray.direction) : Vec3f{0.0f};
+    const Vec3f wo = -state.ray.direction;
+    const FirstSurface surface{make_surface_point<F>(scene, hit, wo), hit_weights(hit), wo, hit.t};
+    return surface_view<F>(view, scene, intersector, shown, surface, path_rng(settings, pixel, sample));
 }
 
 }  // namespace pl

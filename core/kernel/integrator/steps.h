@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/kernel/integrator/departure.h"
+#include "core/kernel/integrator/environment.h"
 #include "core/kernel/scene/camera.h"
 #include "core/kernel/shading/lights.h"
 
@@ -40,6 +41,9 @@ PL_HD inline PathState<F, M> begin_path(const PinholeCamera& camera, std::uint32
     const Vec2f film{static_cast<float>(pixel % width) + u.x, static_cast<float>(pixel / width) + u.y};
     PathState<F, M> state;
     state.ray = generate_ray(camera, film, {static_cast<float>(width), static_cast<float>(height)});
+    if constexpr (F.has(Feature::ThinLens)) {
+        if (camera.aperture_radius > 0.0f) state.ray = through_lens(camera, state.ray, {u.z, u.w});
+    }
     state.pixel = pixel;
     state.sample = sample;
     return state;
@@ -72,11 +76,11 @@ PL_HD inline float add_emission(const SceneView& scene, const PathSettings& sett
 template <FeatureSet F, Method M>
 PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, const Departure<F, M>& from, Vec4f u,
                                      PathState<F, M>& state, ShadowRequest& shadow) {
-    const DirectLight sample = sample_direct_light(scene, from.surface, from.bsdf, {u.x, u.y, u.z});
+    const DirectLight sample = sample_direct_light<F>(scene, from.surface, from.bsdf, {u.x, u.y, u.z}, u.w);
     if (!(sample.pdf_sa > 0.0f)) return;
     const float weight = balance_weight(sample.pdf_sa, departure_pdf_sa(method, from, sample.wi));
     const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
-    shadow.ray = spawn_shadow_ray(from.surface, sample.light);
+    shadow.ray = shadow_ray_to<F>(from.surface, sample);
     shadow.contribution = state.throughput * reflectance * sample.emitted * (weight / sample.pdf_sa);
     shadow.wanted = true;
     if constexpr (FollowingMethod<M>) {
@@ -144,17 +148,16 @@ PL_HD inline PathStatus arrive(const SceneView& scene, const M& method, const Pa
     ++counters.segments;
     if (!hit.found()) {
         ++counters.escaped;
-        Vec3f environment{0.0f};
-        if constexpr (F.has(Feature::Environment)) environment = scene.environment;
-        state.radiance += state.throughput * environment;
-        record = method.learn(state.memory, seen_from_last_vertex(state, {.emitted = environment}),
+        const FarArrival far = add_environment(scene, settings, state);
+        record = method.learn(state.memory,
+                              seen_from_last_vertex(state, {.emitted = far.radiance, .light_share = far.share}),
                               typename M::Vertex{}, counters.method);
         return PathStatus::Finished;
     }
     const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
-    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, -state.ray.direction);
+    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, hit_weights(hit), -state.ray.direction);
     const Vec3f albedo = bsdf.albedo();
-    const Vec3f emitted = emitted_radiance(scene.materials[surface.material], surface.front);
+    const Vec3f emitted = emitted_at<F>(scene, surface, hit_weights(hit));
     float light_share = 1.0f;
     if (!is_black(emitted)) light_share = add_emission(scene, settings, surface, emitted, state);
 

@@ -1,7 +1,7 @@
 // The main loop: one path from its first segment to its end.
 #pragma once
 
-#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/holes.h"
 #include "core/kernel/integrator/steps.h"
 
 namespace pl {
@@ -10,14 +10,14 @@ namespace pl {
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline PathStatus trace_segment(const SceneView& scene, const I& intersector, const M& method,
                                       const PathSettings& settings, PathState<F, M>& state, PathCounters& counters) {
-    const Hit hit = intersector.closest_hit(state.ray);
+    const Hit hit = closest_solid_hit<F>(scene, intersector, state.ray);
     const VertexNumbers numbers = draw_vertex_numbers<F>(settings, state);
     ShadowRequest shadow;
     const PathStatus status = extend_path<F>(scene, method, settings, hit, numbers, state, shadow, counters);
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (shadow.wanted) {
             ++counters.shadow_rays;
-            if (!intersector.occluded(shadow.ray)) connect_light(method, shadow, state, counters);
+            if (!is_blocked<F>(scene, intersector, shadow.ray)) connect_light(method, shadow, state, counters);
         }
     }
     if (status == PathStatus::Finished) end_path(method, state, counters);

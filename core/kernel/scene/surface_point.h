@@ -17,6 +17,9 @@ struct SurfacePoint {
     bool front = true;  ///< the viewer is on the triangle's front side
 };
 
+/// Barycentric weights (b0, b1, b2).
+PL_HD inline Vec3f hit_weights(const Hit& hit) { return {1.0f - hit.b1 - hit.b2, hit.b1, hit.b2}; }
+
 /// Barycentric weights (b0, b1, b2), kept away from the edges.
 PL_HD inline Vec3f inner_barycentrics(const Hit& hit, float margin) {
     const Vec3f b{max_of(1.0f - hit.b1 - hit.b2, margin), max_of(hit.b1, margin), max_of(hit.b2, margin)};
@@ -75,7 +78,7 @@ template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
     return make_surface_point<F>(scene, hit.primitive,
                                  inner_barycentrics(hit, scene.planes[hit.primitive].edge_margin),
-                                 {1.0f - hit.b1 - hit.b2, hit.b1, hit.b2}, wo);
+                                 hit_weights(hit), wo);
 }
 
 /// Moves `coordinate` by `offset` and then one float further in the same direction.

@@ -47,6 +47,7 @@ struct Textures {
     Span<const Image> images;
     Span<const Texel> texels;
     Span<const MaterialImages> of_material;  ///< [material]
+    std::uint32_t has_holes = 0;             ///< 1: a material has an opacity image
 };
 
 /// Image coordinates at barycentric weights of a triangle.

@@ -7,6 +7,7 @@
 #include "core/kernel/shading/dielectric.h"
 #include "core/kernel/shading/lambert.h"
 #include "core/kernel/shading/plastic.h"
+#include "core/kernel/shading/textured.h"
 
 namespace pl {
 
@@ -163,13 +164,13 @@ private:
 template <FeatureSet F>
 using Bsdf = std::conditional_t<F.has_any(kLobeFeatures), LayeredBsdf, LambertBsdf>;
 
-/// The BSDF of a surface that is seen from wo.
+/// The BSDF of a surface that is seen from wo. `b`: barycentric weights of the point.
 template <FeatureSet F>
-PL_HD inline Bsdf<F> make_bsdf(const SceneView& scene, const SurfacePoint& surface, Vec3f wo) {
-    const Vec3f albedo = scene.materials[surface.material].albedo;
+PL_HD inline Bsdf<F> make_bsdf(const SceneView& scene, const SurfacePoint& surface, Vec3f b, Vec3f wo) {
+    const Vec3f albedo = albedo_at<F>(scene, surface, b);
     if constexpr (F.has_any(kLobeFeatures)) {
         if (scene.lobes.empty()) return {surface, wo, albedo, SurfaceLobes{}, {}};
-        return {surface, wo, albedo, scene.lobes[surface.material], scene.directional_albedo};
+        return {surface, wo, albedo, lobes_at<F>(scene, surface, b), scene.directional_albedo};
     } else {
         return {albedo};
     }

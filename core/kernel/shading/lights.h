@@ -34,11 +34,16 @@ PL_HD inline std::uint32_t choose_light(const SceneView& scene, float u) {
     return low;
 }
 
+/// Barycentric weights of a uniform point; u in [0,1)^2.
+PL_HD inline Vec3f sample_weights(Vec2f u) {
+    const Vec2f b = square_to_triangle(u);
+    return {1.0f - b.x - b.y, b.x, b.y};
+}
+
 /// A point on a light as seen from `from`; u in [0,1)^3. The scene must have lights.
 PL_HD inline SurfacePoint sample_light(const SceneView& scene, Vec3f from, Vec3f u) {
     const std::uint32_t primitive = scene.lights[choose_light(scene, u.x)].primitive;
-    const Vec2f b = square_to_triangle({u.y, u.z});
-    const Vec3f weights{1.0f - b.x - b.y, b.x, b.y};
+    const Vec3f weights = sample_weights({u.y, u.z});
     SurfacePoint point = make_surface_point<FeatureSet{}>(scene, primitive, weights, Vec3f{0.0f});
     if (glm::dot(point.geometric_normal, from - point.position) < 0.0f) {
         point.geometric_normal = -point.geometric_normal;
@@ -49,17 +54,42 @@ PL_HD inline SurfacePoint sample_light(const SceneView& scene, Vec3f from, Vec3f
 
 /// A light sample seen from a surface that could reflect it.
 struct DirectLight {
-    SurfacePoint light;
+    SurfacePoint light;   ///< without a primitive: it is infinitely far away
     Vec3f wi{0.0f};       ///< unit, from the surface to the light
     Vec3f emitted{0.0f};  ///< radiance of the light towards the surface
     float cos_i = 0.0f;
     float pdf_sa = 0.0f;  ///< 0: this sample cannot contribute, whatever is in between
 };
 
-/// Samples a light for a surface; u in [0,1)^3. No visibility: the caller traces the shadow ray.
+/// Radiance towards the surface from a point of a light, whose barycentric weights are `b`; none from a hole in it.
+template <FeatureSet F>
+PL_HD inline Vec3f light_emitted(const SceneView& scene, const SurfacePoint& light, Vec3f b) {
+    return is_hole_at<F>(scene, light.primitive, b) ? Vec3f{0.0f} : emitted_at<F>(scene, light, b);
+}
+
+/// Density of choosing a direction because far lights shine from there.
+PL_HD inline float far_light_pdf_sa(const SceneView& scene, Vec3f wi) {
+    return scene.far_probability * far_pdf_sa(scene.far_lights, wi);
+}
+
 template <class B>
+PL_HD inline DirectLight sample_far_light(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
+                                          Vec3f u) {
+    const FarSample far = sample_far(scene.far_lights, {u.x, u.y}, u.z);
+    DirectLight sample{.light = {}, .wi = far.wi, .emitted = far.radiance};
+    sample.cos_i = bsdf.cosine(surface, far.wi);
+    if (sample.cos_i > 0.0f && !is_black(sample.emitted)) sample.pdf_sa = scene.far_probability * far.pdf_sa;
+    return sample;
+}
+
+/// Samples a light for a surface; u in [0,1)^3, `choice` in [0, 1) takes far lights or surfaces that emit. No
+/// visibility: the caller traces the shadow ray.
+template <FeatureSet F = FeatureSet{}, class B>
 PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
-                                             Vec3f u) {
+                                             Vec3f u, [[maybe_unused]] float choice = 0.0f) {
+    if constexpr (F.has(Feature::EnvironmentMap)) {
+        if (choice < scene.far_probability) return sample_far_light(scene, surface, bsdf, u);
+    }
     if (scene.lights.empty()) return {};
     DirectLight sample{.light = sample_light(scene, surface.position, u)};
     const Vec3f segment = sample.light.position - surface.position;
@@ -67,10 +97,19 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
     if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};
     sample.wi = segment * (1.0f / std::sqrt(distance2));
     sample.cos_i = bsdf.cosine(surface, sample.wi);
-    sample.emitted = emitted_radiance(scene.materials[sample.light.material], sample.light.front);
+    sample.emitted = light_emitted<F>(scene, sample.light, sample_weights({u.y, u.z}));
     if (sample.cos_i > 0.0f && !is_black(sample.emitted))
         sample.pdf_sa = light_pdf_sa(scene, surface.position, sample.light, sample.wi);
     return sample;
+}
+
+/// What must be free for the sample to count.
+template <FeatureSet F>
+PL_HD inline Ray shadow_ray_to(const SurfacePoint& surface, const DirectLight& sample) {
+    if constexpr (F.has(Feature::EnvironmentMap)) {
+        if (sample.light.primitive == kNoPrimitive) return spawn_ray(surface, sample.wi);
+    }
+    return spawn_shadow_ray(surface, sample.light);
 }
 
 /// Balance heuristic for two strategies that draw one sample each; pdfs in the same measure, own pdf first.

@@ -1,0 +1,83 @@
+// A material's numbers at one point of a surface, where images change them. `b` are the barycentric weights of the
+// point.
+#pragma once
+
+#include "core/kernel/base/features.h"
+#include "core/kernel/scene/surface_point.h"
+
+namespace pl {
+
+/// A roughness image never makes a surface a mirror: that is another lobe.
+inline constexpr float kLeastTexturedRoughness = 0.03f;
+
+PL_HD inline Vec3f color_of(Vec4f texel) { return {texel.x, texel.y, texel.z}; }
+
+/// Image that multiplies reflectances there; white where there is none.
+template <FeatureSet F>
+PL_HD inline Vec3f tint_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
+    if constexpr (F.has(Feature::Textures)) {
+        if (!scene.textures.of_material.empty()) {
+            const std::uint32_t image = scene.textures.of_material[surface.material].albedo;
+            if (image != kNoImage) {
+                const Vec2f uv = uv_at(scene.textures, surface.primitive, b);
+                return glm::min(color_of(sample_image(scene.textures, image, uv)), Vec3f{1.0f});
+            }
+        }
+    }
+    return Vec3f{1.0f};
+}
+
+/// Hemispherical reflectance of what is diffuse, or guided.
+template <FeatureSet F>
+PL_HD inline Vec3f albedo_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
+    const Vec3f albedo = scene.materials[surface.material].albedo;
+    if constexpr (F.has(Feature::Textures)) return albedo * tint_at<F>(scene, surface, b);
+    return albedo;
+}
+
+/// What the surface does besides; the scene has lobes.
+template <FeatureSet F>
+PL_HD inline SurfaceLobes lobes_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
+    SurfaceLobes lobes = scene.lobes[surface.material];
+    if constexpr (F.has(Feature::Textures)) {
+        if (lobes.kind == SurfaceKind::Conductor) lobes.specular *= tint_at<F>(scene, surface, b);
+        if (!scene.textures.of_material.empty()) {
+            const std::uint32_t image = scene.textures.of_material[surface.material].roughness;
+            if (image != kNoImage) {
+                const Vec2f uv = uv_at(scene.textures, surface.primitive, b);
+                const float share = sample_image(scene.textures, image, uv).x;
+                lobes.roughness = clamp_to(lobes.roughness * share, kLeastTexturedRoughness, 1.0f);
+            }
+        }
+    }
+    return lobes;
+}
+
+/// Radiance that the surface emits towards its viewer.
+template <FeatureSet F>
+PL_HD inline Vec3f emitted_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
+    const Vec3f emitted = emitted_radiance(scene.materials[surface.material], surface.front);
+    if constexpr (F.has(Feature::Textures)) {
+        if (!scene.textures.of_material.empty() && !is_black(emitted)) {
+            const MaterialImages& images = scene.textures.of_material[surface.material];
+            if (images.emission != kNoImage) {
+                const Vec2f uv = uv_at(scene.textures, surface.primitive, b);
+                return emitted *
+                       (images.emission_scale * color_of(sample_image(scene.textures, images.emission, uv)));
+            }
+        }
+    }
+    return emitted;
+}
+
+/// Whether there is nothing at the point.
+template <FeatureSet F>
+PL_HD inline bool is_hole_at(const SceneView& scene, std::uint32_t primitive, Vec3f b) {
+    if constexpr (F.has(Feature::CutOuts)) {
+        if (scene.textures.has_holes != 0)
+            return is_hole(scene.textures, scene.triangles[primitive].material, primitive, b);
+    }
+    return false;
+}
+
+}  // namespace pl

@@ -1,0 +1,68 @@
+// Closest hits of batches of rays that are no holes: rays that met one go on in a batch of their own.
+#pragma once
+
+#include <vector>
+
+#include "core/kernel/integrator/holes.h"
+#include "cpu/ray_batch.h"
+
+namespace pl {
+
+/// Gives every ray the bits that closest_solid_hit() gives it alone. Memory of its own only where the scene has holes.
+template <FeatureSet F, BatchIntersector I>
+class SolidHits {
+public:
+    SolidHits(const SceneView& scene, const I& intersector, std::uint32_t capacity)
+        : scene_(scene), intersector_(intersector), rest_(wanted(scene) ? capacity : 0),
+          waiting_(wanted(scene) ? capacity : 0) {}
+
+    /// Whether occlusion is a question of solid hits.
+    static bool wanted(const SceneView& scene) { return F.has(Feature::CutOuts) && scene.textures.has_holes != 0; }
+
+    void find_closest(RayBatch& batch, std::uint32_t count) {
+        intersector_.find_closest(batch, count);
+        if constexpr (F.has(Feature::CutOuts)) {
+            if (wanted(scene_)) pass_holes(batch, count);
+        }
+    }
+
+private:
+    struct Waiting {
+        std::uint32_t index;
+        float passed;
+    };
+
+    void pass_holes(RayBatch& batch, std::uint32_t count) {
+        std::uint32_t waiting = 0;
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (meets_hole<F>(scene_, batch.hit(i))) send_on(waiting++, batch.ray(i), batch.hit(i), {i, 0.0f});
+        for (int holes = 1; waiting > 0; ++holes) {
+            intersector_.find_closest(rest_, waiting);
+            const std::uint32_t asked = waiting;
+            waiting = 0;
+            for (std::uint32_t i = 0; i < asked; ++i) {
+                const Waiting from = waiting_[i];
+                Hit hit = rest_.hit(i);
+                if (holes < kMostHoles && meets_hole<F>(scene_, hit)) {
+                    send_on(waiting++, rest_.ray(i), hit, from);
+                } else {
+                    if (from.passed > 0.0f) hit.t += from.passed;
+                    batch.set_hit(from.index, hit);
+                }
+            }
+        }
+    }
+
+    /// Puts what is left of a ray into a place that is not needed any more.
+    void send_on(std::uint32_t place, const Ray& ray, const Hit& hit, Waiting from) {
+        rest_.set_ray(place, ray_behind(scene_, ray, hit));
+        waiting_[place] = {from.index, from.passed + hit.t};
+    }
+
+    const SceneView& scene_;
+    const I& intersector_;
+    RayBatch rest_;
+    std::vector<Waiting> waiting_;
+};
+
+}  // namespace pl

@@ -1,0 +1,81 @@
+// Rays through holes: batches give the bits that single rays get, whichever intersector serves, and the right answers.
+#include "cpu/solid_hits.h"
+
+#include "core/scene/pack_scene.h"
+#include "cpu/batch_tracer.h"
+#include "cpu/cpu_backend.h"
+#include "tests/catch.hpp"
+#include "tests/cpu/random_rays.h"
+#include "tests/statistical/image_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+/// Many sheets with holes behind each other.
+HostScene sheets() {
+    SceneDescription scene = box_scene({});
+    for (int i = 0; i < 4; ++i)
+        scene = with_lattices(std::move(scene), Vec3f{-1.0f + 0.1f * static_cast<float>(i)}, Vec3f{1.0f});
+    return pack_scene(scene);
+}
+
+}  // namespace
+
+TEST_CASE("Batches of rays through holes have the bits of single rays, by every intersector") {
+    const HostScene packed = sheets();
+    const SceneView scene = packed.view();
+    REQUIRE(scene.textures.has_holes == 1);
+    const BvhIntersector single{scene};
+    const std::vector<Ray> rays = random_rays(scene, 20000, 1);
+    const auto count = static_cast<std::uint32_t>(rays.size());
+    for (const IntersectorChoice choice :
+         {IntersectorChoice::Bvh, IntersectorChoice::Dense, IntersectorChoice::Auto}) {
+        const BatchTracer tracer(scene, choice, 1);
+        INFO(tracer.name());
+        SolidHits<kEveryFeature, BatchTracer> solid(scene, tracer, count);
+        RayBatch batch(count);
+        for (std::uint32_t i = 0; i < count; ++i) batch.set_ray(i, rays[i]);
+        solid.find_closest(batch, count);
+        int through = 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Hit expected = closest_solid_hit<kEveryFeature>(scene, single, rays[i]);
+            REQUIRE(same_bits(batch.hit(i), expected));
+            REQUIRE(is_blocked<kEveryFeature>(scene, single, rays[i]) == expected.found());
+            if (expected.found()) REQUIRE_FALSE(meets_hole<kEveryFeature>(scene, expected));
+            through += same_bits(expected, single.closest_hit(rays[i])) ? 0 : 1;
+        }
+        CHECK(through > 1000);
+    }
+}
+
+TEST_CASE("A set without cut-outs asks for no more than the closest hits") {
+    const HostScene packed = sheets();
+    const SceneView scene = packed.view();
+    const BvhIntersector single{scene};
+    for (const Ray& ray : random_rays(scene, 1000, 2))
+        REQUIRE(same_bits(closest_solid_hit<FeatureSet{}>(scene, single, ray), single.closest_hit(ray)));
+}
+
+// Distances go on behind holes, and segments end where they ended.
+TEST_CASE("What is behind a hole has its true distance, and what is behind the end of a segment is not met") {
+    SceneDescription description;
+    description.materials = {gray(), gray()};
+    description.materials[1].textures.opacity = 0;
+    description.textures.push_back({.width = 1, .height = 1, .texels = {glm::vec4(0.0f)}});
+    for (const float z : {1.0f, 2.0f, 3.0f})
+        add_triangle(description, Vec3f{-9, -9, z}, Vec3f{9, -9, z}, Vec3f{0, 9, z}, z < 3.0f ? 1u : 0u);
+    const HostScene packed = pack_scene(description);
+    const BvhIntersector single{packed.view()};
+    const Ray unit{.origin = {0, 0, 0}, .direction = {0, 0, 1}};
+    const Hit hit = closest_solid_hit<kEveryFeature>(packed.view(), single, unit);
+    CHECK(hit.primitive == 2);
+    CHECK(hit.t == Approx(3.0f));
+    const Ray before{.origin = {0, 0, 0}, .direction = {0, 0, 2.9f}, .t_max = 1.0f};
+    const Ray beyond{.origin = {0, 0, 0}, .direction = {0, 0, 3.1f}, .t_max = 1.0f};
+    CHECK_FALSE(is_blocked<kEveryFeature>(packed.view(), single, before));
+    CHECK(is_blocked<kEveryFeature>(packed.view(), single, beyond));
+    const Ray half{.origin = {0, 0, 0}, .direction = {0, 0, 1}, .t_max = 2.5f};
+    CHECK_FALSE(is_blocked<kEveryFeature>(packed.view(), single, half));
+}

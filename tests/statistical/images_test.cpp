@@ -1,0 +1,124 @@
+// Textures, holes, light from far away and the lens in whole pictures: scenes whose radiance is known.
+#include "tests/catch.hpp"
+#include "tests/statistical/film_samples.h"
+#include "tests/statistical/image_scenes.h"
+#include "tests/statistical/sessions.h"
+#include "tests/statistical/shipped_scenes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr std::uint32_t kNever = 1000;
+
+SceneDescription painted_furnace() { return painted_equilibrium(furnace_scene(0.5f, 0.5f)); }
+SceneDescription latticed_furnace() {
+    return with_lattices(painted_furnace(), {-1.0f, -0.75f, -1.5f}, {1.0f, 0.75f, 1.5f});
+}
+
+/// S1 on the mean of the picture over all channels, from batches of passes.
+Decision shows(const SceneDescription& scene, Estimator estimator, double expected, double delta,
+               std::uint32_t passes = 8) {
+    Session session = make_session(scene, quick_learner(scene, estimator, 16, 3));
+    Moments moments;
+    double before = 0.0;
+    for (int batch = 0; batch < 64; ++batch) {
+        render_passes(session, passes);
+        double after = 0.0;
+        for (const Vec3d& sum : film_sums(session)) after += (sum.x + sum.y + sum.z) / (3.0 * 256.0);
+        moments.add((after - before) / passes);
+        before = after;
+    }
+    CHECK(session.snapshot().counters.invalid_samples == 0);
+    return mean_equals(moments, {expected, 2e-4 * expected}, delta);
+}
+
+}  // namespace
+
+// Whatever a path meets, what is emitted and what is reflected add up to 1: no sampling error but that of the cut after 64
+// vertices. A path brings 1 minus the product of the albedos it met.
+TEST_CASE("Painted rooms in equilibrium show 1 in every pixel of every path, through lattices and a lens too") {
+    SceneDescription lens = latticed_furnace();
+    lens.camera.aperture_radius = 0.1f;
+    for (const SceneDescription& scene :
+         {painted_furnace(), latticed_furnace(), lens, painted_equilibrium(shipped_scene("door"))}) {
+        const FilmSamples samples = sample_film(scene, {128, 128}, {.max_depth = 64, .roulette_start = kNever});
+        const float tolerance = 64 * 12 * kRoundoff + std::pow(46.0f / 64.0f, 64.0f);
+        std::uint64_t wrong = 0;
+        for (const Vec3f& value : samples.values)
+            for (int channel = 0; channel < 3; ++channel)
+                wrong += std::fabs(value[channel] - 1.0f) <= tolerance ? 0 : 1;
+        INFO(scene.name);
+        CHECK(wrong <= 3 * samples.counters.path.zero_directions);
+        CHECK(samples.counters.path.zero_directions <= 2);
+        CHECK(samples.counters.path.escaped == 0);
+    }
+}
+
+// S1: seed 3, 64 batches; lights are chosen by the mean of their images and met through holes. Resolves 2 %.
+TEST_CASE("Painted rooms with lattices show 1 by every method, with light samples and without") {
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        CHECK(shows(latticed_furnace(), estimator, 1.0, 0.02));
+    }
+}
+
+// The plane reflects a + 2 b / 3 of a sky a + b y. S1 as above.
+TEST_CASE("A plane under a linear sky shows its closed form by every method") {
+    SceneDescription scene = plane_scene(0.5f);
+    scene.environment_map = linear_sky(1.0f, 0.9f);
+    scene.environment_map.rotation_deg = 123.0f;
+    scene.environment = glm::vec3(0.25f);
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        CHECK(shows(scene, estimator, 0.5 * (0.25 + 1.0 + 0.6), 0.02));
+    }
+}
+
+// A cone of half angle 30 degrees around 45 degrees: irradiance pi sin(30)^2 cos(45) L. Light samples alone find it well.
+TEST_CASE("A plane under a large sun shows its closed form by every method") {
+    SceneDescription scene = plane_scene(0.5f);
+    scene.sun = {.direction = {1, 1, 0}, .radiance = glm::vec3(4.0f), .angle_deg = 60.0f};
+    const double expected = 0.5 * 4.0 * 0.25 * std::sqrt(0.5);
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        CHECK(shows(scene, estimator, expected, 0.05, 24));
+    }
+}
+
+// What each light brings alone adds up: the shares of samples among map, sun and surfaces are weighed rightly. A lamp of
+// side 1 at height 1 in the middle of a sky that it hides a part of; S1 against the sum of closed forms would need the
+// hidden part, so it is black and the sky behind it counted out: with light samples and without must agree.
+TEST_CASE("Map, sun and a lamp together are the same with light samples and without") {
+    SceneDescription scene = plane_scene(0.5f);
+    scene.materials.push_back(gray(0.0f));
+    scene.materials[1].emission = glm::vec3(3.0f);
+    add_triangle(scene, Vec3f{-0.5f, 1.5f, -0.5f}, Vec3f{0.5f, 1.5f, -0.5f}, Vec3f{0.0f, 1.5f, 0.7f}, 1);
+    scene.environment_map = linear_sky(1.0f, 0.9f);
+    scene.sun = {.direction = {1, 1, 0}, .radiance = glm::vec3(10.0f), .angle_deg = 30.0f};
+    const auto picture_of = [&](Estimator estimator, std::uint64_t seed) {
+        Session session = make_session(scene, quick_learner(scene, estimator, 32, seed));
+        Picture picture(32, 32);
+        render_batches(session, picture, 64, 16);
+        return picture;
+    };
+    const Picture expected = picture_of({MethodId::Default, true}, 2);
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        CHECK(same_picture(picture_of(estimator, 1), expected, 0.05));
+    }
+}
+
+// The view of direct light takes one light sample of all kinds, and sees the sky.
+TEST_CASE("The direct view of a plane under a linear sky shows its closed form") {
+    SceneDescription scene = plane_scene(0.5f);
+    scene.environment_map = linear_sky(1.0f, 0.9f);
+    RenderSettings settings = settings_for(scene, {}, 16, 16);
+    settings.view = View::Direct;
+    Session session = make_session(scene, settings);
+    render_passes(session, 1024);
+    Moments moments;
+    for (const Vec3f& pixel : session.snapshot().pixels) moments.add(static_cast<double>(pixel.x));
+    CHECK(mean_equals(moments, {0.8, 2e-4}, 0.02));
+}
