@@ -45,7 +45,7 @@ class Scene:
         self.materials = materials
         self.json = {"schema": "pathlight.scene/1", "name": title, "obj": f"{name}.obj",
                      "camera": dict(zip(("eye", "target", "up", "fov_deg"), camera)), **more}
-        self.lines, self.vertices, self.triangles = [], 0, 0
+        self.lines, self.vertices, self.normals, self.triangles = [], 0, 0, 0
         self.transform = lambda p: p
 
     def group(self, name, comment=None):
@@ -86,6 +86,28 @@ class Scene:
         self.mesh(points, [(material, corners) for corners in sides] +
                   [(material, tuple(range(n, 2 * n))), (material, tuple(reversed(range(n))))])
 
+    def sphere(self, center, radius, material, rows, columns):
+        """From rings of corners, with normals of the true sphere; the poles are up and down."""
+        directions = [(0, 1, 0)]
+        for i in range(1, rows):
+            up, out = math.cos(math.pi * i / rows), math.sin(math.pi * i / rows)
+            directions += [(out * math.sin(2 * math.pi * k / columns), up, out * math.cos(2 * math.pi * k / columns))
+                           for k in range(columns)]
+        directions.append((0, -1, 0))
+        ring = [[1 + i * columns + k % columns for k in range(columns + 1)] for i in range(rows - 1)]
+        last = len(directions) - 1
+        faces = [(0, ring[0][k], ring[0][k + 1]) for k in range(columns)]
+        faces += [(a[k], b[k], b[k + 1], a[k + 1]) for a, b in zip(ring, ring[1:]) for k in range(columns)]
+        faces += [(ring[-1][k], last, ring[-1][k + 1]) for k in range(columns)]
+        for d in directions:
+            self.lines.append("v " + " ".join(number(c + radius * x) for c, x in zip(center, d)))
+        self.lines += ["vn " + " ".join(number(x) for x in d) for d in directions] + [f"usemtl {material}"]
+        for corners in faces:
+            self.lines.append("f " + " ".join(f"{self.vertices + i + 1}//{self.normals + i + 1}" for i in corners))
+            self.triangles += len(corners) - 2
+        self.vertices += len(directions)
+        self.normals += len(directions)
+
     def knob(self, name, default, range_, does, **motions):
         self.json.setdefault("knobs", {})[name] = {"default": default, "range": range_, "does": does, **motions}
 
@@ -93,12 +115,13 @@ class Scene:
         head = [f"# {line}" for line in self.about.split("\n")]
         obj = head + [f"# Unit: {self.unit}, +y up. Written by make_scenes.py.", f"mtllib {self.name}.mtl"] + self.lines
         mtl = []
-        for name, (albedo, emission) in self.materials.items():
+        for name, (albedo, emission, *more) in self.materials.items():
             albedo = albedo if isinstance(albedo, tuple) else (albedo,) * 3
             mtl += [f"newmtl {name}", "Kd " + " ".join(number(x) for x in albedo)]
             if emission:
                 emission = emission if isinstance(emission, tuple) else (emission,) * 3
                 mtl.append("Ke " + " ".join(number(x) for x in emission))
+            mtl += more
             mtl.append("")
         text = json.dumps(self.json, indent=2)
         text = re.sub(r"\[[^][{}]*\]", lambda array: re.sub(r"\s+", " ", array[0]).replace("[ ", "[").replace(" ]", "]"),
@@ -432,7 +455,81 @@ def ceiling():
     return s
 
 
-SCENES = (shelter, pillars, indirect, labyrinth, thin_wall, two_lights, boxed_lights, staircase, open_box, sky, ceiling)
+def cornell_room(s):
+    """The walls of the measured Cornell box without its blocks, and its light."""
+    s.group("box", "right and left as seen by the camera, which looks along +z")
+    s.mesh([(552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2), (556, 548.8, 0), (556, 548.8, 559.2),
+            (0, 548.8, 559.2), (0, 548.8, 0)],
+           [("white", (0, 1, 2, 3)), ("white", (4, 5, 6, 7)), ("white", (3, 2, 6, 5)), ("green", (2, 1, 7, 6)),
+            ("red", (0, 3, 5)), ("red", (0, 5, 4))])
+    s.group("light")
+    s.quad([(343, 548.3, 227), (343, 548.3, 332), (213, 548.3, 332), (213, 548.3, 227)], "light")
+
+
+CORNELL = {"white": ((0.725, 0.71, 0.68), None), "red": ((0.63, 0.065, 0.05), None),
+           "green": ((0.14, 0.45, 0.091), None), "light": (BLACK, (17, 12, 4))}
+CORNELL_CAMERA = ([278, 273, -800], [278, 273, 0], [0, 1, 0], 39.3077)
+
+
+def spheres():
+    s = Scene("spheres", "Cornell box with spheres",
+              "The measured Cornell box with a mirror and a glass sphere in the place of its blocks.", CORNELL_CAMERA,
+              {**CORNELL, "mirror": (BLACK, None, "Ks 0.95 0.95 0.95", "illum 3"),
+               "glass": (BLACK, None, "Tf 1 1 1", "Ni 1.5", "illum 7")}, unit="millimeter")
+    cornell_room(s)
+    s.group("mirror_sphere", "the spheres hang a millimeter above the ground")
+    s.sphere((395, 111, 370), 110, "mirror", 18, 36)
+    s.group("glass_sphere")
+    s.sphere((165, 101, 190), 100, "glass", 18, 36)
+    return s
+
+
+def plates():
+    s = Scene("plates", "Roughness ladder",
+              "Four lamps of equal power and different size, and four metal plates of different roughness that show them.",
+              ([0, 1.4, 6.4], [0, 0.75, 0], [0, 1, 0], 40),
+              {"wall": (0.35, None), **{f"plate_{i}": (BLACK, None, "Pm 1", f"Ks {c}", f"Pl_roughness {r}") for i, (r, c) in
+                                       enumerate(((0.1, "0.9 0.7 0.4"), (0.22, "0.9 0.9 0.9"), (0.37, "0.9 0.55 0.4"),
+                                                  (0.55, "0.6 0.7 0.9")))},
+               **{f"lamp_{i}": (BLACK, (0.3 / r ** 2,) * 3) for i, r in enumerate((0.04, 0.1, 0.25, 0.6))}})
+    s.group("wall", "ground and back, open to the sides")
+    s.quad([(-6, -0.5, 3), (6, -0.5, 3), (6, -0.5, -3), (-6, -0.5, -3)], "wall")
+    s.quad([(-6, -0.5, -3), (6, -0.5, -3), (6, 5, -3), (-6, 5, -3)], "wall")
+    lamp, eye = (2.6, -1.6), (1.4, 6.4)  # (y, z): what the middles of the plates mirror
+    for i, (y, z) in enumerate(((0.9, -1.3), (0.5, -0.6), (0.12, 0.1), (-0.2, 0.8))):
+        s.group(f"plate_{i}", "tilted so that the camera sees the lamps in its middle")
+        ways = [tuple(d / math.hypot(*way) for d in way) for way in ((q[0] - y, q[1] - z) for q in (lamp, eye))]
+        half = math.hypot(ways[0][0] + ways[1][0], ways[0][1] + ways[1][1])
+        up, out = (ways[0][0] + ways[1][0]) / half, (ways[0][1] + ways[1][1]) / half
+        dy, dz = 0.3 * out, -0.3 * up
+        s.quad([(-2, y - dy, z - dz), (2, y - dy, z - dz), (2, y + dy, z + dz), (-2, y + dy, z + dz)], f"plate_{i}")
+    for i, (x, r) in enumerate(((-1.65, 0.04), (-0.75, 0.1), (0.15, 0.25), (1.4, 0.6))):
+        s.group(f"lamp_{i}")
+        s.sphere((x, lamp[0], lamp[1]), r, f"lamp_{i}", 8, 16)
+    return s
+
+
+def coats():
+    s = Scene("coats", "Coats and metals",
+              "The room of the measured Cornell box with blocks of plastic and metal, smooth and rough.", CORNELL_CAMERA,
+              {**CORNELL, "lacquer": ((0.1, 0.2, 0.6), None, "Ks 1 1 1", "Pl_surface plastic", "Pl_roughness 0", "Pl_ior 1.5"),
+               "satin": ((0.65, 0.5, 0.15), None, "Ks 1 1 1", "Pl_surface plastic", "Pl_roughness 0.4", "Pl_ior 1.5"),
+               "copper": (BLACK, None, "Pm 1", "Ks 0.95 0.64 0.54", "Pl_roughness 0.45"),
+               "frosted": (BLACK, None, "Tf 0.9 1 0.95", "Ni 1.5", "illum 7", "Pl_roughness 0.35")}, unit="millimeter")
+    cornell_room(s)
+    s.group("tall_block", "the measured one, of brushed copper")
+    ground = ((423, 247), (265, 296), (314, 456), (472, 406))
+    s.mesh([(x, y, z) for y in (330, 0) for x, z in ground],
+           [("copper", (0, 1, 2, 3))] + [("copper", (i, i + 4, (i + 1) % 4 + 4, (i + 1) % 4)) for i in range(4)])
+    for name, center, radius in (("lacquer", (110, 71, 150), 70), ("satin", (240, 61, 110), 60),
+                                 ("frosted", (410, 66, 120), 65)):
+        s.group(name)
+        s.sphere(center, radius, name, 14, 28)
+    return s
+
+
+SCENES = (shelter, pillars, indirect, labyrinth, thin_wall, two_lights, boxed_lights, staircase, open_box, sky, ceiling,
+          spheres, plates, coats)
 
 
 def main():

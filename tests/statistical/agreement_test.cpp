@@ -97,6 +97,14 @@ TEST_CASE("All methods agree on the door ajar") { check_agreement("door", 0.04);
 TEST_CASE("The first passes of learning agree on the Cornell box") { check_first_passes("cornell", 128, 0.04); }
 TEST_CASE("The first passes of learning agree on the door ajar") { check_first_passes("door", 128, 0.04); }
 
+// Caustics are found by chance alone: with light samples, too, pictures are noisier than those of diffuse scenes.
+TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.08); }
+TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.08); }
+TEST_CASE("All targets agree on mirror and glass", "[merge]") { check_variants("spheres", 0.06); }
+TEST_CASE("All targets agree on coats and rough metals", "[merge]") { check_variants("coats", 0.06); }
+TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03); }
+TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
+
 TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") { check_variants("cornell", 0.06); }
 TEST_CASE("All targets, rates and rules of roulette agree on the door ajar") { check_variants("door", 0.06); }
 

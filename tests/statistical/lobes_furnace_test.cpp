@@ -1,0 +1,78 @@
+// Surfaces that absorb nothing under an even sky: whatever they do to directions, radiance is that of the sky. Glass is
+// invisible, pixel by pixel; rough surfaces are on the mean.
+#include "tests/catch.hpp"
+#include "tests/kernel/shapes.h"
+#include "tests/statistical/sessions.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+/// A block that fills most of the picture, under a sky of radiance 1.
+SceneDescription block_under_sky(const MaterialDescription& material) {
+    SceneDescription scene;
+    scene.name = "block";
+    scene.materials = {material};
+    add_box(scene, Vec3f{-1.0f, -0.7f, -1.2f}, Vec3f{1.0f, 0.9f, 0.8f}, false);
+    scene.environment = Vec3f{1.0f};
+    scene.camera = {.eye = {1.9f, 1.6f, 3.1f}, .target = {0.0f, 0.0f, 0.0f}, .fov_deg = 40.0f};
+    return scene;
+}
+
+MaterialDescription lossless(SurfaceKind kind, float roughness) {
+    MaterialDescription material;
+    material.name = "lossless";
+    material.kind = kind;
+    material.roughness = roughness;
+    material.albedo = glm::vec3{kind == SurfaceKind::Plastic ? 1.0f : 0.0f};
+    return material;
+}
+
+constexpr int kSide = 48;
+
+std::vector<Vec3f> picture_of(const MaterialDescription& material, Estimator estimator, std::uint32_t passes) {
+    const SceneDescription scene = block_under_sky(material);
+    Session session = make_session(scene, quick_learner(scene, estimator, kSide, 1));
+    render_passes(session, passes);
+    return session.snapshot().pixels;
+}
+
+}  // namespace
+
+// Each interface rounds some ten times, a path through the block meets a few.
+TEST_CASE("Clear glass and perfect mirrors cannot be seen under an even sky") {
+    for (const SurfaceKind kind : {SurfaceKind::Dielectric, SurfaceKind::Conductor})
+        for (const Estimator estimator : kEstimators) {
+            int wrong = 0;
+            for (const Vec3f& pixel : picture_of(lossless(kind, 0.0f), estimator, 4))
+                for (int c = 0; c < 3; ++c) wrong += std::fabs(pixel[c] - 1.0f) < 2e-5f ? 0 : 1;
+            INFO((kind == SurfaceKind::Dielectric ? "glass, " : "mirror, ") << estimator);
+            CHECK(wrong == 0);
+        }
+}
+
+// S1 on the mean over the block's pixels, of 64 passes as independent batches: tables of directional albedos are off by less
+// than 1 %, an error of 2 % would be found.
+TEST_CASE("Rough surfaces that absorb nothing cannot be seen on the mean") {
+    for (const SurfaceKind kind : {SurfaceKind::Dielectric, SurfaceKind::Conductor, SurfaceKind::Plastic})
+        for (const float roughness : {0.0f, 0.2f, 0.5f, 1.0f}) {
+            if (roughness == 0.0f && kind != SurfaceKind::Plastic) continue;
+            for (const Estimator estimator : {kEstimators[0], kEstimators[2], kEstimators[5]}) {
+                const SceneDescription scene = block_under_sky(lossless(kind, roughness));
+                Session session = make_session(scene, quick_learner(scene, estimator, kSide, 1));
+                Moments batches;
+                std::vector<Vec3d> before(kSide * kSide, Vec3d{0.0});
+                for (int batch = 0; batch < 64; ++batch) {
+                    render_passes(session, 1);
+                    const std::vector<Vec3d> after = film_sums(session);
+                    double sum = 0.0;
+                    for (std::size_t i = 0; i < after.size(); ++i) sum += (after[i] - before[i]).y;
+                    batches.add(sum / (kSide * kSide));
+                    before = after;
+                }
+                INFO("kind " << static_cast<int>(kind) << ", roughness " << roughness << ", " << estimator);
+                CHECK(mean_equals(batches, {1.0, 0.01}, 0.02));
+            }
+        }
+}
