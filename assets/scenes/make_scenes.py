@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the scenes of this folder that are made of boxes: NAME/NAME.obj, .mtl and .json.
+"""Writes the scenes of this folder that are made of boxes and spheres: NAME/NAME.obj, .mtl and .json, and their images.
 
     make_scenes.py            write all of them
     make_scenes.py --check    compare with what is there; the exit code is 1 if anything differs
@@ -11,7 +11,9 @@ there, as in `cornell`; lamps hang 2 mm clear of what is behind them, so that no
 import json
 import math
 import re
+import struct
 import sys
+import zlib
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
@@ -35,6 +37,28 @@ def turned_y(degrees, about):
     return turn
 
 
+def png(width, height, texel):
+    """An 8-bit RGB image of texel(column, row), rows from the top. Not compressed: how well differs between versions of zlib."""
+    rows = b"".join(b"\0" + bytes(c for x in range(width) for c in texel(x, y)) for y in range(height))
+    stored = b"\x78\x01\x01" + struct.pack("<HH", len(rows), 0xffff - len(rows)) + rows + struct.pack(">I", zlib.adler32(rows))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+            chunk(b"IDAT", stored) + chunk(b"IEND", b""))
+
+
+def hdr(width, height, radiance):
+    """A Radiance picture of radiance(column, row), not compressed."""
+    def texel(color):
+        exponent = math.frexp(max(color))[1]
+        return bytes(int(math.ldexp(c, 8 - exponent)) for c in color) + bytes([exponent + 128])
+
+    return (f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode() +
+            b"".join(texel(radiance(x, y)) for y in range(height) for x in range(width)))
+
+
 class Scene:
     # Corners of a box by number: bit 0 is x, bit 1 is y, bit 2 is z; counter-clockwise from outside.
     SIDES = {"left": (0, 4, 6, 2), "right": (5, 1, 3, 7), "bottom": (0, 1, 5, 4), "top": (6, 7, 3, 2),
@@ -45,7 +69,8 @@ class Scene:
         self.materials = materials
         self.json = {"schema": "pathlight.scene/1", "name": title, "obj": f"{name}.obj",
                      "camera": dict(zip(("eye", "target", "up", "fov_deg"), camera)), **more}
-        self.lines, self.vertices, self.normals, self.triangles = [], 0, 0, 0
+        self.lines, self.vertices, self.normals, self.uvs, self.triangles = [], 0, 0, 0, 0
+        self.images = {}  # file name -> bytes
         self.transform = lambda p: p
 
     def group(self, name, comment=None):
@@ -77,6 +102,17 @@ class Scene:
 
     def quad(self, corners, material):
         self.mesh(corners, [(material, range(len(corners)))])
+
+    def painted_quad(self, corners, material, repeats=(1, 1)):
+        """Four corners from the image's lower left, counter-clockwise; the image is there so many times to the right and up."""
+        uvs = ((0, 0), (repeats[0], 0), repeats, (0, repeats[1]))
+        for p, uv in zip(corners, uvs):
+            self.lines += ["v " + " ".join(number(x) for x in self.transform(p)), "vt " + " ".join(number(x) for x in uv)]
+        self.lines += [f"usemtl {material}",
+                       "f " + " ".join(f"{self.vertices + i + 1}/{self.uvs + i + 1}" for i in range(4))]
+        self.vertices += 4
+        self.uvs += 4
+        self.triangles += 2
 
     def slab(self, outline, bottom, top, material, without=()):
         """`outline`: corners (x, z), counter-clockwise seen from above; edges in `without` get no face."""
@@ -126,7 +162,8 @@ class Scene:
         text = json.dumps(self.json, indent=2)
         text = re.sub(r"\[[^][{}]*\]", lambda array: re.sub(r"\s+", " ", array[0]).replace("[ ", "[").replace(" ]", "]"),
                       text)
-        return {"obj": "\n".join(obj) + "\n", "mtl": "\n".join(mtl[:-1]) + "\n", "json": text + "\n"}
+        texts = {"obj": "\n".join(obj) + "\n", "mtl": "\n".join(mtl[:-1]) + "\n", "json": text + "\n"}
+        return {**{f"{self.name}.{suffix}": text.encode() for suffix, text in texts.items()}, **self.images}
 
 
 def shelter():
@@ -528,8 +565,99 @@ def coats():
     return s
 
 
+def planks(x, y):
+    """Four boards side by side, each of a brown of its own, with seams and a grain."""
+    board, grain = x // 16, (x * 7 + (y // 9) * 3 + (x // 16) * 5) % 6
+    if x % 16 == 0 or (y + 24 * (board % 2)) % 64 == 0:
+        return 60, 38, 22
+    base = ((168, 116, 70), (150, 100, 60), (176, 126, 80), (158, 106, 62))[board]
+    return tuple(c - 5 * grain for c in base)
+
+
+def wallpaper(x, y):
+    """Diamonds in two greens, a gray so that nothing reflects more than 0.8."""
+    inside = abs(x % 16 - 8) + abs(y % 16 - 8) < 5
+    return (206, 214, 190) if inside else (182, 198, 172)
+
+
+def lattice(x, y):
+    """White bars along the borders and diagonals of a square; black is a hole."""
+    bar = min(x, y, 31 - x, 31 - y) < 3 or abs(x - y) < 3 or abs(x + y - 31) < 3
+    return (255, 255, 255) if bar else (0, 0, 0)
+
+
+def sky_radiance(x, y):
+    """Blue above, white towards the horizon, brown below; brighter towards the sun's side (+x), by polynomials alone."""
+    up = 1 - (y + 0.5) / 16  # 1 to -1
+    side = 1 - abs((x + 0.5) / 64 - 0.75) * 4 if x >= 32 else 0.0
+    if up < 0:
+        return 0.12, 0.1, 0.08
+    haze = (1 - up) ** 4
+    return tuple((c * (1 - haze) + 1.4 * haze) * (1 + max(side, 0.0)) for c in (0.35, 0.6, 1.1))
+
+
+def textured_room():
+    s = Scene("textured-room", "Textured room",
+              "A room of 4 x 2.6 x 5 m with a wooden ground and wallpaper, lit by sky and a hazy sun through a window on its right;\n"
+              "before the window a lattice, which is an image with holes.",
+              ([-1.3, 1.5, 2.3], [0.35, 1.0, -1.2], [0, 1, 0], 65),
+              {"white": (0.7, None), "floor": (0.9, None, "map_Kd planks.png"), "paper": (0.9, None, "map_Kd wallpaper.png"),
+               "lattice": (0.6, None, "map_d lattice.png"), "wood": ((0.45, 0.28, 0.15), None)},
+              environment={"map": "sky.hdr", "scale": 4, "rotation_deg": 0,
+                           "sun": {"direction": [1, 0.75, 0.45], "radiance": [360, 330, 270], "angle_deg": 10}},
+              settings={"exposure": 1.5})
+    s.images = {"planks.png": png(64, 64, planks), "wallpaper.png": png(64, 64, wallpaper),
+                "lattice.png": png(32, 32, lattice), "sky.hdr": hdr(64, 32, sky_radiance)}
+    x0, x1, y1, z0, z1 = -2, 2, 2.6, -2.5, 2.5
+    s.group("room")
+    s.painted_quad([(x0, 0, z1), (x1, 0, z1), (x1, 0, z0), (x0, 0, z0)], "floor", (4, 5))
+    s.painted_quad([(x0, 0, z0), (x1, 0, z0), (x1, y1, z0), (x0, y1, z0)], "paper", (4, 2.6))
+    s.painted_quad([(x0, 0, z1), (x0, 0, z0), (x0, y1, z0), (x0, y1, z1)], "paper", (5, 2.6))
+    s.quad([(x1, 0, z1), (x0, 0, z1), (x0, y1, z1), (x1, y1, z1)], "white")
+    s.quad([(x0, y1, z0), (x1, y1, z0), (x1, y1, z1), (x0, y1, z1)], "white")
+    s.group("window_wall", "right; the window is 1.6 x 1.2 m")
+    low, high, near, far = 0.9, 2.1, 0.4, -1.2
+    for z, w, y, h in ((z1, near, 0, y1), (far, z0, 0, y1), (near, far, 0, low), (near, far, high, y1)):
+        s.quad([(x1, y, w), (x1, y, z), (x1, h, z), (x1, h, w)], "white")
+    s.group("lattice", "2 cm inside of the opening, as large as it")
+    s.painted_quad([(x1 - 0.02, low, far), (x1 - 0.02, low, near), (x1 - 0.02, high, near), (x1 - 0.02, high, far)], "lattice",
+                   (4, 3))
+    s.group("table")
+    s.box((0.3, 0.68, -1.6), (1.3, 0.74, -0.4), "wood")
+    for x in (0.34, 1.2):
+        for z in (-1.56, -0.5):
+            s.box((x, 0, z), (x + 0.06, 0.69, z + 0.06), "wood", ("bottom", "top"))
+    s.group("box", "on the table, 1 mm above it")
+    s.transform = turned_y(30, (0.7, -1.1))
+    s.box((0.55, 0.741, -1.25), (0.85, 1.05, -0.95), "white")
+    s.transform = lambda p: p
+    return s
+
+
+def lens():
+    s = Scene("lens", "Thin lens",
+              "A row of balls and blocks that leads away from the camera, whose lens is sharp at the third ball.",
+              ([0.75, 1.1, 4.2], [0.1, 0.35, 0.4], [0, 1, 0], 32),
+              {"ground": (0.6, None), "red": ((0.7, 0.12, 0.1), None), "blue": ((0.12, 0.25, 0.65), None),
+               "white": (0.75, None), "lamp": (BLACK, 9)}, environment={"radiance": [0.25, 0.3, 0.4]})
+    s.json["camera"].update({"aperture_radius": 0.09, "focus_distance": 3.8})
+    s.group("ground")
+    s.quad([(-8, 0, 6), (8, 0, 6), (8, 0, -10), (-8, 0, -10)], "ground")
+    s.group("lamp")
+    s.quad([(-1, 3, -1), (1, 3, -1), (1, 3, 1), (-1, 3, 1)], "lamp")
+    s.group("row", "balls hang a centimeter above the ground")
+    for i, z in enumerate((2.4, 1.4, 0.4, -0.8, -2.4, -4.6)):
+        s.sphere((-0.35 - 0.12 * i, 0.31, z), 0.3, ("red", "white", "blue")[i % 3], 10, 20)
+    s.group("blocks")
+    for i, z in enumerate((1.9, 0.4, -1.6, -4)):
+        s.transform = turned_y(20 * i, (0.75 + 0.2 * i, z))
+        s.box((0.6 + 0.2 * i, 0, z - 0.15), (0.9 + 0.2 * i, 0.5, z + 0.15), ("white", "blue", "red", "white")[i], ("bottom",))
+    s.transform = lambda p: p
+    return s
+
+
 SCENES = (shelter, pillars, indirect, labyrinth, thin_wall, two_lights, boxed_lights, staircase, open_box, sky, ceiling,
-          spheres, plates, coats)
+          spheres, plates, coats, textured_room, lens)
 
 
 def main():
@@ -539,14 +667,14 @@ def main():
     different = []
     for make in SCENES:
         scene = make()
-        for suffix, text in scene.files().items():
-            path = FOLDER / scene.name / f"{scene.name}.{suffix}"
+        for name, content in scene.files().items():
+            path = FOLDER / scene.name / name
             if check:
-                if not path.exists() or path.read_text(encoding="utf-8") != text:
+                if not path.exists() or path.read_bytes() != content:
                     different.append(str(path))
             else:
                 path.parent.mkdir(exist_ok=True)
-                path.write_text(text, encoding="utf-8")
+                path.write_bytes(content)
         if not check:
             print(f"{scene.name}: {scene.triangles} triangles")
     if different:

@@ -15,7 +15,7 @@ namespace {
 const std::filesystem::path kAssets = PL_SOURCE_DIR "/assets";
 
 bool is_lit(const SceneDescription& scene) {
-    return scene.environment != glm::vec3(0.0f) ||
+    return scene.environment != glm::vec3(0.0f) || !scene.environment_map.texels.empty() ||
            std::any_of(scene.triangles.begin(), scene.triangles.end(), [&](const TriangleDescription& t) {
                return scene.materials[t.material].emission != glm::vec3(0.0f);
            });
@@ -38,8 +38,9 @@ double distance_to_line(const glm::dvec3& p, const glm::dvec3& about, const glm:
 TEST_CASE("Every shipped scene loads, is lit, small, and reflects at most 0.9") {
     const std::vector<std::string> names = list_scenes(kAssets);
     CHECK(names == std::vector<std::string>{"boxed-lights", "ceiling", "coats", "cornell", "door", "furnace",
-                                            "indirect", "labyrinth", "open-box", "pillars", "plates", "shelter",
-                                            "sky", "spheres", "staircase", "thin-wall", "two-lights"});
+                                            "indirect", "labyrinth", "lens", "open-box", "pillars", "plates",
+                                            "shelter", "sky", "spheres", "staircase", "textured-room", "thin-wall",
+                                            "two-lights"});
     for (const std::string& name : names) {
         CAPTURE(name);
         const SceneDescription scene = load_scene(name, kAssets);
