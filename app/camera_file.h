@@ -7,7 +7,8 @@
 
 namespace pl {
 
-/// Reads {"eye": [x,y,z], "target": [x,y,z], "up": [x,y,z], "fov_deg": vertical}; every member may be left out. Throws
+/// Reads {"eye": [x,y,z], "target": [x,y,z], "up": [x,y,z], "fov_deg": vertical, "aperture_radius": r,
+/// "focus_distance": d}; every member may be left out. Throws
 /// Error(Input) with file and line.
 CameraChoice load_camera_file(const std::filesystem::path& path);
 

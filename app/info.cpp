@@ -132,7 +132,9 @@ Json json_of(const SceneReport& report) {
              {{"eye", vector_json(scene.camera.eye)},
               {"target", vector_json(scene.camera.target)},
               {"up", vector_json(scene.camera.up)},
-              {"fov_deg", scene.camera.fov_deg}}},
+              {"fov_deg", scene.camera.fov_deg},
+              {"aperture_radius", scene.camera.aperture_radius},
+              {"focus_distance", scene.camera.focus_distance}}},
             {"effects_needed", effects},
             {"effects_compiled", report.compiled},
             {"kernel", report.kernel}};

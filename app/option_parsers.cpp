@@ -167,6 +167,18 @@ void parse_fov(Options& options, const std::string& text) {
     options.camera.fov_deg = degrees;
 }
 
+void parse_aperture(Options& options, const std::string& text) {
+    const float radius = parse_float(text);
+    if (!(radius >= 0.0f)) fail_value("a radius of at least 0", text);
+    options.camera.aperture_radius = radius;
+}
+
+void parse_focus(Options& options, const std::string& text) {
+    const float distance = parse_float(text);
+    if (!(distance > 0.0f)) fail_value("a distance above 0", text);
+    options.camera.focus_distance = distance;
+}
+
 void parse_field_budget(Options& options, const std::string& text) {
     const double megabytes = parse_real(text, 0.0, 65536.0);
     if (!(megabytes > 0.0)) fail_value("a number of megabytes above 0", text);

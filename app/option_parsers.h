@@ -22,6 +22,8 @@ void parse_bins(Options& options, const std::string& text);
 void parse_bsdf_fraction(Options& options, const std::string& text);
 std::string print_bsdf_fraction(const MixtureSettings& mixture);
 void parse_fov(Options& options, const std::string& text);
+void parse_aperture(Options& options, const std::string& text);
+void parse_focus(Options& options, const std::string& text);
 void parse_field_budget(Options& options, const std::string& text);
 void parse_time_limit(Options& options, const std::string& text);
 void parse_target_error(Options& options, const std::string& text);

@@ -239,8 +239,8 @@ const auto kTable = std::to_array<OptionSpec>({
      .parse = [](Options& o, Text text) { o.pixels_per_degree = parse_real(text, 1.0, 1000.0); }},
 
     {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
-     .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical}; goes "
-             "over the scene's camera, and the options below over both",
+     .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical, "
+             "\"aperture_radius\": r, \"focus_distance\": d}; goes over the scene's camera, and the options below over both",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
     {.name = "eye", .flags = "--eye", .value = "X,Y,Z", .group = kCamera, .help = "Where the camera is",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.eye = parse_vector(text); },
@@ -256,6 +256,14 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "fov", .flags = "--fov", .value = "DEG", .group = kCamera, .help = "Full vertical angle of view",
      .commands = kPaths, .parse = parse_fov,
      .print = [](const Options& o) { return print_float(o.render.camera.fov_deg); }},
+    {.name = "aperture", .flags = "--aperture", .value = "R", .group = kCamera,
+     .help = "Radius of the lens; 0 is a pinhole, which is sharp everywhere",
+     .commands = kPaths, .parse = parse_aperture,
+     .print = [](const Options& o) { return print_float(o.render.camera.aperture_radius); }},
+    {.name = "focus", .flags = "--focus", .value = "D", .group = kCamera,
+     .help = "Distance that a lens is sharp at, along the view",
+     .commands = kPaths, .parse = parse_focus,
+     .print = [](const Options& o) { return print_float(o.render.camera.focus_distance); }},
 
     {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,
      .help = "Number of radiance volumes (default: what the budget holds, at most 1000)",

@@ -22,6 +22,8 @@ struct CameraChoice {
     std::optional<glm::vec3> target;
     std::optional<glm::vec3> up;
     std::optional<float> fov_deg;
+    std::optional<float> aperture_radius;
+    std::optional<float> focus_distance;
 };
 
 /// A place in the scene, and the side of a surface if a normal was given.

@@ -37,6 +37,8 @@ void settle_camera(Options& options) {
     camera.target = options.camera.target.value_or(camera.target);
     camera.up = options.camera.up.value_or(camera.up);
     camera.fov_deg = options.camera.fov_deg.value_or(camera.fov_deg);
+    camera.aperture_radius = options.camera.aperture_radius.value_or(camera.aperture_radius);
+    camera.focus_distance = options.camera.focus_distance.value_or(camera.focus_distance);
     if (camera.eye == camera.target)
         throw Error(ErrorKind::Usage, fmt::format("--eye, --target: expected two different points, got {} for both",
                                                   print_vector(camera.eye)));

@@ -315,6 +315,16 @@ void ViewerModel::set_camera(const CameraDescription& camera) {
     submit_camera();
 }
 
+void ViewerModel::focus_on_picked() {
+    if (!picked_) return;
+    CameraDescription camera = controls_.camera();
+    const Vec3f forward = glm::normalize(camera.target - camera.eye);
+    const float distance = glm::dot(picked_->position - camera.eye, forward);
+    if (!(distance > 0.0f)) return;
+    camera.focus_distance = distance;
+    set_camera(camera);
+}
+
 // --- selection -------------------------------------------------------------------------------------------------
 
 void ViewerModel::pick(Vec2f image_point) { worker_.request_pick(image_point); }

@@ -163,6 +163,8 @@ public:
     void change_speed(float notches);
     void camera_home();
     void set_camera(const CameraDescription& camera);
+    /// Makes the lens sharp at the point that was picked, if there is one.
+    void focus_on_picked();
 
     void pick(Vec2f image_point);
     void deselect();

@@ -48,6 +48,7 @@ CameraDescription frame_camera(const SceneDescription& scene, float fov_deg) {
     camera.target = glm::vec3(center);
     camera.up = {0.0f, 1.0f, 0.0f};
     camera.fov_deg = fov_deg;
+    camera.focus_distance = static_cast<float>(distance);
     return camera;
 }
 

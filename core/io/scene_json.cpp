@@ -1,5 +1,7 @@
 #include "core/io/scene_json.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,8 +49,9 @@ void read_camera(const JsonDocument& file, SceneDescription& scene) {
     if (scene.camera.aperture_radius < 0.0f) {
         file.fail("/camera/aperture_radius", "expected a number of at least 0");
     }
-    const float to_target = glm::length(scene.camera.target - scene.camera.eye);
-    scene.camera.focus_distance = file.number("/camera/focus_distance").value_or(to_target);
+    const double to_target = glm::length(glm::dvec3(scene.camera.target) - glm::dvec3(scene.camera.eye));
+    const auto sharp_there = static_cast<float>(std::min(to_target, double{std::numeric_limits<float>::max()}));
+    scene.camera.focus_distance = file.number("/camera/focus_distance").value_or(sharp_there);
     if (!(scene.camera.focus_distance > 0.0f)) {
         file.fail("/camera/focus_distance", "expected a number above 0");
     }

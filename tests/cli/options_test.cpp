@@ -45,7 +45,8 @@ Options any_options(std::mt19937& random) {
     o.render.view = all_views()[static_cast<std::size_t>(whole(0, kViewCount - 1))].id;
     o.render.width = whole(1, 16384);
     o.render.height = whole(1, 16384);
-    o.render.camera = {any_vector(random), any_vector(random), any_vector(random), real(0.001f, 179.9f)};
+    o.render.camera = {any_vector(random),   any_vector(random), any_vector(random),
+                       real(0.001f, 179.9f), real(0.0f, 2.0f),   real(0.001f, 99.0f)};
     o.render.seed = (std::uint64_t{random()} << 32) | random();
     o.render.max_depth = whole(1, 65536);
     o.render.next_event = whole(0, 1) == 1;
@@ -78,6 +79,8 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE((a.render.camera.target == b.render.camera.target));
     REQUIRE((a.render.camera.up == b.render.camera.up));
     REQUIRE(a.render.camera.fov_deg == b.render.camera.fov_deg);
+    REQUIRE(a.render.camera.aperture_radius == b.render.camera.aperture_radius);
+    REQUIRE(a.render.camera.focus_distance == b.render.camera.focus_distance);
     REQUIRE(a.render.seed == b.render.seed);
     REQUIRE(a.render.max_depth == b.render.max_depth);
     REQUIRE(a.render.next_event == b.render.next_event);
@@ -224,11 +227,14 @@ TEST_CASE("every option that can be given is in the help of its subcommand") {
 
 TEST_CASE("a camera file goes over the scene's camera, single options over both") {
     const TempDir folder;
-    write_all(folder / "camera.json", R"({"eye": [7, 8, 9], "fov_deg": 33})");
+    write_all(folder / "camera.json",
+              R"({"eye": [7, 8, 9], "fov_deg": 33, "aperture_radius": 0.5, "focus_distance": 6})");
     const Options options = parse({"render", "s", "-o", "x.png", "--fov", "44", "--camera", folder / "camera.json"});
     CHECK((options.render.camera.eye == glm::vec3(7, 8, 9)));
     CHECK((options.render.camera.target == glm::vec3(4, 5, 6)));
     CHECK(options.render.camera.fov_deg == 44.0f);
+    CHECK(options.render.camera.aperture_radius == 0.5f);
+    CHECK(options.render.camera.focus_distance == 6.0f);
 
     write_all(folder / "camera.json", "{\n \"eye\": [7, 8, 9],\n \"fov\": 33\n}");
     try {

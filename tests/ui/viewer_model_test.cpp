@@ -241,6 +241,21 @@ TEST_CASE("Viewer model: a viewer started from a field goes on from it") {
     CHECK(model.status().field->passes < 60);
 }
 
+TEST_CASE("Viewer model: the lens is made sharp at the picked point") {
+    Bench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    const float before = model.controls().camera().focus_distance;
+    model.focus_on_picked();
+    CHECK(model.controls().camera().focus_distance == before);  // nothing is picked
+    model.pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.picked().has_value(); }));
+    model.focus_on_picked();
+    const CameraDescription& camera = model.controls().camera();
+    const Vec3f forward = glm::normalize(camera.target - camera.eye);
+    CHECK(camera.focus_distance == Approx(glm::dot(model.picked()->position - camera.eye, forward)));
+}
+
 TEST_CASE("Viewer model: a picked volume is selected, deselected, and forgotten with its field") {
     Bench bench;
     bench.options.settings.method = MethodId::Reinforcement;

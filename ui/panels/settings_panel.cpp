@@ -186,6 +186,14 @@ void draw_camera(ViewerModel& model) {
     if (slider_row("View angle", "Vertical field of view in degrees.", &camera.fov_deg, 5.0f, 120.0f,
                    model.options().settings.camera.fov_deg, "%.1f\xc2\xb0"))
         model.set_camera(camera);
+    const CameraDescription& given = model.options().settings.camera;
+    if (slider_row("Aperture", "Radius of the lens in scene units; 0 is a pinhole.", &camera.aperture_radius, 0.0f,
+                   0.1f * camera.focus_distance, given.aperture_radius, "%.4g"))
+        model.set_camera(camera);
+    if (slider_row("Focus", "Distance that is sharp, along the view.", &camera.focus_distance,
+                   0.1f * given.focus_distance, 10.0f * given.focus_distance, given.focus_distance, "%.4g"))
+        model.set_camera(camera);
+    if (model.picked() && wide_button("Focus on the selected point", "Makes it sharp.")) model.focus_on_picked();
     text_row("Speed", fmt::format("{:.4g} units/s", model.controls().speed()), "Wheel, + and -.");
     if (wide_button("Reset camera", "Home")) model.camera_home();
     if (wide_button("Copy as command line", "Ctrl+C: the command that renders this picture without a window."))
