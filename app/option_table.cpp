@@ -99,6 +99,10 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "backend", .flags = "--backend", .value = "NAME,..", .group = kCompared,
      .help = "Back ends to compare: cpu, cuda (default: all that are available)",
      .commands = CommandSet(Bench), .parse = parse_backends},
+    {.name = "effects", .flags = "--effects", .value = "", .group = kCompared,
+     .help = "Compare kernels instead: the one that a scene needs, and those that can do more effects; --seeds is the number of "
+             "rounds",
+     .commands = CommandSet(Bench), .parse = parse_flag<&Options::effects>},
     {.name = "seeds", .flags = "--seeds", .value = "N", .group = kCompared,
      .help = "Runs of each method on each scene and back end (default 10); intervals need at least 5",
      .commands = CommandSet(Bench),

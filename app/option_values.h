@@ -56,6 +56,7 @@ struct Options {
     std::string reference_folder;        ///< bench: empty: its own; render: empty: the target is one of noise
     std::string gate;                    ///< bench: results to hold the new ones against
     double tolerance_percent = 10.0;     ///< bench: how much slower than the gate's is not a failure
+    bool effects = false;                ///< bench: measure kernels of effects instead of methods
     double measure_percent = 1.0;        ///< bench: of the charged time, what measuring may take
 
     bool flip = false;               ///< compare: also what an eye would see

@@ -9,6 +9,7 @@
 #include "app/build_info.h"
 #include "app/commands.h"
 #include "app/measure/bench_plan.h"
+#include "app/measure/effect_costs.h"
 #include "app/measure/gate.h"
 #include "app/measure/make_reference.h"
 #include "app/progress.h"
@@ -219,6 +220,11 @@ private:
 
 }  // namespace
 
-int run_bench(const CommandLine& line, Console& console) { return Bench(line, console).run(); }
+int run_bench(const CommandLine& line, Console& console) {
+    const Options& options = line.options;
+    if (options.effects)
+        return measure_effect_costs(make_bench_plan(line, console), options.threads, options.output, console);
+    return Bench(line, console).run();
+}
 
 }  // namespace pl
