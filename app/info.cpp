@@ -30,6 +30,17 @@ std::string materials_that(const SceneDescription& scene, Pick pick) {
     return fmt::format("of {} material{}: {}", names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", "));
 }
 
+/// Light from far away that depends on the direction, in words.
+std::string far_lights_of(const SceneDescription& scene) {
+    const EnvironmentMapDescription& map = scene.environment_map;
+    std::vector<std::string> parts;
+    if (!map.texels.empty())
+        parts.push_back(fmt::format("the environment is an image of {}x{}", map.width, map.height));
+    if (scene.sun.radiance != glm::vec3(0.0f))
+        parts.push_back(fmt::format("a sun of {} degrees shines", print_float(scene.sun.angle_deg)));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 /// Why an effect is needed, in words.
 std::string reason_of(Feature feature, const SceneDescription& scene) {
     switch (feature) {
@@ -48,7 +59,7 @@ std::string reason_of(Feature feature, const SceneDescription& scene) {
     case Feature::Textures: return materials_that(scene, [](const auto& m) { return m.textures.any(); });
     case Feature::CutOuts:
         return materials_that(scene, [](const auto& m) { return m.textures.opacity != kNoTexture; });
-    case Feature::EnvironmentMap: return "light from far away depends on the direction";
+    case Feature::EnvironmentMap: return far_lights_of(scene);
     case Feature::ThinLens: return fmt::format("the camera's lens has a radius of {}", scene.camera.aperture_radius);
     }
     return "";

@@ -22,7 +22,7 @@ struct PicturePass {
     FieldView field;
     MixtureSettings mixture{};
     LearningSettings learning{};
-    PinholeCamera camera;
+    Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
 };

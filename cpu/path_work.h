@@ -12,7 +12,7 @@ template <FeatureSet F, class M>
 struct PictureWork {
     static constexpr Purpose kStartPurpose = Purpose::Pixel;
 
-    PinholeCamera camera;
+    Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
 

@@ -11,7 +11,7 @@ struct ViewPass {
     PassSetup setup;
     View view = View::Normal;
     ShownField shown;
-    PinholeCamera camera;
+    Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
 };

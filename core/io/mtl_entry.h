@@ -12,7 +12,7 @@ namespace pl {
 
 /// A `map_` statement.
 struct MtlMap {
-    std::string name;  ///< of the file; empty: there is none
+    std::string name{};  ///< of the file; empty: there is none
     bool clamps = false;
 
     explicit operator bool() const { return !name.empty(); }

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "core/io/line_reader.h"
+#include "core/io/mtl_map.h"
 #include "core/io/obj_check.h"
 #include "core/io/surface_names.h"
 #include "core/io/tally.h"
@@ -61,17 +62,6 @@ template <class Keys>
 const typename Keys::value_type* find_key(const Keys& keys, std::string_view name) {
     const auto found = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.name == name; });
     return found == keys.end() ? nullptr : &*found;
-}
-
-/// Words that an option of a map takes, at least and at most; those beyond the first are numbers.
-struct OptionWords {
-    int least, most;
-};
-OptionWords words_of_option(std::string_view option) {
-    if (option == "-s" || option == "-o" || option == "-t") {
-        return {1, 3};
-    }
-    return option == "-mm" ? OptionWords{2, 2} : OptionWords{1, 1};
 }
 
 class MtlReader {
@@ -238,49 +228,16 @@ private:
         }
     }
 
-    /// Options, then the name of a file: all that is left, blanks included.
     void map(MtlMap& to) {
-        const std::vector<std::string_view> words = split_words(reader_.arguments());
-        std::size_t at = 0;
-        bool clamps = false;
-        while (at < words.size() && words[at].size() > 1 && words[at][0] == '-') {
-            const std::string_view option = words[at++];
-            const std::size_t first = at;
-            const OptionWords count = words_of_option(option);
-            for (int i = 0; i < count.most && at < words.size(); ++i, ++at) {
-                if (i >= count.least && !parse_number(words[at])) {
-                    break;
-                }
-            }
-            clamps = option == "-clamp" ? first < at && words[first] == "on" : clamps;
-            if (!is_silent(option, {words.begin() + static_cast<std::ptrdiff_t>(first),
-                                    words.begin() + static_cast<std::ptrdiff_t>(at)})) {
-                unsupported_.insert(fmt::format("{} of {}", option, reader_.keyword()));
-            }
+        const ParsedMap parsed = parse_map(reader_.arguments());
+        for (const std::string& option : parsed.unsupported) {
+            unsupported_.insert(fmt::format("{} of {}", option, reader_.keyword()));
         }
-        if (at == words.size()) {
+        if (parsed.map) {
+            to = parsed.map;
+        } else {
             odd_[std::string(reader_.keyword())].add(reader_.line());
-            return;
         }
-        const std::string_view line = reader_.arguments();
-        to = {std::string(line.substr(static_cast<std::size_t>(words[at].data() - line.data()))), clamps};
-    }
-
-    /// Options that change nothing here, by their name or by their values.
-    static bool is_silent(std::string_view option, const std::vector<std::string_view>& values) {
-        const auto all = [&](double wanted) {
-            return std::all_of(values.begin(), values.end(),
-                               [&](std::string_view word) { return parse_number(word) == wanted; });
-        };
-        if (option == "-s") {
-            return all(1.0);
-        }
-        if (option == "-o" || option == "-t") {
-            return all(0.0);
-        }
-        constexpr std::array<std::string_view, 6> kSilent = {"-clamp", "-blendu", "-blendv",
-                                                             "-cc",    "-texres", "-type"};
-        return std::find(kSilent.begin(), kSilent.end(), option) != kSilent.end();
     }
 
     const std::filesystem::path& path_;

@@ -219,8 +219,11 @@ std::uint32_t add_texture(SceneDescription& scene, const fs::path& path, Texture
         scene.textures.push_back(read_texture(path, content, repeats, scene.warnings));
     } catch (const Error& error) {
         const bool shows = content == TextureContent::Color;
-        scene.warnings.push_back(
-            fmt::format("{}: {}", error.what(), shows ? "shown as checkers" : "this texture is left out"));
+        const std::string told =
+            fmt::format("{}: {}", error.what(), shows ? "shown as checkers" : "this texture is left out");
+        if (std::find(scene.warnings.begin(), scene.warnings.end(), told) == scene.warnings.end()) {
+            scene.warnings.push_back(told);
+        }
         if (!shows) {
             return kNoTexture;
         }

@@ -188,7 +188,7 @@ HostScene pack_scene(const SceneDescription& scene) {
     return packed;
 }
 
-PinholeCamera make_camera(const CameraDescription& camera, int width, int height) {
+Camera make_camera(const CameraDescription& camera, int width, int height) {
     /// Below this sine the rounding of the inputs decides what is to the right.
     constexpr double kMinSine = 1e-6;
     constexpr double kDegree = 3.14159265358979323846 / 180.0;

@@ -30,6 +30,6 @@ HostScene pack_scene(const SceneDescription& scene);
 
 /// Camera basis for an image of the given shape. `up` along the view direction is replaced by the axis that is
 /// farthest from it.
-PinholeCamera make_camera(const CameraDescription& camera, int width, int height);
+Camera make_camera(const CameraDescription& camera, int width, int height);
 
 }  // namespace pl

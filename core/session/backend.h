@@ -46,7 +46,7 @@ struct PassRequest {
     FilmSlot slot;
     FeatureSet features;  ///< needed ones; the back end runs the smallest compiled superset
     PathSettings path;
-    PinholeCamera camera;
+    Camera camera;
     MixtureSettings mixture{};
     LearningSettings learning{};
     std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel; decides the half of the film

@@ -433,7 +433,7 @@ std::int32_t Session::find_volume_at(Vec3f position, Vec3f normal) {
 
 std::optional<PickedPoint> Session::pick(Vec2f film_point) {
     const SceneView scene = packed_->view();
-    const PinholeCamera camera = make_camera(settings_.camera, settings_.width, settings_.height);
+    const Camera camera = make_camera(settings_.camera, settings_.width, settings_.height);
     const Ray ray =
         generate_ray(camera, film_point, {static_cast<float>(settings_.width), static_cast<float>(settings_.height)});
     const Hit hit = closest_solid_hit<kEveryFeature>(scene, BvhIntersector{scene}, ray);

@@ -30,7 +30,7 @@ struct TraceSetup {
 
 /// Paths from the camera, one per pixel; what they bring goes into `radiance`, from the first pixel of the launch on.
 struct PixelPaths {
-    PinholeCamera camera;
+    Camera camera;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t sample = 0;

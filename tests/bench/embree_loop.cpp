@@ -61,7 +61,7 @@ struct SingleRayQueries {
 static_assert(Intersector<SingleRayQueries>);
 
 template <FeatureSet F>
-void trace_pixels(const SceneView& scene, const SingleRayQueries& queries, const PinholeCamera& camera,
+void trace_pixels(const SceneView& scene, const SingleRayQueries& queries, const Camera& camera,
                   const PathSettings& settings, std::uint32_t sample, const FilmView& film, IndexRange range,
                   PassCounters& counters) {
     for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) {
@@ -108,7 +108,7 @@ EmbreeLoop::EmbreeLoop(const HostScene& scene, int width, int height, int thread
 
 EmbreeLoop::~EmbreeLoop() = default;
 
-PassCounters EmbreeLoop::run_pass(const PinholeCamera& camera, const PathSettings& settings, std::uint32_t sample) {
+PassCounters EmbreeLoop::run_pass(const Camera& camera, const PathSettings& settings, std::uint32_t sample) {
     constexpr std::uint32_t kChunk = 256;
     constexpr FeatureSet kPlain{};
     constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);

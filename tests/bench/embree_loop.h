@@ -14,7 +14,7 @@ public:
     EmbreeLoop(const HostScene& scene, int width, int height, int threads);
     ~EmbreeLoop();
 
-    PassCounters run_pass(const PinholeCamera& camera, const PathSettings& settings, std::uint32_t sample);
+    PassCounters run_pass(const Camera& camera, const PathSettings& settings, std::uint32_t sample);
 
     /// Mean over pixels and channels of the film.
     double mean() const;

@@ -27,7 +27,7 @@ constexpr std::uint32_t kPoints = 1u << 18;
 constexpr std::uint32_t kSide = 512;  ///< of the picture whose paths are followed
 constexpr std::uint32_t kMaxVertices = 8;
 
-std::vector<SurfacePoint> path_vertices(const SceneView& scene, const PinholeCamera& camera) {
+std::vector<SurfacePoint> path_vertices(const SceneView& scene, const Camera& camera) {
     const BvhIntersector intersector{scene};
     std::vector<SurfacePoint> points;
     for (std::uint32_t path = 0; points.size() < kPoints; ++path) {

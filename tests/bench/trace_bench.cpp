@@ -99,7 +99,7 @@ private:
     }
 
     std::shared_ptr<const HostScene> scene_;
-    PinholeCamera camera_;
+    Camera camera_;
     std::unique_ptr<RenderBackend> backend_;
     std::unique_ptr<RenderBackend> tree_backend_;
     EmbreeLoop peer_;

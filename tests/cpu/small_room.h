@@ -44,7 +44,7 @@ struct Room {
     std::shared_ptr<const HostScene> scene;
     std::shared_ptr<const HostVolumes> volumes;
     FieldShape shape;
-    PinholeCamera camera;
+    Camera camera;
 
     explicit Room(const SceneDescription& description = small_room())
         : scene(std::make_shared<const HostScene>(pack_scene(description))), volumes(with_grid(*scene)),

@@ -89,7 +89,7 @@ Tally compare_on_triangles(const Placed& placed, int points, std::uint64_t seed 
 Tally compare_on_paths(const Placed& placed, const SceneDescription& description, int points) {
     const SceneView scene = placed.scene.view();
     const BvhIntersector intersector{scene};
-    const PinholeCamera camera = make_camera(description.camera, 64, 64);
+    const Camera camera = make_camera(description.camera, 64, 64);
     Uniforms random(6);
     Tally tally;
     while (tally.points < points) {

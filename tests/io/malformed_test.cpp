@@ -17,7 +17,10 @@ using pl::test::TemporaryFolder;
 namespace {
 
 const std::string kMtl =
-    "# two\nnewmtl a\nKd 0.5 0.25 1e-1\nKe 0 0 0\nmap_Kd x.png\nnewmtl b c\nKd 1\nKe 4 4 4\nPl_two_sided 1\n";
+    "# two\nnewmtl a\nKd 0.5 0.25 1e-1\nKe 0 0 0\nmap_Kd x.png\nnewmtl b c\nKd 1\nKe 4 4 4\nPl_two_sided 1\n"
+    "newmtl g\nKd 0 0 0\nKs 0.5 0.5 0.5\nNs 225.5\nNi 1.5\nTf 1 0.9 1\nd 0.5\nillum 7\nPr 0.25\nPm 0\nPl_roughness "
+    "0.5\n"
+    "map_d -s 1 1 1 -clamp on y z.png\n";
 const std::string kObj =
     "# small\r\nmtllib s.mtl\nv 0 0 0\nv 1.5 0 -0\nv 1.5 1e0 0 1\nv 0 1 0 1 0 1\nvn 0 0 1\nvt 0 0\no q\ng x "
     "y\n"
@@ -25,9 +28,12 @@ const std::string kObj =
 const std::string kJson =
     "{ \"schema\": \"pathlight.scene/1\", \"name\": \"S\", \"obj\": \"s.obj\",\n"
     "  \"camera\": { \"eye\": [0, 0, 5], \"target\": [0.5, 0, 0], \"up\": [0, 1, 0], \"fov_deg\": 40.5,\n"
-    "    \"aperture_radius\": 0, \"focus_distance\": 1 },\n"
-    "  \"environment\": { \"radiance\": [0.1, 0, 1e-3] },\n"
-    "  \"materials\": { \"b c\": { \"albedo\": [0.5, 0.5, 0.5], \"two_sided_emission\": false } },\n"
+    "    \"aperture_radius\": 0.1, \"focus_distance\": 1 },\n"
+    "  \"environment\": { \"radiance\": [0.1, 0, 1e-3],\n"
+    "    \"sun\": { \"direction\": [0, 1, 0.5], \"radiance\": [9, 8, 7], \"angle_deg\": 0.5 } },\n"
+    "  \"materials\": { \"g\": { \"surface\": \"plastic\", \"roughness\": 0.5, \"ior\": 1.3, \"albedo_map\": "
+    "\"q.png\",\n"
+    "      \"wrap\": \"clamp\" }, \"b c\": { \"albedo\": [0.5, 0.5, 0.5], \"two_sided_emission\": false } },\n"
     "  \"settings\": { \"spp\": 16, \"nee\": true, \"method\": \"default\" } }\n";
 
 /// The three files above in a folder; one of them replaced.

@@ -175,7 +175,7 @@ TEST_CASE("Images of a material: loaded once, missing ones shown as checkers") {
     const TemporaryFolder folder;
     write_png8(folder.path() / "a b.png", {.width = 2, .height = 1, .rgb = {255, 0, 0, 0, 0, 255}});
     SceneDescription scene;
-    load_mtl(folder.write("m.mtl", "newmtl a\nmap_Kd -s 1 1 1 -blendu on a b.png\nmap_d a b.png\n"
+    load_mtl(folder.write("m.mtl", "newmtl a\nmap_Kd -s 1 1 1 -blendu on a b.png # wood\nmap_d a b.png\n"
                                    "newmtl b\nmap_Kd C:\\images\\a b.png\nmap_Ke -clamp on a b.png\n"
                                    "newmtl c\nmap_Kd ../gone.png\nmap_d gone.png\nmap_Kd -o 0.5 gone.png\n"
                                    "newmtl d\nKd 0.5\nmap_Pr a b.png\n"

@@ -211,7 +211,7 @@ TEST_CASE("The nearest name") {
     CHECK(nearest_name("x", {}).empty());
 }
 
-TEST_CASE("Environment maps are scaled; one that cannot be read is refused") {
+TEST_CASE("Environment maps are scaled, and one that cannot be read is refused") {
     const TemporaryFolder folder;
     folder.write("s.obj", "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
     write_pfm(folder.path() / "sky.pfm", {.width = 2, .height = 1, .pixels = {glm::vec3(1, 2, 3), glm::vec3(0.5f)}});

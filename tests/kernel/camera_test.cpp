@@ -10,7 +10,7 @@ using namespace pl::test;
 
 namespace {
 
-PinholeCamera lens(float aperture_radius) {
+Camera lens(float aperture_radius) {
     return make_camera({.eye = {1, 2, 3},
                         .target = {-2, 1, -4},
                         .fov_deg = 70.0f,
@@ -22,7 +22,7 @@ PinholeCamera lens(float aperture_radius) {
 }  // namespace
 
 TEST_CASE("All rays of a lens meet in the plane of focus") {
-    const PinholeCamera camera = lens(0.25f);
+    const Camera camera = lens(0.25f);
     Uniforms random(1);
     float farthest = 0.0f;
     Vec3f sum{0.0f};
@@ -47,7 +47,7 @@ TEST_CASE("All rays of a lens meet in the plane of focus") {
 }
 
 TEST_CASE("A lens that is closed sees what a pinhole sees") {
-    const PinholeCamera camera = lens(0.0f);
+    const Camera camera = lens(0.0f);
     const Ray center = generate_ray(camera, {30, 40}, {200, 100});
     const Ray ray = through_lens(camera, center, {0.3f, 0.9f});
     CHECK(ray.origin == center.origin);

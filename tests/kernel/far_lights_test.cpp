@@ -68,7 +68,7 @@ double over_sphere(int per_turn, const std::function<double(Vec3f)>& value) {
 
 }  // namespace
 
-TEST_CASE("The map's middle is along -z, its right along +x, its first row up; turning is counter-clockwise") {
+TEST_CASE("The map's middle is along -z, its right along +x, its first row up, and turning is counter-clockwise") {
     std::vector<glm::vec3> texels(8 * 4);
     for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = glm::vec3(static_cast<float>(i + 1));
     const HostScene packed = under_map(8, 4, texels);

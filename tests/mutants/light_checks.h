@@ -99,7 +99,7 @@ inline Decision check_equilibrium() {
     const HostScene scene = pack_scene(box);
     const SceneView view = scene.view();
     const PathSettings settings{.seed = 1, .max_depth = 24, .roulette_start = 1000};
-    const PinholeCamera camera = make_camera(box.camera, 1, 1);
+    const Camera camera = make_camera(box.camera, 1, 1);
     constexpr std::uint32_t kPaths = 200'000;
     std::uint64_t wrong = 0;
     for (std::uint32_t sample = 0; sample < kPaths; ++sample) {

@@ -23,7 +23,7 @@ void trace_many(const HostScene& scene, const CameraDescription& camera, const M
                 const PathSettings& settings, Range samples, Each&& each) {
     const SceneView view = scene.view();
     const BvhIntersector intersector{view};
-    const PinholeCamera pinhole = make_camera(camera, 1, 1);
+    const Camera pinhole = make_camera(camera, 1, 1);
     for (std::uint32_t i = 0; i < samples.count; ++i) {
         PathCounters counters;
         auto state = begin_path<F, M>(pinhole, settings, 1, 1, 0, samples.first + i);

@@ -166,7 +166,7 @@ TEST_CASE("The camera's basis is orthogonal and as wide as the picture") {
     camera.target = {278, 273, 0};
     camera.up = {0, 1, 0};
     camera.fov_deg = 90.0f;
-    const PinholeCamera basis = make_camera(camera, 200, 100);
+    const Camera basis = make_camera(camera, 200, 100);
     CHECK(basis.eye == camera.eye);
     CHECK(basis.forward == Vec3f{0, 0, 1});
     CHECK(glm::length(basis.up) == Approx(1.0f));
@@ -190,7 +190,7 @@ TEST_CASE("Cameras that look along their up vector have a basis") {
                     camera.eye = Vec3f{0.0f};
                     camera.target = direction;
                     camera.up = direction + Vec3f{ulps * 0x1p-24f, 0, 0};
-                    const PinholeCamera basis = make_camera(camera, 100, 100);
+                    const Camera basis = make_camera(camera, 100, 100);
                     REQUIRE(all_finite(basis.right));
                     REQUIRE(all_finite(basis.up));
                     REQUIRE(std::fabs(glm::length(basis.forward) - 1.0f) < 3e-7f);
@@ -208,7 +208,7 @@ TEST_CASE("Narrow and wide and tiny and far cameras keep their angle") {
             camera.eye = scale * Vec3f{1, 2, 3};
             camera.target = scale * Vec3f{4, -2, 3};
             camera.fov_deg = fov;
-            const PinholeCamera basis = make_camera(camera, 64, 64);
+            const Camera basis = make_camera(camera, 64, 64);
             const double expected = std::tan(0.5 * static_cast<double>(fov) * 3.14159265358979323846 / 180.0);
             CHECK(std::fabs(static_cast<double>(glm::length(basis.up)) / expected - 1.0) < 4e-7);
         }

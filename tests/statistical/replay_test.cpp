@@ -76,7 +76,7 @@ void check_replay(const std::string& name, bool next_event) {
     ReplayedMethod method;
     method.field = field_view(shape, volumes, tables);
     method.learning = {LearningTarget::MonteCarlo, LearnedLight::Indirect};
-    const PinholeCamera camera = make_camera(description.camera, kSide, kSide);
+    const Camera camera = make_camera(description.camera, kSide, kSide);
     const PathSettings path{.seed = 1, .next_event = next_event ? 1u : 0u};
 
     double brightest = 0.0;

@@ -52,7 +52,7 @@ TEST_CASE("Projection: is the inverse of camera rays") {
     constexpr int kHeight = 200;
     const Rect image{40.0f, 30.0f, 640.0f, 400.0f};
     const CameraDescription camera = some_camera();
-    const PinholeCamera pinhole = make_camera(camera, kWidth, kHeight);
+    const Camera pinhole = make_camera(camera, kWidth, kHeight);
     const Projection projection(camera, kWidth, kHeight, image);
     for (int i = 0; i < 200; ++i) {
         const auto t = static_cast<float>(i);

@@ -39,7 +39,7 @@ public:
     Vec3f eye() const { return camera_.eye; }
 
 private:
-    PinholeCamera camera_;
+    Camera camera_;
     Rect image_;
     float near_;
 };

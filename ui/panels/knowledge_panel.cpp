@@ -29,7 +29,7 @@ std::string radiance_text(Vec3f v) { return fmt::format("{:.5g}  {:.5g}  {:.5g}"
 /// The surface under the middle of a pixel, by a ray of our own: nobody has to wait for the render thread.
 std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const HoveredPixel& pixel) {
     const Snapshot& snapshot = frame.snapshot;
-    const PinholeCamera camera = make_camera(snapshot.camera, snapshot.width, snapshot.height);
+    const Camera camera = make_camera(snapshot.camera, snapshot.width, snapshot.height);
     const Ray ray = generate_ray(camera, {static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f},
                                  {static_cast<float>(snapshot.width), static_cast<float>(snapshot.height)});
     const SceneView scene = frame.scene->view();

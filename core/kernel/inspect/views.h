@@ -129,7 +129,7 @@ PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& inte
 /// One sample of a view for one pixel.
 template <FeatureSet F, Intersector I>
 PL_HD inline Vec3f sample_view(View view, const SceneView& scene, const I& intersector, const ShownField& shown,
-                               const PinholeCamera& camera, const PathSettings& settings, std::uint32_t width,
+                               const Camera& camera, const PathSettings& settings, std::uint32_t width,
                                std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
     const auto state = begin_path<F, DefaultMethod>(camera, settings, width, height, pixel, sample);
     const Hit hit = closest_solid_hit<F>(scene, intersector, state.ray);

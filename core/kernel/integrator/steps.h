@@ -36,7 +36,7 @@ PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, con
 
 /// Starts a path at the camera, somewhere in a pixel; `u` is drawn for vertex 0 and Purpose::Pixel.
 template <FeatureSet F, class M>
-PL_HD inline PathState<F, M> begin_path(const PinholeCamera& camera, std::uint32_t width, std::uint32_t height,
+PL_HD inline PathState<F, M> begin_path(const Camera& camera, std::uint32_t width, std::uint32_t height,
                                         std::uint32_t pixel, std::uint32_t sample, Vec4f u) {
     const Vec2f film{static_cast<float>(pixel % width) + u.x, static_cast<float>(pixel / width) + u.y};
     PathState<F, M> state;
@@ -50,9 +50,8 @@ PL_HD inline PathState<F, M> begin_path(const PinholeCamera& camera, std::uint32
 }
 
 template <FeatureSet F, class M>
-PL_HD inline PathState<F, M> begin_path(const PinholeCamera& camera, const PathSettings& settings,
-                                        std::uint32_t width, std::uint32_t height, std::uint32_t pixel,
-                                        std::uint32_t sample) {
+PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PathSettings& settings, std::uint32_t width,
+                                        std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
     const Vec4f u = path_rng(settings, pixel, sample).draw(0, Purpose::Pixel);
     return begin_path<F, M>(camera, width, height, pixel, sample, u);
 }

@@ -8,7 +8,7 @@ namespace pl {
 
 /// The image plane at distance 1: `right` and `up` span half of its width and height. A lens without an aperture is a
 /// pinhole.
-struct PinholeCamera {
+struct Camera {
     Vec3f eye{0.0f};
     Vec3f forward{0.0f, 0.0f, -1.0f};
     Vec3f right{1.0f, 0.0f, 0.0f};
@@ -18,7 +18,7 @@ struct PinholeCamera {
 };
 
 /// Ray through a point of the film, in pixels from the top left corner. The direction is unit.
-PL_HD inline Ray generate_ray(const PinholeCamera& camera, Vec2f film, Vec2f resolution) {
+PL_HD inline Ray generate_ray(const Camera& camera, Vec2f film, Vec2f resolution) {
     const float x = 2.0f * (film.x / resolution.x) - 1.0f;
     const float y = 1.0f - 2.0f * (film.y / resolution.y);
     return {.origin = camera.eye, .direction = glm::normalize(camera.forward + x * camera.right + y * camera.up)};
@@ -27,7 +27,7 @@ PL_HD inline Ray generate_ray(const PinholeCamera& camera, Vec2f film, Vec2f res
 /// Ray of a thin lens through a point of its aperture, u in [0,1)^2, towards what the ray through its center meets in
 /// the plane that is sharp.   [Kolb, Mitchell, Hanrahan 1995, "A Realistic Camera Model for Computer Graphics",
 /// section 3.1]
-PL_HD inline Ray through_lens(const PinholeCamera& camera, const Ray& center, Vec2f u) {
+PL_HD inline Ray through_lens(const Camera& camera, const Ray& center, Vec2f u) {
     const Vec2f disk = camera.aperture_radius * square_to_disk(u);
     const Vec3f offset = disk.x * glm::normalize(camera.right) + disk.y * glm::normalize(camera.up);
     const Vec3f focus = (camera.focus_distance / glm::dot(center.direction, camera.forward)) * center.direction;
