@@ -131,7 +131,11 @@ private:
                         fmt::format("CPU back end: expected tables of '{}', got none", info_of(method).name));
         return *tables;
     }
-    FieldView learned_field(MethodId method) { return field_view(shape_, *volumes_, existing_tables(method)); }
+    FieldView learned_field(MethodId method) {
+        FieldView field = field_view(shape_, *volumes_, existing_tables(method));
+        field.writers = settings_.threads == 1 ? Writers::One : Writers::Many;
+        return field;
+    }
 
     template <class Fn>
     void for_each_volume(const FieldPublicationView& field, Fn&& fn) const {

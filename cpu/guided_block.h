@@ -7,14 +7,14 @@
 
 #include "core/kernel/integrator/steps.h"
 #include "cpu/lane_kernels.h"
+#include "cpu/lookups_ahead.h"
 
 namespace pl {
 
 template <class M>
 concept GuidedMethod = std::derived_from<M, GuidedSampling>;
 
-/// Paths that are extended together: few enough for the innermost cache.
-inline constexpr std::uint32_t kGuidedBlock = 64;
+inline constexpr std::uint32_t kGuidedGroups = group_count(kGuidedBlock);
 
 /// At most kGuidedBlock paths. Gives every path what M::sample_direction would alone.
 template <FeatureSet F, GuidedMethod M>
@@ -29,17 +29,16 @@ public:
     Departure<F, M>& next() { return departures_[count_]; }
     void add(std::uint32_t path, const PathState<F, M>& state, Vec4f u) {
         const Departure<F, M>& departure = departures_[count_];
-        const std::int32_t volume = departure.vertex.volume;
-        if (volume != kNoVolume) __builtin_prefetch(method_.field.row_cdf.data + volume * method_.field.cells.side);
+        const GuidedVertex& vertex = departure.vertex;
         GuidedGroup& group = groups_[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
-        group.volume[lane] = volume;
-        group.position_x[lane] = departure.surface.position.x;
-        group.position_y[lane] = departure.surface.position.y;
-        group.position_z[lane] = departure.surface.position.z;
-        group.normal_x[lane] = departure.surface.shading_normal.x;
-        group.normal_y[lane] = departure.surface.shading_normal.y;
-        group.normal_z[lane] = departure.surface.shading_normal.z;
+        group.volume[lane] = kNoVolume;
+        if (vertex.volume != kNoVolume) {
+            __builtin_prefetch(method_.field.row_cdf.data + vertex.volume * method_.field.cells.side);
+            group.set_volume(lane, serving_volume(vertex));
+        }
+        group.position.set(lane, departure.surface.position);
+        group.shading_normal.set(lane, departure.surface.shading_normal);
         group.choice[lane] = u.x;
         group.u_x[lane] = u.y;
         group.u_y[lane] = u.z;
@@ -47,12 +46,13 @@ public:
         group.counters.sample[lane] = state.sample;
         group.counters.vertex[lane] = state.vertices;
         paths_[count_++] = path;
+        if (lane + 1 == kGroupSize) choose_rows();
     }
 
     void choose_directions() {
-        kernels_.sample_guided(method_.field.normals.empty() ? kNoTables : method_.mixture_view(),
-                               {settings_.seed, settings_.stream, Purpose::CellJitter}, groups_, directions_,
-                               group_count(count_));
+        if (count_ % kGroupSize != 0) choose_rows();
+        kernels_.sample_guided(mixture(), {settings_.seed, settings_.stream, Purpose::CellJitter}, groups_, chosen_,
+                               directions_, group_count(count_));
     }
 
     std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
@@ -60,16 +60,22 @@ public:
     DirectionSample direction(std::uint32_t i) const { return directions_[i / kGroupSize].get(i % kGroupSize); }
 
 private:
+    /// By the node that the lookup has just read, if it is known.
+    ServingVolume<One> serving_volume(const GuidedVertex& vertex) const {
+        if (vertex.node == FoundVolume::kUnknown) return method_.serving_volume(vertex.volume);
+        const KdNode& node = method_.field.tree.nodes[vertex.node];
+        return method_.serving_volume(vertex.volume, node.position, node.normal);
+    }
+    /// Of the last group.
+    void choose_rows() {
+        const std::uint32_t group = (count_ - 1) / kGroupSize;
+        kernels_.choose_rows(mixture(), groups_[group], chosen_[group]);
+    }
+    GuidedMixture mixture() const { return method_.field.normals.empty() ? kNoTables : method_.mixture_view(); }
+
     /// Something to load for paths that no volume serves, where there is none at all.
     static constexpr float kOneCell[] = {1.0f};
-    static constexpr float kUp[] = {0.0f, 0.0f, 1.0f};
-    static constexpr float kFarAway[] = {0.0f};
-    static constexpr GuidedMixture kNoTables{.cells = {1},
-                                             .row_cdf = kOneCell,
-                                             .column_cdf = kOneCell,
-                                             .normals = kUp,
-                                             .sites = kUp,
-                                             .inverse_reach = kFarAway};
+    static constexpr GuidedMixture kNoTables{.cells = {1}, .row_cdf = kOneCell, .column_cdf = kOneCell};
 
     const M& method_;
     const PathSettings& settings_;
@@ -77,11 +83,12 @@ private:
     std::uint32_t count_ = 0;
     std::uint32_t paths_[kGuidedBlock];
     Departure<F, M> departures_[kGuidedBlock];
-    GuidedGroup groups_[kGuidedBlock / kGroupSize];
-    DirectionGroup directions_[kGuidedBlock / kGroupSize];
+    GuidedGroup groups_[kGuidedGroups];
+    ChosenGroup chosen_[kGuidedGroups];
+    DirectionGroup directions_[kGuidedGroups];
 };
 
-/// What the paths of one block learn, on its way into the tables: these are asked for when a record comes and changed
+/// What the paths of one block learn, on its way into the tables: the cells are asked for when a record comes and changed
 /// when they have arrived, because they are larger than the caches.
 template <GuidedMethod M>
 class GuidedRecords {
@@ -95,10 +102,6 @@ public:
             const std::uint32_t cell = field.cell_index(record.volume, record.cell);
             __builtin_prefetch(field.pending_sum.data + cell, 1);
             __builtin_prefetch(field.pending_count.data + cell, 1);
-            __builtin_prefetch(field.pending_slope.data + record.volume, 1);
-            __builtin_prefetch(field.pending_curvature.data + record.volume, 1);
-            __builtin_prefetch(field.pending_distance.data + record.volume, 1);
-            __builtin_prefetch(field.pending_light.data + record.volume, 1);
             records_[count_++] = record;
         }
     }
@@ -124,6 +127,7 @@ struct BlockMemory {
 };
 template <FeatureSet F, GuidedMethod M>
 struct BlockMemory<F, M> {
+    LookupsAhead lookups[2];  ///< of this block and of the next one
     GuidedDepartures<F, M> departures;
     GuidedRecords<M> records;
 

@@ -49,15 +49,43 @@ struct alignas(64) NumberGroup {
     Vec4f get(std::uint32_t lane) const { return {rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]}; }
 };
 
+/// Rows of the components of 16 vectors.
+struct alignas(64) VectorGroup {
+    float x[kGroupSize] = {}, y[kGroupSize] = {}, z[kGroupSize] = {};
+
+    void set(std::uint32_t lane, Vec3f v) {
+        x[lane] = v.x;
+        y[lane] = v.y;
+        z[lane] = v.z;
+    }
+    Vec3f get(std::uint32_t lane) const { return {x[lane], y[lane], z[lane]}; }
+};
+
 /// 16 paths that a guided method sends on. Lanes that were never set are served by no volume.
 struct alignas(64) GuidedGroup {
     std::int32_t volume[kGroupSize];
-    float position_x[kGroupSize] = {}, position_y[kGroupSize] = {}, position_z[kGroupSize] = {};
-    float normal_x[kGroupSize] = {}, normal_y[kGroupSize] = {}, normal_z[kGroupSize] = {};  ///< shading
+    VectorGroup site, volume_normal;
+    float inverse_reach[kGroupSize] = {}, bsdf_fraction[kGroupSize] = {};
+    VectorGroup position, shading_normal;
     float choice[kGroupSize] = {}, u_x[kGroupSize] = {}, u_y[kGroupSize] = {};
     CounterGroup counters;  ///< of the numbers for the jitter
 
     GuidedGroup() { std::fill_n(volume, kGroupSize, kNoVolume); }
+
+    void set_volume(std::uint32_t lane, const ServingVolume<One>& serving) {
+        volume[lane] = serving.number;
+        site.set(lane, pack(serving.site));
+        volume_normal.set(lane, pack(serving.normal));
+        inverse_reach[lane] = serving.inverse_reach;
+        bsdf_fraction[lane] = serving.bsdf_fraction;
+    }
+};
+
+/// What is known of their directions before they are weighed.
+struct alignas(64) ChosenGroup {
+    std::int32_t row[kGroupSize];  ///< of the table
+    VectorGroup direction;
+    float square_x[kGroupSize], square_y[kGroupSize], cosine[kGroupSize], steradians[kGroupSize];  ///< SeenDirection
 };
 
 /// Their directions; as DirectionSample.
@@ -78,9 +106,12 @@ struct LaneKernels {
     void (*find_occluded)(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t groups);
     /// What Rng::draw gives for every counter.
     void (*draw)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups);
+    /// The rows of tables that sample_guided() needs, which may be called at once, or better later: the memory that it
+    /// needs then is asked for.
+    void (*choose_rows)(const GuidedMixture& mixture, const GuidedGroup& paths, ChosenGroup& chosen);
     /// What GuidedMixture::sample gives for every path, the jitter drawn as for Purpose::CellJitter.
     void (*sample_guided)(const GuidedMixture& mixture, const DrawKey& jitter_key, const GuidedGroup* paths,
-                          DirectionGroup* directions, std::uint32_t groups);
+                          ChosenGroup* chosen, DirectionGroup* directions, std::uint32_t groups);
 };
 
 extern const LaneKernels kLaneKernelsBaseline;

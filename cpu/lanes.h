@@ -132,6 +132,12 @@ struct Lanes {
         return loaded;
 #endif
     }
+    /// Asks for what load() of the same arguments will read.
+    static PL_INLINE void prefetch(const float* values, const Int& index) {
+        std::int32_t indices[kLaneWidth];
+        store_lanes(index, indices);
+        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) __builtin_prefetch(values + indices[lane]);
+    }
     /// Each lane has its own row of values: they are compared a vector at a time, lane after lane.
     static PL_INLINE Int count_not_above(const float* values, const Int& first, int count, const Real& x) {
         std::int32_t counts[kLaneWidth];

@@ -16,13 +16,17 @@ void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers
     draw_groups(key, counters, numbers, groups);
 }
 
+void choose_rows(const GuidedMixture& mixture, const GuidedGroup& paths, ChosenGroup& chosen) {
+    choose_rows_of_group(mixture, paths, chosen);
+}
+
 void sample_guided(const GuidedMixture& mixture, const DrawKey& jitter_key, const GuidedGroup* paths,
-                   DirectionGroup* directions, std::uint32_t groups) {
-    sample_guided_groups(mixture, jitter_key, paths, directions, groups);
+                   ChosenGroup* chosen, DirectionGroup* directions, std::uint32_t groups) {
+    sample_guided_groups(mixture, jitter_key, paths, chosen, directions, groups);
 }
 
 }  // namespace
 
-const LaneKernels kLaneKernelsAvx2{"avx2", find_closest, find_occluded, draw, sample_guided};
+const LaneKernels kLaneKernelsAvx2{"avx2", find_closest, find_occluded, draw, choose_rows, sample_guided};
 
 }  // namespace pl

@@ -47,15 +47,26 @@ extern const PassKernels<PicturePass> kSarsaKernels;
 extern const PassKernels<PicturePass> kMonteCarloKernels;
 extern const PassKernels<ProbePass> kProbeKernels;
 
+/// A method as run_paths() wants it.
+template <Method M>
+struct RunMethod {
+    using Type = M;
+};
+template <Method M>
+requires std::derived_from<M, GuidedSampling>
+struct RunMethod<M> {
+    using Type = LookedUpAhead<M>;
+};
+
 template <FeatureSet F, Method M>
 PassCounters run_picture_pass(const PicturePass& pass) {
-    M method;
+    typename RunMethod<M>::Type method;
     if constexpr (std::is_base_of_v<GuidedSampling, M>) {
         method.field = pass.field;
         method.mixture = pass.mixture;
     }
     if constexpr (FollowingMethod<M>) method.learning = pass.learning;
-    const PictureWork<F, M> work{pass.camera, pass.sample, pass.film};
+    const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film};
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }
 

@@ -45,7 +45,7 @@ public:
           statuses_(setup.batch_paths), numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0),
           rays_(setup.batch_paths), shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())),
-          solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method, setup.path) {}
+          solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method_, setup.path) {}
 
     /// Traces paths until the source has no more, and finishes those under way.
     PassCounters run(PathSource& source) {
@@ -83,10 +83,22 @@ private:
     void extend() {
         shadow_count_ = 0;
         if constexpr (GuidedMethod<M>)
-            for (std::uint32_t i = 0; i < active_; i += kGuidedBlock)
-                extend_block(i, std::min(i + kGuidedBlock, active_));
+            extend_blocks();
         else
             extend_each();
+    }
+
+    void extend_blocks() {
+        const auto end_of = [this](std::uint32_t first) { return std::min(first + kGuidedBlock, active_); };
+        block_.lookups[0].begin(setup_.scene, method_.field, rays_, 0, end_of(0));
+        for (std::uint32_t first = 0; first < active_; first += kGuidedBlock) {
+            const std::uint32_t block = first / kGuidedBlock;
+            const std::uint32_t next = end_of(first);
+            LookupsAhead& lookups = block_.lookups[block % 2];
+            block_.lookups[(block + 1) % 2].begin(setup_.scene, method_.field, rays_, next, end_of(next));
+            lookups.finish(setup_.scene, method_.field, rays_);
+            extend_block(first, next, lookups);
+        }
     }
 
     /// Inlined to the last call: half of the time of a small scene is spent here.
@@ -100,12 +112,13 @@ private:
     }
 
     /// Paths from `first` to `end`, in the parts of extend_path, so that directions are chosen for many at once.
-    [[gnu::flatten]] void extend_block(std::uint32_t first, std::uint32_t end) {
+    [[gnu::flatten]] void extend_block(std::uint32_t first, std::uint32_t end, const LookupsAhead& lookups) {
         block_.departures.clear();
         for (std::uint32_t i = first; i < end; ++i) {
             ShadowRequest shadow;
             typename M::Record record{};
             const VertexNumbers numbers = numbers_.numbers(i);
+            method_.found = lookups.found(i);
             statuses_[i] = arrive<F>(setup_.scene, method_, setup_.path, rays_.hit(i), numbers, states_[i],
                                      block_.departures.next(), record, shadow, counters_.path);
             if (statuses_[i] == PathStatus::Continues) send(i, numbers.scatter, record);
@@ -182,7 +195,7 @@ private:
 
     const PassSetup& setup_;
     const I& intersector_;
-    const M& method_;
+    M method_;
     const W& work_;
     std::vector<PathState<F, M>> states_;
     std::vector<PathStatus> statuses_;

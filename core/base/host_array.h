@@ -11,12 +11,12 @@ namespace pl {
 template <class T>
 using HostArray = std::vector<T>;
 
-template <class T>
-Span<const T> view_of(const HostArray<T>& array) {
+template <class T, class Allocator>
+Span<const T> view_of(const std::vector<T, Allocator>& array) {
     return {array.data(), static_cast<std::uint32_t>(array.size())};
 }
-template <class T>
-Span<T> view_of(HostArray<T>& array) {
+template <class T, class Allocator>
+Span<T> view_of(std::vector<T, Allocator>& array) {
     return {array.data(), static_cast<std::uint32_t>(array.size())};
 }
 

@@ -1,6 +1,7 @@
 // Parts of a volume grid, built by different threads, and what joins them.
 #pragma once
 
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -13,11 +14,12 @@ namespace pl {
 struct GridPieces {
     std::vector<VolumePlace> sides;
     std::vector<SideGrid> grids;
-    std::vector<VolumePlace> cells;
+    std::vector<VolumeCell> cells;       ///< of grids
+    std::vector<VolumeCell> side_cells;  ///< of whole sides: those that `sides` number
     std::vector<std::uint32_t> lists;
 };
 
-/// Joins pieces in order. Neighbors often have the same list: it is kept once.
+/// Joins pieces in order. Neighbors often have the same list, or the same cell for the whole side: these are kept once.
 class GridJoiner {
 public:
     GridJoiner() : known_(16, Hash{&grid_.lists}, Same{&grid_.lists}) {}
@@ -25,19 +27,22 @@ public:
     void add(const GridPieces& pieces) {
         const auto grids = static_cast<std::uint32_t>(grid_.grids.size());
         const auto cells = static_cast<std::uint32_t>(grid_.cells.size());
-        for (const VolumePlace place : pieces.sides)
-            grid_.sides.push_back(place.kind() == VolumePlace::Kind::Grid
-                                      ? VolumePlace{VolumePlace::Kind::Grid, place.number() + grids}
-                                      : joined(place, pieces.lists));
+        for (const VolumeCell cell : pieces.cells) grid_.cells.push_back(joined(cell, pieces.lists));
         for (SideGrid grid : pieces.grids) {
             grid.first_cell += cells;
             grid_.grids.push_back(grid);
         }
-        for (const VolumePlace place : pieces.cells) grid_.cells.push_back(joined(place, pieces.lists));
+        for (VolumePlace place : pieces.sides) {
+            if (place.kind() == VolumePlace::Kind::Grid) place = {place.kind(), place.number() + grids};
+            if (place.kind() == VolumePlace::Kind::Cell)
+                place = {place.kind(), side_cell(joined(pieces.side_cells[place.number()], pieces.lists))};
+            grid_.sides.push_back(place);
+        }
     }
 
     HostVolumeGrid take() {
         known_.clear();
+        side_cells_.clear();
         return std::move(grid_);
     }
 
@@ -65,19 +70,27 @@ private:
     };
 
     /// The list is written behind the others, and taken back if it was there already.
-    VolumePlace joined(VolumePlace place, const Lists& lists) {
-        if (place.kind() != VolumePlace::Kind::List) return place;
+    VolumeCell joined(VolumeCell cell, const Lists& lists) {
+        if (!cell.has_list()) return cell;
         const std::size_t first = grid_.lists.size();
-        std::uint32_t i = place.number();
+        std::uint32_t i = cell.first_of_list();
         do grid_.lists.push_back(lists[i]);
         while ((lists[i++] & kLastOfList) == 0);
         const auto [known, is_new] = known_.insert(static_cast<std::uint32_t>(first));
         if (!is_new) grid_.lists.resize(first);
-        return {VolumePlace::Kind::List, *known};
+        return VolumeCell::list(*known);
+    }
+
+    std::uint32_t side_cell(VolumeCell cell) {
+        const auto [known, is_new] =
+            side_cells_.try_emplace(cell.word(), static_cast<std::uint32_t>(grid_.cells.size()));
+        if (is_new) grid_.cells.push_back(cell);
+        return known->second;
     }
 
     HostVolumeGrid grid_;
     std::unordered_set<std::uint32_t, Hash, Same> known_;
+    std::unordered_map<std::uint64_t, std::uint32_t> side_cells_;
 };
 
 }  // namespace pl

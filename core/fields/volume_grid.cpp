@@ -23,10 +23,10 @@ constexpr double kCellSize = 0.4;
 constexpr std::uint32_t kFreeCells = 16;
 constexpr std::uint32_t kCellsPerVolume = 32;
 constexpr std::uint32_t kFreeEntries = 24;
-constexpr std::uint32_t kEntriesPerVolume = 64;
-static_assert(kGridBytesPerVolume == (kCellsPerVolume + kEntriesPerVolume) * 4);
+constexpr std::uint32_t kEntriesPerVolume = 32;
+static_assert(kGridBytesPerVolume == kCellsPerVolume * sizeof(VolumeCell) + kEntriesPerVolume * 4);
 static_assert(kGridBytesPerTriangle ==
-              2 * (sizeof(VolumePlace) + sizeof(SideGrid) + (kFreeCells + kFreeEntries) * 4));
+              2 * (sizeof(VolumePlace) + sizeof(SideGrid) + kFreeCells * sizeof(VolumeCell) + kFreeEntries * 4));
 
 /// Nodes that a search may look at, for sides without and with volumes of their own.
 constexpr int kEffort = 256;
@@ -127,20 +127,28 @@ private:
         sets_.set_effort(own_[side] > 0 ? kEffortWithVolumes : kEffort);
         most_entries_ = pieces_.lists.size() + kFreeEntries + std::size_t{kEntriesPerVolume} * own_[side];
         const NearestSets::Answer answer = sets_.find(triangle.part(triangle.low(), triangle.high()), normal_);
-        if (answer == NearestSets::Answer::None) return {VolumePlace::Kind::Volume, VolumePlace::kMaxNumber};
+        if (answer == NearestSets::Answer::None) return {VolumePlace::Kind::Node, VolumePlace::kNone};
         if (answer == NearestSets::Answer::GivenUp) return kSearch;
-        if (answer == NearestSets::Answer::Few && sets_.nodes().size() <= kMostListedBySide) return list();
+        if (answer == NearestSets::Answer::Few && sets_.nodes().size() <= kMostListedBySide) return side_of_nodes();
         return grid(triangle, kFreeCells + kCellsPerVolume * own_[side]);
     }
 
-    VolumePlace list() {
+    VolumePlace side_of_nodes() {
+        if (sets_.nodes().size() == 1) return {VolumePlace::Kind::Node, sets_.nodes().front()};
+        pieces_.side_cells.push_back(cell_of_nodes());
+        return {VolumePlace::Kind::Cell, static_cast<std::uint32_t>(pieces_.side_cells.size() - 1)};
+    }
+
+    VolumeCell cell_of_nodes() {
         const std::vector<std::uint32_t>& nodes = sets_.nodes();
-        if (nodes.size() == 1) return {VolumePlace::Kind::Volume, tree_.nodes[nodes.front()].volume};
+        const std::size_t last = nodes.size() - 1;
+        if (last < VolumeCell::kMostNodes && std::ranges::max(nodes) <= VolumeCell::kMaxNode)
+            return {nodes[0], nodes[std::min<std::size_t>(1, last)], nodes[last]};
         const auto first = static_cast<std::uint32_t>(pieces_.lists.size());
-        if (first + nodes.size() > most_entries_) return kSearch;
+        if (first + nodes.size() > most_entries_) return {};
         pieces_.lists.insert(pieces_.lists.end(), nodes.begin(), nodes.end());
         pieces_.lists.back() |= kLastOfList;
-        return {VolumePlace::Kind::List, first};
+        return VolumeCell::list(first);
     }
 
     /// Distance between volumes, were they on a square lattice in this plane: a disk of the mean squared distance to
@@ -201,9 +209,9 @@ private:
         return {VolumePlace::Kind::Grid, static_cast<std::uint32_t>(pieces_.grids.size() - 1)};
     }
 
-    VolumePlace cell(const FlatRegion& region) {
-        if (region.polygon.empty()) return kSearch;  // no point of the triangle is there
-        return sets_.find(region, normal_) == NearestSets::Answer::Few ? list() : kSearch;
+    VolumeCell cell(const FlatRegion& region) {
+        if (region.polygon.empty()) return {};  // no point of the triangle is there
+        return sets_.find(region, normal_) == NearestSets::Answer::Few ? cell_of_nodes() : VolumeCell{};
     }
 
     SceneView scene_;

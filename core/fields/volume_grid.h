@@ -15,6 +15,6 @@ namespace pl {
 HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volumes, int threads);
 
 inline constexpr std::size_t kGridBytesPerVolume = 384;
-inline constexpr std::size_t kGridBytesPerTriangle = 416;
+inline constexpr std::size_t kGridBytesPerTriangle = 544;
 
 }  // namespace pl

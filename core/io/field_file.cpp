@@ -52,8 +52,8 @@ public:
         number(std::uint64_t{value.size()});
         bytes_ += value;
     }
-    template <class T>
-    void count(const HostArray<T>& array) {
+    template <class T, class Allocator>
+    void count(const std::vector<T, Allocator>& array) {
         number(std::uint64_t{array.size()});
     }
     void raw(std::string_view bytes) { bytes_ += bytes; }
@@ -85,8 +85,8 @@ public:
         number(size);
         value = take(size, 1);
     }
-    template <class T>
-    void count(HostArray<T>& array) {
+    template <class T, class Allocator>
+    void count(std::vector<T, Allocator>& array) {
         // Elements take as much room in files as in memory.
         static_assert(sizeof(SurfacePoint) == 13 * 4 && sizeof(KdNode) == 8 * 4);
         std::uint64_t size = 0;

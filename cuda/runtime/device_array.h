@@ -25,12 +25,14 @@ public:
     std::size_t bytes() const { return count_ * sizeof(T); }
 
     /// Queued; `values` has to stay until the stream has been waited for.
-    void upload(const HostArray<T>& values, const Stream& stream) {
+    template <class Allocator>
+    void upload(const std::vector<T, Allocator>& values, const Stream& stream) {
         if (values.size() != count_) *this = DeviceArray(values.size());
         copy_to_device(data(), values.data(), bytes(), stream);
     }
     /// Queued; `values` is complete once the stream has been waited for.
-    void download(HostArray<T>& values, const Stream& stream) const {
+    template <class Allocator>
+    void download(std::vector<T, Allocator>& values, const Stream& stream) const {
         values.resize(count_);
         copy_to_host(values.data(), data(), bytes(), stream);
     }

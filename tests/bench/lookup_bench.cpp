@@ -58,34 +58,33 @@ Timing time_lookups(const HostVolumes& volumes, Lookup lookup, const std::vector
     Timing timing;
     const Stopwatch watch;
     for (std::size_t i = 0; i < points.size(); i += stride)
-        timing.checksum += static_cast<std::uint64_t>(find_volume(tree, grid, points[i])) * (i + 1);
+        timing.checksum += static_cast<std::uint64_t>(find_volume(tree, grid, points[i]).volume) * (i + 1);
     timing.ns = 1e9 * watch.seconds() / static_cast<double>((points.size() + stride - 1) / stride);
     return timing;
 }
 
 void describe(const HostVolumes& volumes, const std::vector<SurfacePoint>& points) {
     const VolumeGridView grid = grid_view(volumes.grid);
-    std::size_t kinds[4] = {};
-    std::size_t distances = 0;
+    std::size_t sides = 0, nodes = 0, lists = 0;
     for (const SurfacePoint& point : points) {
-        const VolumePlace place = grid.place_of(point);
-        ++kinds[static_cast<int>(place.kind())];
-        if (place.kind() != VolumePlace::Kind::List) continue;
-        for (std::uint32_t i = place.number();; ++i) {
-            ++distances;
-            if ((grid.lists[i] & kLastOfList) != 0) break;
-        }
+        const VolumePlace place = grid.place_of(point.primitive, point.front, point.position);
+        if (place.kind() == VolumePlace::Kind::Node) ++sides;
+        if (place.kind() != VolumePlace::Kind::Cell) continue;
+        nodes += grid.cells[place.number()].has_nodes() ? 1u : 0u;
+        lists += grid.cells[place.number()].has_list() ? 1u : 0u;
     }
-    const double all = static_cast<double>(points.size());
-    std::printf("  points: %.1f %% one volume, %.1f %% a list of %.2f, %.4f %% search the tree\n",
-                100.0 * static_cast<double>(kinds[0]) / all, 100.0 * static_cast<double>(kinds[1]) / all,
-                static_cast<double>(distances) / static_cast<double>(std::max<std::size_t>(kinds[1], 1)),
-                100.0 * static_cast<double>(kinds[3]) / all);
+    const auto share = [&](std::size_t count) {
+        return 100.0 * static_cast<double>(count) / static_cast<double>(points.size());
+    };
+    std::printf(
+        "  points: %.1f %% one volume for the side, %.1f %% up to three for a cell, %.1f %% a list, %.4f %% search "
+        "the tree\n",
+        share(sides), share(nodes), share(lists), share(points.size() - sides - nodes - lists));
 }
 
 std::size_t bytes_of(const HostVolumeGrid& grid) {
     return grid.sides.size() * sizeof(VolumePlace) + grid.grids.size() * sizeof(SideGrid) +
-           grid.cells.size() * sizeof(VolumePlace) + grid.lists.size() * sizeof(std::uint32_t);
+           grid.cells.size() * sizeof(VolumeCell) + grid.lists.size() * sizeof(std::uint32_t);
 }
 
 bool measure(const HostScene& scene, const std::vector<SurfacePoint>& points, int count, int rounds) {

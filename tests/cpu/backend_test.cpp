@@ -21,8 +21,8 @@ PassRequest pass_of(const Room& room, FilmSlot slot) {
     return {.slot = slot, .features = needed_effects(*room.scene), .path = {.seed = 3}, .camera = room.camera};
 }
 
-template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+template <class T, class Allocator>
+bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 

@@ -33,20 +33,18 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
     const DrawKey jitter_key{(std::uint64_t{random.bits()} << 32) | random.bits(), Stream::Picture,
                              Purpose::CellJitter};
     GuidedGroup groups[kGroups];
+    ChosenGroup chosen[kGroups];
     DirectionGroup directions[kGroups];
     for (std::uint32_t i = 0; i < kGroups * kGroupSize; ++i) {
         GuidedGroup& group = groups[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
         const auto volumes = static_cast<std::uint32_t>(normals.size());
-        group.volume[lane] = static_cast<std::int32_t>(random.below(volumes + 1)) - 1;
+        const auto volume = static_cast<std::int32_t>(random.below(volumes + 1)) - 1;
+        if (volume >= 0) group.set_volume(lane, method.serving_volume(volume));
         const Vec3f normal = normals[random.below(volumes)];
         const Vec3f position = random.between(0.0f, 2.0f) * random.direction();
-        group.position_x[lane] = position.x;
-        group.position_y[lane] = position.y;
-        group.position_z[lane] = position.z;
-        group.normal_x[lane] = normal.x;
-        group.normal_y[lane] = normal.y;
-        group.normal_z[lane] = normal.z;
+        group.position.set(lane, position);
+        group.shading_normal.set(lane, normal);
         group.choice[lane] = any_number(random);
         group.u_x[lane] = any_number(random);
         group.u_y[lane] = any_number(random);
@@ -54,13 +52,14 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
         group.counters.sample[lane] = random.bits();
         group.counters.vertex[lane] = random.below(64);
     }
-    kernels.sample_guided(method.mixture_view(), jitter_key, groups, directions, kGroups);
+    for (std::uint32_t i = 0; i < kGroups; ++i) kernels.choose_rows(method.mixture_view(), groups[i], chosen[i]);
+    kernels.sample_guided(method.mixture_view(), jitter_key, groups, chosen, directions, kGroups);
     for (std::uint32_t i = 0; i < kGroups * kGroupSize; ++i) {
         const GuidedGroup& group = groups[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
         SurfacePoint surface;
-        surface.position = {group.position_x[lane], group.position_y[lane], group.position_z[lane]};
-        surface.shading_normal = {group.normal_x[lane], group.normal_y[lane], group.normal_z[lane]};
+        surface.position = group.position.get(lane);
+        surface.shading_normal = group.shading_normal.get(lane);
         const Rng rng{jitter_key.seed, jitter_key.stream, group.counters.pixel[lane], group.counters.sample[lane]};
         const DirectionSample alone =
             method.sample_direction({group.volume[lane]}, surface, rng, group.counters.vertex[lane],

@@ -66,7 +66,7 @@ TEST_CASE("Arrays go to the device and come back once the stream was waited for"
         CHECK(back == HostArray<int>{0, 0, 0, 0});
 
         DeviceArray<int> empty;
-        empty.upload({}, stream);
+        empty.upload(HostArray<int>{}, stream);
         empty.download(back, stream);
         stream.wait("copying");
         CHECK(back.empty());

@@ -26,8 +26,8 @@ namespace {
 constexpr std::size_t kPrefixBytes = 8 + 4 + 8;  // what the file is, version, bytes
 constexpr std::size_t kChecksumBytes = 8;
 
-template <class T>
-bool same_bits(const HostArray<T>& a, const HostArray<T>& b) {
+template <class T, class Allocator>
+bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 bool same_bits(const HostArray<SurfacePoint>& a, const HostArray<SurfacePoint>& b) {

@@ -9,37 +9,50 @@
 
 namespace pl {
 
+/// Who adds to the same sums. One thread alone adds for a fraction of the time; a device never is one.
+enum class Writers : std::uint32_t { Many, One };
+
+#ifndef __CUDA_ARCH__
+template <class T>
+inline void add_on_host(T& target, T value, Writers writers) {
+    if (writers == Writers::One)
+        target += value;
+    else
+        std::atomic_ref<T>(target).fetch_add(value, std::memory_order_relaxed);
+}
+#endif
+
 /// Readers see these sums only after the pass has ended, so no ordering is needed.
-PL_HD inline void atomic_add(std::int64_t& target, std::int64_t value) {
+PL_HD inline void atomic_add(std::int64_t& target, std::int64_t value, [[maybe_unused]] Writers writers) {
 #ifdef __CUDA_ARCH__
     atomicAdd(reinterpret_cast<unsigned long long*>(&target), static_cast<unsigned long long>(value));
 #else
-    std::atomic_ref<std::int64_t>(target).fetch_add(value, std::memory_order_relaxed);
+    add_on_host(target, value, writers);
 #endif
 }
 
-PL_HD inline void atomic_add(std::uint32_t& target, std::uint32_t value) {
+PL_HD inline void atomic_add(std::uint32_t& target, std::uint32_t value, [[maybe_unused]] Writers writers) {
 #ifdef __CUDA_ARCH__
     atomicAdd(&target, value);
 #else
-    std::atomic_ref<std::uint32_t>(target).fetch_add(value, std::memory_order_relaxed);
+    add_on_host(target, value, writers);
 #endif
 }
 
 /// Adds a value to a sum and one to its count. On a device the threads of a warp that hit the same sum add up first:
 /// paths that start side by side meet the same volume and are guided into the same few cells.
-PL_HD inline void atomic_add_counted(std::int64_t& sum, std::int64_t value, std::uint32_t& count) {
+PL_HD inline void atomic_add_counted(std::int64_t& sum, std::int64_t value, std::uint32_t& count, Writers writers) {
 #ifdef __CUDA_ARCH__
     const unsigned peers = __match_any_sync(__activemask(), reinterpret_cast<unsigned long long>(&sum));
     std::int64_t total = 0;
     for (unsigned rest = peers; rest != 0; rest &= rest - 1)
         total += __shfl_sync(peers, static_cast<long long>(value), __ffs(static_cast<int>(rest)) - 1);
     if (static_cast<int>(threadIdx.x % 32u) != __ffs(static_cast<int>(peers)) - 1) return;
-    atomic_add(sum, total);
-    atomic_add(count, static_cast<std::uint32_t>(__popc(peers)));
+    atomic_add(sum, total, writers);
+    atomic_add(count, static_cast<std::uint32_t>(__popc(peers)), writers);
 #else
-    atomic_add(sum, value);
-    atomic_add(count, 1u);
+    atomic_add(sum, value, writers);
+    atomic_add(count, 1u, writers);
 #endif
 }
 

@@ -18,9 +18,10 @@ struct DirectionTables {
 
     /// Probability of a cell: exactly what sample_cell does, because it is the same stored differences.
     PL_INLINE Real cell_probability(Int column, Int row) const {
-        const Int rows = volume * cells.side;
-        return share_of(row_cdf, rows, row) * share_of(column_cdf, (rows + row) * cells.side, column);
+        return share_of(row_cdf, volume * cells.side, row) * share_of(column_cdf, first_of_row(row), column);
     }
+    /// Where the cumulative probabilities of a row start.
+    PL_INLINE Int first_of_row(Int row) const { return (volume * cells.side + row) * cells.side; }
 
 private:
     /// What one entry adds to the cumulative probabilities that start at `first`.
@@ -43,46 +44,58 @@ struct CellNumber {
     typename N::Int column, row;
 };
 
-/// A cell with its table probability; u in [0,1)^2. Chosen is the interval that holds u: as many cumulative values are
-/// not above it. The last value is exactly 1, so the search cannot fail.
+/// A row by its probability; u in [0,1). Chosen is the interval that holds u: as many cumulative values are not above it.
+/// The last value is exactly 1, so the search cannot fail.
 template <class N>
-PL_INLINE CellNumber<N> sample_cell(const DirectionTables<N>& table, const Real2<N>& u) {
-    const int side = table.cells.side;
-    const auto rows = table.volume * side;
-    const auto row = N::count_not_above(table.row_cdf, rows, side, u.y);
-    return {N::count_not_above(table.column_cdf, (rows + row) * side, side, u.x), row};
+PL_INLINE typename N::Int sample_row(const DirectionTables<N>& table, typename N::Real u) {
+    return N::count_not_above(table.row_cdf, table.volume * table.cells.side, table.cells.side, u);
+}
+
+/// A cell of a row, in the same way.
+template <class N>
+PL_INLINE CellNumber<N> sample_cell(const DirectionTables<N>& table, typename N::Int row, typename N::Real u) {
+    return {N::count_not_above(table.column_cdf, table.first_of_row(row), table.cells.side, u), row};
 }
 
 /// A point of the unit square: a cell by its probability, jittered by a tent that reaches into the neighbours.
-/// Density over the square: square_density().   u, jitter in [0,1)^2
+/// Density over the square: square_density().   u, jitter in [0,1)^2; `row` is sample_row() of u.y
 template <class N>
-PL_INLINE Real2<N> sample_square(const DirectionTables<N>& table, const Real2<N>& u, const Real2<N>& jitter) {
-    const CellNumber<N> cell = sample_cell(table, u);
+PL_INLINE Real2<N> sample_square(const DirectionTables<N>& table, typename N::Int row, const Real2<N>& u,
+                                 const Real2<N>& jitter) {
+    const CellNumber<N> cell = sample_cell(table, row, u.x);
     const auto side = static_cast<float>(table.cells.side);
     const auto x = N::to_real(cell.column) + 0.5f + sample_tent<N>(jitter.x);
     const auto y = N::to_real(cell.row) + 0.5f + sample_tent<N>(jitter.y);
     return {reflect_into<N>(x, side) / side, reflect_into<N>(y, side) / side};
 }
 
+/// The two columns, or rows, between whose centers a coordinate of the unit square lies, and how far it is from the first
+/// to the second. Beyond the outermost ones both are the same.
+template <class N>
+struct CellPair {
+    typename N::Int first, second;
+    typename N::Real weight;
+
+    PL_INLINE CellPair(const DirectionCells& cells, typename N::Real coordinate) {
+        const auto x = coordinate * static_cast<float>(cells.side) - 0.5f;
+        const auto below = floor_of<N>(x);
+        weight = x - N::to_real(below);
+        first = clamp_int<N>(below, 0, cells.side - 1);
+        second = clamp_int<N>(below + 1, 0, cells.side - 1);
+    }
+};
+
 /// Density of sample_square: bilinear between cell centers, constant beyond the outermost ones. Reflecting the tent
 /// at the border is what makes this exact.
 template <class N>
 PL_INLINE typename N::Real square_density(const DirectionTables<N>& table, const Real2<N>& square) {
-    const int last = table.cells.side - 1;
-    const auto side = static_cast<float>(table.cells.side);
-    const auto x = square.x * side - 0.5f;
-    const auto y = square.y * side - 0.5f;
-    const auto left = floor_of<N>(x);
-    const auto below = floor_of<N>(y);
-    const auto fx = x - N::to_real(left);
-    const auto fy = y - N::to_real(below);
-    const auto x0 = clamp_int<N>(left, 0, last);
-    const auto y0 = clamp_int<N>(below, 0, last);
-    const auto x1 = clamp_int<N>(left + 1, 0, last);
-    const auto y1 = clamp_int<N>(below + 1, 0, last);
-    const auto low = (1.0f - fx) * table.cell_probability(x0, y0) + fx * table.cell_probability(x1, y0);
-    const auto high = (1.0f - fx) * table.cell_probability(x0, y1) + fx * table.cell_probability(x1, y1);
-    return ((1.0f - fy) * low + fy * high) * static_cast<float>(table.cells.count());
+    const CellPair<N> x(table.cells, square.x);
+    const CellPair<N> y(table.cells, square.y);
+    const auto low = (1.0f - x.weight) * table.cell_probability(x.first, y.first) +
+                     x.weight * table.cell_probability(x.second, y.first);
+    const auto high = (1.0f - x.weight) * table.cell_probability(x.first, y.second) +
+                      x.weight * table.cell_probability(x.second, y.second);
+    return ((1.0f - y.weight) * low + y.weight * high) * static_cast<float>(table.cells.count());
 }
 
 template <class N>
@@ -91,13 +104,24 @@ struct TableDensity {
     typename N::Int cell;     ///< that holds the direction; -1 below the horizon
 };
 
-/// Density of a direction in the volume's frame; none below its horizon.
+/// A direction in the volume's frame as its table sees it.
 template <class N>
-PL_INLINE TableDensity<N> table_density(const DirectionTables<N>& table, const Real3<N>& local) {
-    const typename N::Mask above = local.z > 0.0f;
-    const Real2<N> square = disk_to_square(Real2<N>{local.x, local.y});
-    const auto pdf_sa = square_density(table, square) * cosine_pdf_sa<N>(local.z);
-    return {select(above, pdf_sa, N::constant(0.0f)), select(above, table.cells.cell_of(square), N::constant(-1))};
+struct TableDirection {
+    Real2<N> square;
+    typename N::Real cosine;  ///< with the volume's normal
+
+    explicit PL_INLINE TableDirection(const Real3<N>& local)
+        : square(disk_to_square(Real2<N>{local.x, local.y})), cosine(local.z) {}
+    PL_INLINE TableDirection(const Real2<N>& point, typename N::Real cos_theta) : square(point), cosine(cos_theta) {}
+};
+
+/// Density of a direction; none below the volume's horizon.
+template <class N>
+PL_INLINE TableDensity<N> table_density(const DirectionTables<N>& table, const TableDirection<N>& direction) {
+    const typename N::Mask above = direction.cosine > 0.0f;
+    const auto pdf_sa = square_density(table, direction.square) * cosine_pdf_sa<N>(direction.cosine);
+    return {select(above, pdf_sa, N::constant(0.0f)),
+            select(above, table.cells.cell_of(direction.square), N::constant(-1))};
 }
 
 }  // namespace pl

@@ -50,8 +50,11 @@ struct FieldView {
     Span<const float> radiance{};
     Span<const std::uint32_t> visits{};
 
+    Writers writers = Writers::Many;  ///< of the running pass
+
     /// The volume that serves a surface point, or kNoVolume.
-    PL_HD std::int32_t volume_at(const SurfacePoint& point) const { return find_volume(tree, grid, point); }
+    PL_HD std::int32_t volume_at(const SurfacePoint& point) const { return find(point).volume; }
+    PL_HD FoundVolume find(const SurfacePoint& point) const { return find_volume(tree, grid, point); }
 
     PL_HD std::int32_t volume_count() const { return static_cast<std::int32_t>(normals.count); }
 
@@ -78,7 +81,7 @@ PL_HD inline float from_fixed_point(std::int64_t sum, std::uint32_t count, float
 PL_HD inline void record(const FieldView& field, std::int32_t volume, int cell, float radiance) {
     const std::uint32_t index = field.cell_index(volume, cell);
     atomic_add_counted(field.pending_sum[index], to_fixed_point(radiance, field.radiance_unit),
-                       field.pending_count[index]);
+                       field.pending_count[index], field.writers);
 }
 
 }  // namespace pl

@@ -45,8 +45,8 @@ PL_HD inline void record_mixture(const FieldView& field, std::int32_t volume, fl
     const float excess = bsdf_ratio - 1.0f;
     const float slope = -weight * excess * kMixtureStepsPerUnit;
     const float curvature = weight * excess * excess * kMixtureStepsPerUnit;
-    atomic_add(field.pending_slope[index], static_cast<std::int64_t>(slope));
-    atomic_add(field.pending_curvature[index], static_cast<std::int64_t>(curvature));
+    atomic_add(field.pending_slope[index], static_cast<std::int64_t>(slope), field.writers);
+    atomic_add(field.pending_curvature[index], static_cast<std::int64_t>(curvature), field.writers);
 }
 
 /// Moves a volume's share to the mean of the Newton steps so far, each weighted by its curvature and by how recent it

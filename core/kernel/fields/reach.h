@@ -32,8 +32,8 @@ PL_HD inline void record_reach(const FieldView& field, std::int32_t volume, floa
     const auto index = static_cast<std::uint32_t>(volume);
     const float steps = min_of(weight, kMaxReachWeight) * kReachStepsPerUnit;
     atomic_add(field.pending_distance[index],
-               static_cast<std::int64_t>(steps * min_of(distance / field.extent, kMostDistance)));
-    atomic_add(field.pending_light[index], static_cast<std::int64_t>(steps));
+               static_cast<std::int64_t>(steps * min_of(distance / field.extent, kMostDistance)), field.writers);
+    atomic_add(field.pending_light[index], static_cast<std::int64_t>(steps), field.writers);
 }
 
 /// Moves a volume's reach to the mean of all records so far.

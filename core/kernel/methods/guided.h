@@ -11,6 +11,7 @@ namespace pl {
 
 struct GuidedVertex {
     std::int32_t volume = kNoVolume;
+    std::uint32_t node = FoundVolume::kUnknown;  ///< of the tree, with the place and normal of the volume
 };
 
 /// Radiance (luminance) that the first vertex was expected to reflect; 0 if nothing was known there.
@@ -26,100 +27,113 @@ struct GuidedDirection {
     typename N::Int cell;
 };
 
-/// Where a path stands, as a mixture sees it; `volume` is kNoVolume where none serves.
+/// The volume that serves a path, as a mixture sees it.
+template <class N>
+struct ServingVolume {
+    typename N::Int number;  ///< kNoVolume where none serves; the rest then is any number but NaN
+    Real3<N> site, normal;
+    typename N::Real inverse_reach;
+    typename N::Real bsdf_fraction;  ///< a, in (0, 1]
+};
+
+/// Where a path stands.
 template <class N>
 struct GuidedPlace {
-    typename N::Int volume;
+    ServingVolume<N> volume;
     Real3<N> position, shading_normal;
+};
+
+/// A direction as the serving volume sees it from its site.
+template <class N>
+struct SeenDirection {
+    TableDirection<N> table;
+    typename N::Real steradians;  ///< at the site for one at the point
 };
 
 /// q = a p_bsdf + (1-a) p_table, with both densities evaluated whichever of the two chose the direction. A direction
 /// weighs at most 1/a times what it weighs under BSDF sampling.   [Veach 1997, 9.2.4; Mueller et al. 2017]
-/// Plain pointers, for code that is compiled apart; of at least one volume.
+/// Plain pointers, for code that is compiled apart; of at least one volume. sample() is all; its steps are for those who
+/// choose many directions at once and ask for the next step's memory in time.
 struct GuidedMixture {
     DirectionCells cells;
-    const float* row_cdf = nullptr;        ///< [volume][row]
-    const float* column_cdf = nullptr;     ///< [volume][row][column]
-    const float* normals = nullptr;        ///< [volume][3]
-    const float* sites = nullptr;          ///< [volume][kSiteStride], of which the first three are the position
-    const float* inverse_reach = nullptr;  ///< [volume]
-    const float* bsdf_fraction = nullptr;  ///< a, in (0, 1]. [volume]; null: the same for all
-    float same_bsdf_fraction = 1.0f;
+    const float* row_cdf = nullptr;     ///< [volume][row]
+    const float* column_cdf = nullptr;  ///< [volume][row][column]
 
-    static constexpr int kSiteStride = sizeof(SurfacePoint) / sizeof(float);
-    static_assert(kSiteStride * sizeof(float) == sizeof(SurfacePoint));
-
-    /// Draws a direction: u.x chooses between BSDF and table, u.y and u.z the direction, jitter() two further numbers.
+    /// Draws a direction: `choice` chooses between BSDF and table, u the direction, jitter() two further numbers.
     template <class N, class Jitter>
     PL_INLINE GuidedDirection<N> sample(const GuidedPlace<N>& place, typename N::Real choice, const Real2<N>& u,
                                         Jitter&& jitter) const {
-        const typename N::Mask served = place.volume >= 0;
-        const auto index = select(served, place.volume, N::constant(0));
-        const Real3<N> volume_normal = normal_of<N>(index);
-        const typename N::Mask guided = served & (choice >= fraction_of<N>(index));
-        Real2<N> square = u;
-        if (N::any(guided)) square = select(guided, sample_square(tables_of<N>(index), u, jitter()), u);
-        const FrameOf<N> frame = make_frame(select(guided, volume_normal, place.shading_normal));
-        const Real3<N> direction = frame.to_world(square_to_cosine_hemisphere(square));
-        const Parallax<N> parallax = parallax_of(index, place.position);
-        const Real3<N> wi = select(guided, parallax.to_point(direction), direction);
-        return weigh(place, parallax, wi, cosine_pdf_sa<N>(dot(wi, place.shading_normal)));
+        const typename N::Mask guided = is_guided(place, choice);
+        typename N::Int row = N::constant(0);
+        if (N::any(guided)) row = sample_row(tables_of(place, guided), u.y);
+        return weigh(place, choose(place, row, choice, u, jitter));
     }
-
-    /// A direction with all its densities, as if it had been sampled, at a Lambert reflector.
+    /// A direction with all its densities, as if it had been sampled.
     template <class N>
     PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Real3<N>& wi) const {
-        return weigh(place, wi, cosine_pdf_sa<N>(dot(wi, place.shading_normal)));
+        return weigh(place, wi, look(place, wi));
     }
-    /// The same where BSDF sampling has another density.
+
+    /// Whether the table chooses the direction.
+    template <class N>
+    PL_INLINE typename N::Mask is_guided(const GuidedPlace<N>& place, typename N::Real choice) const {
+        return (place.volume.number >= 0) & (choice >= place.volume.bsdf_fraction);
+    }
+    /// The direction. `row` is sample_row() of u.y where the table chooses, else 0.
+    template <class N, class Jitter>
+    PL_INLINE Real3<N> choose(const GuidedPlace<N>& place, typename N::Int row, typename N::Real choice,
+                              const Real2<N>& u, Jitter&& jitter) const {
+        const typename N::Mask guided = is_guided(place, choice);
+        Real2<N> square = u;
+        if (N::any(guided)) square = select(guided, sample_square(tables_of(place, guided), row, u, jitter()), u);
+        const FrameOf<N> frame = make_frame(select(guided, place.volume.normal, place.shading_normal));
+        const Real3<N> direction = frame.to_world(square_to_cosine_hemisphere(square));
+        return select(guided, parallax_of(place).to_point(direction), direction);
+    }
+    /// How the volume sees a direction.
+    template <class N>
+    PL_INLINE SeenDirection<N> look(const GuidedPlace<N>& place, const Real3<N>& wi) const {
+        const SiteDirection<N> seen = parallax_of(place).to_site(wi);
+        return {TableDirection<N>(make_frame(place.volume.normal).to_local(seen.direction)), seen.steradians};
+    }
+    /// Its densities.
+    template <class N>
+    PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Real3<N>& wi,
+                                       const SeenDirection<N>& seen) const {
+        return weigh(place, wi, seen, cosine_pdf_sa<N>(dot(wi, place.shading_normal)));
+    }
+    template <class N>
+    PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Real3<N>& wi, const SeenDirection<N>& seen,
+                                       typename N::Real bsdf_pdf_sa) const {
+        const typename N::Mask served = place.volume.number >= 0;
+        const TableDensity<N> table = table_density(tables_of(place, served), seen.table);
+        const auto a = place.volume.bsdf_fraction;
+        const auto mixed = a * bsdf_pdf_sa + (1.0f - a) * (table.pdf_sa * seen.steradians);
+        return {wi, select(served, mixed, bsdf_pdf_sa), bsdf_pdf_sa, select(served, table.cell, N::constant(-1))};
+    }
+
+    /// The table of the serving volume where one is wanted, else of the first one: memory that has surely come already.
+    template <class N>
+    PL_INLINE DirectionTables<N> tables_of(const GuidedPlace<N>& place, typename N::Mask wanted) const {
+        return {cells, row_cdf, column_cdf, select(wanted, place.volume.number, N::constant(0))};
+    }
+    /// The same where BSDF sampling has another density than that of a Lambert reflector.
     template <class N>
     PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Real3<N>& wi,
                                        typename N::Real bsdf_pdf_sa) const {
-        const typename N::Mask served = place.volume >= 0;
-        return weigh(place, parallax_of(select(served, place.volume, N::constant(0)), place.position), wi,
-                     bsdf_pdf_sa);
+        return weigh(place, wi, look(place, wi), bsdf_pdf_sa);
     }
 
     /// A direction from the table alone, at a place that a volume serves.
     PL_HD Vec3f sample_table(const GuidedPlace<One>& place, Vec2f u, Vec2f jitter) const {
-        const Real2<One> square = sample_square(tables_of<One>(place.volume), unpack(u), unpack(jitter));
-        const Real3<One> direction =
-            make_frame(normal_of<One>(place.volume)).to_world(square_to_cosine_hemisphere(square));
-        return pack(parallax_of<One>(place.volume, place.position).to_point(direction));
+        const auto draw_jitter = [&] { return unpack(jitter); };
+        return pack(choose(place, sample_row(tables_of(place, true), u.y), 1.0f, unpack(u), draw_jitter));
     }
-    PL_HD float bsdf_share(std::int32_t volume) const { return fraction_of<One>(volume); }
 
 private:
     template <class N>
-    PL_INLINE GuidedDirection<N> weigh(const GuidedPlace<N>& place, const Parallax<N>& parallax, const Real3<N>& wi,
-                                       typename N::Real bsdf_pdf_sa) const {
-        const typename N::Mask served = place.volume >= 0;
-        const auto index = select(served, place.volume, N::constant(0));
-        const SiteDirection<N> seen = parallax.to_site(wi);
-        const Real3<N> local = make_frame(normal_of<N>(index)).to_local(seen.direction);
-        const TableDensity<N> table = table_density(tables_of<N>(index), local);
-        const auto a = fraction_of<N>(index);
-        const auto mixed = a * bsdf_pdf_sa + (1.0f - a) * (table.pdf_sa * seen.steradians);
-        return {wi, select(served, mixed, bsdf_pdf_sa), bsdf_pdf_sa, select(served, table.cell, N::constant(-1))};
-    }
-    template <class N>
-    PL_INLINE Parallax<N> parallax_of(typename N::Int volume, const Real3<N>& position) const {
-        const auto first = volume * kSiteStride;
-        return {{N::load(sites, first), N::load(sites, first + 1), N::load(sites, first + 2)},
-                position,
-                N::load(inverse_reach, volume)};
-    }
-    template <class N>
-    PL_INLINE DirectionTables<N> tables_of(typename N::Int volume) const {
-        return {cells, row_cdf, column_cdf, volume};
-    }
-    template <class N>
-    PL_INLINE Real3<N> normal_of(typename N::Int volume) const {
-        return {N::load(normals, 3 * volume), N::load(normals, 3 * volume + 1), N::load(normals, 3 * volume + 2)};
-    }
-    template <class N>
-    PL_INLINE typename N::Real fraction_of(typename N::Int volume) const {
-        return bsdf_fraction != nullptr ? N::load(bsdf_fraction, volume) : N::constant(same_bsdf_fraction);
+    static PL_INLINE Parallax<N> parallax_of(const GuidedPlace<N>& place) {
+        return {place.volume.site, place.position, place.volume.inverse_reach};
     }
 };
 
@@ -136,21 +150,27 @@ struct GuidedSampling {
     MixtureSettings mixture{};
 
     PL_HD GuidedMixture mixture_view() const {
-        return {.cells = field.cells,
-                .row_cdf = field.row_cdf.data,
-                .column_cdf = field.column_cdf.data,
-                .normals = &field.normals.data->x,
-                .sites = &field.sites.data->position.x,
-                .inverse_reach = field.inverse_reach.data,
-                .bsdf_fraction = mixture.learned != 0 ? field.bsdf_fraction.data : nullptr,
-                .same_bsdf_fraction = mixture.bsdf_fraction};
+        return {.cells = field.cells, .row_cdf = field.row_cdf.data, .column_cdf = field.column_cdf.data};
+    }
+
+    PL_HD ServingVolume<One> serving_volume(std::int32_t number) const {
+        const auto index = static_cast<std::uint32_t>(number);
+        return serving_volume(number, field.sites[index].position, field.normals[index]);
+    }
+    /// The same, with the place and normal of the volume from where they are at hand.
+    PL_HD ServingVolume<One> serving_volume(std::int32_t number, Vec3f site, Vec3f normal) const {
+        const auto index = static_cast<std::uint32_t>(number);
+        return {number, unpack(site), unpack(normal), field.inverse_reach[index],
+                mixture.learned != 0 ? field.bsdf_fraction[index] : mixture.bsdf_fraction};
     }
 
     PL_HD GuidedVertex arrive(const SurfacePoint& surface, MethodCounters& counters) const {
-        const std::int32_t volume = field.volume_at(surface);
+        return vertex_of(field.find(surface), counters);
+    }
+    static PL_HD GuidedVertex vertex_of(const FoundVolume& found, MethodCounters& counters) {
         ++counters.lookups;
-        counters.lookup_misses += volume == kNoVolume ? 1u : 0u;
-        return {volume};
+        counters.lookup_misses += found.volume == kNoVolume ? 1u : 0u;
+        return {found.volume, found.node};
     }
 
     PL_HD float pdf_sa(const GuidedVertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
@@ -178,11 +198,13 @@ struct GuidedSampling {
     PL_HD DirectionSample sample_direction(const GuidedVertex& vertex, const SurfacePoint& surface,
                                            const LayeredBsdf& bsdf, const Rng& rng, std::uint32_t index, Vec4f u,
                                            float choice) const {
-        if (vertex.volume == kNoVolume || u.x < mixture_view().bsdf_share(vertex.volume))
+        if (vertex.volume == kNoVolume) return sample_bsdf(surface, bsdf, u, choice);
+        const GuidedMixture tables = mixture_view();
+        const GuidedPlace<One> place = place_of(vertex, surface);
+        if (!tables.is_guided(place, u.x))
             return weigh(vertex, surface, bsdf, bsdf.sample(surface, {u.y, u.z}, choice));
         const Vec4f jitter = rng.draw(index, Purpose::CellJitter);
-        const Vec3f wi = mixture_view().sample_table(place_of(vertex, surface), {u.y, u.z}, {jitter.x, jitter.y});
-        return weigh(vertex, surface, bsdf, wi);
+        return weigh(vertex, surface, bsdf, tables.sample_table(place, {u.y, u.z}, {jitter.x, jitter.y}));
     }
 
     /// What the path can still bring, by what is learned, as a share of what its first vertex was expected to. A
@@ -223,8 +245,8 @@ private:
         if (vertex.volume == kNoVolume) return {wi, bsdf_pdf_sa, bsdf_pdf_sa};
         return pack(mixture_view().weigh(place_of(vertex, surface), unpack(wi), bsdf_pdf_sa));
     }
-    static PL_HD GuidedPlace<One> place_of(const GuidedVertex& vertex, const SurfacePoint& surface) {
-        return {vertex.volume, unpack(surface.position), unpack(surface.shading_normal)};
+    PL_HD GuidedPlace<One> place_of(const GuidedVertex& vertex, const SurfacePoint& surface) const {
+        return {serving_volume(vertex.volume), unpack(surface.position), unpack(surface.shading_normal)};
     }
     static PL_HD DirectionSample pack(const GuidedDirection<One>& direction) {
         return {pl::pack(direction.wi), direction.pdf_sa, direction.bsdf_pdf_sa, direction.cell};

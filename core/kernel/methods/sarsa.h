@@ -59,7 +59,7 @@ struct SarsaMethod : GuidedSampling {
         if (memory.lit.volume == kNoVolume) return;
         // Only the sum: the record that it belongs to has been counted, or is where the path was scattered.
         const std::uint32_t index = field.cell_index(memory.lit.volume, memory.lit.cell);
-        atomic_add(field.pending_sum[index], to_fixed_point(memory.light, field.radiance_unit));
+        atomic_add(field.pending_sum[index], to_fixed_point(memory.light, field.radiance_unit), field.writers);
         record_light(memory.lit, memory.light);
     }
 
