@@ -265,6 +265,6 @@ TEST_CASE("The back end says what it runs on and which kernel serves") {
     CHECK(backend->kernel_name(MethodId::Reinforcement, View::Beauty, lights) ==
           "cpu/reinforcement/next-event-estimation");
     CHECK(backend->kernel_name(MethodId::Precomputed, View::Beauty, smooth) ==
-          "cpu/precomputed/smooth-normals+environment");
+          "cpu/precomputed/smooth-normals+environment+next-event-estimation");
     CHECK(backend->kernel_name(MethodId::Default, View::Depth, {}) == "cpu/depth/base");
 }
