@@ -2,6 +2,7 @@
 
 namespace pl::cuda {
 
-constinit const KernelRow<PictureKernel<SarsaMethod>> kSarsaKernels = make_picture_kernels<SarsaMethod, KernelRange::Sparse>();
+constinit const KernelRow<PictureKernel<SarsaMethod>> kSarsaKernels =
+    make_picture_kernels<SarsaMethod, KernelRange::Sparse>();
 
 }  // namespace pl::cuda

@@ -58,7 +58,8 @@ __global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup
 
 template <Method M, KernelRange range = KernelRange::Full>
 constexpr KernelRow<PictureKernel<M>> make_picture_kernels() {
-    return make_kernel_row<PictureKernel<M>, range>([]<FeatureSet F>() { return trace_paths<F.bits, M, PixelPaths>; });
+    return make_kernel_row<PictureKernel<M>, range>(
+        []<FeatureSet F>() { return trace_paths<F.bits, M, PixelPaths>; });
 }
 
 }  // namespace pl::cuda

@@ -26,7 +26,8 @@ float survive(const M& method, const PathSettings& settings, Uniforms& random) {
     PathState<FeatureSet{}, M> state;
     for (int vertex = 0; vertex < kVertices; ++vertex) {
         ++state.vertices;
-        if (play_roulette(method, settings, typename M::Vertex{}, Vec3f{kAlbedo}, random.next(), state) == 0.0f) return 0.0f;
+        if (play_roulette(method, settings, typename M::Vertex{}, Vec3f{kAlbedo}, random.next(), state) == 0.0f)
+            return 0.0f;
         state.throughput *= kAlbedo;
     }
     return state.throughput.x;

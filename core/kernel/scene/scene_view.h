@@ -47,7 +47,8 @@ struct SceneView {
     Textures textures;
     Span<const Light> lights;
     BvhView bvh;
-    float light_power = 0.0f;      ///< sum over lights of area x luminance of the emission, over the share of their samples
+    float light_power =
+        0.0f;  ///< sum over lights of area x luminance of the emission, over the share of their samples
     Vec3f environment{0.0f};       ///< radiance of everything that no surface covers
     FarLights far_lights;          ///< added to it
     float far_probability = 0.0f;  ///< that a light sample is one of the far lights rather than of `lights`

@@ -76,9 +76,8 @@ PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32
 /// a wall that meets this one. Only the position moves: normals stay smooth on the smallest triangles.
 template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
-    return make_surface_point<F>(scene, hit.primitive,
-                                 inner_barycentrics(hit, scene.planes[hit.primitive].edge_margin),
-                                 hit_weights(hit), wo);
+    return make_surface_point<F>(
+        scene, hit.primitive, inner_barycentrics(hit, scene.planes[hit.primitive].edge_margin), hit_weights(hit), wo);
 }
 
 /// Moves `coordinate` by `offset` and then one float further in the same direction.
