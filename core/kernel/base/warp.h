@@ -67,6 +67,21 @@ PL_HD inline Vec2f square_to_triangle(Vec2f u) {
     return {u.x - b2, b2};
 }
 
+/// Index of the interval that holds u in [0,1), of `count` > 0 that end at cumulative(index), ascending to 1.
+template <class Cumulative>
+PL_HD inline std::uint32_t find_interval(std::uint32_t count, float u, Cumulative cumulative) {
+    std::uint32_t low = 0;
+    std::uint32_t high = count - 1;
+    while (low < high) {
+        const std::uint32_t middle = (low + high) / 2;
+        if (u < cumulative(middle))
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
 /// Triangular density on [-1, 1] from a uniform number: one cell to each side.
 template <class N>
 PL_INLINE typename N::Real sample_tent(typename N::Real u) {

@@ -61,12 +61,8 @@ PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PathSettings
 template <FeatureSet F, class M>
 PL_HD inline float add_emission(const SceneView& scene, const PathSettings& settings, const SurfacePoint& surface,
                                 Vec3f emitted, PathState<F, M>& state) {
-    float weight = 1.0f;
-    if constexpr (F.has(Feature::NextEventEstimation)) {
-        if (settings.next_event != 0 && state.direction_pdf_sa > 0.0f)
-            weight = balance_weight(state.direction_pdf_sa,
-                                    light_pdf_sa(scene, state.ray.origin, surface, state.ray.direction));
-    }
+    const float weight = direction_weight(
+        settings, state, [&] { return light_pdf_sa(scene, state.ray.origin, surface, state.ray.direction); });
     state.radiance += weight * (state.throughput * emitted);
     return weight;
 }

@@ -124,12 +124,6 @@ struct GuidedMixture {
         return weigh(place, wi, look(place, wi), bsdf_pdf_sa);
     }
 
-    /// A direction from the table alone, at a place that a volume serves.
-    PL_HD Vec3f sample_table(const GuidedPlace<One>& place, Vec2f u, Vec2f jitter) const {
-        const auto draw_jitter = [&] { return unpack(jitter); };
-        return pack(choose(place, sample_row(tables_of(place, true), u.y), 1.0f, unpack(u), draw_jitter));
-    }
-
 private:
     template <class N>
     static PL_INLINE Parallax<N> parallax_of(const GuidedPlace<N>& place) {
@@ -184,16 +178,14 @@ struct GuidedSampling {
     PL_HD DirectionSample sample_direction(const GuidedVertex& vertex, const SurfacePoint& surface, const Rng& rng,
                                            std::uint32_t index, Vec4f u) const {
         if (vertex.volume == kNoVolume) return weigh_lambert(surface, lambert_sample(surface, {u.y, u.z}));
-        const auto draw_jitter = [&] {
-            const Vec4f jitter = rng.draw(index, Purpose::CellJitter);
-            return Real2<One>{jitter.x, jitter.y};
-        };
+        const auto draw_jitter = [&] { return jitter_of(rng, index); };
         return pack(mixture_view().sample(place_of(vertex, surface), u.x, {u.y, u.z}, draw_jitter));
     }
 
     PL_HD float pdf_sa(const GuidedVertex& vertex, const SurfacePoint& surface, const LayeredBsdf& bsdf,
                        Vec3f wi) const {
-        return weigh(vertex, surface, bsdf, wi).pdf_sa;
+        if (vertex.volume == kNoVolume) return bsdf.pdf_sa(surface, wi);
+        return weigh(place_of(vertex, surface), surface, bsdf, wi).pdf_sa;
     }
     PL_HD DirectionSample sample_direction(const GuidedVertex& vertex, const SurfacePoint& surface,
                                            const LayeredBsdf& bsdf, const Rng& rng, std::uint32_t index, Vec4f u,
@@ -202,9 +194,10 @@ struct GuidedSampling {
         const GuidedMixture tables = mixture_view();
         const GuidedPlace<One> place = place_of(vertex, surface);
         if (!tables.is_guided(place, u.x))
-            return weigh(vertex, surface, bsdf, bsdf.sample(surface, {u.y, u.z}, choice));
-        const Vec4f jitter = rng.draw(index, Purpose::CellJitter);
-        return weigh(vertex, surface, bsdf, tables.sample_table(place, {u.y, u.z}, {jitter.x, jitter.y}));
+            return weigh(place, surface, bsdf, bsdf.sample(surface, {u.y, u.z}, choice));
+        const auto draw_jitter = [&] { return jitter_of(rng, index); };
+        const std::int32_t row = sample_row(tables.tables_of(place, true), u.z);
+        return weigh(place, surface, bsdf, pl::pack(tables.choose(place, row, u.x, {u.y, u.z}, draw_jitter)));
     }
 
     /// What the path can still bring, by what is learned, as a share of what its first vertex was expected to. A
@@ -239,11 +232,13 @@ struct GuidedSampling {
     }
 
 private:
-    PL_HD DirectionSample weigh(const GuidedVertex& vertex, const SurfacePoint& surface, const LayeredBsdf& bsdf,
+    static PL_HD Real2<One> jitter_of(const Rng& rng, std::uint32_t index) {
+        const Vec4f jitter = rng.draw(index, Purpose::CellJitter);
+        return {jitter.x, jitter.y};
+    }
+    PL_HD DirectionSample weigh(const GuidedPlace<One>& place, const SurfacePoint& surface, const LayeredBsdf& bsdf,
                                 Vec3f wi) const {
-        const float bsdf_pdf_sa = bsdf.pdf_sa(surface, wi);
-        if (vertex.volume == kNoVolume) return {wi, bsdf_pdf_sa, bsdf_pdf_sa};
-        return pack(mixture_view().weigh(place_of(vertex, surface), unpack(wi), bsdf_pdf_sa));
+        return pack(mixture_view().weigh(place, unpack(wi), bsdf.pdf_sa(surface, wi)));
     }
     PL_HD GuidedPlace<One> place_of(const GuidedVertex& vertex, const SurfacePoint& surface) const {
         return {serving_volume(vertex.volume), unpack(surface.position), unpack(surface.shading_normal)};

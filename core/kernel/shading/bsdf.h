@@ -41,7 +41,7 @@ public:
     /// `albedo`, `lobes`: of the material at this point; `tables`: SceneView::directional_albedo.
     PL_HD LayeredBsdf(const SurfacePoint& surface, Vec3f wo, Vec3f albedo, const SurfaceLobes& lobes,
                       Span<const float> tables)
-        : reflectance_(albedo), lobes_(lobes), tables_(tables.data + lobes.table) {
+        : reflectance_(albedo), lobes_(lobes), tables_(tables.data + lobes.table), albedo_(albedo) {
         if (is_lambert()) return;
         // A shading normal may face away from the viewer; the true one never does.
         const bool usable = glm::dot(wo, surface.shading_normal) > kGrazing;
@@ -49,26 +49,23 @@ public:
         wo_ = frame_.to_local(wo);
         wo_.z = max_of(wo_.z, kGrazing);
         // A coat is on both sides; glass is left from its back.
-        inside_ = lobes.kind == SurfaceKind::Dielectric && !surface.front;
-        eta_ = inside_ ? 1.0f / lobes.ior : lobes.ior;
+        const bool is_inside = lobes.kind == SurfaceKind::Dielectric && !surface.front;
+        eta_ = is_inside ? 1.0f / lobes.ior : lobes.ior;
+        if (lobes.kind == SurfaceKind::Plastic) {
+            returned_ = plastic().reflected_by_coat(wo_.z);
+        } else if (!smooth()) {
+            if (is_inside) tables_ += AlbedoTable::kSize;
+            returned_ = AlbedoTable{tables_}.at(lobes.roughness, wo_.z);
+        }
+        albedo_ = directional_albedo();
     }
 
     PL_HD bool is_lambert() const { return lobes_.kind == SurfaceKind::Diffuse; }
     /// No table chooses directions here: what is seen is passed on to the vertex before.
     PL_HD bool passes_on() const { return is_black(reflectance_) && scatters(); }
-    PL_HD bool scatters() const { return lobes_.kind == SurfaceKind::Dielectric || !is_black(albedo()); }
-
+    PL_HD bool scatters() const { return lobes_.kind == SurfaceKind::Dielectric || !is_black(albedo_); }
     /// Share of light from all around that leaves towards the viewer.
-    PL_HD Vec3f albedo() const {
-        switch (lobes_.kind) {
-        case SurfaceKind::Diffuse: return reflectance_;
-        case SurfaceKind::Conductor:
-            return smooth() ? fresnel_conductor(wo_.z, lobes_.specular) : conductor().albedo();
-        case SurfaceKind::Dielectric: return glm::max(lobes_.specular, lobes_.transmission);
-        case SurfaceKind::Plastic: return plastic().albedo();
-        }
-        return Vec3f{0.0f};
-    }
+    PL_HD Vec3f albedo() const { return albedo_; }
 
     PL_HD float delta_probability() const {
         if (!smooth()) return 0.0f;
@@ -141,15 +138,24 @@ private:
     }
     PL_HD Ggx ggx() const { return {square(lobes_.roughness)}; }
 
-    PL_HD RoughConductor conductor() const { return {{tables_}, lobes_.specular, lobes_.roughness, wo_}; }
+    PL_HD RoughConductor conductor() const {
+        return {ggx(), lobes_.specular, {tables_}, lobes_.roughness, wo_, returned_};
+    }
     PL_HD RoughDielectric dielectric() const {
-        const AlbedoTable side{tables_ + (inside_ ? AlbedoTable::kSize : 0)};
-        return {ggx(), eta_, lobes_.specular, lobes_.transmission, wo_, side.at(lobes_.roughness, wo_.z)};
+        return {ggx(), eta_, lobes_.specular, lobes_.transmission, wo_, returned_};
     }
     PL_HD Plastic plastic() const {
-        Plastic plastic{ggx(), reflectance_, lobes_.specular, eta_, {tables_}, lobes_.roughness, wo_, 0.0f};
-        plastic.coated = plastic.reflected_by_coat(wo_.z);
-        return plastic;
+        return {ggx(), reflectance_, lobes_.specular, eta_, {tables_}, lobes_.roughness, wo_, returned_};
+    }
+    PL_HD Vec3f directional_albedo() const {
+        switch (lobes_.kind) {
+        case SurfaceKind::Diffuse: return reflectance_;
+        case SurfaceKind::Conductor:
+            return smooth() ? fresnel_conductor(wo_.z, lobes_.specular) : conductor().albedo();
+        case SurfaceKind::Dielectric: return glm::max(lobes_.specular, lobes_.transmission);
+        case SurfaceKind::Plastic: return plastic().albedo();
+        }
+        return Vec3f{0.0f};
     }
 
     Vec3f reflectance_{0.0f};
@@ -158,7 +164,8 @@ private:
     Frame frame_{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
     Vec3f wo_{0.0f, 0.0f, 1.0f};
     float eta_ = 1.0f;
-    bool inside_ = false;
+    float returned_ = 1.0f;  ///< of light from wo, by single reflections (and refractions) of the interface
+    Vec3f albedo_{0.0f};
 };
 
 template <FeatureSet F>

@@ -18,10 +18,6 @@ struct RoughConductor {
     Vec3f wo;
     float returned;  ///< lossless.at(roughness, wo.z)
 
-    PL_HD RoughConductor(AlbedoTable table, Vec3f f0_of_metal, float roughness_of_surface, Vec3f direction)
-        : ggx{square(roughness_of_surface)}, f0(f0_of_metal), lossless(table), roughness(roughness_of_surface),
-          wo(direction), returned(table.at(roughness_of_surface, direction.z)) {}
-
     /// What is reflected of light from all around.
     PL_HD Vec3f albedo() const {
         const Vec3f single = fresnel_conductor(wo.z, f0) * returned;
@@ -32,17 +28,14 @@ struct RoughConductor {
     PL_HD Vec3f eval(Vec3f wi) const {
         if (!(wi.z > 0.0f)) return Vec3f{0.0f};
         const Vec3f m = half_vector(wo, wi);
-        const Vec3f single =
-            fresnel_conductor(glm::dot(wo, m), f0) * (ggx.density(m) * ggx.visible(wo, wi) / (4.0f * wo.z));
+        const Vec3f single = fresnel_conductor(glm::dot(wo, m), f0) * ggx.reflection(wo, wi, m);
         const float missing = max_of(1.0f - lossless.mean(roughness), 1e-6f);
         const float several = (1.0f - returned) * (1.0f - lossless.at(roughness, wi.z)) / missing;
         return single + several_tint() * (several * wi.z * kInvPi);
     }
     PL_HD float pdf_sa(Vec3f wi) const {
         if (!(wi.z > 0.0f)) return 0.0f;
-        const Vec3f m = half_vector(wo, wi);
-        const float single = ggx.visible(wo) * ggx.density(m) / (4.0f * wo.z);
-        return returned * single + (1.0f - returned) * wi.z * kInvPi;
+        return returned * ggx.reflection_pdf_sa(wo, half_vector(wo, wi)) + (1.0f - returned) * wi.z * kInvPi;
     }
     /// `choice` in [0, 1) takes one of the two lobes. The direction may be below the horizon.
     PL_HD Vec3f sample(Vec2f u, float choice) const {

@@ -77,15 +77,7 @@ struct CdfStep {
     float position;  ///< in [0, 1]
 };
 PL_HD inline CdfStep find_in_cdf(Span<const float> cdf, std::uint32_t first, std::uint32_t count, float u) {
-    std::uint32_t low = 0;
-    std::uint32_t high = count - 1;
-    while (low < high) {
-        const std::uint32_t middle = (low + high) / 2;
-        if (u < cdf[first + middle])
-            high = middle;
-        else
-            low = middle + 1;
-    }
+    const std::uint32_t low = find_interval(count, u, [&](std::uint32_t entry) { return cdf[first + entry]; });
     const float start = low > 0 ? cdf[first + low - 1] : 0.0f;
     return {low, (u - start) / (cdf[first + low] - start)};
 }

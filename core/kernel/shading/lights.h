@@ -22,16 +22,8 @@ PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const Surfac
 
 /// Index of the light whose interval of the cumulative probabilities holds u in [0,1).
 PL_HD inline std::uint32_t choose_light(const SceneView& scene, float u) {
-    std::uint32_t low = 0;
-    std::uint32_t high = scene.lights.count - 1;
-    while (low < high) {
-        const std::uint32_t middle = (low + high) / 2;
-        if (u < scene.lights[middle].cumulative_probability)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
+    return find_interval(scene.lights.count, u,
+                         [&](std::uint32_t light) { return scene.lights[light].cumulative_probability; });
 }
 
 /// Barycentric weights of a uniform point; u in [0,1)^2.

@@ -25,10 +25,10 @@ struct Ggx {
     PL_HD float visible(Vec3f wo, Vec3f wi) const { return 1.0f / (1.0f + lambda(wo) + lambda(wi)); }
     PL_HD float visible(Vec3f wo) const { return 1.0f / (1.0f + lambda(wo)); }
 
-    /// Density of sample(), per steradian around facets' normals.
-    PL_HD float visible_density(Vec3f wo, Vec3f m) const {
-        return visible(wo) / wo.z * density(m) * max_of(glm::dot(wo, m), 0.0f);
-    }
+    /// f cos of facets m, halfway between both, that reflect everything: D G2 / (4 cos_o).
+    PL_HD float reflection(Vec3f wo, Vec3f wi, Vec3f m) const { return density(m) * visible(wo, wi) / (4.0f * wo.z); }
+    /// Density, per steradian, of wo reflected at m = sample(wo).
+    PL_HD float reflection_pdf_sa(Vec3f wo, Vec3f m) const { return visible(wo) * density(m) / (4.0f * wo.z); }
     /// Normal of a facet that wo sees; u in [0,1)^2.   [Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
     /// Spherical Caps"]
     PL_HD Vec3f sample(Vec3f wo, Vec2f u) const {

@@ -38,8 +38,8 @@ struct Plastic {
         const Vec3f matte = base * (entering * wi.z * kInvPi);
         if (smooth()) return matte;
         const Vec3f m = half_vector(wo, wi);
-        const float facets = ggx.density(m) * ggx.visible(wo, wi) / (4.0f * wo.z);
-        return matte + specular * (fresnel_dielectric(min_of(glm::dot(wo, m), 1.0f), eta) * facets);
+        const float reflectance = fresnel_dielectric(min_of(glm::dot(wo, m), 1.0f), eta);
+        return matte + specular * (reflectance * ggx.reflection(wo, wi, m));
     }
     PL_HD float pdf_sa(Vec3f wi) const {
         if (!(wi.z > 0.0f)) return 0.0f;
