@@ -11,6 +11,7 @@
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/scene_hash.h"
+#include "core/session/session.h"
 
 namespace pl {
 namespace {
@@ -157,8 +158,7 @@ int run_info(const CommandLine& line, Console& console) {
     const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
     const Options options = resolve_options(line, *loaded.scene);
     const HostScene packed = pack_scene(*loaded.scene);
-    FeatureSet needed = needed_effects(packed).with(needed_effects(options.render.camera));
-    if (options.render.next_event) needed = needed.with(Feature::NextEventEstimation);
+    const FeatureSet needed = needed_features(packed, options.render);
     const FeatureSet served = needed.with(options.render.forced_effects);
     const auto backend = make_backend(options.backend, options.threads);
     const SceneReport report{.scene = *loaded.scene,

@@ -224,24 +224,41 @@ def pillars():
     return s
 
 
-def indirect():
-    s = Scene("indirect", "Cornell box, lit by its ceiling",
-              "The measured Cornell box (see ../cornell) with its light in a tray under the ceiling, facing upwards.",
-              ([278, 273, -800], [278, 273, 0], [0, 1, 0], 39.3077),
-              {"white": ((0.725, 0.71, 0.68), None), "red": ((0.63, 0.065, 0.05), None),
-               "green": ((0.14, 0.45, 0.091), None), "light": (BLACK, (17, 12, 4))}, unit="millimeter",
-              settings={"exposure": 1.5})
+CORNELL = {"white": ((0.725, 0.71, 0.68), None), "red": ((0.63, 0.065, 0.05), None),
+           "green": ((0.14, 0.45, 0.091), None), "light": (BLACK, (17, 12, 4))}
+CORNELL_CAMERA = ([278, 273, -800], [278, 273, 0], [0, 1, 0], 39.3077)
+SHORT_BLOCK = (165, ((130, 65), (82, 225), (240, 272), (290, 114)))
+TALL_BLOCK = (330, ((423, 247), (265, 296), (314, 456), (472, 406)))
+
+
+def cornell_walls(s):
     s.group("box", "right and left as seen by the camera, which looks along +z")
     s.mesh([(552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2), (556, 548.8, 0), (556, 548.8, 559.2),
             (0, 548.8, 559.2), (0, 548.8, 0)],
            [("white", (0, 1, 2, 3)), ("white", (4, 5, 6, 7)), ("white", (3, 2, 6, 5)), ("green", (2, 1, 7, 6)),
             ("red", (0, 3, 5)), ("red", (0, 5, 4))])
-    for name, top, ground in (("short_block", 165, ((130, 65), (82, 225), (240, 272), (290, 114))),
-                              ("tall_block", 330, ((423, 247), (265, 296), (314, 456), (472, 406)))):
+
+
+def cornell_light(s):
+    s.group("light")
+    s.quad([(343, 548.3, 227), (343, 548.3, 332), (213, 548.3, 332), (213, 548.3, 227)], "light")
+
+
+def cornell_block(s, block, material):
+    top, ground = block
+    s.mesh([(x, y, z) for y in (top, 0) for x, z in ground],
+           [(material, (0, 1, 2, 3))] + [(material, (i, i + 4, (i + 1) % 4 + 4, (i + 1) % 4)) for i in range(4)])
+
+
+def indirect():
+    s = Scene("indirect", "Cornell box, lit by its ceiling",
+              "The measured Cornell box (see ../cornell) with its light in a tray under the ceiling, facing upwards.",
+              CORNELL_CAMERA, CORNELL, unit="millimeter",
+              settings={"exposure": 1.5})
+    cornell_walls(s)
+    for name, block in (("short_block", SHORT_BLOCK), ("tall_block", TALL_BLOCK)):
         s.group(name)
-        points = [(x, y, z) for y in (top, 0) for x, z in ground]
-        s.mesh(points, [("white", (0, 1, 2, 3))] +
-               [("white", (i, i + 4, (i + 1) % 4 + 4, (i + 1) % 4)) for i in range(4)])
+        cornell_block(s, block, "white")
     s.group("shade", "an open tray, 40 high, with walls of 5; the light lies on its ground")
     rim = 548.8 - 60
     tray(s, (193, rim - 40, 207), (363, rim, 352), 5, "white")
@@ -492,28 +509,13 @@ def ceiling():
     return s
 
 
-def cornell_room(s):
-    """The walls of the measured Cornell box without its blocks, and its light."""
-    s.group("box", "right and left as seen by the camera, which looks along +z")
-    s.mesh([(552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2), (556, 548.8, 0), (556, 548.8, 559.2),
-            (0, 548.8, 559.2), (0, 548.8, 0)],
-           [("white", (0, 1, 2, 3)), ("white", (4, 5, 6, 7)), ("white", (3, 2, 6, 5)), ("green", (2, 1, 7, 6)),
-            ("red", (0, 3, 5)), ("red", (0, 5, 4))])
-    s.group("light")
-    s.quad([(343, 548.3, 227), (343, 548.3, 332), (213, 548.3, 332), (213, 548.3, 227)], "light")
-
-
-CORNELL = {"white": ((0.725, 0.71, 0.68), None), "red": ((0.63, 0.065, 0.05), None),
-           "green": ((0.14, 0.45, 0.091), None), "light": (BLACK, (17, 12, 4))}
-CORNELL_CAMERA = ([278, 273, -800], [278, 273, 0], [0, 1, 0], 39.3077)
-
-
 def spheres():
     s = Scene("spheres", "Cornell box with spheres",
               "The measured Cornell box with a mirror and a glass sphere in the place of its blocks.", CORNELL_CAMERA,
               {**CORNELL, "mirror": (BLACK, None, "Ks 0.95 0.95 0.95", "illum 3"),
                "glass": (BLACK, None, "Tf 1 1 1", "Ni 1.5", "illum 7")}, unit="millimeter")
-    cornell_room(s)
+    cornell_walls(s)
+    cornell_light(s)
     s.group("mirror_sphere", "the spheres hang a millimeter above the ground")
     s.sphere((395, 111, 370), 110, "mirror", 18, 36)
     s.group("glass_sphere")
@@ -553,11 +555,10 @@ def coats():
                "satin": ((0.65, 0.5, 0.15), None, "Ks 1 1 1", "Pl_surface plastic", "Pl_roughness 0.4", "Pl_ior 1.5"),
                "copper": (BLACK, None, "Pm 1", "Ks 0.95 0.64 0.54", "Pl_roughness 0.45"),
                "frosted": (BLACK, None, "Tf 0.9 1 0.95", "Ni 1.5", "illum 7", "Pl_roughness 0.35")}, unit="millimeter")
-    cornell_room(s)
+    cornell_walls(s)
+    cornell_light(s)
     s.group("tall_block", "the measured one, of brushed copper")
-    ground = ((423, 247), (265, 296), (314, 456), (472, 406))
-    s.mesh([(x, y, z) for y in (330, 0) for x, z in ground],
-           [("copper", (0, 1, 2, 3))] + [("copper", (i, i + 4, (i + 1) % 4 + 4, (i + 1) % 4)) for i in range(4)])
+    cornell_block(s, TALL_BLOCK, "copper")
     for name, center, radius in (("lacquer", (110, 71, 150), 70), ("satin", (240, 61, 110), 60),
                                  ("frosted", (410, 66, 120), 65)):
         s.group(name)

@@ -1,6 +1,8 @@
 #include "core/io/files.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -113,6 +115,17 @@ void write_file_atomic(const fs::path& path, std::string_view bytes) {
         }
         fail_write(path, reason(failed));
     }
+}
+
+std::string suffix_of(const std::filesystem::path& path) {
+    std::string suffix = path.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return suffix;
+}
+
+bool stays_inside(const std::filesystem::path& path) {
+    return !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
 }
 
 }  // namespace pl

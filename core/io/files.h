@@ -13,6 +13,12 @@ std::string read_file(const std::filesystem::path& path);
 /// As read_file(), without a leading UTF-8 byte order mark.
 std::string read_text_file(const std::filesystem::path& path);
 
+/// With its dot, in lower case.
+std::string suffix_of(const std::filesystem::path& path);
+
+/// Relative, and not out of the folder that it is relative to.
+bool stays_inside(const std::filesystem::path& path);
+
 /// Writes a temporary file beside `path` and renames it, so readers see the old content or the new, never a part.
 /// A link is followed; a device or a pipe is written directly. Throws Error(Runtime) with path and reason, and
 /// then leaves nothing behind.

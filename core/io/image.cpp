@@ -1,11 +1,10 @@
 #include "core/io/image.h"
 
-#include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/io/files.h"
 #include "core/io/image_checks.h"
 
 namespace pl {
@@ -63,13 +62,6 @@ void require_plausible(const std::filesystem::path& path, long long width, long 
     if (width <= 0 || height <= 0 || width > kMostPixels / height) {
         fail_image(path, fmt::format("a size of {}x{} is not supported", width, height));
     }
-}
-
-std::string suffix_of(const std::filesystem::path& path) {
-    std::string suffix = path.extension().string();
-    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix;
 }
 
 void fail_image(const std::filesystem::path& path, const std::string& why) {

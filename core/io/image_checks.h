@@ -14,9 +14,6 @@ void require_complete(const std::filesystem::path& path, int width, int height, 
 /// Throws Error(Input) unless a picture of this size is plausible: sides positive, at most 2^28 pixels.
 void require_plausible(const std::filesystem::path& path, long long width, long long height);
 
-/// With its dot, in lower case.
-std::string suffix_of(const std::filesystem::path& path);
-
 [[noreturn]] void fail_image(const std::filesystem::path& path, const std::string& why);
 
 }  // namespace pl

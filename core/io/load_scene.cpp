@@ -1,7 +1,6 @@
 #include "core/io/load_scene.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <system_error>
 
@@ -9,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
+#include "core/io/files.h"
 #include "core/io/frame_camera.h"
 #include "core/io/nearest_name.h"
 #include "core/io/obj.h"
@@ -26,13 +26,6 @@ fs::path scene_file(const fs::path& assets_dir, const std::string& name) {
     return assets_dir / "scenes" / name / (name + ".json");
 }
 
-std::string lower_extension(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
 bool is_file(const fs::path& path) {
     std::error_code ignored;
     return fs::is_regular_file(path, ignored);
@@ -44,7 +37,7 @@ bool has_scenes(const fs::path& dir) {
 }
 
 SceneDescription load_file(const fs::path& path, const KnobValues& knobs) {
-    if (lower_extension(path) == ".json") {
+    if (suffix_of(path) == ".json") {
         return load_scene_json(path, knobs);
     }
     SceneDescription scene = load_obj(path);
@@ -82,7 +75,7 @@ void warn_of_missing_uvs(SceneDescription& scene) {
 }  // namespace
 
 SceneDescription load_scene(const std::string& name_or_path, const fs::path& assets_dir, const KnobValues& knobs) {
-    const std::string extension = lower_extension(name_or_path);
+    const std::string extension = suffix_of(name_or_path);
     const bool is_path = extension == ".obj" || extension == ".json";
     const bool is_name = !is_path && !name_or_path.empty() && name_or_path.find('/') == std::string::npos;
     const fs::path path = is_path ? fs::path(name_or_path) : scene_file(assets_dir, name_or_path);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/files.h"
 #include "core/io/line_reader.h"
 #include "core/io/mtl.h"
 
@@ -20,8 +21,7 @@ namespace {
 /// The file an `mtllib` names: relative, and not out of the scene's folder.
 fs::path library_path(const fs::path& obj, const std::string& name, int line) {
     const fs::path relative(name);
-    const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
-    if (relative.is_absolute() || climbs) {
+    if (!stays_inside(relative)) {
         fail_at(obj, line,
                 fmt::format("'mtllib': expected a file in the folder of the scene, got {}", in_quotes(name)));
     }

@@ -252,9 +252,8 @@ fs::path path_inside(const fs::path& folder, const std::string& name) {
     std::string slashes = name;
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     const fs::path relative(slashes);
-    const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
     const bool has_drive = slashes.size() > 1 && slashes[1] == ':';
-    return relative.empty() || relative.is_absolute() || climbs || has_drive ? fs::path() : folder / relative;
+    return relative.empty() || has_drive || !stays_inside(relative) ? fs::path() : folder / relative;
 }
 
 }  // namespace pl

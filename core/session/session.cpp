@@ -171,10 +171,12 @@ void Session::begin_film(FilmSlot slot) {
               .precompute_seconds = learned.precompute_seconds};
 }
 
-FeatureSet Session::needed_features() const {
-    const FeatureSet needed = needed_effects(*packed_).with(needed_effects(settings_.camera));
-    return settings_.next_event ? needed.with(Feature::NextEventEstimation) : needed;
+FeatureSet needed_features(const HostScene& scene, const RenderSettings& settings) {
+    const FeatureSet needed = needed_effects(scene).with(needed_effects(settings.camera));
+    return settings.next_event ? needed.with(Feature::NextEventEstimation) : needed;
 }
+
+FeatureSet Session::needed_features() const { return pl::needed_features(*packed_, settings_); }
 
 FeatureSet Session::served_features() const { return needed_features().with(settings_.forced_effects); }
 

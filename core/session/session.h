@@ -25,6 +25,9 @@ struct ShownFilm {
     ShownRange range;
 };
 
+/// Effects that a scene, its camera and the settings call for.
+FeatureSet needed_features(const HostScene& scene, const RenderSettings& settings);
+
 class Session {
 public:
     /// The scene must be valid. `load_seconds` goes into the clocks.
@@ -66,7 +69,6 @@ public:
     std::shared_ptr<const HostScene> packed_scene() const { return packed_; }
     BackendInfo backend() const { return backend_->info(); }
     RenderBackend& backend_access() { return *backend_; }
-    /// Effects that scene and settings call for.
     FeatureSet needed_features() const;
     /// Those, and the forced ones: the kernel covers them.
     FeatureSet served_features() const;

@@ -26,8 +26,7 @@ struct RenderSettings {
     RouletteRule roulette = RouletteRule::Spare;
     MixtureSettings mixture{};
     FieldSettings field;
-    FeatureSet
-        forced_effects;  ///< the kernel has to be able to do these, too, needed or not: no picture changes by it
+    FeatureSet forced_effects;  ///< needed or not, the kernel can do these, too; no picture changes by it
 };
 
 /// Display only: never touches what was accumulated or learned.
