@@ -62,6 +62,8 @@ struct WorkerStatus {
     std::optional<TurnsStatus> turns;  ///< then passes and seconds are those of the first method
     std::uint64_t generation = 0;
     std::uint64_t picture = 0;  ///< what the session shows, as RunLabel::picture; 0 while the camera moves
+    std::shared_ptr<const SceneDescription>
+        scene;  ///< what is rendered, with the materials that were changed; never null
     std::optional<FieldStatus> field;
     std::string backend;                             ///< name of the one in use
     std::shared_ptr<const BackendChoices> backends;  ///< never null

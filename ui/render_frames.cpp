@@ -132,7 +132,7 @@ void RenderWorker::publish() {
     frame->divider = divider_;
     frame->backend = session_->backend();
     frame->backend.name = backends_.current();
-    frame->description = scene_;
+    frame->description = session_->shared_scene();
     frame->scene = session_->packed_scene();
     frame->diagonal = diagonal_;
     frame->cells = cells_pose_ == pose_ && now_.cells ? cells_ : nullptr;

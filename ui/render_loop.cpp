@@ -18,7 +18,8 @@ void yield_to_the_window() {
 /// Does the edit change which volume a pixel shows?
 bool changes_pose(const SessionEdit& edit) {
     return std::holds_alternative<EditCamera>(edit) || std::holds_alternative<EditScene>(edit) ||
-           std::holds_alternative<EditField>(edit) || std::holds_alternative<EditLearned>(edit);
+           std::holds_alternative<EditField>(edit) || std::holds_alternative<EditLearned>(edit) ||
+           std::holds_alternative<EditMaterial>(edit);
 }
 
 }  // namespace
@@ -106,10 +107,7 @@ void RenderWorker::apply_edits(std::vector<SessionEdit> edits) {
 
 /// May be done twice, if a back end fails in between.
 void RenderWorker::apply(const SessionEdit& edit) {
-    if (const auto* scene = std::get_if<EditScene>(&edit)) {
-        scene_ = scene->scene;
-        diagonal_ = bounds_of(*scene_).diagonal();
-    }
+    if (const auto* scene = std::get_if<EditScene>(&edit)) diagonal_ = bounds_of(*scene->scene).diagonal();
     if (const auto* size = std::get_if<EditSize>(&edit)) {
         full_width_ = size->width;
         full_height_ = size->height;

@@ -16,12 +16,13 @@ const char* name_of(WorkerState state) {
 
 RenderWorker::RenderWorker(WorkerSetup setup)
     : setup_(std::move(setup)), backends_(setup_.make_backend, setup_.backends, setup_.first_backend),
-      scene_(setup_.scene), diagonal_(bounds_of(*setup_.scene).diagonal()), full_width_(setup_.settings.width),
+      diagonal_(bounds_of(*setup_.scene).diagonal()), full_width_(setup_.settings.width),
       full_height_(setup_.settings.height) {
     wishes_.limits = setup_.limits;
     wishes_.display = setup_.display;
     wishes_.backend = setup_.first_backend;
     status_.backend = setup_.first_backend;
+    status_.scene = setup_.scene;
     run_set_ = runs_.current();
     status_.backends = backends_.choices();
     thread_ = std::thread([this] { run(); });
@@ -190,6 +191,7 @@ WorkerStatus RenderWorker::make_status() const {
     WorkerStatus status;
     status.passes = session_->passes();
     status.picture = divider_ == 1 && session_->film_origin().generation == picture_generation_ ? picture_ : 0;
+    status.scene = session_->shared_scene();
     status.divider = divider_;
     status.generation = now_.generation;
     status.field = session_->field_status();

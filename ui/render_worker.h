@@ -177,7 +177,6 @@ private:
     BackendSwitch backends_;
     std::unique_ptr<Session> session_;
     Wishes now_;  ///< wishes as of the last look
-    std::shared_ptr<const SceneDescription> scene_;
     float diagonal_ = 0.0f;
     MotionResolution motion_;
     std::optional<TurnsState> turns_;

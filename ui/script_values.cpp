@@ -129,6 +129,19 @@ constexpr std::array kValues{
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return word(f.cells != nullptr); });
           }},
+    Value{"material",
+          [](const ViewerModel& m) {
+              const auto index = m.selected_material();
+              return index ? shown_name(m.materials().now()[*index], *index) : std::string("none");
+          }},
+    Value{"edited", [](const ViewerModel& m) { return fmt::format("{}", m.materials().edited_names().size()); }},
+    Value{"roughness",
+          [](const ViewerModel& m) {
+              const auto index = m.selected_material();
+              return fmt::format("{:.3f}", index ? m.materials().now()[*index].roughness : 0.0f);
+          }},
+    Value{"kernel",
+          [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
     Value{"invalid",
           [](const ViewerModel& m) {
               return shown(
