@@ -127,6 +127,7 @@ void RenderWorker::publish() {
     frame->settings = session_->settings();
     frame->settings.width = full_width_;
     frame->settings.height = full_height_;
+    frame->settings.forced_effects = forced_;
     frame->serial = frame_count_.load(std::memory_order_relaxed) + 1;
     frame->generation = now_.generation;
     frame->divider = divider_;

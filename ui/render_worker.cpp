@@ -16,8 +16,8 @@ const char* name_of(WorkerState state) {
 
 RenderWorker::RenderWorker(WorkerSetup setup)
     : setup_(std::move(setup)), backends_(setup_.make_backend, setup_.backends, setup_.first_backend),
-      diagonal_(bounds_of(*setup_.scene).diagonal()), full_width_(setup_.settings.width),
-      full_height_(setup_.settings.height) {
+      diagonal_(bounds_of(*setup_.scene).diagonal()), forced_(setup_.settings.forced_effects),
+      full_width_(setup_.settings.width), full_height_(setup_.settings.height) {
     wishes_.limits = setup_.limits;
     wishes_.display = setup_.display;
     wishes_.backend = setup_.first_backend;
@@ -117,6 +117,7 @@ void RenderWorker::set_reference(std::shared_ptr<const LiveReference> reference)
 void RenderWorker::set_turns(std::optional<TurnMethods> methods) {
     const std::lock_guard lock(mutex_);
     wishes_.turns = methods;
+    if (methods) wishes_.trial.reset();
     if (pass_may_be_cut_) stop_ = true;
     wake_.notify_all();
 }
@@ -193,6 +194,7 @@ WorkerStatus RenderWorker::make_status() const {
     status.picture = divider_ == 1 && session_->film_origin().generation == picture_generation_ ? picture_ : 0;
     status.scene = session_->shared_scene();
     status.divider = divider_;
+    status.effect_cost = effect_cost();
     status.generation = now_.generation;
     status.field = session_->field_status();
     status.seconds = work_seconds(session_->clocks());

@@ -44,6 +44,7 @@ void ViewerModel::update(double seconds) {
     take_runs();
     for (const WorkerMessage& message : worker_.take_messages())
         say(message.is_error ? LogLevel::Error : LogLevel::Info, message.text);
+    take_effects();
     take_pick();
     take_learned();
     for (const JobThread::Report& report : jobs_.take_reports())

@@ -10,6 +10,7 @@
 #include "ui/camera_controls.h"
 #include "ui/compare/compare_plan.h"
 #include "ui/edited_materials.h"
+#include "ui/effects_model.h"
 #include "ui/job_thread.h"
 #include "ui/numbered_names.h"
 #include "ui/overlays/direction_disc.h"
@@ -96,6 +97,9 @@ public:
     double now() const { return now_; }
     std::int32_t selected_volume() const { return selected_volume_; }
     const std::optional<PickedPoint>& picked() const { return picked_; }
+    const EffectsModel& effects() const { return effects_; }
+    /// Effects whose cost is being measured.
+    std::optional<FeatureSet> measuring_effects() const { return measuring_; }
     const EditedMaterials& materials() const { return materials_; }
     /// That of the surface that was picked last, or chosen from the list.
     std::optional<std::uint32_t> selected_material() const { return selected_material_; }
@@ -145,6 +149,11 @@ public:
     void forget();
     void cancel();  ///< what Esc does
     void cancel_precomputation();
+
+    void set_forced_effects(FeatureSet forced);
+    /// What being able to do these, too, costs per pass: measured on the running picture, which stays the same.
+    void measure_effects(FeatureSet forced);
+    void stop_measuring_effects();
 
     void set_compare_mode(CompareMode mode);
     void step_compare(int steps);
@@ -204,6 +213,7 @@ private:
     void submit_camera();
     void submit_estimator();
     void take_pick();
+    void take_effects();
     void measure_throughput();
     void adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name, bool keep_camera);
     void start_loading(const std::string& name, bool keep_camera);
@@ -241,6 +251,8 @@ private:
     std::int32_t selected_volume_ = kNoVolume;
     std::optional<PickedPoint> picked_;
     EditedMaterials materials_;
+    EffectsModel effects_;
+    std::optional<FeatureSet> measuring_;
     std::optional<std::uint32_t> selected_material_;
     std::vector<LogLine> log_;
     std::vector<Toast> toasts_;

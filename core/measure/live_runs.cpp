@@ -158,13 +158,17 @@ bool LiveRuns::is_due(const Session& session, const FilmOrigin& origin) {
 bool LiveRuns::add_point(const Session& session, const FilmOrigin& origin) {
     const Stopwatch watch;
     const std::optional<std::size_t> known = find(origin.number);
-    const RunLabel label = known ? runs_[*known]->label : label_of(session, origin);
+    RunLabel label = known ? runs_[*known]->label : label_of(session, origin);
+    if (known && details_) label.details = details_(session);
     std::optional<LivePoint> point = measure(session, origin, label.picture);
     if (point) {
         if (!known)
             runs_.push_back(std::make_shared<const LiveRun>(
                 LiveRun{.number = origin.number, .label = label, .points = {}, .in_progress = true}));
-        change(known.value_or(runs_.size() - 1), [&](LiveRun& run) { run.points.push_back(*std::move(point)); });
+        change(known.value_or(runs_.size() - 1), [&](LiveRun& run) {
+            run.label.details = label.details;
+            run.points.push_back(*std::move(point));
+        });
         limit_runs();
         limit_pictures(label.picture);
     }

@@ -78,7 +78,8 @@ struct LiveReference {
 /// Follows one session, in its thread. Pictures other than View::Beauty are not measured.
 class LiveRuns {
 public:
-    /// Words for what a session's settings are besides those in RunLabel; asked once per run.
+    /// Words for what a session's settings are besides those in RunLabel; asked at each point, because some may change
+    /// while a picture stays.
     using Details = std::function<std::string(const Session&)>;
 
     explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {},

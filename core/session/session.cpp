@@ -165,6 +165,7 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
     std::uint32_t sample = learns ? static_cast<std::uint32_t>(field().passes) : state.passes;
     // Passes of a heat map replace one another: with the same points, so that borders stand still.
     if (is_heat_map(target.view)) sample = 0;
+    state.origin.forced = state.origin.forced.with(settings_.forced_effects);
     const PassCounters counters =
         backend_->run_pass({.slot = target,
                             .features = served_features(),

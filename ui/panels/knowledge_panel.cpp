@@ -151,6 +151,10 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
             draw_material_tab(model);
             ImGui::EndTabItem();
         }
+        if (begin_tab("Effects")) {
+            draw_effects_tab(model);
+            ImGui::EndTabItem();
+        }
         if (begin_tab("Pixel")) {
             draw_pixel_tab(model, hovered);
             ImGui::EndTabItem();

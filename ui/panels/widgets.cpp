@@ -218,11 +218,13 @@ bool begin_tab(const char* title, ImGuiTabItemFlags flags) {
     return open;
 }
 
-void faint_text(const char* text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colors::kFaint);
+void text_line(const char* text, ImU32 color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::TextWrapped("%s", text);
     ImGui::PopStyleColor();
 }
+
+void faint_text(const char* text) { text_line(text, colors::kFaint); }
 
 std::string short_number(double value) {
     constexpr const char* kUnits[] = {"", " k", " M", " G", " T"};

@@ -52,7 +52,9 @@ bool section(const char* title, bool open_at_first);
 /// A tab; if true, draw what it holds and end it with ImGui::EndTabItem().
 bool begin_tab(const char* title, ImGuiTabItemFlags flags = ImGuiTabItemFlags_None);
 
-/// Text that breaks lines, in the faint color.
+/// Text that breaks lines.
+void text_line(const char* text, ImU32 color);
+/// The same in the faint color.
 void faint_text(const char* text);
 
 /// "12.3 M": three digits and a power of a thousand.
