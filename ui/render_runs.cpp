@@ -13,7 +13,6 @@ std::string details_of(const Session& session) {
     const RenderSettings standard;
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-    if (settings.seed != standard.seed) add(fmt::format("seed {}", settings.seed));
     if (settings.roulette == RouletteRule::Albedo) add("albedo roulette");
     if (settings.roulette == RouletteRule::Field) add("field roulette");
     const FeatureSet needed = session.needed_features();

@@ -147,6 +147,16 @@ constexpr std::array kValues{
               const std::vector<std::string> names = effect_names(m.settings().forced_effects);
               return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ","));
           }},
+    Value{"measure_percent",
+          [](const ViewerModel& m) {
+              const LiveRunSet* set = m.accuracy().set();
+              const bool any = set != nullptr && set->charged_seconds > 0.0;
+              return fmt::format("{:.3f}", any ? 100.0 * set->measure_seconds / set->charged_seconds : 0.0);
+          }},
+    Value{"charged",
+          [](const ViewerModel& m) {
+              return fmt::format("{:.2f}", m.accuracy().set() != nullptr ? m.accuracy().set()->charged_seconds : 0.0);
+          }},
     Value{"measuring", [](const ViewerModel& m) { return word(m.measuring_effects().has_value()); }},
     Value{"effect_pairs", measured_pairs},
     Value{"edited", [](const ViewerModel& m) { return fmt::format("{}", m.materials().edited_names().size()); }},

@@ -29,7 +29,8 @@ void ViewerModel::take_effects() {
     if (!frame_) return;
     const std::optional<EffectCost>& cost = status_.effect_cost;
     effects_.update(*frame_, cost);
-    if (measuring_ && cost && cost->forced == *measuring_ && cost->done) stop_measuring_effects();
+    const bool is_done = cost && cost->forced == measuring_ && cost->done;
+    if (measuring_ && (is_done || turns_)) stop_measuring_effects();  // turns take the render thread for themselves
 }
 
 }  // namespace pl

@@ -121,6 +121,7 @@ bool Session::needs_precompute() const {
 Progress Session::precompute_slice(const StopFlag* stop) {
     const Stopwatch watch;
     FieldProgress& state = field();
+    film().origin.forced = film().origin.forced.with(settings_.forced_effects);
     PathSettings path = path_settings();
     path.stream = Stream::Precompute;
     path.roulette_threshold = 1.0f;  // probes follow the default method
