@@ -1,6 +1,4 @@
 // `pathlight info`: what a scene holds, and what it takes to render it.
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,8 +6,8 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/parse_values.h"
+#include "core/scene/effect_reasons.h"
 #include "core/scene/needed_effects.h"
-#include "core/scene/pack_light_tree.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/scene_hash.h"
 #include "core/session/session.h"
@@ -18,62 +16,6 @@ namespace pl {
 namespace {
 
 Json vector_json(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
-
-bool has_lobe(const MaterialDescription& material, bool rough) {
-    return material.kind != SurfaceKind::Diffuse && (material.roughness > 0.0f) == rough;
-}
-
-/// "of 2 materials: mirror, window"
-template <class Pick>
-std::string materials_that(const SceneDescription& scene, Pick pick) {
-    std::vector<std::string> names;
-    for (const MaterialDescription& material : scene.materials)
-        if (pick(material)) names.push_back(material.name);
-    return fmt::format("of {} material{}: {}", names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", "));
-}
-
-/// Light from far away that depends on the direction, in words.
-std::string far_lights_of(const SceneDescription& scene) {
-    const EnvironmentMapDescription& map = scene.environment_map;
-    std::vector<std::string> parts;
-    if (!map.texels.empty())
-        parts.push_back(fmt::format("the environment is an image of {}x{}", map.width, map.height));
-    if (scene.sun.radiance != glm::vec3(0.0f))
-        parts.push_back(fmt::format("a sun of {} degrees shines", print_float(scene.sun.angle_deg)));
-    return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-std::ptrdiff_t triangles_that_emit(const SceneDescription& scene) {
-    return std::count_if(scene.triangles.begin(), scene.triangles.end(), [&](const TriangleDescription& triangle) {
-        return scene.materials[triangle.material].emission != glm::vec3{0.0f};
-    });
-}
-
-/// Why an effect is needed, in words.
-std::string reason_of(Feature feature, const SceneDescription& scene) {
-    switch (feature) {
-    case Feature::SmoothNormals: {
-        const auto smooth = std::count_if(scene.triangles.begin(), scene.triangles.end(), [](const auto& triangle) {
-            return triangle.normal.x != TriangleDescription::kNoNormal;
-        });
-        return fmt::format("{} triangles have normals of their own", smooth);
-    }
-    case Feature::Environment:
-        return fmt::format("the environment shines with radiance {}", print_vector(scene.environment));
-    case Feature::NextEventEstimation: return "asked for by --nee on";
-    case Feature::Specular: return materials_that(scene, [](const auto& m) { return has_lobe(m, false); });
-    case Feature::Rough: return materials_that(scene, [](const auto& m) { return has_lobe(m, true); });
-    case Feature::Plastic: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Plastic; });
-    case Feature::Textures: return materials_that(scene, [](const auto& m) { return m.textures.any(); });
-    case Feature::CutOuts:
-        return materials_that(scene, [](const auto& m) { return m.textures.opacity != kNoTexture; });
-    case Feature::EnvironmentMap: return far_lights_of(scene);
-    case Feature::ThinLens: return fmt::format("the camera's lens has a radius of {}", scene.camera.aperture_radius);
-    case Feature::ManyLights:
-        return fmt::format("{} triangles emit light, more than {}", triangles_that_emit(scene), kFewLights);
-    }
-    return "";
-}
 
 struct Effect {
     std::string name;
@@ -84,7 +26,8 @@ std::vector<Effect> effects_of(FeatureSet needed, const SceneDescription& scene)
     std::vector<Effect> effects;
     for (const Feature feature : kAllFeatures)
         if (needed.has(feature))
-            effects.push_back({effect_names(FeatureSet{}.with(feature)).front(), reason_of(feature, scene)});
+            effects.push_back(
+                {effect_names(FeatureSet{}.with(feature)).front(), reason_of(feature, scene, scene.camera)});
     return effects;
 }
 

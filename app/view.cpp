@@ -10,6 +10,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/field_files.h"
 #include "app/make_backend.h"
@@ -68,13 +69,16 @@ std::string command_of(const ViewerPicture& picture, const SceneDescription& sce
 }
 
 ImageMetadata metadata_of(const ViewerPicture& picture, const Snapshot& snapshot, const std::string& command) {
-    return {{"Software", "pathlight " PL_VERSION},
-            {"scene", picture.scene},
-            {"method", std::string(info_of(snapshot.slot.method).name)},
-            {"view", std::string(info_of(snapshot.slot.view).name)},
-            {"backend", picture.backend},
-            {"spp", std::to_string(snapshot.passes)},
-            {"command", command}};
+    ImageMetadata metadata{{"Software", "pathlight " PL_VERSION},
+                           {"scene", picture.scene},
+                           {"method", std::string(info_of(snapshot.slot.method).name)},
+                           {"view", std::string(info_of(snapshot.slot.view).name)},
+                           {"backend", picture.backend},
+                           {"spp", std::to_string(snapshot.passes)},
+                           {"command", command}};
+    if (!picture.edited_materials.empty())
+        metadata.emplace_back("edited materials", fmt::format("{}", fmt::join(picture.edited_materials, ", ")));
+    return metadata;
 }
 
 bool has_size(const CommandLine& line) {
@@ -135,10 +139,10 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
         const std::string command = command_of(picture, *scenes.find(picture.scene), options, viewer.first_backend);
         save_picture(path, snapshot, picture.display, metadata_of(picture, snapshot, command));
     };
-    viewer.load_field = [&](const std::filesystem::path& path, const std::string& scene) {
+    viewer.load_field = [&](const std::filesystem::path& path, const OpenScene& scene) {
         const auto field = std::make_shared<LearnedField>(read_field(path));
         try {
-            require_learned_in(*scenes.find(scene), *field);
+            require_learned_in(*scene.description, *field);
         } catch (const Error& error) {
             throw Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
         }
@@ -146,12 +150,12 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
         return field;
     };
     viewer.save_field = write_field;
-    viewer.find_reference = [&](const std::string& scene, const RenderSettings& settings) {
-        return find_viewer_reference(kViewerReferences, *scenes.find(scene), settings);
+    viewer.find_reference = [](const OpenScene& scene, const RenderSettings& settings) {
+        return find_viewer_reference(kViewerReferences, *scene.description, settings);
     };
-    viewer.make_reference = [&](const std::string& scene, const RenderSettings& settings,
+    viewer.make_reference = [&](const OpenScene& scene, const RenderSettings& settings,
                                 const ReferenceMonitor& monitor) {
-        return make_viewer_reference(kViewerReferences, scene, scenes.find(scene), settings,
+        return make_viewer_reference(kViewerReferences, scene.name, scene.description, settings,
                                      viewer_threads(options.threads), monitor);
     };
     viewer.save_screen = [](const std::filesystem::path& path, const ScreenPixels& pixels) {

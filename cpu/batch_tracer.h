@@ -27,6 +27,11 @@ public:
         std::visit([&](const auto& intersector) { intersector.find_occluded(batch, count); }, intersector_);
     }
 
+    /// The same triangles in other arrays, which must stay from now on instead of those before.
+    void move_to(const SceneView& scene) {
+        std::visit([&](auto& intersector) { intersector.move_to(scene); }, intersector_);
+    }
+
     /// For people: "dense (avx512)", "embree 3.13.5", "bvh".
     std::string name() const;
 

@@ -18,6 +18,9 @@ public:
         for (std::uint32_t i = 0; i < count; ++i) batch.set_occluded(i, intersector_.occluded(batch.ray(i)));
     }
 
+    /// See BatchTracer.
+    void move_to(const SceneView& scene) { intersector_ = BvhIntersector{scene}; }
+
 private:
     BvhIntersector intersector_;
 };

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/kernel/inspect/heat_map.h"
+#include "core/scene/pack_scene.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/device_name.h"
 #include "cpu/film_store.h"
@@ -46,10 +47,15 @@ public:
                 .threads = settings_.threads};
     }
 
+    /// What rays need to find triangles is kept where only materials are others.
     void upload_scene(std::shared_ptr<const HostScene> scene) override {
-        tracer_.reset();
+        const bool is_built = tracer_ && same_triangles(*scene_, *scene);
+        if (!is_built) tracer_.reset();
         scene_ = std::move(scene);
-        tracer_.emplace(scene_->view(), settings_.intersector, settings_.threads);
+        if (is_built)
+            tracer_->move_to(scene_->view());
+        else
+            tracer_.emplace(scene_->view(), settings_.intersector, settings_.threads);
     }
 
     void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {

@@ -23,6 +23,8 @@ public:
     void find_occluded(RayBatch& batch, std::uint32_t count) const {
         kernels_.find_occluded(view(), batch.ray_groups(), batch.occlusion_masks(), group_count(count));
     }
+    /// See BatchTracer. It has copies of its own.
+    void move_to(const SceneView&) {}
     std::string_view isa() const { return kernels_.isa; }
 
 private:

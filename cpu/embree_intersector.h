@@ -25,6 +25,9 @@ public:
     void find_closest(RayBatch& batch, std::uint32_t count) const;
     void find_occluded(RayBatch& batch, std::uint32_t count) const;
 
+    /// See BatchTracer. Embree's own hierarchy has copies.
+    void move_to(const SceneView& scene) { scene_ = scene; }
+
     /// "3.13.5"
     static std::string version();
 

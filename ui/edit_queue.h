@@ -1,4 +1,4 @@
-// Edits on their way to the render thread: of each kind only the newest counts.
+// Edits on their way to the render thread: of each kind, and of each material, only the newest counts.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace pl {
 
 class EditQueue {
 public:
-    /// Replaces an edit of the same kind. The new one goes to the end, so that a camera that follows a scene is
-    /// applied after it.
+    /// Replaces an edit of the same kind, of materials one of the same material; a scene replaces all that was asked of
+    /// materials before. The new one goes to the end, so that a camera that follows a scene is applied after it.
     void push(SessionEdit edit) {
-        std::erase_if(edits_, [&](const SessionEdit& other) { return other.index() == edit.index(); });
+        std::erase_if(edits_, [&](const SessionEdit& other) { return replaces(edit, other); });
         edits_.push_back(std::move(edit));
     }
 
@@ -24,6 +24,13 @@ public:
     std::vector<SessionEdit> take() { return std::exchange(edits_, {}); }
 
 private:
+    static bool replaces(const SessionEdit& edit, const SessionEdit& other) {
+        const auto* old = std::get_if<EditMaterial>(&other);
+        if (old == nullptr) return edit.index() == other.index();
+        const auto* material = std::get_if<EditMaterial>(&edit);
+        return material != nullptr ? material->index == old->index : std::holds_alternative<EditScene>(edit);
+    }
+
     std::vector<SessionEdit> edits_;
 };
 

@@ -7,6 +7,8 @@
 
 namespace pl {
 
+GuiMemory& gui_memory() { return *static_cast<GuiMemory*>(ImGui::GetIO().UserData); }
+
 Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
     : display_(display), font_(std::move(font)), draw_(display.renderer()) {
     IMGUI_CHECKVERSION();
@@ -14,7 +16,7 @@ Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;  // the layout follows from the window's size: nothing to remember
     io.LogFilename = nullptr;
-    io.UserData = &pointer_rest_seconds_;
+    io.UserData = &memory_;
     if (!init_imgui_platform(display.window(), display.renderer())) {
         ImGui::DestroyContext();
         throw Error(ErrorKind::Unavailable, "cannot connect the user interface to the window");
@@ -53,7 +55,8 @@ void Gui::frame(double delta_seconds, const std::function<void()>& build) {
     io.DisplayFramebufferScale = {1.0f, 1.0f};
     ImGui::NewFrame();
     const bool moves = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f;
-    pointer_rest_seconds_ = moves ? 0.0f : pointer_rest_seconds_ + io.DeltaTime;
+    memory_.pointer_rest_seconds = moves ? 0.0f : memory_.pointer_rest_seconds + io.DeltaTime;
+    memory_.places.clear();
     build();
     ImGui::Render();
 }

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "ui/display.h"
+#include "ui/gui_memory.h"
 #include "ui/imgui_draw.h"
 #include "ui/mouse_tracker.h"
 
@@ -30,7 +31,7 @@ private:
     float scale_ = 0.0f;
     ImGuiDraw draw_;
     MouseTracker mouse_;
-    float pointer_rest_seconds_ = 0.0f;  ///< io.UserData points to it, for tooltips
+    GuiMemory memory_;
 };
 
 }  // namespace pl

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "ui/panels/panels.h"
 #include "ui/style.h"
 
@@ -15,6 +17,10 @@ void copy_command(ViewerModel& model) {
     }
     ImGui::SetClipboardText(command.c_str());
     model.say(LogLevel::Info, "copied: " + command);
+    const std::size_t edited = model.materials().edited_names().size();
+    if (edited > 0)
+        model.say(LogLevel::Warning, fmt::format("it has the materials of the file: {} {} changed here", edited,
+                                                 edited == 1 ? "was" : "were"));
 }
 
 void step_opacity(ViewerModel& model, float step) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/measure/paired_cost.h"
 #include "core/scene/pack_scene.h"
 #include "core/session/shown_range.h"
 #include "ui/viewer.h"
@@ -53,15 +54,27 @@ struct TurnsStatus {
     bool catching_up = false;         ///< one works alone until both have had the same time
 };
 
+/// What forcing effects costs, as far as that is measured.
+struct EffectCost {
+    FeatureSet forced;
+    std::string base_kernel;  ///< that serves what is needed
+    std::string kernel;       ///< that serves those, too
+    PairedCost::Result result;
+    bool done = false;
+};
+
 /// Changes with every pass; cheap to copy.
 struct WorkerStatus {
     WorkerState state = WorkerState::Starting;
     std::uint32_t passes = 0;
     int divider = 1;
-    double seconds = 0.0;              ///< work_seconds()
-    std::optional<TurnsStatus> turns;  ///< then passes and seconds are those of the first method
+    double seconds = 0.0;                   ///< work_seconds()
+    std::optional<EffectCost> effect_cost;  ///< while it is measured
+    std::optional<TurnsStatus> turns;       ///< then passes and seconds are those of the first method
     std::uint64_t generation = 0;
     std::uint64_t picture = 0;  ///< what the session shows, as RunLabel::picture; 0 while the camera moves
+    std::shared_ptr<const SceneDescription>
+        scene;  ///< what is rendered, with the materials that were changed; never null
     std::optional<FieldStatus> field;
     std::string backend;                             ///< name of the one in use
     std::shared_ptr<const BackendChoices> backends;  ///< never null

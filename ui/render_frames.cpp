@@ -127,12 +127,13 @@ void RenderWorker::publish() {
     frame->settings = session_->settings();
     frame->settings.width = full_width_;
     frame->settings.height = full_height_;
+    frame->settings.forced_effects = forced_;
     frame->serial = frame_count_.load(std::memory_order_relaxed) + 1;
     frame->generation = now_.generation;
     frame->divider = divider_;
     frame->backend = session_->backend();
     frame->backend.name = backends_.current();
-    frame->description = scene_;
+    frame->description = session_->shared_scene();
     frame->scene = session_->packed_scene();
     frame->diagonal = diagonal_;
     frame->cells = cells_pose_ == pose_ && now_.cells ? cells_ : nullptr;

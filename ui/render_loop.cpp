@@ -18,7 +18,8 @@ void yield_to_the_window() {
 /// Does the edit change which volume a pixel shows?
 bool changes_pose(const SessionEdit& edit) {
     return std::holds_alternative<EditCamera>(edit) || std::holds_alternative<EditScene>(edit) ||
-           std::holds_alternative<EditField>(edit) || std::holds_alternative<EditLearned>(edit);
+           std::holds_alternative<EditField>(edit) || std::holds_alternative<EditLearned>(edit) ||
+           std::holds_alternative<EditMaterial>(edit);
 }
 
 }  // namespace
@@ -70,6 +71,7 @@ bool RenderWorker::take_wishes() {
     apply_edits(std::move(edits));
     if (now_.backend != backends_.current()) change_backend();
     settle_turns();
+    settle_trial();
     adopt_reference();
     const std::lock_guard lock(mutex_);
     // A pass in motion is short and always finished: otherwise a hand that never rests would never see a picture.
@@ -83,7 +85,8 @@ bool RenderWorker::take_wishes() {
 
 bool RenderWorker::has_work() const {
     const bool other_turns = now_.turns.has_value() != turns_.has_value();
-    if (now_.pick || now_.learned || other_turns || now_.reference != reference_ ||
+    const bool other_trial = now_.trial != (trial_ ? std::optional(trial_->forced) : std::nullopt);
+    if (now_.pick || now_.learned || other_turns || other_trial || now_.reference != reference_ ||
         now_.backend != backends_.current())
         return true;
     if (frame_is_stale()) return true;
@@ -106,10 +109,7 @@ void RenderWorker::apply_edits(std::vector<SessionEdit> edits) {
 
 /// May be done twice, if a back end fails in between.
 void RenderWorker::apply(const SessionEdit& edit) {
-    if (const auto* scene = std::get_if<EditScene>(&edit)) {
-        scene_ = scene->scene;
-        diagonal_ = bounds_of(*scene_).diagonal();
-    }
+    if (const auto* scene = std::get_if<EditScene>(&edit)) diagonal_ = bounds_of(*scene->scene).diagonal();
     if (const auto* size = std::get_if<EditSize>(&edit)) {
         full_width_ = size->width;
         full_height_ = size->height;
@@ -117,6 +117,7 @@ void RenderWorker::apply(const SessionEdit& edit) {
     } else {
         session_->apply(edit);
     }
+    if (const auto* effects = std::get_if<EditEffects>(&edit)) forced_ = effects->forced;
 }
 
 /// Does a step. If a back end fails in it, another takes over and does it again. False if it cannot be done: then the
@@ -245,7 +246,9 @@ bool RenderWorker::is_enough(std::uint32_t passes, double seconds) const {
 
 void RenderWorker::render() {
     const Stopwatch watch;
+    begin_trial_pass();
     const Progress progress = session_->advance(&stop_);
+    end_trial_pass(progress);
     if (progress == Progress::Rendered) {
         if (session_->passes() == 1) republish_ = true;
         motion_.observe(divider_, watch.seconds());

@@ -13,9 +13,10 @@ std::string details_of(const Session& session) {
     const RenderSettings standard;
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-    if (settings.seed != standard.seed) add(fmt::format("seed {}", settings.seed));
     if (settings.roulette == RouletteRule::Albedo) add("albedo roulette");
     if (settings.roulette == RouletteRule::Field) add("field roulette");
+    const FeatureSet needed = session.needed_features();
+    if (!needed.covers(session.film_origin().forced)) add("effects forced");
     if (!info_of(settings.method).uses_field) return text;
     FieldSettings field = settings.field;
     field.lookup = standard.field.lookup;  // the same bits

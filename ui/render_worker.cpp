@@ -16,12 +16,13 @@ const char* name_of(WorkerState state) {
 
 RenderWorker::RenderWorker(WorkerSetup setup)
     : setup_(std::move(setup)), backends_(setup_.make_backend, setup_.backends, setup_.first_backend),
-      scene_(setup_.scene), diagonal_(bounds_of(*setup_.scene).diagonal()), full_width_(setup_.settings.width),
-      full_height_(setup_.settings.height) {
+      diagonal_(bounds_of(*setup_.scene).diagonal()), forced_(setup_.settings.forced_effects),
+      full_width_(setup_.settings.width), full_height_(setup_.settings.height) {
     wishes_.limits = setup_.limits;
     wishes_.display = setup_.display;
     wishes_.backend = setup_.first_backend;
     status_.backend = setup_.first_backend;
+    status_.scene = setup_.scene;
     run_set_ = runs_.current();
     status_.backends = backends_.choices();
     thread_ = std::thread([this] { run(); });
@@ -116,6 +117,7 @@ void RenderWorker::set_reference(std::shared_ptr<const LiveReference> reference)
 void RenderWorker::set_turns(std::optional<TurnMethods> methods) {
     const std::lock_guard lock(mutex_);
     wishes_.turns = methods;
+    if (methods) wishes_.trial.reset();
     if (pass_may_be_cut_) stop_ = true;
     wake_.notify_all();
 }
@@ -190,7 +192,9 @@ WorkerStatus RenderWorker::make_status() const {
     WorkerStatus status;
     status.passes = session_->passes();
     status.picture = divider_ == 1 && session_->film_origin().generation == picture_generation_ ? picture_ : 0;
+    status.scene = session_->shared_scene();
     status.divider = divider_;
+    status.effect_cost = effect_cost();
     status.generation = now_.generation;
     status.field = session_->field_status();
     status.seconds = work_seconds(session_->clocks());

@@ -41,6 +41,17 @@ struct TurnsState {
     std::optional<FieldStatus> field;  ///< of the first method
 };
 
+/// What the render thread knows of effects whose cost is being measured.
+struct EffectTrial {
+    FeatureSet forced;
+    PairedCost cost;
+    std::array<std::string, 2> kernels;            ///< without and with them
+    std::pair<std::uint64_t, std::string> film{};  ///< number of the picture, and the back end that has it
+    double seconds_before = 0.0;                   ///< the picture's, when the pass under way began
+    bool in_pass = false;
+    bool disturbed = false;  ///< the pass under way was interrupted
+};
+
 class RenderWorker {
 public:
     /// Memory for pictures of runs.
@@ -73,6 +84,8 @@ public:
     void set_reference(std::shared_ptr<const LiveReference> reference);
     /// Lets two methods render in turns of equal charged time; nothing ends it, and leaves the method of the last turn.
     void set_turns(std::optional<TurnMethods> methods);
+    /// Measures what forcing these effects costs; nothing ends it. Not while methods are in turns. WorkerStatus tells.
+    void measure_effects(std::optional<FeatureSet> forced);
     /// Whether frames carry the image of the volumes' cells.
     void set_cells_wanted(bool wanted);
     /// Asks for the surface under a point of the image, in [0,1)^2 from the top left.
@@ -110,6 +123,7 @@ private:
         std::optional<Vec2f> pick;
         bool learned = false;
         std::optional<TurnMethods> turns;
+        std::optional<FeatureSet> trial;  ///< effects that are measured
         std::shared_ptr<const LiveReference> reference;
         std::string backend;
         std::uint64_t generation = 0;
@@ -133,6 +147,10 @@ private:
     void take_turn();
     std::optional<std::size_t> side_at_limit() const;
     void count_turn(std::size_t side);
+    void settle_trial();
+    void begin_trial_pass();
+    void end_trial_pass(Progress progress);
+    std::optional<EffectCost> effect_cost() const;
     static LiveRuns make_runs();
     void observe_run();
     void note_picture();
@@ -177,10 +195,11 @@ private:
     BackendSwitch backends_;
     std::unique_ptr<Session> session_;
     Wishes now_;  ///< wishes as of the last look
-    std::shared_ptr<const SceneDescription> scene_;
     float diagonal_ = 0.0f;
     MotionResolution motion_;
     std::optional<TurnsState> turns_;
+    std::optional<EffectTrial> trial_;
+    FeatureSet forced_;  ///< effects that a person forces; a trial goes its own way meanwhile
     LiveRuns runs_ = make_runs();
     std::shared_ptr<const LiveReference> reference_;
     std::uint64_t picture_ = 0;             ///< picture_key(); 0 while it is coarse

@@ -24,12 +24,12 @@ struct CommandWord {
     Kind kind;
 };
 constexpr std::array kWords{
-    CommandWord{"move", Kind::Move},     CommandWord{"aim", Kind::Aim},     CommandWord{"aim_plot", Kind::AimPlot},
-    CommandWord{"down", Kind::Down},     CommandWord{"up", Kind::Up},       CommandWord{"wheel", Kind::Wheel},
-    CommandWord{"key", Kind::Key},       CommandWord{"keyup", Kind::KeyUp}, CommandWord{"tap", Kind::Tap},
-    CommandWord{"resize", Kind::Resize}, CommandWord{"drop", Kind::Drop},   CommandWord{"shot", Kind::Shot},
-    CommandWord{"expect", Kind::Expect}, CommandWord{"wait", Kind::Wait},   CommandWord{"wait_spp", Kind::Wait},
-    CommandWord{"quit", Kind::Quit},
+    CommandWord{"move", Kind::Move},     CommandWord{"aim", Kind::Aim},       CommandWord{"aim_plot", Kind::AimPlot},
+    CommandWord{"aim_at", Kind::AimAt},  CommandWord{"down", Kind::Down},     CommandWord{"up", Kind::Up},
+    CommandWord{"wheel", Kind::Wheel},   CommandWord{"key", Kind::Key},       CommandWord{"keyup", Kind::KeyUp},
+    CommandWord{"tap", Kind::Tap},       CommandWord{"resize", Kind::Resize}, CommandWord{"drop", Kind::Drop},
+    CommandWord{"shot", Kind::Shot},     CommandWord{"expect", Kind::Expect}, CommandWord{"wait", Kind::Wait},
+    CommandWord{"wait_spp", Kind::Wait}, CommandWord{"quit", Kind::Quit},
 };
 constexpr std::array<std::string_view, 7> kOperators{"==", "!=", "<", "<=", ">", ">=", "~"};
 
@@ -127,6 +127,11 @@ void read_arguments(LineReader& line, std::string_view word, ScriptCommand& comm
     case Kind::AimPlot:
         command.x = line.number("x");
         command.y = line.number("y");
+        break;
+    case Kind::AimAt:
+        command.x = line.number("x");
+        command.y = line.number("y");
+        command.text = line.rest("the label of a control");
         break;
     case Kind::Resize:
         command.x = line.number("a width");

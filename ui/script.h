@@ -1,10 +1,10 @@
 // Scripted input: what a person would do at the window, counted in frames. Drives the real window on SDL's dummy
 // driver and is the automated test of the user interface. One command per line, '#' starts a comment:
-//   FRAME move X Y | aim U V | aim_plot U V | down B | up B | wheel N | key K [MODS] | keyup K | tap K [MODS] | resize W H | drop FILE
+//   FRAME move X Y | aim U V | aim_plot U V | aim_at U V LABEL | down B | up B | wheel N | key K [MODS] | keyup K | tap K [MODS] | resize W H | drop FILE
 //   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE | wait_spp N | quit
 // B is left, right or middle; MODS are shift, ctrl, alt; `aim` points at the image, (0, 0) is its top left corner and
 // (1, 1) its bottom right one, `aim_plot` at the curves of the accuracy panel in the same way, and beyond (1, 1) at the
-// numbers of its axes; OP is one of == != < <= > >= ~ (contains). While a script waits, its frames stand still.
+// numbers of its axes, `aim_at` at the control of a panel with this label, tabs and buttons too; OP is one of == != < <= > >= ~ (contains). While a script waits, its frames stand still.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,24 @@ struct ScriptCondition {
 bool holds(const ScriptCondition& condition, const std::string& actual);
 
 struct ScriptCommand {
-    enum class Kind { Move, Aim, AimPlot, Down, Up, Wheel, Key, KeyUp, Tap, Resize, Drop, Shot, Expect, Wait, Quit };
+    enum class Kind {
+        Move,
+        Aim,
+        AimPlot,
+        AimAt,
+        Down,
+        Up,
+        Wheel,
+        Key,
+        KeyUp,
+        Tap,
+        Resize,
+        Drop,
+        Shot,
+        Expect,
+        Wait,
+        Quit
+    };
     Kind kind = Kind::Quit;
     int frame = 0;
     std::string where;  ///< file:line, for messages
@@ -34,7 +51,7 @@ struct ScriptCommand {
     double y = 0.0;     ///< also height
     int button = 0;     ///< SDL's number
     KeyStroke key{};
-    std::string text;  ///< file name
+    std::string text;  ///< file name, label
     ScriptCondition condition;
 };
 

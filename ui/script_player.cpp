@@ -7,6 +7,7 @@
 #include <SDL.h>
 
 #include "core/base/error.h"
+#include "ui/gui_memory.h"
 #include "ui/script_values.h"
 #include "ui/viewer_model.h"
 
@@ -72,6 +73,16 @@ bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const R
         const Rect& plot = model.window().plot;
         push_motion({plot.x + static_cast<float>(command.x) * plot.width,
                      plot.y + static_cast<float>(command.y) * plot.height});
+        break;
+    }
+    case Kind::AimAt: {
+        const auto& places = gui_memory().places;
+        const auto place = places.find(command.text);
+        if (place == places.end())
+            throw Error(ErrorKind::Runtime,
+                        fmt::format("{}: there is no control '{}' in the window", command.where, command.text));
+        push_motion({place->second.x + static_cast<float>(command.x) * place->second.width,
+                     place->second.y + static_cast<float>(command.y) * place->second.height});
         break;
     }
     case Kind::Down:

@@ -4,7 +4,9 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/scene/needed_effects.h"
 #include "ui/viewer_model.h"
 
 namespace pl {
@@ -51,6 +53,12 @@ std::string shown_sides(const ViewerModel& model) {
 std::string cursor_kind(const ViewerModel& model) {
     const Cursor::Kind kind = model.accuracy().cursor().kind;
     return kind == Cursor::Kind::None ? "none" : (kind == Cursor::Kind::EqualCost ? "cost" : "error");
+}
+
+/// Of the kernel that can do everything.
+std::string measured_pairs(const ViewerModel& model) {
+    const EffectCost* cost = model.effects().cost_of(kEveryFeature);
+    return fmt::format("{}", cost != nullptr ? cost->result.pairs : 0);
 }
 
 std::string turn_passes(const ViewerModel& model, std::size_t side) {
@@ -129,6 +137,36 @@ constexpr std::array kValues{
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return word(f.cells != nullptr); });
           }},
+    Value{"material",
+          [](const ViewerModel& m) {
+              const auto index = m.selected_material();
+              return index ? shown_name(m.materials().now()[*index], *index) : std::string("none");
+          }},
+    Value{"forced",
+          [](const ViewerModel& m) {
+              const std::vector<std::string> names = effect_names(m.settings().forced_effects);
+              return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ","));
+          }},
+    Value{"measure_percent",
+          [](const ViewerModel& m) {
+              const LiveRunSet* set = m.accuracy().set();
+              const bool any = set != nullptr && set->charged_seconds > 0.0;
+              return fmt::format("{:.3f}", any ? 100.0 * set->measure_seconds / set->charged_seconds : 0.0);
+          }},
+    Value{"charged",
+          [](const ViewerModel& m) {
+              return fmt::format("{:.2f}", m.accuracy().set() != nullptr ? m.accuracy().set()->charged_seconds : 0.0);
+          }},
+    Value{"measuring", [](const ViewerModel& m) { return word(m.measuring_effects().has_value()); }},
+    Value{"effect_pairs", measured_pairs},
+    Value{"edited", [](const ViewerModel& m) { return fmt::format("{}", m.materials().edited_names().size()); }},
+    Value{"roughness",
+          [](const ViewerModel& m) {
+              const auto index = m.selected_material();
+              return fmt::format("{:.3f}", index ? m.materials().now()[*index].roughness : 0.0f);
+          }},
+    Value{"kernel",
+          [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
     Value{"invalid",
           [](const ViewerModel& m) {
               return shown(

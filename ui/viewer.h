@@ -49,6 +49,13 @@ struct ViewerPicture {
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
+    std::vector<std::string> edited_materials{};  ///< names of those that are not as in the scene's files
+};
+
+/// The scene that is open, with the materials that were changed in the window.
+struct OpenScene {
+    std::string name;                                     ///< as load_scene takes it
+    std::shared_ptr<const SceneDescription> description;  ///< never null
 };
 
 /// A reference as it is stored.
@@ -102,17 +109,16 @@ struct ViewerOptions {
     /// Writes .png (tone mapped) or .exr (linear) by suffix. Called on a helper thread.
     std::function<void(const std::filesystem::path&, const Snapshot&, const ViewerPicture&)> save_image;
     /// Throws Error(Input) for a file that is none, or of another scene. Both called on a helper thread.
-    std::function<std::shared_ptr<LearnedField>(const std::filesystem::path&, const std::string& scene)> load_field;
+    std::function<std::shared_ptr<LearnedField>(const std::filesystem::path&, const OpenScene&)> load_field;
     std::function<void(const std::filesystem::path&, const LearnedField&)> save_field;
     /// Writes what the window shows, panels included.
     std::function<void(const std::filesystem::path&, const ScreenPixels&)> save_screen;
     /// The stored reference of just this picture, null if there is none. Throws Error(Input) for damaged files. Called
     /// on a helper thread; so is what follows, on one of its own.
-    std::function<std::shared_ptr<const StoredReference>(const std::string& scene, const RenderSettings&)>
-        find_reference;
+    std::function<std::shared_ptr<const StoredReference>(const OpenScene&, const RenderSettings&)> find_reference;
     /// Goes on with the stored reference until it is converged or the monitor says stop, and stores it. Null if there
     /// are no samples in both halves yet.
-    std::function<std::shared_ptr<const StoredReference>(const std::string& scene, const RenderSettings&,
+    std::function<std::shared_ptr<const StoredReference>(const OpenScene&, const RenderSettings&,
                                                          const ReferenceMonitor&)>
         make_reference;
     /// The shell command that renders what is shown.

@@ -60,6 +60,8 @@ void ViewerModel::start_loading(const std::string& name, bool keep_camera) {
 void ViewerModel::adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name,
                               bool keep_camera) {
     deselect();
+    selected_material_.reset();
+    materials_.open(scene);
     scene_name_ = name;
     const CameraDescription camera = keep_camera ? controls_.camera() : scene->camera;
     controls_ = CameraControls(scene->camera, bounds_of(*scene).diagonal());
@@ -174,11 +176,11 @@ void ViewerModel::load_field(const std::filesystem::path& path) {
         say(LogLevel::Warning, "this build cannot load what was learned");
         return;
     }
-    push_job([this, path, scene = scene_name_]() -> JobThread::Report {
+    push_job([this, path, scene = open_scene()]() -> JobThread::Report {
         const std::shared_ptr<LearnedField> field = options_.load_field(path, scene);
         return [this, field, path, scene] {
-            if (scene != scene_name_)
-                say(LogLevel::Error, fmt::format("{}: another scene was opened meanwhile", path.string()));
+            if (scene.description != status_.scene)
+                say(LogLevel::Error, fmt::format("{}: the scene was changed meanwhile", path.string()));
             else
                 adopt_field(field, path);
         };

@@ -23,7 +23,7 @@ constexpr float kMaxExposureEv = 16.0f;
 ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene,
                          const RenderSettings& settings, double load_seconds)
     : options_(options), scene_name_(options.scene_name), settings_(settings), display_(options.display),
-      limits_(options.limits), controls_(settings.camera, bounds_of(*scene).diagonal()),
+      limits_(options.limits), controls_(settings.camera, bounds_of(*scene).diagonal()), materials_(scene),
       worker_({options.make_backend, options.backends, options.first_backend, scene, settings, options.limits,
                load_seconds, options.display}) {
     if (options.field) worker_.submit(EditLearned{options.field});
@@ -44,6 +44,7 @@ void ViewerModel::update(double seconds) {
     take_runs();
     for (const WorkerMessage& message : worker_.take_messages())
         say(message.is_error ? LogLevel::Error : LogLevel::Info, message.text);
+    take_effects();
     take_pick();
     take_learned();
     for (const JobThread::Report& report : jobs_.take_reports())
@@ -337,6 +338,7 @@ void ViewerModel::take_pick() {
         return;
     }
     picked_ = answer->point;
+    select_material(picked_->material);
     if (picked_->volume == kNoVolume) {
         say(LogLevel::Info, "no radiance volume serves this surface: it reflects nothing");
         return;

@@ -9,6 +9,8 @@
 #include "ui/accuracy/accuracy_model.h"
 #include "ui/camera_controls.h"
 #include "ui/compare/compare_plan.h"
+#include "ui/edited_materials.h"
+#include "ui/effects_model.h"
 #include "ui/job_thread.h"
 #include "ui/numbered_names.h"
 #include "ui/overlays/direction_disc.h"
@@ -95,6 +97,12 @@ public:
     double now() const { return now_; }
     std::int32_t selected_volume() const { return selected_volume_; }
     const std::optional<PickedPoint>& picked() const { return picked_; }
+    const EffectsModel& effects() const { return effects_; }
+    /// Effects whose cost is being measured.
+    std::optional<FeatureSet> measuring_effects() const { return measuring_; }
+    const EditedMaterials& materials() const { return materials_; }
+    /// That of the surface that was picked last, or chosen from the list.
+    std::optional<std::uint32_t> selected_material() const { return selected_material_; }
     /// Learned table of the selected volume, or null.
     const VolumeInspection* inspection() const;
     /// Million camera paths per second, of the last half second of rendering or more.
@@ -116,7 +124,10 @@ public:
     ComparePlan compare_plan(const Rect& view) const;
     bool turns() const { return turns_.has_value(); }
     std::string title() const;
-    ViewerPicture picture() const { return {scene_name_, status_.backend, asked_settings(), display_, limits_}; }
+    ViewerPicture picture() const {
+        return {scene_name_, status_.backend, asked_settings(), display_, limits_, materials_.edited_names()};
+    }
+    /// Of the scene as in its files, whatever was changed in it.
     std::string command_line() const;
 
     void set_method(MethodId method);
@@ -138,6 +149,11 @@ public:
     void forget();
     void cancel();  ///< what Esc does
     void cancel_precomputation();
+
+    void set_forced_effects(FeatureSet forced);
+    /// What being able to do these, too, costs per pass: measured on the running picture, which stays the same.
+    void measure_effects(FeatureSet forced);
+    void stop_measuring_effects();
 
     void set_compare_mode(CompareMode mode);
     void step_compare(int steps);
@@ -169,6 +185,12 @@ public:
     void pick(Vec2f image_point);
     void deselect();
 
+    void select_material(std::uint32_t index);
+    /// A bad value is refused with the reason, and the old material stays.
+    void set_material(std::uint32_t index, const MaterialDescription& material);
+    void restore_material(std::uint32_t index);  ///< as in the file
+    void restore_materials();
+
     void reload();
     /// A scene, or a learned field of the scene that is open: a file that ends in kFieldSuffix.
     void open(const std::string& file);
@@ -191,6 +213,7 @@ private:
     void submit_camera();
     void submit_estimator();
     void take_pick();
+    void take_effects();
     void measure_throughput();
     void adopt_scene(std::shared_ptr<const SceneDescription> scene, const std::string& name, bool keep_camera);
     void start_loading(const std::string& name, bool keep_camera);
@@ -209,6 +232,7 @@ private:
     CompareInput compare_input() const;
     CompareSides sides_in_turns() const;
     void select(std::int32_t volume);
+    OpenScene open_scene() const;
 
     const ViewerOptions& options_;
     std::string scene_name_;
@@ -226,6 +250,10 @@ private:
     std::uint64_t backend_generation_ = 0;
     std::int32_t selected_volume_ = kNoVolume;
     std::optional<PickedPoint> picked_;
+    EditedMaterials materials_;
+    EffectsModel effects_;
+    std::optional<FeatureSet> measuring_;
+    std::optional<std::uint32_t> selected_material_;
     std::vector<LogLine> log_;
     std::vector<Toast> toasts_;
     NumberedNames names_;

@@ -18,7 +18,7 @@ void ViewerModel::look_for_reference() {
     if (status_.picture == 0 || status_.picture == looked_for_ || !options_.find_reference) return;
     looked_for_ = status_.picture;
     if (reference() != nullptr) return;
-    push_job([this, scene = scene_name_, settings = asked_settings()]() -> JobThread::Report {
+    push_job([this, scene = open_scene(), settings = asked_settings()]() -> JobThread::Report {
         const auto found = options_.find_reference(scene, settings);
         if (!found) return {};
         return [this, found] { adopt_reference(found); };
@@ -50,7 +50,7 @@ void ViewerModel::make_reference() {
     }
     set_turns(false);
     reference_job_ = std::make_unique<ReferenceJob>(
-        [this, scene = scene_name_, settings = asked_settings()](const ReferenceMonitor& monitor) {
+        [this, scene = open_scene(), settings = asked_settings()](const ReferenceMonitor& monitor) {
             return options_.make_reference(scene, settings, monitor);
         });
     hold_rendering();

@@ -663,13 +663,7 @@ def gallery():
               ([0.6, 1.7, 9.5], [-0.1, 1.15, 0], [0, 1, 0], 50),
               {"plaster": (0.7, None), "floor": ((0.45, 0.33, 0.22), None), "stone": ((0.5, 0.52, 0.55), None),
                "warm": (BLACK, (36, 25, 14)), "cold": (BLACK, (17, 24, 34)), "flood": (BLACK, 190)})
-    s.group("hall")
-    s.quad([(-2, 0, 10), (2, 0, 10), (2, 0, -20), (-2, 0, -20)], "floor")
-    s.quad([(-2, 3, 10), (-2, 3, -20), (2, 3, -20), (2, 3, 10)], "plaster")
-    s.quad([(-2, 0, 10), (-2, 0, -20), (-2, 3, -20), (-2, 3, 10)], "plaster")
-    s.quad([(2, 0, -20), (2, 0, 10), (2, 3, 10), (2, 3, -20)], "plaster")
-    s.quad([(-2, 0, -20), (2, 0, -20), (2, 3, -20), (-2, 3, -20)], "plaster")
-    s.quad([(2, 0, 10), (-2, 0, 10), (-2, 3, 10), (2, 3, 10)], "plaster")
+    s.room((-2, 0, -20), (2, 3, 10), {"": "plaster", "bottom": "floor"})
     s.group("lamps", "two rows under the ceiling")
     for i in range(30):
         for side in (-1, 1):

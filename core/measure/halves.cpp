@@ -1,50 +1,14 @@
 #include "core/measure/halves.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "core/base/error.h"
+#include "core/measure/block_means.h"
 #include "core/measure/chunks.h"
 
 namespace pl {
 namespace {
-
-/// Means over square blocks of pixels, of which the error of their mean follows. Threads may add to different blocks.
-class BlockMeans {
-public:
-    explicit BlockMeans(std::size_t blocks) : sums_(blocks, 0.0), counts_(blocks, 0.0) {}
-
-    void add(std::size_t block, double value) {
-        sums_[block] += value;
-        counts_[block] += 1.0;
-    }
-
-    /// Ratio of sums, so that smaller blocks at the border count less; error by linearization.   [Cochran 1977, 6.3]
-    Estimate finish() const {
-        double sum = 0.0;
-        double count = 0.0;
-        double blocks = 0.0;
-        for (std::size_t i = 0; i < sums_.size(); ++i) {
-            sum += sums_[i];
-            count += counts_[i];
-            blocks += counts_[i] > 0.0 ? 1.0 : 0.0;
-        }
-        if (count == 0.0) return {0.0, std::numeric_limits<double>::infinity()};
-        const double mean = sum / count;
-        if (blocks < 2.0) return {mean, std::numeric_limits<double>::infinity()};
-        double squares = 0.0;
-        for (std::size_t i = 0; i < sums_.size(); ++i) {
-            const double residual = sums_[i] - mean * counts_[i];
-            squares += residual * residual;
-        }
-        return {mean, std::sqrt(squares * blocks / (blocks - 1.0)) / count};
-    }
-
-private:
-    std::vector<double> sums_;
-    std::vector<double> counts_;
-};
 
 /// Sums over pixels on the way to ErrorParts.
 struct PartSums {
@@ -71,7 +35,7 @@ public:
     PartsTaker(const PictureHalves& picture, const ReferenceHalves& reference, std::size_t width)
         : picture_(picture), reference_(reference), shares_(picture), width_(width),
           columns_((width + kBlockSide - 1) / kBlockSide), rows_(picture.first.size() / width),
-          squared_bias_(columns_ * ((rows_ + kBlockSide - 1) / kBlockSide)), difference_(squared_bias_) {}
+          error_(columns_ * ((rows_ + kBlockSide - 1) / kBlockSide)), squared_bias_(error_), difference_(error_) {}
 
     ErrorParts take(int threads) {
         PartSums total;
@@ -84,6 +48,7 @@ public:
         if (total.pixels == 0) return parts;
         const auto n = static_cast<double>(total.pixels);
         parts.error = total.error / n;
+        parts.error_off = error_.finish().error;
         parts.variance = total.variance / n;
         parts.reference_noise = total.reference_noise / n;
         parts.squared_bias = squared_bias_.finish();
@@ -111,7 +76,9 @@ private:
         const Vec3d r1{reference_.first[i]}, r2{reference_.second[i]};
         const Vec3d x = shares_.mean(a, b), r = 0.5 * (r1 + r2);
         const Vec3d weight = relative_weight(r);
-        sums.error += channel_mean(weight * (x - r1) * (x - r2));
+        const double error = channel_mean(weight * (x - r1) * (x - r2));
+        sums.error += error;
+        error_.add(block, error);
         sums.variance += channel_mean(weight * shares_.variance(a, b));
         sums.reference_noise += channel_mean(weight * 0.25 * (r1 - r2) * (r1 - r2));
         sums.reference_luminance += luminance_of(r);
@@ -126,6 +93,7 @@ private:
     std::size_t width_;
     std::size_t columns_;
     std::size_t rows_;
+    BlockMeans error_;
     BlockMeans squared_bias_;
     BlockMeans difference_;
 };

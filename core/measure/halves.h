@@ -54,10 +54,11 @@ struct Estimate {
 
 /// The squared error of a picture taken apart. All but `signed_bias` in units of Metrics::relmse.
 struct ErrorParts {
-    double error = 0.0;     ///< (x-r1)(x-r2): variance and bias together
-    double variance = 0.0;  ///< HalfShares::variance()
-    Estimate squared_bias;  ///< (a-r1)(b-r2): no noise enters twice, so all that is left is bias; may be negative
-    Estimate signed_bias;   ///< luminance of x-r over the mean luminance of r
+    double error = 0.0;      ///< (x-r1)(x-r2): variance and bias together
+    double error_off = 0.0;  ///< standard error of that
+    double variance = 0.0;   ///< HalfShares::variance()
+    Estimate squared_bias;   ///< (a-r1)(b-r2): no noise enters twice, so all that is left is bias; may be negative
+    Estimate signed_bias;    ///< luminance of x-r over the mean luminance of r
     double reference_noise = 0.0;  ///< (r1-r2)^2 / 4, of the mean of the halves
     std::size_t pixels = 0;
     std::size_t invalid = 0;  ///< not finite somewhere

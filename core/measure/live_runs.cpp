@@ -96,14 +96,19 @@ void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
     reference_ = std::move(reference);
     const Stopwatch watch;
     const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    int caught_up = 0;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
         if (!has_reference(runs_[i]->label.picture)) continue;
         change(i, [&](LiveRun& run) {
             for (LivePoint& point : run.points)
-                if (point.picture && !point.metrics)
+                if (point.picture && !point.metrics) {
                     point.metrics = measure_error(pixels_of(*point.picture), reference_halves(), threads);
+                    ++caught_up;
+                }
         });
     }
+    // What comes now is also taken apart, which takes about as long again.
+    if (caught_up > 0) budget_.expect_more(2.0 * watch.seconds() / caught_up);
     catching_up_seconds_ += watch.seconds();
     publish();
 }
@@ -158,13 +163,17 @@ bool LiveRuns::is_due(const Session& session, const FilmOrigin& origin) {
 bool LiveRuns::add_point(const Session& session, const FilmOrigin& origin) {
     const Stopwatch watch;
     const std::optional<std::size_t> known = find(origin.number);
-    const RunLabel label = known ? runs_[*known]->label : label_of(session, origin);
+    RunLabel label = known ? runs_[*known]->label : label_of(session, origin);
+    if (known && details_) label.details = details_(session);
     std::optional<LivePoint> point = measure(session, origin, label.picture);
     if (point) {
         if (!known)
             runs_.push_back(std::make_shared<const LiveRun>(
                 LiveRun{.number = origin.number, .label = label, .points = {}, .in_progress = true}));
-        change(known.value_or(runs_.size() - 1), [&](LiveRun& run) { run.points.push_back(*std::move(point)); });
+        change(known.value_or(runs_.size() - 1), [&](LiveRun& run) {
+            run.label.details = label.details;
+            run.points.push_back(*std::move(point));
+        });
         limit_runs();
         limit_pictures(label.picture);
     }
@@ -177,6 +186,7 @@ RunLabel LiveRuns::label_of(const Session& session, const FilmOrigin& origin) co
             .backend = session.backend().name,
             .next_event = session.settings().next_event,
             .warm = origin.warm,
+            .seed = session.settings().seed,
             .picture = picture_key(session.scene(), session.settings()),
             .details = details_ ? details_(session) : std::string()};
 }
@@ -188,13 +198,16 @@ std::optional<LivePoint> LiveRuns::measure(const Session& session, const FilmOri
     const Snapshot snapshot = session.snapshot_with_halves();
     if (!snapshot.halves.are_both_there()) return std::nullopt;
     const PictureHalves halves = halves_of(snapshot.halves);
+    const Noise noise = estimate_noise(halves, snapshot.width, threads);
     LivePoint point{.spp = snapshot.passes,
                     .clocks = own_clocks(snapshot.clocks, origin),
                     .counters = snapshot.counters,
-                    .noise = estimate_noise(halves, snapshot.width, threads).relmse};
+                    .noise = noise.relmse,
+                    .noise_off = noise.relmse_off};
     if (has_reference(picture)) {
         const ErrorParts parts = take_apart(halves, reference_halves(), snapshot.width, threads);
         point.metrics = measure_error(snapshot.pixels, reference_halves(), threads);
+        point.relmse_off = parts.error_off;
         point.squared_bias = parts.squared_bias;
         point.signed_bias = parts.signed_bias;
     }
@@ -273,7 +286,8 @@ void LiveRuns::publish() {
         LiveRunSet{.runs = runs_,
                    .picture_bytes = picture_bytes(),
                    .picture_bytes_cap = picture_bytes_cap_,
-                   .measure_seconds = budget_.spent_seconds() + catching_up_seconds_});
+                   .measure_seconds = budget_.spent_seconds() + catching_up_seconds_,
+                   .charged_seconds = charged_seconds_});
 }
 
 }  // namespace pl

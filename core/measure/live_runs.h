@@ -21,6 +21,7 @@ struct RunLabel {
     bool next_event = false;
     /// Began with tables that had learned before: what that took is not among this run's seconds.
     bool warm = false;
+    std::uint64_t seed = 0;     ///< runs that differ in nothing else are repetitions
     std::uint64_t picture = 0;  ///< picture_key(): runs with another one show other light and are never compared
     std::string details;        ///< whatever else differs from the defaults, in words
 };
@@ -41,10 +42,12 @@ struct LivePoint {
     std::uint32_t spp = 0;
     Clocks clocks;  ///< of this run: charged_seconds() is what it is plotted over
     PassCounters counters;
-    double noise = 0.0;  ///< Noise::relmse of the picture's own halves: needs no reference
+    double noise = 0.0;      ///< Noise::relmse of the picture's own halves: needs no reference
+    double noise_off = 0.0;  ///< standard error of that over this picture's blocks: other seeds may differ by more
     /// Against the reference of the same picture; empty without one. Of a point that was measured before its reference
-    /// was there, from half floats (three digits) and without the two below.
+    /// was there, from half floats (three digits) and without the three below.
     std::optional<Metrics> metrics{};
+    std::optional<double> relmse_off{};  ///< standard error of Metrics::relmse, as of noise_off
     std::optional<Estimate> squared_bias{};
     std::optional<Estimate> signed_bias{};
     std::shared_ptr<const HalfPicture> picture{};  ///< null once dropped for memory
@@ -64,6 +67,7 @@ struct LiveRunSet {
     std::size_t picture_bytes = 0;
     std::size_t picture_bytes_cap = 0;
     double measure_seconds = 0.0;  ///< spent on all of this, charged to no run
+    double charged_seconds = 0.0;  ///< to all runs until then, also to those that were forgotten
 };
 
 /// A converged picture in two halves.
@@ -78,11 +82,14 @@ struct LiveReference {
 /// Follows one session, in its thread. Pictures other than View::Beauty are not measured.
 class LiveRuns {
 public:
-    /// Words for what a session's settings are besides those in RunLabel; asked once per run.
+    /// Words for what a session's settings are besides those in RunLabel; asked at each point, because some may change
+    /// while a picture stays.
     using Details = std::function<std::string(const Session&)>;
 
-    explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {},
-                      double measure_share = MeasureBudget::kDefaultShare);
+    /// A fifth below what measuring may take: it is held to what the last measurement took, and the next may take longer.
+    static constexpr double kMeasureShare = 0.8 * MeasureBudget::kDefaultShare;
+
+    explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {}, double measure_share = kMeasureShare);
 
     /// Errors are measured against it from now on where pictures are the same, and for points of the past that still
     /// have their pictures: that takes about as long as measuring them did. Errors that were measured stay. Null: none.

@@ -19,6 +19,8 @@ public:
         spent_seconds_ += seconds;
         last_seconds_ = seconds;
     }
+    /// From now on a measurement takes so much longer than the last one.
+    void expect_more(double seconds) { last_seconds_ += seconds; }
     double spent_seconds() const { return spent_seconds_; }
 
 private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/measure/block_means.h"
 #include "core/measure/chunks.h"
 
 namespace pl {
@@ -63,6 +64,8 @@ Noise estimate_noise(const PictureHalves& halves, int width, int threads) {
     const HalfShares shares(halves);
     const auto columns = static_cast<std::uint32_t>(width);
     const auto rows = static_cast<std::uint32_t>(halves.first.size() / columns);
+    const std::uint32_t block_columns = (columns + kBlockSide - 1) / kBlockSide;
+    BlockMeans blocks(std::size_t{block_columns} * ((rows + kBlockSide - 1) / kBlockSide));
     const auto add = [&](Noise& sums, IndexRange range) {
         WindowSums around(halves, columns, rows);
         for (std::uint32_t row = range.begin; row < range.end; ++row) {
@@ -76,12 +79,14 @@ Noise estimate_noise(const PictureHalves& halves, int width, int threads) {
                 }
                 const Vec3d square = shares.variance(Vec3d{halves.first[i]}, Vec3d{halves.second[i]});
                 sums.mse += channel_mean(square);
-                sums.relmse += channel_mean(square * relative_weight(mean));
+                const double relative = channel_mean(square * relative_weight(mean));
+                sums.relmse += relative;
+                blocks.add(std::size_t{row / kBlockSide} * block_columns + column / kBlockSide, relative);
                 ++sums.pixels;
             }
         }
     };
-    constexpr std::uint32_t kRowChunk = 32;
+    constexpr std::uint32_t kRowChunk = 2 * kBlockSide;  // no block belongs to two threads
     Noise noise;
     for (const Noise& sums : sums_of_chunks(rows, kRowChunk, threads, Noise{}, add)) {
         noise.mse += sums.mse;
@@ -92,6 +97,7 @@ Noise estimate_noise(const PictureHalves& halves, int width, int threads) {
     if (noise.pixels > 0) {
         noise.mse /= static_cast<double>(noise.pixels);
         noise.relmse /= static_cast<double>(noise.pixels);
+        noise.relmse_off = blocks.finish().error;
     }
     return noise;
 }

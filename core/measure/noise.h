@@ -8,7 +8,8 @@ namespace pl {
 /// Squared noise, plain and relative as in Metrics, of the weighted mean of both halves.
 struct Noise {
     double mse = 0.0;
-    double relmse = 0.0;  ///< over the squared mean of the pixels around, in place of a reference
+    double relmse = 0.0;      ///< over the squared mean of the pixels around, in place of a reference
+    double relmse_off = 0.0;  ///< standard error of that over blocks, as of ErrorParts; infinite below two blocks
     std::size_t pixels = 0;
     std::size_t invalid = 0;  ///< not finite in a half
 };

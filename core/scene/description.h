@@ -25,6 +25,7 @@ struct TextureUse {
     std::uint32_t opacity = kNoTexture;  ///< last channel; below one half there is a hole
 
     bool any() const { return (albedo & roughness & emission & opacity) != kNoTexture; }
+    friend bool operator==(const TextureUse&, const TextureUse&) = default;
 };
 
 /// Indices of refraction that a surface may have. Those of solids and liquids are below 4.
@@ -47,6 +48,8 @@ struct MaterialDescription {
     glm::vec3 specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of what is reflected
     glm::vec3 transmission{1.0f};  ///< dielectric: tint of what passes
     TextureUse textures{};
+
+    friend bool operator==(const MaterialDescription&, const MaterialDescription&) = default;
 };
 
 /// What the numbers of an image file mean.

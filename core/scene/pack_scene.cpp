@@ -1,5 +1,6 @@
 #include "core/scene/pack_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -144,6 +145,17 @@ void pack_lights(HostScene& packed) {
     packed.light_power = static_cast<float>(total);
 }
 
+/// Everything that follows from materials and lights. Expects packed triangles.
+void pack_looks(const SceneDescription& scene, HostScene& packed) {
+    pack_materials(scene, packed);
+    pack_lobes(scene, packed);
+    pack_textures(scene, packed);  // emission becomes its mean
+    pack_lights(packed);
+    packed.environment = scene.environment;
+    pack_far_lights(scene, packed);
+    pack_light_tree(packed);
+}
+
 /// The coordinate axis that makes the largest angle with a direction.
 Vec3d farthest_axis(Vec3d direction) {
     const Vec3d a = glm::abs(direction);
@@ -177,17 +189,32 @@ HostScene pack_scene(const SceneDescription& scene) {
     HostScene packed;
     pack_triangles(scene, packed);
     pack_normals(scene, packed);
-    pack_materials(scene, packed);
-    pack_lobes(scene, packed);
-    pack_textures(scene, packed);  // emission becomes its mean
-    pack_lights(packed);
-    packed.environment = scene.environment;
-    pack_far_lights(scene, packed);
-    pack_light_tree(packed);
     Bvh bvh = build_bvh(view_of(std::as_const(packed.positions)), view_of(std::as_const(packed.triangles)));
     packed.bvh_nodes = std::move(bvh.nodes);
     packed.bvh_primitives = std::move(bvh.primitives);
+    pack_looks(scene, packed);
     return packed;
+}
+
+HostScene repack_materials(const SceneDescription& scene, const HostScene& packed) {
+    HostScene repacked;
+    repacked.positions = packed.positions;
+    repacked.triangles = packed.triangles;
+    repacked.planes = packed.planes;
+    repacked.normals = packed.normals;
+    repacked.triangle_normals = packed.triangle_normals;
+    repacked.bvh_nodes = packed.bvh_nodes;
+    repacked.bvh_primitives = packed.bvh_primitives;
+    pack_looks(scene, repacked);
+    return repacked;
+}
+
+/// The hierarchy follows from the rest.
+bool same_triangles(const HostScene& a, const HostScene& b) {
+    const auto same_corners = [](const Triangle& s, const Triangle& t) {
+        return s.v0 == t.v0 && s.v1 == t.v1 && s.v2 == t.v2;
+    };
+    return a.positions == b.positions && std::ranges::equal(a.triangles, b.triangles, same_corners);
 }
 
 Camera make_camera(const CameraDescription& camera, int width, int height) {

@@ -28,6 +28,13 @@ Bounds bounds_of(const HostScene& scene);
 /// Smooth normals are packed only if a triangle has them: triangles without get their geometric normal.
 HostScene pack_scene(const SceneDescription& scene);
 
+/// The same bits as pack_scene(), without building anything that depends on triangles alone: that is copied from `packed`,
+/// which was packed from a scene of other materials and equal in all else.
+HostScene repack_materials(const SceneDescription& scene, const HostScene& packed);
+
+/// Are triangles and hierarchy the same, whatever their materials?
+bool same_triangles(const HostScene& a, const HostScene& b);
+
 /// Camera basis for an image of the given shape. `up` along the view direction is replaced by the axis that is
 /// farthest from it.
 Camera make_camera(const CameraDescription& camera, int width, int height);

@@ -1,6 +1,7 @@
 #include "core/scene/validate.h"
 
 #include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -84,10 +85,10 @@ void check_triangles(std::string& list, const SceneDescription& scene) {
     }
 }
 
-void check_materials(std::string& list, const SceneDescription& scene) {
+void check_materials(std::string& list, std::span<const MaterialDescription> materials) {
     Complaint albedo(list);
     Complaint emission(list);
-    for (const MaterialDescription& m : scene.materials) {
+    for (const MaterialDescription& m : materials) {
         if (!is_albedo(m.albedo)) {
             albedo.add(
                 [&] { return fmt::format("material '{}': albedo {} is not within [0, 1]", m.name, show(m.albedo)); });
@@ -103,7 +104,7 @@ void check_materials(std::string& list, const SceneDescription& scene) {
 
 bool within(float x, float low, float high) { return x >= low && x <= high; }
 
-void check_surfaces(std::string& list, const std::vector<MaterialDescription>& materials) {
+void check_surfaces(std::string& list, std::span<const MaterialDescription> materials) {
     Complaint number(list);
     Complaint color(list);
     for (const MaterialDescription& m : materials) {
@@ -127,36 +128,44 @@ void check_surfaces(std::string& list, const std::vector<MaterialDescription>& m
     }
 }
 
-void check_textures(std::string& list, const SceneDescription& scene) {
-    Complaint index(list);
-    Complaint light(list);
+void check_textures(std::string& list, const std::vector<TextureDescription>& textures) {
     Complaint size(list);
     Complaint value(list);
-    std::vector<float> brightest;
-    for (const TextureDescription& t : scene.textures) {
+    for (const TextureDescription& t : textures) {
         if (t.width == 0 || t.height == 0 || t.texels.size() != std::size_t{t.width} * t.height) {
             size.add([&] {
                 return fmt::format("texture '{}': {}x{} with {} texels", t.source.string(), t.width, t.height,
                                    t.texels.size());
             });
         }
-        float most = 0.0f;
         for (const glm::vec4& texel : t.texels) {
             if (!is_light(glm::vec3(texel)) || !within(texel.w, 0.0f, 1.0f)) {
                 value.add([&] { return fmt::format("texture '{}': a texel is no color", t.source.string()); });
             }
-            most = glm::max(most, glm::max(texel.x, glm::max(texel.y, texel.z)));
         }
-        brightest.push_back(most);
     }
-    for (const MaterialDescription& m : scene.materials) {
+}
+
+float brightest_of(const TextureDescription& texture) {
+    float most = 0.0f;
+    for (const glm::vec4& texel : texture.texels) {
+        most = glm::max(most, glm::max(texel.x, glm::max(texel.y, texel.z)));
+    }
+    return most;
+}
+
+void check_texture_uses(std::string& list, std::span<const MaterialDescription> materials,
+                        const std::vector<TextureDescription>& textures) {
+    Complaint index(list);
+    Complaint light(list);
+    for (const MaterialDescription& m : materials) {
         const TextureUse& use = m.textures;
         for (const std::uint32_t texture : {use.albedo, use.roughness, use.emission, use.opacity}) {
-            if (texture != kNoTexture && texture >= scene.textures.size()) {
+            if (texture != kNoTexture && texture >= textures.size()) {
                 index.add([&] { return fmt::format("material '{}': there is no texture {}", m.name, texture); });
             }
         }
-        if (use.emission < brightest.size() && !is_finite(m.emission * brightest[use.emission])) {
+        if (use.emission < textures.size() && !is_finite(m.emission * brightest_of(textures[use.emission]))) {
             light.add([&] { return fmt::format("material '{}': emission times its texture is not finite", m.name); });
         }
     }
@@ -219,9 +228,10 @@ void validate_scene(const SceneDescription& scene) {
     check_numbers(list, "vertex", scene.positions);
     check_numbers(list, "normal", scene.normals);
     check_triangles(list, scene);
-    check_materials(list, scene);
+    check_materials(list, scene.materials);
     check_surfaces(list, scene.materials);
-    check_textures(list, scene);
+    check_textures(list, scene.textures);
+    check_texture_uses(list, scene.materials, scene.textures);
     check_far_lights(list, scene);
     check_camera(list, scene.camera);
     if (!is_light(scene.environment)) {
@@ -229,6 +239,16 @@ void validate_scene(const SceneDescription& scene) {
     }
     if (!list.empty()) {
         throw Error(ErrorKind::Input, fmt::format("{}: the scene is not valid:{}", scene.source.string(), list));
+    }
+}
+
+void validate_material(const MaterialDescription& material, const SceneDescription& scene) {
+    std::string list;
+    check_materials(list, {&material, 1});
+    check_surfaces(list, {&material, 1});
+    check_texture_uses(list, {&material, 1}, scene.textures);
+    if (!list.empty()) {
+        throw Error(ErrorKind::Input, fmt::format("the material is not valid:{}", list));
     }
 }
 

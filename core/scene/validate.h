@@ -11,6 +11,9 @@ namespace pl {
 /// degrees.
 void validate_scene(const SceneDescription& scene);
 
+/// The same for one material that is to take a place in a valid scene.
+void validate_material(const MaterialDescription& material, const SceneDescription& scene);
+
 /// The camera's up vector if it spans a plane with the viewing direction, else the axis that does so best.
 /// Expects a camera that validate_scene() accepts.
 glm::vec3 usable_up(const CameraDescription& camera);

@@ -15,6 +15,9 @@ struct Table {
     Invalidation operator()(const EditScene&) const {
         return {.films = true, .tables = true, .volumes = true, .scene = true};
     }
+    // Volumes go where same_placement() says so, which is about the scene and not about the edit.
+    Invalidation operator()(const EditMaterial&) const { return {.films = true, .tables = true}; }
+    Invalidation operator()(const EditEffects&) const { return {}; }
     Invalidation operator()(const EditBackend& edit) const { return {.tables = edit.abandon_old}; }
     Invalidation operator()(const EditRestart&) const { return {.films = true}; }
     Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }

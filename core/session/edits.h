@@ -41,6 +41,16 @@ struct EditField {
 struct EditScene {
     std::shared_ptr<const SceneDescription> scene;
 };
+/// Another material in the place of one, as a whole. The hierarchy stays. Volumes that it moves are placed anew: then this
+/// clears them too, see same_placement().
+struct EditMaterial {
+    std::uint32_t index;
+    MaterialDescription material;
+};
+/// Effects that kernels must be able to do, needed or not: no picture changes by it.
+struct EditEffects {
+    FeatureSet forced;
+};
 /// Another back end goes on with what was learned. The pictures of the old one are parked with it, for the way back.
 struct EditBackend {
     std::shared_ptr<RenderBackend> backend;
@@ -54,8 +64,9 @@ struct EditLearned {
     std::shared_ptr<const LearnedField> field;
 };
 
-using SessionEdit = std::variant<EditCamera, EditSize, EditMethod, EditView, EditSeed, EditEstimator, EditMixture,
-                                 EditField, EditScene, EditBackend, EditRestart, EditForget, EditLearned>;
+using SessionEdit =
+    std::variant<EditCamera, EditSize, EditMethod, EditView, EditSeed, EditEstimator, EditMixture, EditField,
+                 EditScene, EditMaterial, EditEffects, EditBackend, EditRestart, EditForget, EditLearned>;
 
 /// What has to go when an edit is applied. Display settings are not here: they are no part of a session.
 struct Invalidation {

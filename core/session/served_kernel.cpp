@@ -25,7 +25,11 @@ FeatureSet needed_features(const HostScene& scene, const RenderSettings& setting
 }
 
 ServedKernel served_kernel(std::string_view backend, const HostScene& scene, const RenderSettings& settings) {
-    ServedKernel kernel{.served = needed_features(scene, settings).with(settings.forced_effects)};
+    return served_kernel(backend, needed_features(scene, settings), settings);
+}
+
+ServedKernel served_kernel(std::string_view backend, FeatureSet needed, const RenderSettings& settings) {
+    ServedKernel kernel{.served = needed.with(settings.forced_effects)};
     kernel.compiled = kCompiledSets[covering_set(kernel.served, range_of(settings))];
     const std::vector<std::string> effects = effect_names(kernel.compiled);
     const std::string_view does =

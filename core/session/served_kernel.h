@@ -19,5 +19,7 @@ struct ServedKernel {
     std::string name{};     ///< "cpu/reinforcement/next-event-estimation", as shown to people
 };
 ServedKernel served_kernel(std::string_view backend, const HostScene& scene, const RenderSettings& settings);
+/// The same where it is known what is needed.
+ServedKernel served_kernel(std::string_view backend, FeatureSet needed, const RenderSettings& settings);
 
 }  // namespace pl

@@ -14,49 +14,12 @@
 namespace pl {
 namespace {
 
-/// Copies the new values of an edit into the settings; scene and commands have none.
-struct Assign {
-    RenderSettings& settings;
-
-    void operator()(const EditCamera& edit) const { settings.camera = edit.camera; }
-    void operator()(const EditSize& edit) const {
-        settings.width = edit.width;
-        settings.height = edit.height;
-    }
-    void operator()(const EditMethod& edit) const { settings.method = edit.method; }
-    void operator()(const EditView& edit) const { settings.view = edit.view; }
-    void operator()(const EditSeed& edit) const { settings.seed = edit.seed; }
-    void operator()(const EditEstimator& edit) const {
-        settings.max_depth = edit.max_depth;
-        settings.next_event = edit.next_event;
-        settings.roulette = edit.roulette;
-    }
-    void operator()(const EditMixture& edit) const { settings.mixture = edit.mixture; }
-    void operator()(const EditField& edit) const { settings.field = edit.field; }
-    void operator()(const EditScene& edit) const { settings.camera = edit.scene->camera; }
-    void operator()(const EditBackend&) const {}
-    void operator()(const EditRestart&) const {}
-    void operator()(const EditForget&) const {}
-    void operator()(const EditLearned& edit) const { settings.method = edit.field->method; }
-};
-
 /// Paths guided by what was learned know what they are still worth, and soon end at a light: they play roulette only
 /// when little is left, so that few of them end without having found any. Others play for every loss.
 constexpr float kGuidedRouletteThreshold = 0.01f;
 /// Where what is learned decides alone: the lower end of a window of weights whose ends differ by a factor of 5, around 1.
 /// [Vorba and Krivanek 2016, section 4]
 constexpr float kFieldRouletteThreshold = 2.0f / (1.0f + 5.0f);
-
-/// Do the sizes of all arrays agree?
-bool fits_together(const LearnedField& field) {
-    if (field.volumes == nullptr || field.shape.cells.side < 1) return false;
-    const std::size_t volumes = field.volumes->normals.size();
-    const HostTables expected = make_tables(field.shape, volumes);
-    bool fits = field.volumes->sites.size() == volumes && field.volumes->kd_nodes.size() <= volumes;
-    zip(expected, field.tables,
-        [&](const auto& want, const auto& have) { fits = fits && want.size() == have.size(); });
-    return fits;
-}
 
 bool is_power_of_two(std::uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 
@@ -75,58 +38,6 @@ void Session::load_scene() {
     const Stopwatch upload;
     backend_->upload_scene(packed_);
     upload_seconds_ = upload.seconds();
-}
-
-void Session::apply(const SessionEdit& edit) {
-    if (const auto* change = std::get_if<EditLearned>(&edit)) import_field(*change->field);
-    if (const auto* change = std::get_if<EditBackend>(&edit)) switch_backend(*change);
-    const Invalidation clear = invalidated_by(edit);
-    std::visit(Assign{settings_}, edit);
-    if (const auto* change = std::get_if<EditScene>(&edit)) scene_ = change->scene;
-    if (clear.films) clear_films();
-    if (clear.tables) clear_tables();
-    if (clear.volumes) volumes_.reset();
-    if (clear.scene) load_scene();
-}
-
-void Session::clear_films() {
-    ++film_generation_;
-    films_.fill(FilmState{});
-    for (ParkedBackend& parked : parked_) parked.films.fill(FilmState{});
-}
-
-/// The new back end is made ready first, so that nothing has changed if it fails; but it is forgotten then, because nobody
-/// knows what it still holds.
-void Session::switch_backend(const EditBackend& edit) {
-    if (edit.backend == backend_) return;
-    std::vector<std::pair<MethodId, HostTables>> learned;
-    if (!edit.abandon_old && volumes_)  // without volumes, tables are left over from others
-        for (const MethodInfo& method : all_methods())
-            if (backend_->has_tables(method.id))
-                learned.emplace_back(method.id, backend_->download_tables(method.id));
-    ParkedBackend next = unpark(edit.backend);
-    const Stopwatch upload;
-    if (next.scene != packed_) next.backend->upload_scene(packed_);
-    if (volumes_) next.backend->upload_volumes(volumes_, shape_);
-    for (auto& [method, tables] : learned) next.backend->upload_tables(method, std::move(tables));
-    upload_seconds_ = upload.seconds();
-    if (!edit.abandon_old && !edit.forget_old) parked_.push_back({backend_, films_, packed_});
-    backend_ = std::move(next.backend);
-    films_ = next.films;
-}
-
-/// Takes a back end out of those that wait.
-Session::ParkedBackend Session::unpark(const std::shared_ptr<RenderBackend>& backend) {
-    ParkedBackend result{.backend = backend, .films = {}, .scene = nullptr};
-    for (const ParkedBackend& parked : parked_)
-        if (parked.backend == backend) result = parked;
-    std::erase_if(parked_, [&](const ParkedBackend& parked) { return parked.backend == backend; });
-    return result;
-}
-
-void Session::clear_tables() {
-    fields_.fill(FieldProgress{});
-    if (volumes_) backend_->upload_volumes(volumes_, shape_);
 }
 
 void Session::ensure_volumes() {
@@ -203,6 +114,7 @@ bool Session::needs_precompute() const {
 Progress Session::precompute_slice(const StopFlag* stop) {
     const Stopwatch watch;
     FieldProgress& state = field();
+    film().origin.forced = film().origin.forced.with(settings_.forced_effects);
     PathSettings path = path_settings();
     path.stream = Stream::Precompute;
     path.roulette_threshold = 1.0f;  // probes follow the default method
@@ -247,6 +159,7 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
     std::uint32_t sample = learns ? static_cast<std::uint32_t>(field().passes) : state.passes;
     // Passes of a heat map replace one another: with the same points, so that borders stand still.
     if (is_heat_map(target.view)) sample = 0;
+    state.origin.forced = state.origin.forced.with(settings_.forced_effects);
     const PassCounters counters =
         backend_->run_pass({.slot = target,
                             .features = served_kernel().served,
@@ -404,21 +317,6 @@ LearnedField Session::export_field() const {
             .volumes = volumes_,
             .tables = backend_->download_tables(method),
             .progress = field()};
-}
-
-void Session::import_field(LearnedField learned) {
-    require_learned_in(*scene_, learned);
-    if (!info_of(learned.method).uses_field || !fits_together(learned))
-        throw Error(ErrorKind::Input, "the field's volumes and tables do not fit together");
-    const std::shared_ptr<const HostVolumes> volumes = with_lookup(*learned.volumes, learned.shape.lookup);
-    backend_->upload_volumes(volumes, learned.shape);
-    backend_->upload_tables(learned.method, std::move(learned.tables));
-    settings_.field = learned.settings;
-    shape_ = learned.shape;
-    volumes_ = volumes;
-    fields_.fill(FieldProgress{});
-    fields_[static_cast<std::size_t>(learned.method)] = learned.progress;
-    clear_films();
 }
 
 std::int32_t Session::find_volume_at(Vec3f position, Vec3f normal) {

@@ -34,7 +34,8 @@ public:
 
     /// Applies a change and clears what invalidated_by() says. Throws Error if a back end fails; if it is the new one
     /// of EditBackend, the session stays with the old one, unchanged, and the new one has to be given everything anew
-    /// when it is tried again. EditLearned throws as import_field() does.
+    /// when it is tried again. EditLearned throws as import_field() does, EditMaterial Error(Input) for what
+    /// validate_material() refuses; then nothing has changed.
     void apply(const SessionEdit& edit);
 
     /// Does the next piece of work: a slice of precomputation if the method still needs it, else one sample for
@@ -64,6 +65,7 @@ public:
 
     const RenderSettings& settings() const { return settings_; }
     const SceneDescription& scene() const { return *scene_; }
+    std::shared_ptr<const SceneDescription> shared_scene() const { return scene_; }
     std::shared_ptr<const HostScene> packed_scene() const { return packed_; }
     BackendInfo backend() const { return backend_->info(); }
     RenderBackend& backend_access() { return *backend_; }
@@ -105,6 +107,7 @@ private:
     void load_scene();
     void begin_film(FilmSlot slot);
     void take_pixels(Snapshot& snapshot, FilmReading film) const;
+    void change_material(const EditMaterial& edit);
     void switch_backend(const EditBackend& edit);
     ParkedBackend unpark(const std::shared_ptr<RenderBackend>& backend);
     void ensure_volumes();

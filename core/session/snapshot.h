@@ -30,6 +30,7 @@ struct FilmOrigin {
     bool warm = false;             ///< its method had learned something before the first sample
     double place_seconds = 0.0;    ///< of the clocks, what had been spent before
     double precompute_seconds = 0.0;
+    FeatureSet forced{};  ///< effects that any of its passes was forced to be able to do: they cost time
 };
 
 /// What is known about the learned field of the session's method.

@@ -36,6 +36,16 @@ TEST_CASE("a thousand measurements in a row of passes never exceed their share")
     CHECK(taken > 1000);
 }
 
+TEST_CASE("what is known to take longer has to fit in beforehand") {
+    MeasureBudget budget(0.01);
+    budget.spend(0.02);
+    budget.expect_more(0.01);
+    CHECK_FALSE(budget.allows(4.99));
+    CHECK(budget.allows(5.01));
+    budget.spend(0.03);
+    CHECK(budget.allows(8.01));  // measured now, no longer guessed
+}
+
 TEST_CASE("an infinite share allows everything") {
     MeasureBudget budget(std::numeric_limits<double>::infinity());
     CHECK(budget.allows(0.0));

@@ -152,3 +152,30 @@ TEST_CASE("The same seed gives the same bits on the device") {
         CHECK(same_state(render(), render()));
     }
 }
+
+TEST_CASE("A material that is changed on the device gives the bits of a new session, also after a detour") {
+    const SceneDescription scene = shipped_scene("cornell");
+    SceneDescription coated = scene;
+    coated.materials[0].kind = SurfaceKind::Plastic;
+    coated.materials[0].roughness = 0.3f;
+    for (const MethodId method : {MethodId::Default, MethodId::Reinforcement}) {
+        INFO(info_of(method).name);
+        const RenderSettings settings = quick_learner(scene, {method, true}, kSide, 1);
+        Session fresh = make_cuda_session(coated, settings);
+        render_passes(fresh, 2);
+        const std::shared_ptr<RenderBackend> cuda = make_cuda_backend();
+        Session session(cuda, std::make_shared<const SceneDescription>(scene), settings);
+        render_passes(session, 2);
+        session.apply(EditMaterial{0, coated.materials[0]});
+        render_passes(session, 2);
+        CHECK(same_state(state_of(fresh), state_of(session)));
+        CHECK(session.served_kernel().name == fresh.served_kernel().name);
+        // Changed while another back end renders.
+        session.apply(EditMaterial{0, scene.materials[0]});
+        session.apply(EditBackend{std::shared_ptr<RenderBackend>(make_cpu_backend({.threads = 1}))});
+        session.apply(EditMaterial{0, coated.materials[0]});
+        session.apply(EditBackend{cuda});
+        render_passes(session, 2);
+        CHECK(same_state(state_of(fresh), state_of(session)));
+    }
+}

@@ -1,4 +1,6 @@
 // What runs come to at equal cost and at equal error, in hand-computed numbers, and the sentence above the plot.
+#include <string>
+
 #include "tests/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
 #include "ui/accuracy/accuracy_model.h"
@@ -100,6 +102,40 @@ TEST_CASE("Headline: factors and their product, with one run each") {
     CHECK(lines[0].run == 2);
     CHECK_THAT(lines[0].text, contains("Reinforcement CPU needs 4.0x fewer samples than Default CPU, each costs 2.0x "
                                        "more: 2.0x faster to the same error (one run each: no interval)"));
+}
+
+TEST_CASE("Headline: runs of several seeds give an interval") {
+    Runs runs;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const double luck = 1.0 + 0.02 * static_cast<double>(seed);
+        const auto base = make_run({.number = 2 * seed, .error_of_sample = luck});
+        const auto learned = make_run({.number = 2 * seed + 1,
+                                       .method = MethodId::Reinforcement,
+                                       .seconds_per_sample = 0.2,
+                                       .error_of_sample = 0.25 / luck});
+        base->label.seed = seed;
+        learned->label.seed = seed;
+        runs.push_back(base);
+        runs.push_back(learned);
+        const std::vector<Headline> lines = make_headlines(runs, kThisPicture);
+        REQUIRE(lines.size() == 1);
+        INFO(lines[0].text);
+        CHECK_THAT(lines[0].text, contains(seed == 1  ? std::string("one run each: no interval")
+                                           : seed < 5 ? "(only " + std::to_string(seed) + " runs: no interval)"
+                                                      : std::string("(95 %: ")));
+        CHECK((lines[0].text.find("seed") == std::string::npos));
+    }
+    // One that has just begun does not shorten the others; a second one of the same seed takes the place of the first.
+    const std::string before = make_headlines(runs, kThisPicture)[0].text;
+    const auto begun = make_run({.number = 20, .method = MethodId::Reinforcement, .last_sample = 4});
+    begun->label.seed = 6;
+    runs.push_back(begun);
+    CHECK(make_headlines(runs, kThisPicture)[0].text == before);
+    // What was set otherwise is no repetition.
+    const auto other = make_run({.number = 21, .method = MethodId::Reinforcement});
+    other->label.details = "400 volumes";
+    runs.push_back(other);
+    CHECK_THAT(make_headlines(runs, kThisPicture)[0].text, contains("(one run"));
 }
 
 TEST_CASE("Headline: as plain when learning loses, and without a reference") {

@@ -44,6 +44,7 @@ struct FakeControl {
     }
     std::mutex mutex;
     std::map<MethodId, HostTables> uploaded;    ///< the last of each method that came in; read by tables_in()
+    std::vector<FeatureSet> served;             ///< of each complete pass, what its kernel had to be able to do
     std::map<MethodId, HostTables> downloaded;  ///< the last of each method that went out
 };
 
@@ -135,6 +136,10 @@ public:
         counters.paths = pixels - request.first_pixel;
         counters.path.method.records = counters.paths;
         record(request);
+        {
+            const std::lock_guard lock(control_->mutex);
+            control_->served.push_back(request.features);
+        }
         ++control_->passes;
         return counters;
     }

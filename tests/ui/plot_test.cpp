@@ -1,5 +1,6 @@
 // The plot without a window: axes, panning and zooming, what is near the pointer, thinning, dashes.
 #include <cmath>
+#include <limits>
 
 #include "tests/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
@@ -89,6 +90,23 @@ TEST_CASE("Plot: points that logarithmic axes cannot show are left out") {
     const std::vector<PlotPoint> points = plot_points(*run, {});
     REQUIRE(points.size() == 2);
     CHECK(points[1].index == 3);
+}
+
+TEST_CASE("Plot: a band is as wide as the run's own blocks leave open, and absent where that is not known") {
+    auto run = make_run({.last_sample = 8});
+    run->points[0].relmse_off = 0.1 * run->points[0].metrics->relmse;
+    run->points[1].relmse_off = std::numeric_limits<double>::infinity();
+    run->points[0].noise_off = 0.2 * run->points[0].noise;
+    const std::vector<PlotPoint> points = plot_points(*run, {});
+    REQUIRE(points.size() == 4);
+    CHECK(points[0].high == Approx(points[0].value.y * std::exp(0.2)));
+    CHECK(points[0].low == Approx(points[0].value.y * std::exp(-0.2)));
+    for (const std::size_t i : {1u, 2u}) {
+        CHECK(points[i].low == 0.0);
+        CHECK(points[i].high == 0.0);
+    }
+    const std::vector<PlotPoint> noise = plot_points(*run, {ErrorMetric::Noise, CostAxis::Seconds});
+    CHECK(noise[0].high == Approx(noise[0].value.y * std::exp(0.4)));
 }
 
 TEST_CASE("Plot: thinned lines keep ends, peaks and order") {

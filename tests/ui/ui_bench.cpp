@@ -1,6 +1,7 @@
 // How fluid the viewer is: runs the real window on SDL's dummy driver, flies in short hops, switches back ends, and
 // prints percentiles of the window's frame times and of the time from a camera move, or from the key that switches, to
-// the first picture that shows it.
+// the first picture that shows it. The same hops without the accuracy panel tell what that costs; drags of a material's
+// color have frame times alone.
 // Targets: UI frame p95 below 33 ms while rendering, first picture after a move below 100 ms, first picture of the other
 // back end below 250 ms, at 1280x720. Two CPU back ends stand for any two: the first pass takes what a CPU takes.
 // Usage: ui_bench [SCENE [HOPS-AND-SWITCHES [THREADS]]]
@@ -33,10 +34,11 @@ std::filesystem::path bench_folder() {
     return folder;
 }
 
-/// Hops forward and back with a rest in between: each is a camera move out of a rendering at full size.
-void write_hops(const std::filesystem::path& path, int hops) {
+/// Hops forward and back with a rest in between: each is a camera move out of a rendering at full size. `first` is what
+/// comes before them.
+void write_hops(const std::filesystem::path& path, int hops, const std::string& first = "") {
     std::ofstream script(path);
-    script << "0 wait spp >= 2\n";
+    script << first << "0 wait spp >= 2\n";
     int frame = kRestFrames;
     for (int hop = 0; hop < hops; ++hop) {
         const char* key = hop % 2 == 0 ? "W" : "S";
@@ -58,6 +60,23 @@ void write_switches(const std::filesystem::path& path, int switches, bool anew) 
         script << fmt::format("{} wait shown_backend == {}\n", frame + 3, i % 2 == 0 ? "second" : "cpu");
         frame += kRestFrames;
         script << fmt::format("{} wait shown_spp >= 2\n", frame);
+    }
+    script << fmt::format("{} quit\n", frame);
+}
+
+/// The color of a material is dragged to and fro, a little in every frame.
+void write_drags(const std::filesystem::path& path, int drags) {
+    std::ofstream script(path);
+    script << "0 tap P\n0 wait spp >= 2\n1 aim_at 0.5 0.5 Material\n2 down left\n3 up left\n";
+    int frame = kRestFrames;
+    for (int drag = 0; drag < drags; ++drag) {
+        script << fmt::format("{} aim_at 0.15 0.5 Color\n{} down left\n", frame, frame + 1);
+        for (int step = 0; step < kHopFrames; ++step) {
+            const double at = 0.15 + (drag % 2 == 0 ? -0.01 : 0.01) * (step + 1);
+            script << fmt::format("{} aim_at {} 0.5 Color\n", frame + 2 + step, at);
+        }
+        script << fmt::format("{} up left\n", frame + 2 + kHopFrames);
+        frame += kHopFrames + kRestFrames;
     }
     script << fmt::format("{} quit\n", frame);
 }
@@ -95,9 +114,12 @@ int main(int argc, char** argv) {
     const int threads = argc > 3 ? std::atoi(argv[3]) : (cores > 1 ? cores - 1 : 1);
     const std::filesystem::path folder = bench_folder();
     write_hops(folder / "hops.script", hops);
+    write_hops(folder / "hops-without-plot.script", hops, "0 tap P\n");
+    write_drags(folder / "drags.script", hops);
     write_switches(folder / "switches.script", hops + 1, false);
     write_switches(folder / "switches-anew.script", hops, true);
     for (const MethodInfo& method : all_methods()) run(scene, method, "hops", threads);
+    for (const char* script : {"hops-without-plot", "drags"}) run(scene, info_of(MethodId::Default), script, threads);
     for (const char* script : {"switches", "switches-anew"})
         run(scene, info_of(MethodId::Reinforcement), script, threads);
     return 0;

@@ -165,7 +165,7 @@ TEST_CASE("Viewer model: what was learned is saved, and gone on from later") {
         file = std::make_shared<LearnedField>(field);
         std::ofstream(path) << "a field";
     };
-    bench.options.load_field = [&](const std::filesystem::path& path, const std::string&) {
+    bench.options.load_field = [&](const std::filesystem::path& path, const OpenScene&) {
         if (!std::filesystem::exists(path)) throw Error(ErrorKind::Input, path.string() + ": cannot be read");
         return std::make_shared<LearnedField>(*file);
     };

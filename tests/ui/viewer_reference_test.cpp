@@ -30,10 +30,10 @@ struct ReferenceBench {
         options.settings.camera = small_scene()->camera;
         options.make_backend = devices.maker();
         devices.cpu->pass_microseconds = 200;
-        options.find_reference = [this](const std::string&, const RenderSettings& settings) {
+        options.find_reference = [this](const OpenScene&, const RenderSettings& settings) {
             return stored ? make(settings) : nullptr;
         };
-        options.make_reference = [this](const std::string&, const RenderSettings& settings,
+        options.make_reference = [this](const OpenScene&, const RenderSettings& settings,
                                         const ReferenceMonitor& monitor) {
             if (broken) throw Error(ErrorKind::Input, "the disk is full");
             bool started = false;

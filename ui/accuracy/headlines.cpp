@@ -37,17 +37,60 @@ RunEnd end_at(const LiveRun& run, ErrorMetric metric, double seconds) {
     return error && samples ? RunEnd{*error, *samples, seconds} : last_point(run, metric);
 }
 
-std::string sentence(const LiveRun& base, const LiveRun& run, ErrorMetric metric) {
-    const CurveKind kind{metric, CostAxis::Seconds};
-    const std::array<Curve, 2> curves{curve_of(base, kind), curve_of(run, kind)};
-    // Both after the same time: what noise tells of itself changes while fireflies are still being found.
-    const auto common = common_range(curves);
-    const RunEnd base_end = common ? end_at(base, metric, common->last) : last_point(base, metric);
-    const RunEnd run_end = common ? end_at(run, metric, common->last) : last_point(run, metric);
-    if (std::min(base_end.samples, run_end.samples) < kFewestSamples)
-        return fmt::format("{}: too few samples to compare yet", name_of(run.label));
-    const Gain gain = gain_over({&base_end, 1}, {&run_end, 1}, {&curves[0], 1}, {&curves[1], 1});
-    std::string text = fmt::format("{} {}", name_of(run.label), headline(gain, name_of(base.label)));
+/// Runs that differ in their seeds alone.
+using Repeats = std::vector<std::shared_ptr<const LiveRun>>;
+
+double charged_until(const LiveRun& run) { return cost_of(run.points.back(), CostAxis::Seconds); }
+
+/// Of each seed the newest run like this one, as far as it was measured for about as long as the longest of them: one that
+/// has just begun would make all others as short.
+Repeats repeats_of(RunList runs, const LiveRun& like, ErrorMetric metric) {
+    constexpr double kLeastShare = 0.5;
+    Repeats repeats;
+    double longest = 0.0;
+    for (const auto& run : runs) {
+        const bool is_repeat = same_kind(run->label, like.label) && run->label.picture == like.label.picture &&
+                               run->label.details == like.label.details;
+        if (!is_repeat || !has_error(*run, metric)) continue;
+        std::erase_if(repeats, [&](const auto& other) { return other->label.seed == run->label.seed; });
+        repeats.push_back(run);
+    }
+    for (const auto& run : repeats) longest = std::max(longest, charged_until(*run));
+    std::erase_if(repeats, [&](const auto& run) { return charged_until(*run) < kLeastShare * longest; });
+    return repeats;
+}
+
+std::vector<Curve> curves_of(const Repeats& repeats, ErrorMetric metric) {
+    std::vector<Curve> curves;
+    for (const auto& run : repeats) curves.push_back(curve_of(*run, {metric, CostAxis::Seconds}));
+    return curves;
+}
+
+std::vector<RunEnd> ends_of(const Repeats& repeats, ErrorMetric metric, const std::optional<CostRange>& common) {
+    std::vector<RunEnd> ends;
+    for (const auto& run : repeats)
+        ends.push_back(common ? end_at(*run, metric, common->last) : last_point(*run, metric));
+    return ends;
+}
+
+std::string sentence(const Repeats& base, const Repeats& repeats, const LiveRun& run, ErrorMetric metric) {
+    const std::vector<Curve> base_curves = curves_of(base, metric);
+    const std::vector<Curve> curves = curves_of(repeats, metric);
+    std::vector<Curve> all = base_curves;
+    all.insert(all.end(), curves.begin(), curves.end());
+    // All after the same time: what noise tells of itself changes while fireflies are still being found.
+    const auto common = common_range(all);
+    const std::vector<RunEnd> base_ends = ends_of(base, metric, common);
+    const std::vector<RunEnd> ends = ends_of(repeats, metric, common);
+    const auto is_short = [](const RunEnd& end) { return end.samples < kFewestSamples; };
+    RunLabel named = run.label;
+    if (repeats.size() > 1) named.seed = 0;
+    if (std::ranges::any_of(base_ends, is_short) || std::ranges::any_of(ends, is_short))
+        return fmt::format("{}: too few samples to compare yet", name_of(named));
+    RunLabel base_named = base.back()->label;
+    if (base.size() > 1) base_named.seed = 0;
+    const Gain gain = gain_over(base_ends, ends, base_curves, curves);
+    std::string text = fmt::format("{} {}", name_of(named), headline(gain, name_of(base_named)));
     if (metric == ErrorMetric::Noise) text += ". By their own noise: there is no reference";
     return text;
 }
@@ -61,7 +104,7 @@ Headline headline_of(RunList runs, const LiveRun& run) {
     }
     for (const ErrorMetric metric : {ErrorMetric::RelMse, ErrorMetric::Noise})
         if (has_error(*base, metric) && has_error(run, metric)) {
-            result.text = sentence(*base, run, metric);
+            result.text = sentence(repeats_of(runs, *base, metric), repeats_of(runs, run, metric), run, metric);
             return result;
         }
     result.text = fmt::format("{}: too few samples to compare yet", name_of(run.label));

@@ -39,6 +39,11 @@ std::optional<double> error_of(const LivePoint& point, ErrorMetric metric) {
     return point.metrics ? metric_of(*point.metrics, metric) : std::nullopt;
 }
 
+double error_off(const LivePoint& point, ErrorMetric metric) {
+    if (metric == ErrorMetric::Noise) return point.noise_off;
+    return metric == ErrorMetric::RelMse ? point.relmse_off.value_or(0.0) : 0.0;
+}
+
 double cost_of(const LivePoint& point, CostAxis axis) {
     return axis == CostAxis::Seconds ? charged_seconds(point.clocks) : static_cast<double>(point.spp);
 }
@@ -62,6 +67,7 @@ std::string name_of(const RunLabel& label) {
     for (char& letter : backend) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
     std::string name = fmt::format("{} {}", info_of(label.method).label, backend);
     if (label.next_event) name += " NEE";
+    if (label.seed > 1) name += fmt::format(" seed {}", label.seed);
     if (!label.details.empty()) name += " " + label.details;
     if (label.warm) name += ", warm";
     return name;

@@ -35,6 +35,8 @@ struct CurveKind {
 
 /// Empty where it was not measured.
 std::optional<double> error_of(const LivePoint& point, ErrorMetric metric);
+/// Standard error of error_of() over the blocks of this one picture; 0 where it is not known.
+double error_off(const LivePoint& point, ErrorMetric metric);
 double cost_of(const LivePoint& point, CostAxis axis);
 
 /// The points at which the error was measured, by ascending cost.

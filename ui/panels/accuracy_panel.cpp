@@ -177,15 +177,17 @@ void draw_reference(ViewerModel& model) {
 void draw_footing(const AccuracyModel& model) {
     const LiveRunSet* set = model.set();
     if (set == nullptr) return;
-    double charged = 0.0;
-    for (const auto& run : set->runs)
-        if (!run->points.empty()) charged += cost_of(run->points.back(), CostAxis::Seconds);
+    const double charged = set->charged_seconds;
     std::string text = fmt::format("pictures kept: {}B of {}B", short_number(static_cast<double>(set->picture_bytes)),
                                    short_number(static_cast<double>(set->picture_bytes_cap)));
     if (charged > 0.0)
         text +=
             fmt::format("; measuring took {:.2g} % beside the charged time", 100.0 * set->measure_seconds / charged);
     faint_text(text.c_str());
+    tooltip("The band is of this run: two standard errors over its own blocks of 16 x 16 pixels. Where all pixels "
+            "share what "
+            "was learned, runs of other seeds differ by more: change the seed for runs whose interval the headline "
+            "gives.");
 }
 
 }  // namespace

@@ -143,19 +143,27 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
         const ImGuiTabItemFlags front =
             model.window().volume_tab_asked ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
         model.window().volume_tab_asked = false;
-        if (ImGui::BeginTabItem("Volume", nullptr, front)) {
+        if (begin_tab("Volume", front)) {
             draw_volume_tab(model);
             ImGui::EndTabItem();
         }
-        if (ImGui::BeginTabItem("Pixel")) {
+        if (begin_tab("Material")) {
+            draw_material_tab(model);
+            ImGui::EndTabItem();
+        }
+        if (begin_tab("Effects")) {
+            draw_effects_tab(model);
+            ImGui::EndTabItem();
+        }
+        if (begin_tab("Pixel")) {
             draw_pixel_tab(model, hovered);
             ImGui::EndTabItem();
         }
-        if (ImGui::BeginTabItem("Statistics")) {
+        if (begin_tab("Statistics")) {
             draw_statistics_tab(model);
             ImGui::EndTabItem();
         }
-        if (ImGui::BeginTabItem("Log")) {
+        if (begin_tab("Log")) {
             draw_log_tab(model);
             ImGui::EndTabItem();
         }

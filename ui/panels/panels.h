@@ -23,6 +23,8 @@ void draw_status_bar(const ViewerModel& model, const Layout& layout);
 
 // Tabs of the right panel.
 void draw_volume_tab(ViewerModel& model);
+void draw_material_tab(ViewerModel& model);
+void draw_effects_tab(ViewerModel& model);
 void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hovered);
 void draw_statistics_tab(const ViewerModel& model);
 void draw_log_tab(const ViewerModel& model);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "ui/gui_memory.h"
 
 namespace pl {
 namespace {
@@ -52,14 +55,26 @@ private:
 
 void tooltip(const char* text) {
     constexpr float kRestSeconds = 0.4f;  // a pointer on its way somewhere else should not be followed by boxes
-    const auto* rest = static_cast<const float*>(ImGui::GetIO().UserData);
-    if (*text == '\0' || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) || *rest < kRestSeconds)
+    if (*text == '\0' || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
+        gui_memory().pointer_rest_seconds < kRestSeconds)
         return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(em(22.0f));
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+}
+
+void note_place(const char* label) {
+    if (!ImGui::IsItemVisible()) return;
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    gui_memory().places[label] = {low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+void end_row(const char* label, const char* tip) {
+    note_place(label);
+    tooltip(tip);
 }
 
 void begin_row(const char* label, const char* tip) {
@@ -90,6 +105,7 @@ bool slider_row(const char* label, const char* tip, float* value, float low, flo
     begin_row(label, tip);
     bool changed = ImGui::SliderFloat(hidden_label(label).c_str(), value, low, high, format,
                                       flags | ImGuiSliderFlags_AlwaysClamp);
+    note_place(label);
     tooltip(fmt::format("{}\nCtrl+click to type, right click for the default ({:.4g}).", tip, standard).c_str());
     if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) {
         *value = standard;
@@ -100,7 +116,7 @@ bool slider_row(const char* label, const char* tip, float* value, float low, flo
 
 bool toggle_row(const char* label, const char* tip, bool* value) {
     const bool changed = ImGui::Checkbox(label, value);
-    tooltip(tip);
+    end_row(label, tip);
     return changed;
 }
 
@@ -109,7 +125,7 @@ bool int_row(const char* label, const char* tip, int* value, int step) {
     EditedNumbers<1> edited(label, {static_cast<float>(*value)});
     int number = static_cast<int>(edited.shown()[0]);
     const bool changed = ImGui::InputInt(hidden_label(label).c_str(), &number, step, 10 * step);
-    tooltip(tip);
+    end_row(label, tip);
     if (!edited.finish(changed, {static_cast<float>(number)})) return false;
     *value = number;
     return true;
@@ -120,7 +136,7 @@ bool double_row(const char* label, const char* tip, double* value, double step, 
     EditedNumbers<1> edited(label, {static_cast<float>(*value)});
     auto number = static_cast<double>(edited.shown()[0]);
     const bool changed = ImGui::InputDouble(hidden_label(label).c_str(), &number, step, 10.0 * step, format);
-    tooltip(tip);
+    end_row(label, tip);
     if (!edited.finish(changed, {static_cast<float>(number)})) return false;
     *value = number;
     return true;
@@ -132,7 +148,7 @@ bool size_row(const char* label, const char* tip, int* width, int* height) {
     const std::array<float, 2> shown = edited.shown();
     int numbers[2] = {static_cast<int>(shown[0]), static_cast<int>(shown[1])};
     const bool changed = ImGui::InputInt2(hidden_label(label).c_str(), numbers);
-    tooltip(tip);
+    end_row(label, tip);
     if (!edited.finish(changed, {static_cast<float>(numbers[0]), static_cast<float>(numbers[1])})) return false;
     *width = numbers[0];
     *height = numbers[1];
@@ -144,22 +160,47 @@ bool point_row(const char* label, const char* tip, float* xyz) {
     EditedNumbers<3> edited(label, {xyz[0], xyz[1], xyz[2]});
     std::array<float, 3> numbers = edited.shown();
     const bool changed = ImGui::InputFloat3(hidden_label(label).c_str(), numbers.data(), "%.4g");
-    tooltip(tip);
+    end_row(label, tip);
     if (!edited.finish(changed, numbers)) return false;
     std::copy(numbers.begin(), numbers.end(), xyz);
     return true;
 }
 
 bool choice_row(const char* label, const char* tip, int* index, const char* labels) {
-    begin_row(label, tip);
-    const bool changed = ImGui::Combo(hidden_label(label).c_str(), index, labels);
-    tooltip(tip);
+    std::vector<std::string> words;
+    for (const char* word = labels; *word != '\0'; word += words.back().size() + 1) words.emplace_back(word);
+    const auto current = static_cast<std::size_t>(*index);
+    if (!begin_choice_row(label, tip, current < words.size() ? words[current].c_str() : "")) return false;
+    bool changed = false;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool is_chosen = ImGui::Selectable(words[i].c_str(), i == current);
+        note_place(fmt::format("{}: {}", label, words[i]).c_str());
+        if (!is_chosen || i == current) continue;
+        *index = static_cast<int>(i);
+        changed = true;
+    }
+    ImGui::EndCombo();
     return changed;
+}
+
+bool color_row(const char* label, const char* tip, float* rgb) {
+    begin_row(label, tip);
+    const bool changed = ImGui::ColorEdit3(hidden_label(label).c_str(), rgb,
+                                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions);
+    end_row(label, tip);
+    return changed;
+}
+
+bool begin_choice_row(const char* label, const char* tip, const char* shown) {
+    begin_row(label, tip);
+    const bool open = ImGui::BeginCombo(hidden_label(label).c_str(), shown);
+    if (!open) end_row(label, tip);
+    return open;
 }
 
 bool wide_button(const char* label, const char* tip) {
     const bool pressed = ImGui::Button(label, {-1.0f, 0.0f});
-    tooltip(tip);
+    end_row(label, tip);
     return pressed;
 }
 
@@ -167,14 +208,23 @@ bool section(const char* title, bool open_at_first) {
     ImGui::PushStyleColor(ImGuiCol_Text, colors::kAccent);
     const bool open = ImGui::CollapsingHeader(title, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     ImGui::PopStyleColor();
+    note_place(title);
     return open;
 }
 
-void faint_text(const char* text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, colors::kFaint);
+bool begin_tab(const char* title, ImGuiTabItemFlags flags) {
+    const bool open = ImGui::BeginTabItem(title, nullptr, flags);
+    note_place(title);
+    return open;
+}
+
+void text_line(const char* text, ImU32 color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::TextWrapped("%s", text);
     ImGui::PopStyleColor();
 }
+
+void faint_text(const char* text) { text_line(text, colors::kFaint); }
 
 std::string short_number(double value) {
     constexpr const char* kUnits[] = {"", " k", " M", " G", " T"};

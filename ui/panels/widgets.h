@@ -10,8 +10,14 @@ namespace pl {
 /// Explains the last item while the pointer rests on it.
 void tooltip(const char* text);
 
+/// Tells scripts where the last item is.
+void note_place(const char* label);
+
 /// Puts the label, and makes the next item fill the rest of the row.
 void begin_row(const char* label, const char* tip);
+
+/// After the item of such a row.
+void end_row(const char* label, const char* tip);
 
 /// A value that can only be read.
 void text_row(const char* label, const std::string& value, const char* tip = "", ImU32 color = colors::kText);
@@ -31,13 +37,24 @@ bool point_row(const char* label, const char* tip, float* xyz);
 /// One of several words; the labels are separated by '\0' and end with two.
 bool choice_row(const char* label, const char* tip, int* index, const char* labels);
 
+/// Linear red, green and blue in [0, 1].
+bool color_row(const char* label, const char* tip, float* rgb);
+
+/// Opens a list; if true, draw its items and end it with ImGui::EndCombo().
+bool begin_choice_row(const char* label, const char* tip, const char* shown);
+
 /// A full-width button.
 bool wide_button(const char* label, const char* tip);
 
 /// A part of the panel that can be folded.
 bool section(const char* title, bool open_at_first);
 
-/// Text that breaks lines, in the faint color.
+/// A tab; if true, draw what it holds and end it with ImGui::EndTabItem().
+bool begin_tab(const char* title, ImGuiTabItemFlags flags = ImGuiTabItemFlags_None);
+
+/// Text that breaks lines.
+void text_line(const char* text, ImU32 color);
+/// The same in the faint color.
 void faint_text(const char* text);
 
 /// "12.3 M": three digits and a power of a thousand.

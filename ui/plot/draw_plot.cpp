@@ -12,6 +12,7 @@ constexpr ImU32 kGround = IM_COL32(16, 18, 22, 255);
 constexpr ImU32 kMinorGrid = IM_COL32(32, 36, 43, 255);
 constexpr ImU32 kGrid = IM_COL32(52, 58, 69, 255);
 constexpr ImU32 kFloor = IM_COL32(110, 114, 122, 70);
+constexpr std::uint32_t kBandAlpha = 56;
 constexpr float kRightEm = 0.6f;              ///< beside the curves, for the half of a number
 constexpr std::uint32_t kGray = 0xff5d636eu;  ///< of runs that cannot be compared
 
@@ -70,6 +71,20 @@ void draw_polyline(ImDrawList& list, std::span<const Vec2f> points, ImU32 color,
         list.AddLine(to_imgui(pieces[i]), to_imgui(pieces[i + 1]), color, width);
 }
 
+/// What a run's own pixels leave open, between all neighbors that have a band.
+void draw_band(ImDrawList& list, std::span<const PlotPoint> points, const PlotView& view, const Rect& frame,
+               ImU32 color) {
+    const auto at = [&](const PlotPoint& point, double y) {
+        return to_imgui(view.to_window({point.value.x, y}, frame));
+    };
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const PlotPoint& a = points[i];
+        const PlotPoint& b = points[i + 1];
+        if (!(a.low > 0.0) || !(b.low > 0.0)) continue;
+        list.AddQuadFilled(at(a, a.high), at(b, b.high), at(b, b.low), at(a, a.low), color);
+    }
+}
+
 /// Filled for runs that began with nothing learned, hollow for warm ones.
 void draw_marker(ImDrawList& list, Vec2f at, ImU32 color, bool warm) {
     const float radius = em(0.17f);
@@ -116,6 +131,10 @@ void draw_lines(ImDrawList& list, std::span<const PlotLine> lines, const PlotVie
             points.clear();
             for (const PlotPoint& point : line.points) points.push_back(view.to_window(point.value, frame));
             const ImU32 color = to_imgui_color(comparable ? line.color : kGray);
+            // Of the one in progress alone: several would hide each other.
+            if (line.in_progress && comparable)
+                draw_band(list, line.points, view, frame,
+                          to_imgui_color((line.color & 0xffffffu) | kBandAlpha << 24));
             draw_polyline(list, points, color, line.style, line.in_progress ? 2.5f : 1.5f);
             for (const Vec2f& point : points) draw_marker(list, point, color, line.warm);
         }

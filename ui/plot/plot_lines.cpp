@@ -27,7 +27,11 @@ std::vector<PlotPoint> plot_points(const LiveRun& run, const CurveKind& kind) {
         const auto error = error_of(run.points[i], kind.metric);
         if (!error) continue;
         const PlotValue value{cost_of(run.points[i], kind.axis), *error};
-        if (can_be_shown(value)) points.push_back({value, i});
+        if (!can_be_shown(value)) continue;
+        // By the logarithm, as errors are skewed: so the lower end stays positive.
+        const double factor = std::exp(2.0 * error_off(run.points[i], kind.metric) / value.y);
+        const bool has_band = factor > 1.0 && std::isfinite(factor);
+        points.push_back({value, i, has_band ? value.y / factor : 0.0, has_band ? value.y * factor : 0.0});
     }
     return thin_out(std::move(points), kMostPoints);
 }

@@ -13,6 +13,8 @@ namespace pl {
 struct PlotPoint {
     PlotValue value;
     std::size_t index = 0;  ///< of the point in its run
+    double low = 0.0;  ///< band around it: two standard errors over this run's own blocks; 0 and 0: there is none
+    double high = 0.0;
 };
 
 struct PlotLine {

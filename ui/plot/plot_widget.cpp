@@ -98,6 +98,8 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
     ImGui::TextUnformatted(
         fmt::format("{}   {} spp", short_seconds(charged_seconds(measured.clocks)), measured.spp).c_str());
     ImGui::TextUnformatted(fmt::format("{} {:.4g}", info_of(model.kind().metric).label, point.value.y).c_str());
+    if (point.low > 0.0)
+        ImGui::TextUnformatted(fmt::format("this run: {:.3g} to {:.3g}", point.low, point.high).c_str());
     ImGui::TextUnformatted(std::isfinite(slope) ? fmt::format("slope {:.2f} over the last decade", slope).c_str()
                                                 : "slope: too few points before");
     if (measured.squared_bias) ImGui::TextUnformatted(bias_text(*measured.squared_bias).c_str());

@@ -1,0 +1,55 @@
+#include "core/fields/same_placement.h"
+
+#include <algorithm>
+
+namespace pl {
+namespace {
+
+constexpr SurfaceLobes kDiffuse{};
+constexpr MaterialImages kNoImages{};
+
+bool same_images(const MaterialImages& a, const MaterialImages& b) {
+    return a.albedo == b.albedo && a.roughness == b.roughness && a.emission == b.emission && a.opacity == b.opacity;
+}
+
+/// Everything that a walk of light asks a material.
+struct Looks {
+    const Material& material;
+    const SurfaceLobes& lobes;
+    const MaterialImages& images;
+
+    Looks(const HostScene& scene, std::size_t index)
+        : material(scene.materials[index]), lobes(scene.lobes.empty() ? kDiffuse : scene.lobes[index]),
+          images(scene.material_images.empty() ? kNoImages : scene.material_images[index]) {}
+
+    /// Where light goes from such a surface depends on neither its color nor its brightness, unless it is black.
+    bool is_plain() const { return lobes.kind == SurfaceKind::Diffuse && same_images(images, kNoImages); }
+};
+
+bool same_lobes(const SurfaceLobes& a, const SurfaceLobes& b) {
+    return a.kind == b.kind && a.roughness == b.roughness && a.ior == b.ior && a.specular == b.specular &&
+           a.transmission == b.transmission;
+}
+
+bool same_walks(const Looks& a, const Looks& b) {
+    if (a.material.reflects() != b.material.reflects() ||
+        a.material.two_sided_emission != b.material.two_sided_emission)
+        return false;
+    if (a.is_plain() && b.is_plain()) return true;
+    return a.material.albedo == b.material.albedo && same_lobes(a.lobes, b.lobes) && same_images(a.images, b.images);
+}
+
+bool same_light(const Light& a, const Light& b) {
+    return a.primitive == b.primitive && a.cumulative_probability == b.cumulative_probability;
+}
+
+}  // namespace
+
+bool same_placement(const HostScene& before, const HostScene& after) {
+    if (!std::ranges::equal(before.lights, after.lights, same_light)) return false;
+    for (std::size_t i = 0; i < before.materials.size(); ++i)
+        if (!same_walks(Looks(before, i), Looks(after, i))) return false;
+    return true;
+}
+
+}  // namespace pl

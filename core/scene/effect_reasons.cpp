@@ -1,0 +1,73 @@
+#include "core/scene/effect_reasons.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/scene/pack_light_tree.h"
+
+namespace pl {
+namespace {
+
+bool has_lobe(const MaterialDescription& material, bool rough) {
+    return material.kind != SurfaceKind::Diffuse && (material.roughness > 0.0f) == rough;
+}
+
+template <class Pick>
+std::string materials_that(const SceneDescription& scene, Pick pick) {
+    std::vector<std::string> names;
+    for (const MaterialDescription& material : scene.materials)
+        if (pick(material)) names.push_back(material.name);
+    return fmt::format("of {} material{}: {}", names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", "));
+}
+
+/// Light from far away that depends on the direction, in words.
+std::string far_lights_of(const SceneDescription& scene) {
+    const EnvironmentMapDescription& map = scene.environment_map;
+    std::vector<std::string> parts;
+    if (!map.texels.empty())
+        parts.push_back(fmt::format("the environment is an image of {}x{}", map.width, map.height));
+    if (scene.sun.radiance != glm::vec3(0.0f))
+        parts.push_back(fmt::format("a sun of {} degrees shines", scene.sun.angle_deg));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string smooth_normals_of(const SceneDescription& scene) {
+    const auto smooth = std::count_if(scene.triangles.begin(), scene.triangles.end(), [](const auto& triangle) {
+        return triangle.normal.x != TriangleDescription::kNoNormal;
+    });
+    return fmt::format("{} triangles have normals of their own", smooth);
+}
+
+std::string many_lights_of(const SceneDescription& scene) {
+    const auto emitting = std::count_if(scene.triangles.begin(), scene.triangles.end(), [&](const auto& triangle) {
+        return scene.materials[triangle.material].emission != glm::vec3{0.0f};
+    });
+    return fmt::format("{} triangles emit light, more than {}", emitting, kFewLights);
+}
+
+}  // namespace
+
+std::string reason_of(Feature feature, const SceneDescription& scene, const CameraDescription& camera) {
+    const glm::vec3& sky = scene.environment;
+    switch (feature) {
+    case Feature::SmoothNormals: return smooth_normals_of(scene);
+    case Feature::Environment:
+        return fmt::format("the environment shines with radiance {},{},{}", sky.x, sky.y, sky.z);
+    case Feature::NextEventEstimation: return "asked for by --nee on";
+    case Feature::Specular: return materials_that(scene, [](const auto& m) { return has_lobe(m, false); });
+    case Feature::Rough: return materials_that(scene, [](const auto& m) { return has_lobe(m, true); });
+    case Feature::Plastic: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Plastic; });
+    case Feature::Textures: return materials_that(scene, [](const auto& m) { return m.textures.any(); });
+    case Feature::CutOuts:
+        return materials_that(scene, [](const auto& m) { return m.textures.opacity != kNoTexture; });
+    case Feature::EnvironmentMap: return far_lights_of(scene);
+    case Feature::ThinLens: return fmt::format("the camera's lens has a radius of {}", camera.aperture_radius);
+    case Feature::ManyLights: return many_lights_of(scene);
+    }
+    return "";
+}
+
+}  // namespace pl
