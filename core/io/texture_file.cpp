@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
+#include "core/io/hdr_check.h"
 #include "core/io/image.h"
 #include "core/io/image_checks.h"
 
@@ -55,12 +56,6 @@ void require_size(const fs::path& path, long long width, long long height) {
 
 /// [IEC 61966-2-1]
 float decode_srgb(float code) { return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f); }
-
-/// Fewest bytes of a Radiance picture, whose decoder takes what is missing for black: of each row a mark and, for
-/// each of four channels, runs of at most 127, or else four bytes for each texel.
-std::size_t least_hdr_size(std::size_t width, std::size_t height) {
-    return height * std::min(4 * width, 4 + 8 * ((width + 126) / 127));
-}
 
 template <class Sample>
 using StbPixels = std::unique_ptr<Sample, decltype(&stbi_image_free)>;
@@ -110,9 +105,9 @@ RawImage read_by_stb(const fs::path& path, const std::string& suffix) {
     };
     image.is_ldr = suffix != ".hdr";
     if (!image.is_ldr) {
-        if (bytes.size() <
-            least_hdr_size(static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height))) {
-            fail_image(path, "damaged: it ends too early");
+        if (!has_whole_hdr_lines(bytes, static_cast<std::size_t>(image.width),
+                                 static_cast<std::size_t>(image.height))) {
+            fail_image(path, "damaged: it ends too early, or a line of it is not what the format says");
         }
         read(stbi_loadf_from_memory, 1.0f);
     } else if (stbi_is_16_bit_from_memory(data, size) != 0) {
