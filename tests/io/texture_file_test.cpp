@@ -103,6 +103,22 @@ TEST_CASE("Coded lines of HDR files are whole, or the file is refused") {
     }
 }
 
+// The decoder takes what is missing for black: 23 bytes made a texture of 25 million texels.
+TEST_CASE("TGA files that cannot hold their texels are refused") {
+    const auto refused = [](const std::string& bytes) {
+        const TemporaryFolder folder;
+        std::vector<std::string> warnings;
+        const auto path = folder.write("a.tga", bytes);
+        return input_error([&] { read_texture(path, TextureContent::Color, true, warnings); });
+    };
+    const std::string texels(4 * 6, '\x50');
+    CHECK(read("a.tga", tga(3, 2, texels), TextureContent::Color).texels.size() == 6);
+    CHECK_THAT(refused(tga(3, 2, texels.substr(1))), contains("ends too early"));
+    std::string coded = tga(100, 100, "\xff\x50\x50\x50\x50");
+    coded[2] = 10;
+    CHECK_THAT(refused(coded), contains("ends too early"));
+}
+
 TEST_CASE("What is no light counts as 0, with one warning that counts") {
     const TemporaryFolder folder;
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
