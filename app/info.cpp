@@ -9,6 +9,7 @@
 #include "app/open_scene.h"
 #include "app/parse_values.h"
 #include "core/scene/needed_effects.h"
+#include "core/scene/pack_light_tree.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/scene_hash.h"
 #include "core/session/session.h"
@@ -42,6 +43,12 @@ std::string far_lights_of(const SceneDescription& scene) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::ptrdiff_t triangles_that_emit(const SceneDescription& scene) {
+    return std::count_if(scene.triangles.begin(), scene.triangles.end(), [&](const TriangleDescription& triangle) {
+        return scene.materials[triangle.material].emission != glm::vec3{0.0f};
+    });
+}
+
 /// Why an effect is needed, in words.
 std::string reason_of(Feature feature, const SceneDescription& scene) {
     switch (feature) {
@@ -62,6 +69,8 @@ std::string reason_of(Feature feature, const SceneDescription& scene) {
         return materials_that(scene, [](const auto& m) { return m.textures.opacity != kNoTexture; });
     case Feature::EnvironmentMap: return far_lights_of(scene);
     case Feature::ThinLens: return fmt::format("the camera's lens has a radius of {}", scene.camera.aperture_radius);
+    case Feature::ManyLights:
+        return fmt::format("{} triangles emit light, more than {}", triangles_that_emit(scene), kFewLights);
     }
     return "";
 }
@@ -89,6 +98,11 @@ struct SceneReport {
     std::string kernel;
 };
 
+double bytes_per_triangle(const HostScene& scene) {
+    const std::size_t triangles = scene.triangles.size();
+    return triangles == 0 ? 0.0 : static_cast<double>(bytes_of(scene)) / static_cast<double>(triangles);
+}
+
 std::string text_of(const SceneReport& report) {
     const SceneDescription& scene = report.scene;
     const CameraDescription& camera = scene.camera;
@@ -99,6 +113,8 @@ std::string text_of(const SceneReport& report) {
     for (const MaterialDescription& material : scene.materials)
         text += fmt::format("           {}: reflects {}, emits {}{}\n", material.name, print_vector(material.albedo),
                             print_vector(material.emission), material.two_sided_emission ? " on both sides" : "");
+    text += fmt::format("memory     {} bytes, {:.0f} per triangle\n", bytes_of(report.packed),
+                        bytes_per_triangle(report.packed));
     text += fmt::format("knobs      {}\n", scene.knobs.empty() ? "none" : "");
     for (const KnobDescription& knob : scene.knobs)
         text +=
@@ -138,6 +154,8 @@ Json json_of(const SceneReport& report) {
             {"triangles", scene.triangles.size()},
             {"lights", report.packed.lights.size()},
             {"materials", materials},
+            {"bytes", bytes_of(report.packed)},
+            {"bytes_per_triangle", bytes_per_triangle(report.packed)},
             {"knobs", knobs},
             {"bounds", {{"low", vector_json(report.bounds.low)}, {"high", vector_json(report.bounds.high)}}},
             {"camera",
@@ -159,14 +177,14 @@ int run_info(const CommandLine& line, Console& console) {
     const Options options = resolve_options(line, *loaded.scene);
     const HostScene packed = pack_scene(*loaded.scene);
     const FeatureSet needed = needed_features(packed, options.render);
-    const FeatureSet served = needed.with(options.render.forced_effects);
-    const auto backend = make_backend(options.backend, options.threads);
+    const ServedKernel kernel =
+        served_kernel(make_backend(options.backend, options.threads)->info().name, packed, options.render);
     const SceneReport report{.scene = *loaded.scene,
                              .packed = packed,
                              .bounds = bounds_of(*loaded.scene),
                              .effects = effects_of(needed, *loaded.scene),
-                             .compiled = effect_names(kCompiledSets[smallest_superset(served)]),
-                             .kernel = backend->kernel_name(options.render.method, options.render.view, served)};
+                             .compiled = effect_names(kernel.compiled),
+                             .kernel = kernel.name};
     console.result(text_of(report));
     console.event("info", json_of(report));
     return 0;

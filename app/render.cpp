@@ -39,14 +39,14 @@ void announce(const Session& session, Console& console) {
     const BackendInfo backend = session.backend();
     console.log().detail(fmt::format("{} on {} ({} threads, rays by {})", backend.name, backend.device,
                                      backend.threads, backend.intersector));
-    console.log().detail(fmt::format("kernel {}", session.kernel_name()));
+    console.log().detail(fmt::format("kernel {}", session.served_kernel().name));
     console.event("start", {{"scene", session.scene().source.string()},
                             {"method", info_of(session.settings().method).name},
                             {"view", info_of(session.settings().view).name},
                             {"backend", backend.name},
                             {"width", session.settings().width},
                             {"height", session.settings().height},
-                            {"kernel", session.kernel_name()}});
+                            {"kernel", session.served_kernel().name}});
 }
 
 ImageMetadata metadata_of(const Session& session, const Snapshot& snapshot, const Json& stats,

@@ -93,7 +93,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
     stats["field"] = field_json(snapshot.field);
     stats["effects_needed"] = effect_names(needed);
     if (settings.forced_effects != FeatureSet{}) stats["effects_forced"] = effect_names(settings.forced_effects);
-    stats["effects_compiled"] = effect_names(kCompiledSets[smallest_superset(session.served_features())]);
+    stats["effects_compiled"] = effect_names(session.served_kernel().compiled);
     stats["kernel"] = snapshot.kernel;
     return stats;
 }

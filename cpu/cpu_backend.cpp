@@ -107,10 +107,6 @@ public:
         for_each_volume(field, [&](std::uint32_t volume) { publish_volume(field, volume); });
     }
 
-    std::string kernel_name(MethodId method, View view, FeatureSet needed) const override {
-        return kernel_name_of("cpu", method, view, needed);
-    }
-
 private:
     static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }
 

@@ -30,7 +30,6 @@ PassCounters run_view_pass(const ViewPass& pass) {
 }  // namespace
 
 constinit const PassKernels<ViewPass> kViewKernels =
-    make_kernel_row<PassCounters (*)(const ViewPass&), KernelRange::Sparse>(
-        []<FeatureSet F>() { return run_view_pass<F>; });
+    make_kernel_row<PassCounters (*)(const ViewPass&), kViewRange>([]<FeatureSet F>() { return run_view_pass<F>; });
 
 }  // namespace pl

@@ -77,10 +77,6 @@ public:
     PassCounters precompute(const PrecomputeRequest& request) override;
     void publish(MethodId method) override;
 
-    std::string kernel_name(MethodId method, View view, FeatureSet needed) const override {
-        return kernel_name_of("cuda", method, view, needed);
-    }
-
 private:
     static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }
 

@@ -85,11 +85,13 @@ private:
         std::vector<Candidate> candidates;
         candidates.push_back({.set = {}, .session = make()});
         const FeatureSet needed = candidates.front().session.needed_features();
-        candidates.front().set = kCompiledSets[smallest_superset(needed)];
+        candidates.front().set = candidates.front().session.served_kernel().compiled;
         for (const FeatureSet set : kCompiledSets) {
             if (!set.covers(needed) || set == candidates.front().set) continue;
             settings.forced_effects = set;
-            candidates.push_back({.set = set, .session = make()});
+            Candidate larger{.set = set, .session = make()};
+            // Some kernels exist for fewer sets.
+            if (larger.session.served_kernel().compiled == set) candidates.push_back(std::move(larger));
         }
         return candidates;
     }
@@ -103,7 +105,7 @@ private:
             static_cast<double>(end.counters.path.segments) / static_cast<double>(candidate.seconds.size() + 1);
         const double fastest = *std::min_element(candidate.seconds.begin(), candidate.seconds.end());
         costs_.push_back({.cell = plan_.cell_of(cell),
-                          .kernel = candidate.session.kernel_name(),
+                          .kernel = candidate.session.served_kernel().name,
                           .effects = effect_names(candidate.set),
                           .ratio = geometric_interval(ratios),
                           .nanoseconds = 1e9 * fastest / segments_per_turn});

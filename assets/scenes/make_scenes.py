@@ -657,8 +657,38 @@ def lens():
     return s
 
 
+def gallery():
+    s = Scene("gallery", "Gallery",
+              "A long hall under sixty small lamps, with one at its far end that is stronger than all of them.",
+              ([0.6, 1.7, 9.5], [-0.1, 1.15, 0], [0, 1, 0], 50),
+              {"plaster": (0.7, None), "floor": ((0.45, 0.33, 0.22), None), "stone": ((0.5, 0.52, 0.55), None),
+               "warm": (BLACK, (36, 25, 14)), "cold": (BLACK, (17, 24, 34)), "flood": (BLACK, 190)})
+    s.group("hall")
+    s.quad([(-2, 0, 10), (2, 0, 10), (2, 0, -20), (-2, 0, -20)], "floor")
+    s.quad([(-2, 3, 10), (-2, 3, -20), (2, 3, -20), (2, 3, 10)], "plaster")
+    s.quad([(-2, 0, 10), (-2, 0, -20), (-2, 3, -20), (-2, 3, 10)], "plaster")
+    s.quad([(2, 0, -20), (2, 0, 10), (2, 3, 10), (2, 3, -20)], "plaster")
+    s.quad([(-2, 0, -20), (2, 0, -20), (2, 3, -20), (-2, 3, -20)], "plaster")
+    s.quad([(2, 0, 10), (-2, 0, 10), (-2, 3, 10), (2, 3, 10)], "plaster")
+    s.group("lamps", "two rows under the ceiling")
+    for i in range(30):
+        for side in (-1, 1):
+            x, z = side * 1.2, 9.4 - i
+            s.quad([(x - 0.06, 2.95, z - 0.06), (x + 0.06, 2.95, z - 0.06), (x + 0.06, 2.95, z + 0.06),
+                    (x - 0.06, 2.95, z + 0.06)], "warm" if (i // 3) % 2 == 0 else "cold")
+    s.group("flood", "it shines down the hall")
+    s.quad([(-0.3, 2, -19.9), (0.3, 2, -19.9), (0.3, 2.6, -19.9), (-0.3, 2.6, -19.9)], "flood")
+    s.group("plinths")
+    for i, z in enumerate((6.6, 4.2, 1.8, -0.6, -3, -5.4, -7.8, -10.2)):
+        x = -0.95 if i % 2 == 0 else 0.95
+        s.transform = turned_y(17 * i, (x, z))
+        s.box((x - 0.3, 0, z - 0.3), (x + 0.3, 0.9 + 0.1 * (i % 3), z + 0.3), "stone", ("bottom",))
+    s.transform = lambda p: p
+    return s
+
+
 SCENES = (shelter, pillars, indirect, labyrinth, thin_wall, two_lights, boxed_lights, staircase, open_box, sky, ceiling,
-          spheres, plates, coats, textured_room, lens)
+          spheres, plates, coats, textured_room, lens, gallery)
 
 
 def main():

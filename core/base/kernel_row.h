@@ -24,9 +24,9 @@ constexpr KernelRow<Kernel> make_kernel_row(Choose choose) {
     (std::make_index_sequence<kCompiledSetCount>{});
 }
 
-/// The set that serves the needed effects: the smallest compiled one that covers them.
-inline std::size_t covering_set(FeatureSet needed) {
-    const int set = smallest_superset(needed);
+/// The set that serves the needed effects: the smallest one of a range that covers them.
+inline std::size_t covering_set(FeatureSet needed, KernelRange range = KernelRange::Full) {
+    const int set = smallest_superset(needed, range);
     if (!kCompiledSets[set].covers(needed))
         throw Error(ErrorKind::Runtime, "no kernel is compiled for the effects that the scene needs");
     return static_cast<std::size_t>(set);

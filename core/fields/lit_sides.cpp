@@ -35,7 +35,7 @@ BoundingSphere bounding_sphere(const HostScene& scene) {
 
 /// Leaves a light with cosine-distributed direction, on the front or, half of the time, the back where it emits.
 Ray leave_light(const HostScene& scene, const SceneView& view, Vec4f u, Vec4f v) {
-    SurfacePoint point = sample_light(view, Vec3f{0.0f}, {u.x, u.y, u.z});
+    SurfacePoint point = sample_on_light(view, choose_light(view, u.x), Vec3f{0.0f}, {u.y, u.z});
     const Material& material = scene.materials[point.material];
     const bool want_front = material.two_sided_emission == 0 || v.x < 0.5f;
     if (point.front != want_front) point.geometric_normal = -point.geometric_normal;

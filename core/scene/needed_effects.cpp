@@ -25,6 +25,7 @@ std::string_view name_of(Feature feature) {
     case Feature::CutOuts: return "cut-outs";
     case Feature::EnvironmentMap: return "environment-map";
     case Feature::ThinLens: return "thin-lens";
+    case Feature::ManyLights: return "many-lights";
     }
     return "";
 }
@@ -38,6 +39,7 @@ FeatureSet needed_effects(const HostScene& scene) {
     for (const SurfaceLobes& lobes : scene.lobes) set = set.with(effects_of(lobes));
     if (!scene.images.empty()) set = set.with(Feature::Textures);
     if (scene.has_holes != 0) set = set.with(Feature::CutOuts);
+    if (!scene.light_nodes.empty()) set = set.with(Feature::ManyLights);
     if (scene.far_probability > 0.0f) set = set.with(Feature::EnvironmentMap);
     return set;
 }

@@ -8,6 +8,7 @@
 #include "core/scene/build_bvh.h"
 #include "core/scene/directional_albedo.h"
 #include "core/scene/pack_far_lights.h"
+#include "core/scene/pack_light_tree.h"
 #include "core/scene/pack_textures.h"
 #include "core/scene/triangle_planes.h"
 
@@ -182,6 +183,7 @@ HostScene pack_scene(const SceneDescription& scene) {
     pack_lights(packed);
     packed.environment = scene.environment;
     pack_far_lights(scene, packed);
+    pack_light_tree(packed);
     Bvh bvh = build_bvh(view_of(std::as_const(packed.positions)), view_of(std::as_const(packed.triangles)));
     packed.bvh_nodes = std::move(bvh.nodes);
     packed.bvh_primitives = std::move(bvh.primitives);

@@ -22,6 +22,8 @@ struct SceneStorage {
     Array<Texel> texels;
     Array<MaterialImages> material_images;
     Array<Light> lights;
+    Array<LightNode> light_nodes;
+    Array<LightPlace> light_places;
     Array<Vec3f> map_texels;
     Array<float> map_row_cdf;
     Array<float> map_column_cdf;
@@ -53,6 +55,7 @@ struct SceneStorage {
                              .of_material = view_of(material_images),
                              .has_holes = has_holes},
                 .lights = view_of(lights),
+                .light_tree = {.nodes = view_of(light_nodes), .of_light = view_of(light_places)},
                 .bvh = {.nodes = view_of(bvh_nodes), .primitives = view_of(bvh_primitives)},
                 .light_power = light_power,
                 .environment = environment,
@@ -80,6 +83,8 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.texels, to.texels);
     fn(from.material_images, to.material_images);
     fn(from.lights, to.lights);
+    fn(from.light_nodes, to.light_nodes);
+    fn(from.light_places, to.light_places);
     fn(from.map_texels, to.map_texels);
     fn(from.map_row_cdf, to.map_row_cdf);
     fn(from.map_column_cdf, to.map_column_cdf);
@@ -90,6 +95,14 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     to.has_holes = from.has_holes;
     to.far_lights = from.far_lights;
     to.far_probability = from.far_probability;
+}
+
+/// Bytes of all arrays.
+inline std::uint64_t bytes_of(const HostScene& scene) {
+    std::uint64_t bytes = 0;
+    HostScene nowhere;
+    zip(scene, nowhere, [&](const auto& array, auto&) { bytes += array.size() * sizeof(array[0]); });
+    return bytes;
 }
 
 }  // namespace pl

@@ -123,15 +123,9 @@ public:
     virtual PassCounters precompute(const PrecomputeRequest& request) = 0;
     /// Publishes what a method's tables recorded since the last time.
     virtual void publish(MethodId method) = 0;
-
-    /// Name of the kernel that serves a request, as shown to people: "reinforcement/next-event-estimation".
-    virtual std::string kernel_name(MethodId method, View view, FeatureSet needed) const = 0;
 };
 
 /// Pixels of a film of this size. Throws Error(Usage) if there are none, or more than kernels can number.
 std::size_t film_pixels(int width, int height);
-
-/// "cpu/reinforcement/next-event-estimation": what runs for a request, as shown to people.
-std::string kernel_name_of(std::string_view backend, MethodId method, View view, FeatureSet needed);
 
 }  // namespace pl

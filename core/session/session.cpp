@@ -171,17 +171,10 @@ void Session::begin_film(FilmSlot slot) {
               .precompute_seconds = learned.precompute_seconds};
 }
 
-FeatureSet needed_features(const HostScene& scene, const RenderSettings& settings) {
-    const FeatureSet needed = needed_effects(scene).with(needed_effects(settings.camera));
-    return settings.next_event ? needed.with(Feature::NextEventEstimation) : needed;
-}
-
 FeatureSet Session::needed_features() const { return pl::needed_features(*packed_, settings_); }
 
-FeatureSet Session::served_features() const { return needed_features().with(settings_.forced_effects); }
-
-std::string Session::kernel_name() const {
-    return backend_->kernel_name(settings_.method, settings_.view, served_features());
+ServedKernel Session::served_kernel() const {
+    return pl::served_kernel(backend_->info().name, *packed_, settings_);
 }
 
 PathSettings Session::path_settings() const {
@@ -216,7 +209,7 @@ Progress Session::precompute_slice(const StopFlag* stop) {
     const auto slices = static_cast<std::uint32_t>(settings_.field.precompute_samples);
     const PassCounters counters =
         backend_->precompute({.method = settings_.method,
-                              .features = served_features(),
+                              .features = served_kernel().served,
                               .path = path,
                               .sample = state.precomputed_slices,
                               .strata_side = static_cast<std::uint32_t>(std::lround(std::sqrt(slices))),
@@ -256,7 +249,7 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
     if (is_heat_map(target.view)) sample = 0;
     const PassCounters counters =
         backend_->run_pass({.slot = target,
-                            .features = served_features(),
+                            .features = served_kernel().served,
                             .path = path_settings(),
                             .camera = make_camera(settings_.camera, settings_.width, settings_.height),
                             .mixture = mixture_of(target.method),
@@ -339,7 +332,7 @@ Snapshot Session::summary() const {
             .field = field_status(),
             .bins = volumes_ ? shape_.cells.count() : 0,
             .camera = settings_.camera,
-            .kernel = kernel_name()};
+            .kernel = served_kernel().name};
 }
 
 Snapshot Session::snapshot() const {

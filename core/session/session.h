@@ -8,6 +8,7 @@
 #include "core/session/backend.h"
 #include "core/session/edits.h"
 #include "core/session/learned_field.h"
+#include "core/session/served_kernel.h"
 #include "core/session/shown_range.h"
 
 namespace pl {
@@ -24,9 +25,6 @@ struct ShownFilm {
     DisplayFrame frame;
     ShownRange range;
 };
-
-/// Effects that a scene, its camera and the settings call for.
-FeatureSet needed_features(const HostScene& scene, const RenderSettings& settings);
 
 class Session {
 public:
@@ -70,9 +68,7 @@ public:
     BackendInfo backend() const { return backend_->info(); }
     RenderBackend& backend_access() { return *backend_; }
     FeatureSet needed_features() const;
-    /// Those, and the forced ones: the kernel covers them.
-    FeatureSet served_features() const;
-    std::string kernel_name() const;
+    ServedKernel served_kernel() const;
     std::uint32_t passes() const { return film().passes; }
     std::optional<FieldStatus> field_status() const;
     /// Of the current film and method; cheap, unlike a snapshot.

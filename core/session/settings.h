@@ -19,14 +19,14 @@ struct RenderSettings {
     View view = View::Beauty;
     int width = 512;
     int height = 512;
-    CameraDescription camera;
+    CameraDescription camera{};
     std::uint64_t seed = 1;
     int max_depth = 64;
     bool next_event = false;
     RouletteRule roulette = RouletteRule::Spare;
     MixtureSettings mixture{};
-    FieldSettings field;
-    FeatureSet forced_effects;  ///< needed or not, the kernel can do these, too; no picture changes by it
+    FieldSettings field{};
+    FeatureSet forced_effects{};  ///< needed or not, the kernel can do these, too; no picture changes by it
 };
 
 /// Display only: never touches what was accumulated or learned.

@@ -13,7 +13,7 @@ PassCounters run_probe_pass(const ProbePass& pass) {
 
 constinit const PassKernels<PicturePass> kDefaultKernels = make_picture_kernels<DefaultMethod>();
 constinit const PassKernels<ProbePass> kProbeKernels =
-    make_kernel_row<PassCounters (*)(const ProbePass&), KernelRange::Sparse>(
+    make_kernel_row<PassCounters (*)(const ProbePass&), kProbeRange>(
         []<FeatureSet F>() { return run_probe_pass<F>; });
 
 }  // namespace pl

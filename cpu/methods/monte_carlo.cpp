@@ -3,6 +3,6 @@
 namespace pl {
 
 constinit const PassKernels<PicturePass> kMonteCarloKernels =
-    make_picture_kernels<MonteCarloMethod, KernelRange::Sparse>();
+    make_picture_kernels<MonteCarloMethod, range_of(LearningKernel::WholePath)>();
 
 }  // namespace pl

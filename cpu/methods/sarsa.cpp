@@ -2,6 +2,7 @@
 
 namespace pl {
 
-constinit const PassKernels<PicturePass> kSarsaKernels = make_picture_kernels<SarsaMethod, KernelRange::Sparse>();
+constinit const PassKernels<PicturePass> kSarsaKernels =
+    make_picture_kernels<SarsaMethod, range_of(LearningKernel::Late)>();
 
 }  // namespace pl

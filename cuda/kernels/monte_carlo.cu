@@ -3,6 +3,6 @@
 namespace pl::cuda {
 
 constinit const KernelRow<PictureKernel<MonteCarloMethod>> kMonteCarloKernels =
-    make_picture_kernels<MonteCarloMethod, KernelRange::Sparse>();
+    make_picture_kernels<MonteCarloMethod, range_of(LearningKernel::WholePath)>();
 
 }  // namespace pl::cuda

@@ -2,7 +2,7 @@
 
 namespace pl::cuda {
 
-constinit const KernelRow<ProbeKernel> kProbeKernels = make_kernel_row<ProbeKernel, KernelRange::Sparse>(
+constinit const KernelRow<ProbeKernel> kProbeKernels = make_kernel_row<ProbeKernel, kProbeRange>(
     []<FeatureSet F>() { return trace_paths<F.bits, ProbeMethod, ProbePaths>; });
 
 }  // namespace pl::cuda

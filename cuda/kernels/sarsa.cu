@@ -3,6 +3,6 @@
 namespace pl::cuda {
 
 constinit const KernelRow<PictureKernel<SarsaMethod>> kSarsaKernels =
-    make_picture_kernels<SarsaMethod, KernelRange::Sparse>();
+    make_picture_kernels<SarsaMethod, range_of(LearningKernel::Late)>();
 
 }  // namespace pl::cuda

@@ -32,7 +32,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock)
 }  // namespace
 
 constinit const KernelRow<ViewKernel> kViewKernels =
-    make_kernel_row<ViewKernel, KernelRange::Sparse>([]<FeatureSet F>() { return show_view<F.bits>; });
+    make_kernel_row<ViewKernel, kViewRange>([]<FeatureSet F>() { return show_view<F.bits>; });
 constinit const VolumeValueKernel kVolumeValues = volume_values;
 
 }  // namespace pl::cuda

@@ -252,19 +252,11 @@ TEST_CASE("Settings that make no sense are refused") {
     CHECK(make_cpu_backend({})->info().threads >= 1);
 }
 
-TEST_CASE("The back end says what it runs on and which kernel serves") {
+TEST_CASE("The back end says what it runs on") {
     const Room room;
     const auto backend = make_backend(room, {.threads = 2});
     CHECK(backend->info().name == "cpu");
     CHECK_FALSE(backend->info().device.empty());
     CHECK(backend->info().threads == 2);
     CHECK_THAT(backend->info().intersector, contains("dense"));
-    const FeatureSet smooth = FeatureSet{}.with(Feature::SmoothNormals);
-    const FeatureSet lights = FeatureSet{}.with(Feature::NextEventEstimation);
-    CHECK(backend->kernel_name(MethodId::Default, View::Beauty, {}) == "cpu/default/base");
-    CHECK(backend->kernel_name(MethodId::Reinforcement, View::Beauty, lights) ==
-          "cpu/reinforcement/next-event-estimation");
-    CHECK(backend->kernel_name(MethodId::Precomputed, View::Beauty, smooth) ==
-          "cpu/precomputed/smooth-normals+environment+next-event-estimation");
-    CHECK(backend->kernel_name(MethodId::Default, View::Depth, {}) == "cpu/depth/base");
 }

@@ -7,6 +7,7 @@
 
 #include "tests/mutants/field_checks.h"
 #include "tests/mutants/light_checks.h"
+#include "tests/mutants/surface_checks.h"
 
 namespace pl::test {
 namespace {
@@ -29,6 +30,9 @@ constexpr Check kChecks[] = {
     {"furnace-cells", check_furnace_cells},
     {"mixture-density", check_mixture_density},
     {"floor", check_floor},
+    {"facets", check_facets},
+    {"white-surfaces", check_white_surfaces},
+    {"many-lights", check_many_lights},
 };
 
 }  // namespace

@@ -42,10 +42,6 @@ public:
     }
     PassCounters precompute(const PrecomputeRequest& request) override { return inner_->precompute(request); }
     void publish(MethodId method) override { inner_->publish(method); }
-    std::string kernel_name(MethodId method, View view, FeatureSet needed) const override {
-        return inner_->kernel_name(method, view, needed);
-    }
-
 private:
     void check(Failure asked) const {
         if (failure == asked) throw Error(ErrorKind::Unavailable, "the device is gone");

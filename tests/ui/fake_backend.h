@@ -154,8 +154,6 @@ public:
             tables.visits[i] += tables.pending_count[i];
         }
     }
-    std::string kernel_name(MethodId, View, FeatureSet) const override { return "fake"; }
-
 private:
     struct Film {
         int width = 0;

@@ -19,12 +19,13 @@ enum class Feature : std::uint32_t {
     CutOuts = 1u << 7,              ///< holes in surfaces
     EnvironmentMap = 1u << 8,       ///< light from far away that depends on the direction: an image, a sun
     ThinLens = 1u << 9,             ///< an aperture with a size
+    ManyLights = 1u << 10,  ///< light samples choose among the lights by distance and direction, not by power alone
 };
 
 inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
                                            Feature::Specular,      Feature::Rough,       Feature::Plastic,
                                            Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
-                                           Feature::ThinLens};
+                                           Feature::ThinLens,      Feature::ManyLights};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {
@@ -34,6 +35,9 @@ struct FeatureSet {
     PL_HD constexpr bool has_any(FeatureSet other) const { return (bits & other.bits) != 0; }
     PL_HD constexpr bool covers(FeatureSet needed) const { return (needed.bits & ~bits) == 0; }
     PL_HD constexpr FeatureSet with(Feature feature) const { return {bits | static_cast<std::uint32_t>(feature)}; }
+    PL_HD constexpr FeatureSet without(Feature feature) const {
+        return {bits & ~static_cast<std::uint32_t>(feature)};
+    }
     PL_HD constexpr FeatureSet with(FeatureSet other) const { return {bits | other.bits}; }
     PL_HD friend constexpr bool operator==(FeatureSet, FeatureSet) = default;
 };

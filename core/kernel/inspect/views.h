@@ -25,6 +25,8 @@ enum class View : std::uint32_t {
     Unvisited,
 };
 inline constexpr int kViewCount = 13;
+/// Which sets of effects the kernels of all views but Beauty are compiled for.
+inline constexpr KernelRange kViewRange = KernelRange::Sparse;
 
 /// Does a view show a number per volume? Its films hold the numbers of the last pass, not a mean over passes.
 PL_HD constexpr bool is_heat_map(View view) { return view >= View::Visits; }

@@ -7,6 +7,9 @@
 
 namespace pl {
 
+/// Which sets of effects the kernels of a precomputation are compiled for.
+inline constexpr KernelRange kProbeRange = KernelRange::Sparse;
+
 /// Goes on as DefaultMethod does and remembers how far the first segment led.
 struct ProbeMethod : DefaultMethod {
     struct Memory {

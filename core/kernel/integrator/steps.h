@@ -62,7 +62,7 @@ template <FeatureSet F, class M>
 PL_HD inline float add_emission(const SceneView& scene, const PathSettings& settings, const SurfacePoint& surface,
                                 Vec3f emitted, PathState<F, M>& state) {
     const float weight = direction_weight(
-        settings, state, [&] { return light_pdf_sa(scene, state.ray.origin, surface, state.ray.direction); });
+        settings, state, [&] { return light_pdf_sa<F>(scene, state.ray.origin, surface, state.ray.direction); });
     state.radiance += weight * (state.throughput * emitted);
     return weight;
 }

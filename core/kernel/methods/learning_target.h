@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "core/kernel/base/features.h"
+
 namespace pl {
 
 /// The target of the record for leaving x through a cell, when the ray meets y.   [Sutton and Barto 2018, 5.1, 6.4, 6.6]
@@ -27,6 +29,11 @@ struct LearningSettings {
 
 /// The kernels that serve: records of the default need the least of a path.
 enum class LearningKernel : std::uint32_t { Immediate, Late, WholePath };
+
+/// Which sets of effects they are compiled for.
+constexpr KernelRange range_of(LearningKernel kernel) {
+    return kernel == LearningKernel::Immediate ? KernelRange::Full : KernelRange::Sparse;
+}
 
 constexpr LearningKernel kernel_for(const LearningSettings& learning, bool samples_lights) {
     if (learning.target == LearningTarget::MonteCarlo) return LearningKernel::WholePath;

@@ -5,6 +5,7 @@
 #include "core/kernel/geometry/bvh_view.h"
 #include "core/kernel/scene/texture.h"
 #include "core/kernel/shading/far_lights.h"
+#include "core/kernel/shading/light_tree.h"
 #include "core/kernel/shading/material.h"
 #include "core/kernel/shading/surface_lobes.h"
 
@@ -45,7 +46,8 @@ struct SceneView {
     Span<const SurfaceLobes> lobes;        ///< [material]; empty if all are diffuse
     Span<const float> directional_albedo;  ///< tables that they refer to
     Textures textures;
-    Span<const Light> lights;
+    Span<const Light> lights;  ///< by ascending primitive
+    LightTree light_tree;      ///< over them; empty if they are few
     BvhView bvh;
     float light_power =
         0.0f;  ///< sum over lights of area x luminance of the emission, over the share of their samples

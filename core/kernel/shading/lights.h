@@ -12,12 +12,12 @@ PL_HD inline float light_pdf_area(const SceneView& scene, const Material& materi
     return scene.light_power > 0.0f ? luminance(material.emission) / scene.light_power : 0.0f;
 }
 
-/// Same density per steradian, seen from `from` along the unit direction `wi` that meets `on_light`.
-PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const SurfacePoint& on_light, Vec3f wi) {
+/// The same density per steradian, seen from `from` along the unit direction `wi` that meets `on_light`.
+PL_HD inline float per_steradian(float pdf_area, Vec3f from, const SurfacePoint& on_light, Vec3f wi) {
     const float cos_light = std::fabs(glm::dot(wi, on_light.geometric_normal));
     const Vec3f segment = on_light.position - from;
     if (cos_light == 0.0f) return 0.0f;
-    return light_pdf_area(scene, scene.materials[on_light.material]) * glm::dot(segment, segment) / cos_light;
+    return pdf_area * glm::dot(segment, segment) / cos_light;
 }
 
 /// Index of the light whose interval of the cumulative probabilities holds u in [0,1).
@@ -26,22 +26,69 @@ PL_HD inline std::uint32_t choose_light(const SceneView& scene, float u) {
                          [&](std::uint32_t light) { return scene.lights[light].cumulative_probability; });
 }
 
+/// The light that a triangle is, or one behind it if it is none.
+PL_HD inline std::uint32_t light_of(const SceneView& scene, std::uint32_t primitive) {
+    std::uint32_t low = 0;
+    std::uint32_t high = scene.lights.count;
+    while (low < high) {
+        const std::uint32_t middle = (low + high) / 2;
+        if (scene.lights[middle].primitive < primitive)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/// Density, per steradian, with which light samples at `from` take the direction `wi` that meets `on_light`.
+template <FeatureSet F = FeatureSet{}>
+PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const SurfacePoint& on_light, Vec3f wi) {
+    if constexpr (F.has(Feature::ManyLights)) {
+        if (!scene.light_tree.empty()) {
+            const std::uint32_t light = light_of(scene, on_light.primitive);
+            if (light >= scene.lights.count || scene.lights[light].primitive != on_light.primitive) return 0.0f;
+            const float probability = light_probability(scene.light_tree, light, from);
+            return per_steradian(probability * scene.light_tree.of_light[light].pdf_area, from, on_light, wi);
+        }
+    }
+    return per_steradian(light_pdf_area(scene, scene.materials[on_light.material]), from, on_light, wi);
+}
+
+/// A point on a light, and the density of its choice per unit area.
+struct LightPoint {
+    SurfacePoint surface;
+    float pdf_area = 0.0f;
+};
+
 /// Barycentric weights of a uniform point; u in [0,1)^2.
 PL_HD inline Vec3f sample_weights(Vec2f u) {
     const Vec2f b = square_to_triangle(u);
     return {1.0f - b.x - b.y, b.x, b.y};
 }
 
-/// A point on a light as seen from `from`; u in [0,1)^3. The scene must have lights.
-PL_HD inline SurfacePoint sample_light(const SceneView& scene, Vec3f from, Vec3f u) {
-    const std::uint32_t primitive = scene.lights[choose_light(scene, u.x)].primitive;
-    const Vec3f weights = sample_weights({u.y, u.z});
-    SurfacePoint point = make_surface_point<FeatureSet{}>(scene, primitive, weights, Vec3f{0.0f});
+/// A point on a light as seen from `from`; u in [0,1)^2.
+PL_HD inline SurfacePoint sample_on_light(const SceneView& scene, std::uint32_t light, Vec3f from, Vec2f u) {
+    SurfacePoint point =
+        make_surface_point<FeatureSet{}>(scene, scene.lights[light].primitive, sample_weights(u), Vec3f{0.0f});
     if (glm::dot(point.geometric_normal, from - point.position) < 0.0f) {
         point.geometric_normal = -point.geometric_normal;
         point.front = false;
     }
     return point;
+}
+
+/// Chooses a light for `from` and a point on it; u in [0,1)^3. The scene must have lights.
+template <FeatureSet F = FeatureSet{}>
+PL_HD inline LightPoint sample_light(const SceneView& scene, Vec3f from, Vec3f u) {
+    if constexpr (F.has(Feature::ManyLights)) {
+        if (!scene.light_tree.empty()) {
+            const ChosenLight chosen = choose_light(scene.light_tree, from, u.x);
+            return {sample_on_light(scene, chosen.light, from, {u.y, u.z}),
+                    chosen.probability * scene.light_tree.of_light[chosen.light].pdf_area};
+        }
+    }
+    const SurfacePoint point = sample_on_light(scene, choose_light(scene, u.x), from, {u.y, u.z});
+    return {point, light_pdf_area(scene, scene.materials[point.material])};
 }
 
 /// A light sample seen from a surface that could reflect it.
@@ -83,7 +130,8 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
         if (choice < scene.far_probability) return sample_far_light(scene, surface, bsdf, u);
     }
     if (scene.lights.empty()) return {};
-    DirectLight sample{.light = sample_light(scene, surface.position, u)};
+    const LightPoint chosen = sample_light<F>(scene, surface.position, u);
+    DirectLight sample{.light = chosen.surface};
     const Vec3f segment = sample.light.position - surface.position;
     const float distance2 = glm::dot(segment, segment);
     if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};
@@ -91,7 +139,7 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
     sample.cos_i = bsdf.cosine(surface, sample.wi);
     sample.emitted = light_emitted<F>(scene, sample.light, sample_weights({u.y, u.z}));
     if (sample.cos_i > 0.0f && !is_black(sample.emitted))
-        sample.pdf_sa = light_pdf_sa(scene, surface.position, sample.light, sample.wi);
+        sample.pdf_sa = per_steradian(chosen.pdf_area, surface.position, sample.light, sample.wi);
     return sample;
 }
 

@@ -1,0 +1,38 @@
+#include "core/session/served_kernel.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/kernel_row.h"
+#include "core/scene/needed_effects.h"
+
+namespace pl {
+namespace {
+
+KernelRange range_of(const RenderSettings& settings) {
+    if (settings.view != View::Beauty) return kViewRange;
+    if (!info_of(settings.method).learns) return KernelRange::Full;
+    return range_of(kernel_for(settings.field.learning, settings.next_event));
+}
+
+}  // namespace
+
+FeatureSet needed_features(const HostScene& scene, const RenderSettings& settings) {
+    const FeatureSet needed = needed_effects(scene).with(needed_effects(settings.camera));
+    if (settings.next_event) return needed.with(Feature::NextEventEstimation);
+    // Who samples no lights does not choose among them.
+    return settings.view == View::Direct ? needed : needed.without(Feature::ManyLights);
+}
+
+ServedKernel served_kernel(std::string_view backend, const HostScene& scene, const RenderSettings& settings) {
+    ServedKernel kernel{.served = needed_features(scene, settings).with(settings.forced_effects)};
+    kernel.compiled = kCompiledSets[covering_set(kernel.served, range_of(settings))];
+    const std::vector<std::string> effects = effect_names(kernel.compiled);
+    const std::string_view does =
+        settings.view == View::Beauty ? info_of(settings.method).name : info_of(settings.view).name;
+    kernel.name =
+        fmt::format("{}/{}/{}", backend, does, effects.empty() ? "base" : fmt::format("{}", fmt::join(effects, "+")));
+    return kernel;
+}
+
+}  // namespace pl

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""Which effects the processor executed instructions of, told by the lines of source they come from.
+
+Usage: check_effect_lines.py PATHLIGHT
+
+Renders small pictures under valgrind's callgrind, which counts instructions per line. The Cornell box and rooms that need no
+effect must not execute a single one of an effect's file; a scene that needs the effect must, or this test would see nothing.
+Exit code 77: there is no valgrind.
+"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from pathlib import Path
+
+# File of core/kernel: a scene that needs it.
+EFFECTS = {
+    "shading/fresnel.h": "spheres",
+    "shading/conductor.h": "spheres",
+    "shading/dielectric.h": "coats",
+    "shading/microfacet.h": "plates",
+    "shading/plastic.h": "coats",
+    "shading/directional_albedo.h": "coats",
+    "shading/environment_map.h": "textured-room",
+    "shading/far_lights.h": "textured-room",
+    "scene/texture.h": "textured-room",
+    "shading/light_tree.h": "gallery",
+}
+PLAIN = (["cornell"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinforcement", "--nee", "on"],
+         ["cornell", "--method", "precomputed", "--bins", "16"], ["door", "--nee", "on"], ["sky", "--nee", "on"])
+
+
+def instructions_by_file(program, arguments):
+    """Instructions executed, by file of source, where the program knows its lines."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "callgrind.out"
+        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", program, "render", *arguments, "--spp", "2",
+                   "--size", "16x16", "--volumes", "50", "--threads", "1", "--output", str(Path(folder) / "picture.pfm")]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            sys.exit(f"FAILED: {' '.join(command)}\n{done.stderr}")
+        return parse(out.read_text())
+
+
+def parse(profile):
+    """Sums of a callgrind profile by file. What is spent in a called function belongs to that function's own lines."""
+    names, counts, current, is_call = {}, Counter(), "", False
+    for line in profile.splitlines():
+        named = re.match(r"(fl|fi|fe)=\((\d+)\)(?: (.*))?$", line)
+        if named:
+            if named[3]:
+                names[named[2]] = named[3]
+            current = names.get(named[2], "")
+        elif re.match(r"(cfi|cfl)=\((\d+)\) (.*)$", line):
+            called = re.match(r"(cfi|cfl)=\((\d+)\) (.*)$", line)
+            names[called[2]] = called[3]
+        elif line.startswith("calls="):
+            is_call = True
+        elif re.match(r"[+\-*\d]", line):
+            if not is_call:
+                counts[current] += int(line.split()[1])
+            is_call = False
+    return counts
+
+
+def spent_in(counts, file):
+    return sum(count for name, count in counts.items() if name.endswith("core/kernel/" + file))
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    if not shutil.which("valgrind"):
+        print("skipped: there is no valgrind")
+        sys.exit(77)
+    failures = []
+    for arguments in PLAIN:
+        counts = instructions_by_file(sys.argv[1], arguments)
+        in_kernel = sum(count for name, count in counts.items() if "core/kernel/" in name)
+        print(f"{' '.join(arguments)}: {in_kernel} instructions of the kernel")
+        if in_kernel == 0:
+            failures.append(f"{arguments}: no line of the kernel is known")
+        for file in EFFECTS:
+            if spent_in(counts, file):
+                failures.append(f"{arguments}: expected none of {file}, got {spent_in(counts, file)} instructions")
+    profiles = {scene: instructions_by_file(sys.argv[1], [scene, "--nee", "on"]) for scene in set(EFFECTS.values())}
+    for file, scene in EFFECTS.items():
+        spent = spent_in(profiles[scene], file)
+        print(f"{scene}: {spent} instructions of {file}")
+        if spent == 0:
+            failures.append(f"{scene} needs {file}: expected instructions of it, got none")
+    if failures:
+        sys.exit("FAILED:\n" + "\n".join(failures))
+
+
+if __name__ == "__main__":
+    main()
