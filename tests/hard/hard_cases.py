@@ -92,8 +92,9 @@ def old_numbers():
     """Used and seconds of every case as the table has them."""
     if not TABLE.exists():
         return {}
-    rows = (line.split(" | ") for line in TABLE.read_text().splitlines() if re.match(r"\| [A-Z]\d+ \|", line))
-    return {row[0].strip("| "): (row[3], row[4]) for row in rows}
+    lines = (line for line in TABLE.read_text().splitlines() if re.match(r"\| [A-Z]\d+ \|", line))
+    rows = ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)
+    return {row[0]: (row[3], row[4]) for row in rows}
 
 
 def table(rows, tests, results, numbers):
