@@ -46,7 +46,7 @@ TEST_CASE("In a white closed room with a lamp what is learned stays finite", "[h
         const SceneDescription scene = furnace_scene(emission, 1.0f);
         for (const Estimator estimator : kLearners) {
             INFO("emission " << emission << ", " << estimator);
-            const HostTables tables = tables_after(scene, estimator, 16);
+            const HostTables tables = tables_after(scene, estimator, 4);
             CHECK(count_not_finite(tables.radiance) == 0);
             CHECK(count_not_finite(tables.mean_radiance) == 0);
             CHECK(count_not_finite(tables.row_cdf) == 0);
