@@ -15,5 +15,6 @@ int run_compare(const CommandLine& line, Console& console);
 int run_bench(const CommandLine& line, Console& console);
 int run_report(const CommandLine& line, Console& console);
 int run_reference(const CommandLine& line, Console& console);
+int run_selftest(const CommandLine& line, Console& console);
 
 }  // namespace pl

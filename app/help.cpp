@@ -47,6 +47,10 @@ constexpr std::array kCommands{
                 "Makes one HTML page of a bench folder, and its plots as SVG and PNG.\n"
                 "The page needs nothing else: it can be handed over.",
                 Inputs::Folder},
+    CommandInfo{Command::SelfTest, "selftest", "",
+                "Renders scenes whose light is known in closed form, on every back end that is there.\n"
+                "Each line says what came out and how much of its tolerance that took. Exit with 5 if a check fails.",
+                Inputs::Nothing},
 };
 
 constexpr std::string_view kScene =

@@ -15,13 +15,14 @@ namespace pl {
 namespace {
 
 using enum Command;
-constexpr CommandSet kEverywhere(View, Render, Info, Devices, Inspect, Compare, Reference, Bench, Report);
+constexpr CommandSet kEverywhere(View, Render, Info, Devices, Inspect, Compare, Reference, Bench, Report, SelfTest);
 constexpr CommandSet kWithScene(View, Render, Info, Inspect, Reference, Bench);
+constexpr CommandSet kThreaded(View, Render, Info, Inspect, Reference, Bench, SelfTest);
 constexpr CommandSet kOneMethod(View, Render, Info, Inspect, Reference);
 constexpr CommandSet kPaths(View, Render, Inspect, Reference, Bench);
 constexpr CommandSet kSampling(View, Render, Inspect);
 constexpr CommandSet kPictures(View, Render);
-constexpr CommandSet kHeadless(Render, Info, Devices, Inspect, Compare, Reference, Bench, Report);
+constexpr CommandSet kHeadless(Render, Info, Devices, Inspect, Compare, Reference, Bench, Report, SelfTest);
 constexpr CommandSet kFiles(Render, Inspect);
 constexpr CommandSet kWorking(Render, Inspect, Reference, Bench);
 
@@ -140,9 +141,12 @@ const auto kTable = std::to_array<OptionSpec>({
      .help = "What computes: auto, cpu, cuda",
      .commands = kOneMethod, .in_scene_files = true, .parse = parse_backend,
      .print = [](const Options& o) { return o.backend; }},
+    {.name = "backend", .flags = "--backend", .value = "NAME", .group = kCompared,
+     .help = "What is tested: cpu, cuda (default: all that are available)",
+     .commands = CommandSet(SelfTest), .parse = parse_backend},
     {.name = "threads", .flags = "-t,--threads", .value = "N", .group = kPicture,
      .help = "CPU threads (default: all); the picture does not depend on it",
-     .commands = kWithScene, .in_scene_files = true,
+     .commands = kThreaded, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.threads = static_cast<int>(parse_whole(text, 1, 1024)); },
      .print = [](const Options& o) { return o.threads == 0 ? "" : std::to_string(o.threads); }},
     {.name = "size", .flags = "--size", .value = "WxH", .group = kPicture,

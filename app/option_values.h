@@ -14,7 +14,18 @@
 
 namespace pl {
 
-enum class Command : std::uint32_t { View, Render, Info, Devices, Inspect, Compare, Reference, Bench, Report };
+enum class Command : std::uint32_t {
+    View,
+    Render,
+    Info,
+    Devices,
+    Inspect,
+    Compare,
+    Reference,
+    Bench,
+    Report,
+    SelfTest
+};
 
 /// Which of the camera's parts were given; the rest is the scene's.
 struct CameraChoice {

@@ -21,6 +21,15 @@ target_include_directories(pl_options INTERFACE "${PROJECT_SOURCE_DIR}")
 target_compile_options(pl_options INTERFACE
     $<$<COMPILE_LANGUAGE:CXX>:-fno-fast-math;-ffp-contract=off;-fno-math-errno;-fno-trapping-math>)
 
+if(PL_FUZZ)
+    if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang" OR PL_TESTS STREQUAL "ON")
+        message(FATAL_ERROR "PL_FUZZ needs clang and PL_TESTS=OFF; tests/fuzz/run_fuzzers.sh configures it so")
+    endif()
+    set(PL_TESTS OFF)
+    set(PL_SANITIZE "address,undefined")
+    target_compile_options(pl_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 if(PL_SANITIZE)
     if(PL_SANITIZE MATCHES "thread" AND NOT PL_SANITIZE STREQUAL "thread")
         message(FATAL_ERROR "PL_SANITIZE=${PL_SANITIZE}: thread cannot be combined with others")

@@ -12,7 +12,7 @@ function(pl_add_test name)
         set(arg_PROCESSORS 1)
     endif()
     add_executable(${name} ${arg_SOURCES})
-    target_link_libraries(${name} PRIVATE ${arg_LIBS} pl_options pl_warnings dep::catch2)
+    target_link_libraries(${name} PRIVATE ${arg_LIBS} pl_margins pl_options pl_warnings dep::catch2)
     target_compile_definitions(${name} PRIVATE PL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -61,7 +62,9 @@ public:
     double number(const char* what) {
         const std::string text = word(what);
         const auto value = to_number(text);
-        if (!value) fail(fmt::format("expected {}, got '{}'", what, text));
+        // No window is that large; NaN is refused, too.
+        constexpr double kLargest = 1.0e6;
+        if (!value || !(std::fabs(*value) <= kLargest)) fail(fmt::format("expected {}, got '{}'", what, text));
         return *value;
     }
     std::string rest(const char* what) {

@@ -83,6 +83,42 @@ TEST_CASE("HDR files are linear and their rows go from the top") {
     CHECK(texture.texels[1] == glm::vec4(1.0f));
 }
 
+// The decoder would wait for ever for a run of no length to end.
+TEST_CASE("Coded lines of HDR files are whole, or the file is refused") {
+    const auto coded = [](const std::string& runs) { return hdr(8, 1, std::string("\x02\x02\x00\x08", 4) + runs); };
+    const std::string run("\x88\x80", 2);                                         // eight times the same
+    const std::string singles = std::string("\x08", 1) + std::string(8, '\x80');  // eight, each by itself
+    const TextureDescription texture =
+        read("a.hdr", coded(run + singles + run + std::string("\x88\x81", 2)), TextureContent::Color);
+    REQUIRE(texture.texels.size() == 8);
+    for (const glm::vec4& texel : texture.texels) CHECK(texel == glm::vec4(1.0f));
+    const std::string nothing(1, '\0');
+    const std::string too_long("\x89\x80", 2);
+    for (const std::string& last : {nothing, too_long, std::string("\x88", 1), std::string(), singles.substr(0, 5)}) {
+        const TemporaryFolder folder;
+        std::vector<std::string> warnings;
+        const auto path = folder.write("a.hdr", coded(run + run + run + last));
+        CHECK_THAT(input_error([&] { read_texture(path, TextureContent::Color, true, warnings); }),
+                   contains("damaged"));
+    }
+}
+
+// The decoder takes what is missing for black: 23 bytes made a texture of 25 million texels.
+TEST_CASE("TGA files that cannot hold their texels are refused") {
+    const auto refused = [](const std::string& bytes) {
+        const TemporaryFolder folder;
+        std::vector<std::string> warnings;
+        const auto path = folder.write("a.tga", bytes);
+        return input_error([&] { read_texture(path, TextureContent::Color, true, warnings); });
+    };
+    const std::string texels(4 * 6, '\x50');
+    CHECK(read("a.tga", tga(3, 2, texels), TextureContent::Color).texels.size() == 6);
+    CHECK_THAT(refused(tga(3, 2, texels.substr(1))), contains("ends too early"));
+    std::string coded = tga(100, 100, "\xff\x50\x50\x50\x50");
+    coded[2] = 10;
+    CHECK_THAT(refused(coded), contains("ends too early"));
+}
+
 TEST_CASE("What is no light counts as 0, with one warning that counts") {
     const TemporaryFolder folder;
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/margin.h"
 #include "tests/statistical/moments.h"
 
 namespace pl::test {
@@ -62,6 +63,7 @@ inline Decision mean_equals(const Moments& samples, Reference reference, double 
     reason << "mean " << samples.mean() << " of " << samples.count() << ", expected " << reference.value
            << ", off by " << difference / error << " standard errors; standard error " << error
            << ", needed for a resolution of " << delta << ": " << resolving_error(delta * std::fabs(reference.value));
+    note_used_share(std::fabs(difference) / (kZAlpha * error + reference.error));
     // Negated comparisons: NaN fails.
     if (!(std::fabs(difference) <= kZAlpha * error + reference.error)) return {Verdict::Fail, reason.str()};
     if (!(error <= resolving_error(delta * std::fabs(reference.value)))) return {Verdict::Inconclusive, reason.str()};
@@ -101,6 +103,9 @@ inline double chi_squared_tail(double x, double freedom) {
     return scale * fraction;
 }
 
+/// What share of the way to a false alarm a tail probability has gone.
+inline double alarm_share(double tail) { return std::log(std::fmax(tail, 1.0e-300)) / std::log(kAlpha); }
+
 /// Rule S3: samples follow a density, which gives `expected` counts per bin (their sum need not be the number of
 /// samples: a density that does not integrate to 1 fails too). Neighboring bins are pooled until 10 are expected.
 /// `delta` is the root mean square relative error of the density that would have been found.
@@ -139,6 +144,7 @@ inline Decision follows_density(std::span<const std::uint64_t> observed, std::sp
     reason << "chi^2 " << chi2 << " of " << freedom << " (tail " << tail << "), samples expected " << total
            << ", needed for a resolution of " << delta << ": " << needed
            << (impossible ? ", samples where the density is 0" : "");
+    note_used_share(alarm_share(tail));
     if (impossible || !(tail >= kAlpha)) return {Verdict::Fail, reason.str()};
     return {total >= needed ? Verdict::Pass : Verdict::Inconclusive, reason.str()};
 }
@@ -202,6 +208,7 @@ inline Decision same_mean(const TiledBatches& a, const TiledBatches& b, double d
     reason << "means " << a.whole().mean() << " and " << b.whole().mean() << ", Z " << z << ", tile chi^2 " << chi2
            << " of " << freedom << " (tail " << tail << "), relative standard error " << error / scale
            << ", needed for a resolution of " << delta << ": " << delta / 8.0;
+    note_used_share(std::fmax(std::fabs(z) / kZAlpha, alarm_share(tail)));
     if (!(std::fabs(z) <= kZAlpha) || !(tail >= kAlpha)) return {Verdict::Fail, reason.str()};
     const bool enough =
         a.whole().count() >= TiledBatches::kMinBatches && b.whole().count() >= TiledBatches::kMinBatches;

@@ -65,6 +65,8 @@ TEST_CASE("Script: a bad line names file, line and what was expected") {
         {"0 move 1", "expected y, got the end of the line"},
         {"0 move 1 2 3", "expected the end of the line, got '3'"},
         {"0 move 1 nan2", "expected y, got 'nan2'"},
+        {"0 move nan 1", "expected x, got 'nan'"},
+        {"0 wheel 1e300", "got '1e300'"},
         {"0 down thumb", "expected left, right or middle, got 'thumb'"},
         {"0 key Hyper", "expected the name of a key"},
         {"0 key W meta", "expected shift, ctrl or alt, got 'meta'"},

@@ -81,6 +81,8 @@ PL_HD inline float sum_of(const float* values, int count) {
     return total;
 }
 
+inline constexpr float kLargestFloat = std::numeric_limits<float>::max();
+
 /// Mark of a cell that had no record, where absorb_records() leaves how much the others have changed.
 inline constexpr float kNoChange = -1.0f;
 
@@ -128,6 +130,7 @@ PL_HD inline void publish_means(const FieldPublicationView& field, std::uint32_t
         change += row_change;
         changed += row_changed;
     }
+    sum = min_of(sum, kLargestFloat);  // beyond it the mean is too small, but a number
     field.mean_radiance[volume] = visited > 0.0f ? sum / visited : 0.0f;
     if (changed > 0.0f) field.change[volume] = change / changed;
 }

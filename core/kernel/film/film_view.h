@@ -24,13 +24,18 @@ struct FilmView {
     std::uint32_t height = 0;
 };
 
-/// Adds the sample of a pass; every pixel has one writer at a time. Returns false if the sample was invalid.
+/// A counter that is full stays so: the mean that it divides is converged as far as floats can show.
+inline constexpr std::uint32_t kMostSamples = 0xffffffffu;
+
+/// Adds the sample of a pass; every pixel has one writer at a time. Returns false if the sample was invalid. A pixel of
+/// kMostSamples takes no more.
 PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass) {
     FilmPixel& p = film.pixels[pixel];
     if (!is_valid_radiance(radiance)) {
-        ++p.invalid;
+        p.invalid += p.invalid < kMostSamples ? 1u : 0u;
         return false;
     }
+    if (p.samples == kMostSamples) return true;
     const Vec3d value{radiance};
     p.sum += value;
     ++p.samples;

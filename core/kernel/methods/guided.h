@@ -210,7 +210,9 @@ struct GuidedSampling {
         const float expected =
             luminance(throughput * albedo) * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
         if (expectation.first == 0.0f) expectation.first = expected;
-        return expectation.first > 0.0f ? expected / expectation.first : survival;
+        // No opinion where nothing is expected, and where what is learned is too large for a ratio.
+        const float worth = expected / expectation.first;
+        return worth < kInfinity ? worth : survival;
     }
 
     PL_HD TableEntry entry_of(const GuidedVertex& vertex, const DirectionSample& direction) const {

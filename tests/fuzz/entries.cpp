@@ -1,0 +1,186 @@
+#include "tests/fuzz/entries.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/io/field_file.h"
+#include "core/io/files.h"
+#include "core/io/image.h"
+#include "core/io/load_scene.h"
+#include "core/io/texture_file.h"
+#include "core/scene/pack_scene.h"
+#if PL_FUZZ_SCRIPTS
+#include "ui/script.h"
+#endif
+
+namespace pl::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The process's own folder, in memory where the machine has that.
+class FuzzFolder {
+public:
+    FuzzFolder() {
+        const fs::path root = fs::is_directory("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
+        path_ = root / ("pathlight-fuzz-" + std::to_string(::getpid()));
+        fs::create_directories(path_);
+    }
+    ~FuzzFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    FuzzFolder(const FuzzFolder&) = delete;
+    FuzzFolder& operator=(const FuzzFolder&) = delete;
+
+    fs::path write(const std::string& name, std::string_view bytes) const {
+        if (std::FILE* file = std::fopen((path_ / name).c_str(), "wb")) {
+            std::fwrite(bytes.data(), 1, bytes.size(), file);
+            std::fclose(file);
+        }
+        return path_ / name;
+    }
+
+private:
+    fs::path path_;
+};
+
+const FuzzFolder& folder() {
+    static const FuzzFolder instance;
+    return instance;
+}
+
+/// A defect: ends the process, so that a fuzzer keeps the input.
+[[noreturn]] void fail(const char* what) {
+    std::fprintf(stderr, "defect: %s\n", what);
+    std::abort();
+}
+
+/// Runs `read`; an Error(Input) with words is an answer, too.
+template <class Read>
+void read_or_refuse(Read&& read) {
+    try {
+        read();
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Input) fail("an error of another kind than Input");
+        if (std::string_view(error.what()).empty()) fail("an error without words");
+    }
+}
+
+/// A scene that was accepted is one that can be packed into finite numbers.
+void load_and_pack(const fs::path& path) {
+    const SceneDescription scene = load_scene(path.string(), path.parent_path());
+    if (scene.triangles.size() > 20000) return;
+    const HostScene packed = pack_scene(scene);
+    for (const auto& plane : packed.planes)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(plane.normal[axis])) fail("a normal that is no number");
+    const Camera camera = make_camera(scene.camera, 64, 48);
+    for (const Vec3f v : {camera.eye, camera.forward, camera.right, camera.up})
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(v[axis])) fail("a camera that is no number");
+}
+
+/// Behind this line of the input begins the material file.
+constexpr std::string_view kCut = "\n%%%\n";
+
+void run_obj(std::string_view bytes) {
+    const std::size_t cut = bytes.find(kCut);
+    const bool has_materials = cut != std::string_view::npos;
+    folder().write("m.mtl", has_materials ? bytes.substr(cut + kCut.size()) : std::string_view{});
+    const fs::path path = folder().write("s.obj", bytes.substr(0, cut));
+    read_or_refuse([&] { load_and_pack(path); });
+}
+
+void run_json(std::string_view bytes) {
+    folder().write(
+        "s.obj", "mtllib m.mtl\ng a\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng b\nusemtl n\nv 0 0 1\nv 1 0 1\n"
+                 "v 0 1 1\nf 4 5 6\n");
+    folder().write("m.mtl", "newmtl m\nKd 0.5 0.5 0.5\nnewmtl n\nKd 0 0 0\nKe 1 1 1\n");
+    const fs::path path = folder().write("s.json", bytes);
+    read_or_refuse([&] { load_and_pack(path); });
+}
+
+void run_field(std::string_view bytes) {
+    const fs::path as_it_is = folder().write("f.field", bytes);
+    read_or_refuse([&] { read_field(as_it_is); });
+    const fs::path sealed = folder().write("f.field", sealed_field(std::string(bytes)));
+    read_or_refuse([&] { read_field(sealed); });
+}
+
+/// The first byte says what kind of image the rest pretends to be.
+void run_image(std::string_view bytes) {
+    constexpr std::array kSuffixes{".exr", ".pfm", ".hdr", ".png", ".tga", ".bmp", ".jpg"};
+    if (bytes.empty()) return;
+    const std::string suffix = kSuffixes[static_cast<unsigned char>(bytes[0]) % kSuffixes.size()];
+    const fs::path path = folder().write("i" + suffix, bytes.substr(1));
+    std::vector<std::string> warnings;
+    read_or_refuse([&] {
+        const TextureDescription texture = read_texture(path, TextureContent::Color, true, warnings);
+        if (texture.texels.size() != std::size_t{texture.width} * texture.height) fail("texels of another size");
+        if (texture.texels.size() > 100000) return;  // takes longer to look at than to read
+        for (const glm::vec4& texel : texture.texels)
+            for (int c = 0; c < 4; ++c)
+                if (!(texel[c] >= 0.0f) || !std::isfinite(texel[c])) fail("a texel that is no light");
+    });
+    if (suffix == ".exr") read_or_refuse([&] { read_exr(path); });
+    if (suffix == ".pfm") read_or_refuse([&] { read_pfm(path); });
+    if (suffix == ".png") read_or_refuse([&] { read_png8(path); });
+}
+
+#if PL_FUZZ_SCRIPTS
+void run_script(std::string_view bytes) {
+    read_or_refuse([&] {
+        int before = 0;
+        for (const ScriptCommand& command : parse_script(bytes, "fuzz.script")) {
+            if (command.frame < before) fail("frames that go back");
+            before = command.frame;
+            if (!(std::fabs(command.x) <= 1.0e6) || !(std::fabs(command.y) <= 1.0e6))
+                fail("a place outside of any window");
+            holds(command.condition, "12.5");
+            holds(command.condition, "default");
+        }
+    });
+}
+#endif
+
+constexpr FuzzEntry kEntries[] = {
+    {"obj", run_obj},       {"json", run_json}, {"field", run_field}, {"image", run_image},
+#if PL_FUZZ_SCRIPTS
+    {"script", run_script},
+#endif
+};
+
+}  // namespace
+
+std::span<const FuzzEntry> fuzz_entries() { return kEntries; }
+
+const FuzzEntry* find_fuzz_entry(std::string_view name) {
+    for (const FuzzEntry& entry : kEntries)
+        if (entry.name == name) return &entry;
+    return nullptr;
+}
+
+std::string sealed_field(std::string bytes) {
+    constexpr std::size_t kSizeAt = 8 + 4;  // behind what the file is, and its version
+    constexpr std::size_t kChecksumBytes = 8;
+    if (bytes.size() < kSizeAt + 8 + kChecksumBytes) return bytes;
+    const auto put = [&](std::size_t offset, std::uint64_t value) {
+        for (std::size_t i = 0; i < 8; ++i) bytes[offset + i] = static_cast<char>(value >> (8 * i) & 0xffu);
+    };
+    put(kSizeAt, bytes.size());
+    Fnv1a hash;
+    hash.add(std::string_view(bytes).substr(0, bytes.size() - kChecksumBytes));
+    put(bytes.size() - kChecksumBytes, hash.value());
+    return bytes;
+}
+
+}  // namespace pl::test
