@@ -17,6 +17,9 @@ namespace {
 /// Runs whose figures are kept. A day of trying out makes a few hundred; what is dropped is the oldest of another picture.
 constexpr std::size_t kMostRuns = 500;
 
+/// How far the charged time grows until it is told again without a new point.
+constexpr double kToldAnew = 1.25;
+
 /// From one point to the next: twelve in a decade.
 const double kPointRatio = std::pow(10.0, 1.0 / 12.0);
 
@@ -120,6 +123,9 @@ bool LiveRuns::observe(const Session& session) {
     const bool is_measured = session.settings().view == View::Beauty;
     changed = work_on(is_measured ? origin.number : 0) || changed;
     changed = (is_measured && is_due(session, origin) && add_point(session, origin)) || changed;
+    // Points get rare, and the share that measuring took is told of all that is charged.
+    const double told = current_->charged_seconds;
+    changed = changed || (told > 0.0 && charged_seconds_ > kToldAnew * told);
     if (changed) publish();
     return changed;
 }

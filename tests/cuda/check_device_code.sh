@@ -37,7 +37,7 @@ count() { kernel "$1" "$2" | grep -cE -- "$3" || true; }
 for file in "${files[@]}"; do
     expect "fused multiply-adds in $file" "$(grep -c 'fma\.' "$work/$file.ptx" || true)" -eq 0
 done
-# Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 63 lobes too, 1023 all. Philox' key schedule and its
+# Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 63 lobes too, 2047 all. Philox' key schedule and its
 # first multiplier show how many draws there are; doubles how many traversals; rounding down only images and maps need.
 measure() {
     local file=$1 bits
@@ -51,11 +51,11 @@ measure() {
     done
 }
 for file in default precomputed reinforcement; do
-    measure "$file" 0 4 7 63 1023
+    measure "$file" 0 4 7 63 2047
     expect "$file: instructions without and with light samples" "${size[0]}" -lt "${size[4]}"
     expect "$file: instructions without and with normals and environment" "${size[4]}" -lt "${size[7]}"
     expect "$file: instructions without and with lobes" "${size[7]}" -lt "${size[63]}"
-    expect "$file: instructions with some and all effects" "${size[63]}" -lt "${size[1023]}"
+    expect "$file: instructions with some and all effects" "${size[63]}" -lt "${size[2047]}"
     expect "$file: random numbers without and with light samples" "${draws[0]}" -lt "${draws[4]}"
     expect "$file: random numbers for normals and environment" "${draws[4]}" -eq "${draws[7]}"
     expect "$file: random numbers without and with lobes" "${draws[7]}" -lt "${draws[63]}"
@@ -63,20 +63,20 @@ for file in default precomputed reinforcement; do
     expect "$file: double operations for one ray" "${doubles[0]}" -le 9
     expect "$file: double operations for normals, environment and lobes" "${doubles[4]}" -eq "${doubles[63]}"
     expect "$file: roundings down without images" "${floors[63]}" -eq "${floors[0]}"
-    expect "$file: roundings down with images" "${floors[1023]}" -gt "${floors[63]}"
+    expect "$file: roundings down with images" "${floors[2047]}" -gt "${floors[63]}"
 done
 for file in sarsa monte_carlo probes; do
-    measure "$file" 0 7 1023
+    measure "$file" 0 7 2047
     expect "$file: instructions with none and some effects" "${size[0]}" -lt "${size[7]}"
-    expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[1023]}"
+    expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[2047]}"
     expect "$file: double operations without and with shadow rays" "$((2 * doubles[0]))" -eq "${doubles[7]}"
     expect "$file: roundings down without images" "${floors[7]}" -eq "${floors[0]}"
 done
 for file in default precomputed reinforcement sarsa monte_carlo probes; do
-    expect "$file: double divisions and roots" "$(count "$file" 1023 '(div|sqrt)[a-z.]*\.f64')" -eq 0
+    expect "$file: double divisions and roots" "$(count "$file" 2047 '(div|sqrt)[a-z.]*\.f64')" -eq 0
 done
-expect "default: aggregated records" "$(count default 1023 'match\.')" -eq 0
-expect "precomputed: aggregated records" "$(count precomputed 1023 'match\.')" -eq 0
+expect "default: aggregated records" "$(count default 2047 'match\.')" -eq 0
+expect "precomputed: aggregated records" "$(count precomputed 2047 'match\.')" -eq 0
 expect "reinforcement: aggregated records" "$(count reinforcement 0 'match\.')" -gt 0
 
 # registers FILE: kernel, its set or step, registers, stack frame, bytes of spill stores and loads

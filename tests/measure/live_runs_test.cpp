@@ -85,6 +85,18 @@ std::size_t pictures_of(const LiveRun& run) {
 
 }  // namespace
 
+TEST_CASE("the charged time is told while no point is due") {
+    Recording recording(kPlenty, 1e-9);  // measuring may take next to nothing: one point, and then none
+    recording.render(2);
+    REQUIRE(recording.last().points.size() == 1);
+    const double told = recording.runs.current()->charged_seconds;
+    const double spent = recording.runs.current()->measure_seconds;
+    while (charged_seconds(recording.session.clocks()) < 3.0 * told) recording.render(1);
+    CHECK(recording.last().points.size() == 1);
+    CHECK(recording.runs.current()->charged_seconds > 2.0 * told);
+    CHECK(recording.runs.current()->measure_seconds == spent);
+}
+
 TEST_CASE("points are a twelfth of a decade apart and tell cost, noise and picture") {
     Recording recording;
     CHECK(recording.runs.current()->runs.empty());
