@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Writes results.md of the folder of a bench, with its plots of error against time.
+
+Usage: make_results.py BENCH   (after `pathlight bench SCENE... -o BENCH` and `pathlight report BENCH`)
+"""
+import json
+import shutil
+import sys
+from pathlib import Path
+
+DOCS = Path(__file__).resolve().parent
+PLOTS = DOCS / "images" / "results"
+
+
+def interval(values, digits=3):
+    """A value with its interval of 95 %; what is not known is said."""
+    if values[0] is None:
+        return "unknown"
+    if any(v is None for v in values):
+        return f"{values[0]:.{digits}g}"
+    return f"{values[0]:.{digits}g} ({values[1]:.{digits}g} to {values[2]:.{digits}g})"
+
+
+def head(results):
+    backends = results["plan"]["backends"]
+    machine = "; ".join(f"{name}: {b['device']}" + (f", {b['threads']} threads" if b["threads"] else "")
+                        for name, b in backends.items())
+    commits = ", ".join(results["commits"])
+    return f"""# Results
+
+Error against time of every method on every shipped scene, cold: each run starts with nothing learned, and placing, precomputing and
+learning are charged. Made by [make_results.py](make_results.py) of one bench.
+
+* Machine: {machine}. {results['date']}, version {results['version']}, commit {commits}.
+* Command: `{results['command']}`
+* References: {references(results)}.
+* relMSE is {results['definitions']['metrics']['relmse']} with epsilon {results['definitions']['metrics']['epsilon']};
+  against a reference in two halves, so that the reference's own noise drops out. Intervals: {results['definitions']['intervals']}.
+* Pictures are small and runs short, so that all of this fits into minutes; publishing what was learned costs the same per pass at any size,
+  and weighs less in larger pictures.
+
+"""
+
+
+def references(results):
+    found = results["references"].values()
+    samples = sorted({n for r in found for n in r["spp"]})
+    noise = [r["noise_relmse"] for r in found]
+    span = str(samples[0]) if len(samples) == 1 else f"{samples[0]} to {samples[-1]}"
+    return f"two halves of {span} samples each, own noise (relMSE) {min(noise):.2g} to {max(noise):.2g}"
+
+
+def verdict(comparison):
+    """How much more time the first method needs than this one for the same error: above 1 this one is faster."""
+    net = comparison["net"]
+    if net[0] is None or net[1] is None or net[2] is None:
+        return "unknown"
+    word = "faster" if net[1] > 1 else "slower" if net[2] < 1 else "undecided"
+    return f"{interval(net)} {word}"
+
+
+def gains(results):
+    base = results["plan"]["methods"][0]
+    others = results["plan"]["methods"][1:]
+    rows = [f"## To the same error\nHow many times less time than `{base}` a method needs to the same error; below 1 it needs more.\n",
+            "| scene | back end | " + " | ".join(f"`{m}`" for m in others) + " |", "| --- " * (len(others) + 2) + "|"]
+    cells = {(c["scene"], c["backend"], c["method"]): verdict(c) for c in results["comparisons"]}
+    for scene, backend in sorted({(s, b) for s, b, _ in cells}):
+        rows.append(f"| `{scene}` | {backend} | " + " | ".join(cells.get((scene, backend, m), "") for m in others) + " |")
+    return "\n".join(rows) + "\n\n"
+
+
+def ends(results):
+    rows = ["## Runs\n", "| scene | back end | method | runs | relMSE at the end | seconds | samples per second | bias | invalid |",
+            "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    for s in results["summary"]:
+        per_sample = s["seconds_per_sample"][0]
+        rate = f"{1 / per_sample:.3g}" if per_sample else "unknown"
+        bias = "unknown" if s["relative_bias"][0] is None else f"{100 * s['relative_bias'][0]:+.2g} %"
+        rows.append(f"| `{s['scene']}` | {s['backend']} | `{s['method']}` | {s['runs']} | {interval(s['relmse'])} | "
+                    f"{s['seconds'][0]:.3g} | {rate} | {bias} | {s['invalid_samples']} |")
+    return "\n".join(rows) + "\n\n"
+
+
+def plots(results, folder):
+    PLOTS.mkdir(parents=True, exist_ok=True)
+    for old in PLOTS.glob("*.svg"):
+        old.unlink()
+    rows = ["## Error against seconds\n"]
+    for scene in results["plan"]["scenes"]:
+        name = f"{scene['name']}-time.svg"
+        shutil.copy(folder / name, PLOTS / name)
+        rows.append(f'<img src="images/results/{name}" width="400" alt="{scene["name"]}: error against seconds">')
+    return "\n".join(rows) + "\n"
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    folder = Path(sys.argv[1])
+    results = json.loads((folder / "results.json").read_text())
+    if not results["complete"]:
+        sys.exit(f"{folder}: the bench is not complete; run it again, it goes on where it was")
+    text = head(results) + gains(results) + ends(results) + plots(results, folder)
+    (DOCS / "results.md").write_text(text)
+
+
+if __name__ == "__main__":
+    main()
