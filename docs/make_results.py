@@ -37,7 +37,7 @@ learning are charged. Made by [make_results.py](make_results.py) of one bench.
 * relMSE is {results['definitions']['metrics']['relmse']} with epsilon {results['definitions']['metrics']['epsilon']};
   against a reference in two halves, so that the reference's own noise drops out. Intervals: {results['definitions']['intervals']}.
 * Pictures are small and runs short, so that all of this fits into minutes; publishing what was learned costs the same per pass at any size,
-  and weighs less in larger pictures.
+  and weighs less in larger pictures. `precomputed` ends after its first sample where precomputing takes longer than the limit.
 
 """
 
