@@ -42,7 +42,7 @@ public:
 
     BackendInfo info() const override {
         return {.name = "cpu",
-                .device = cpu_name(),
+                .device = device_,
                 .intersector = tracer_ ? tracer_->name() : "none",
                 .threads = settings_.threads};
     }
@@ -179,6 +179,7 @@ private:
     }
 
     CpuSettings settings_;
+    std::string device_ = cpu_name();  ///< read once: info() is asked for after every pass
     std::shared_ptr<const HostScene> scene_;
     std::optional<BatchTracer> tracer_;
     std::shared_ptr<const HostVolumes> volumes_;

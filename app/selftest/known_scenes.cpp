@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/selftest/form_factors.h"
+
 namespace pl {
 namespace {
 
@@ -50,23 +52,6 @@ SceneDescription floor_with_lamp(const Corners& lamp, glm::vec3 lamp_radiance, g
     return scene;
 }
 
-/// Form factor to a rectangle of sides a and b in a parallel plane at distance c, one corner right above.
-double parallel_corner(double a, double b, double c) {
-    const double x = a / c;
-    const double y = b / c;
-    return (x / std::hypot(1.0, x) * std::atan(y / std::hypot(1.0, x)) +
-            y / std::hypot(1.0, y) * std::atan(x / std::hypot(1.0, y))) /
-           (2.0 * kPrecisePi);
-}
-
-/// Form factor to a rectangle b wide and a high at a right angle at distance c, one lower corner right in front.
-double perpendicular_corner(double a, double b, double c) {
-    const double x = a / b;
-    const double y = c / b;
-    const double diagonal = std::hypot(x, y);
-    return (std::atan(1.0 / y) - y / diagonal * std::atan(1.0 / diagonal)) / (2.0 * kPrecisePi);
-}
-
 }  // namespace
 
 SceneDescription furnace(glm::vec3 emission, float albedo) {
@@ -95,7 +80,7 @@ LampScene lamp_over_floor() {
     const double z = 0.0625;
     double factor = 0.0;
     for (const double a : {0.4 + x, 0.8 - x})
-        for (const double b : {0.3 + z, 0.3 - z}) factor += parallel_corner(a, b, 0.5);
+        for (const double b : {0.3 + z, 0.3 - z}) factor += parallel_corner_factor(a, b, 0.5);
     return {floor_with_lamp(lamp, glm::vec3{1.0f}, {0.125f, 0.0f, 0.0625f}),
             static_cast<double>(kFloorAlbedo) * factor};
 }
@@ -104,7 +89,7 @@ LampScene lamp_beside_floor() {
     const Corners lamp{glm::vec3{-0.5f, 0.0f, 0.0f}, {0.7f, 0.0f, 0.0f}, {0.7f, 0.8f, 0.0f}, {-0.5f, 0.8f, 0.0f}};
     const double x = 0.125;
     const double z = 0.3125;
-    const double factor = perpendicular_corner(0.8, 0.7 - x, z) + perpendicular_corner(0.8, 0.5 + x, z);
+    const double factor = perpendicular_corner_factor(0.8, 0.7 - x, z) + perpendicular_corner_factor(0.8, 0.5 + x, z);
     return {floor_with_lamp(lamp, glm::vec3{1.0f}, {0.125f, 0.0f, 0.3125f}),
             static_cast<double>(kFloorAlbedo) * factor};
 }

@@ -1,6 +1,5 @@
 #include "core/io/image.h"
 
-
 #include <fmt/format.h>
 
 #include "core/base/error.h"

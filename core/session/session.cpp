@@ -84,9 +84,7 @@ void Session::begin_film(FilmSlot slot) {
 
 FeatureSet Session::needed_features() const { return pl::needed_features(*packed_, settings_); }
 
-ServedKernel Session::served_kernel() const {
-    return pl::served_kernel(backend_->info().name, *packed_, settings_);
-}
+ServedKernel Session::served_kernel() const { return pl::served_kernel(backend_->info().name, *packed_, settings_); }
 
 PathSettings Session::path_settings() const {
     const float guided =
@@ -121,7 +119,7 @@ Progress Session::precompute_slice(const StopFlag* stop) {
     const auto slices = static_cast<std::uint32_t>(settings_.field.precompute_samples);
     const PassCounters counters =
         backend_->precompute({.method = settings_.method,
-                              .features = served_kernel().served,
+                              .features = needed_features().with(settings_.forced_effects),
                               .path = path,
                               .sample = state.precomputed_slices,
                               .strata_side = static_cast<std::uint32_t>(std::lround(std::sqrt(slices))),
@@ -162,7 +160,7 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
     state.origin.forced = state.origin.forced.with(settings_.forced_effects);
     const PassCounters counters =
         backend_->run_pass({.slot = target,
-                            .features = served_kernel().served,
+                            .features = needed_features().with(settings_.forced_effects),
                             .path = path_settings(),
                             .camera = make_camera(settings_.camera, settings_.width, settings_.height),
                             .mixture = mixture_of(target.method),

@@ -1,10 +1,10 @@
 // Choosing among many lights: frequencies and probabilities, bounds that never lose a light, and less noise for it.
 #include "core/kernel/shading/light_tree.h"
 
-#include "core/kernel/geometry/intersector.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_light_tree.h"
 #include "tests/catch.hpp"
+#include "tests/kernel/light_density.h"
 #include "tests/kernel/many_lights.h"
 #include "tests/kernel/sampling_rule.h"
 
@@ -70,20 +70,7 @@ TEST_CASE("The density of samples of many lights integrates to one over directio
     const HostScene packed = pack_scene(shell());
     const SceneView scene = packed.view();
     REQUIRE_FALSE(scene.light_tree.empty());
-    const BvhIntersector intersector{scene};
-    Uniforms random(2);
-    Moments moments;
-    for (int i = 0; i < 4000000; ++i) {
-        const Ray ray{.origin = Vec3f{0.0f}, .direction = random.direction()};
-        const Hit hit = intersector.closest_hit(ray);
-        double density = 0.0;
-        if (hit.found()) {
-            const SurfacePoint on_light = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
-            density = static_cast<double>(light_pdf_sa<kMany>(scene, ray.origin, on_light, ray.direction));
-        }
-        moments.add(density * 4.0 * 3.14159265358979323846);
-    }
-    CHECK(mean_equals(moments, {1.0, 1e-4}, 0.03));
+    CHECK(mean_equals(density_over_sphere<kMany>(scene), {1.0, 1e-4}, 0.03));
 }
 
 // S1: seed 9, N = 1e6, resolves 3 %; the sum over a grid is good to 1e-3.

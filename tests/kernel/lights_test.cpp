@@ -1,8 +1,8 @@
 // Choosing points on lights: frequencies, densities per area and per solid angle, and weights between strategies.
 #include "core/kernel/shading/lights.h"
 
-#include "core/kernel/geometry/intersector.h"
 #include "tests/catch.hpp"
+#include "tests/kernel/light_density.h"
 #include "tests/kernel/sampling_rule.h"
 #include "tests/kernel/shapes.h"
 
@@ -74,20 +74,7 @@ TEST_CASE("Points on lights are chosen by area and luminance and uniformly in ea
 TEST_CASE("The density of light samples integrates to one over directions") {
     const HostScene packed = pack_scene(three_lights());
     const SceneView scene = packed.view();
-    const BvhIntersector intersector{scene};
-    Uniforms random(2);
-    Moments moments;
-    for (int i = 0; i < 4000000; ++i) {
-        const Ray ray{.origin = Vec3f{0.0f}, .direction = random.direction()};
-        const Hit hit = intersector.closest_hit(ray);
-        double density = 0.0;
-        if (hit.found()) {
-            const SurfacePoint on_light = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
-            density = static_cast<double>(light_pdf_sa(scene, ray.origin, on_light, ray.direction));
-        }
-        moments.add(density * 4.0 * 3.14159265358979323846);
-    }
-    CHECK(mean_equals(moments, {1.0, 1e-4}, 0.03));
+    CHECK(mean_equals(density_over_sphere(scene), {1.0, 1e-4}, 0.03));
 }
 
 TEST_CASE("Every number chooses a light and zero-width ones never") {

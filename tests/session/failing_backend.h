@@ -42,6 +42,7 @@ public:
     }
     PassCounters precompute(const PrecomputeRequest& request) override { return inner_->precompute(request); }
     void publish(MethodId method) override { inner_->publish(method); }
+
 private:
     void check(Failure asked) const {
         if (failure == asked) throw Error(ErrorKind::Unavailable, "the device is gone");

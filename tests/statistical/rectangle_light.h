@@ -1,33 +1,10 @@
 // A rectangular lamp over or beside a gray floor: radiance of the floor in closed form.
 #pragma once
 
-#include <cmath>
-
+#include "app/selftest/form_factors.h"
 #include "tests/statistical/scenes.h"
 
 namespace pl::test {
-
-/// Form factor from a point to a rectangle of sides a and b in a parallel plane at distance c, one corner of which
-/// is right above the point: irradiance over pi times the radiance. Odd in a and in b, so that corners of
-/// rectangles elsewhere add up.   [Howell, Catalog of Radiation Transfer Configuration Factors, B-3]
-inline double parallel_corner_factor(double a, double b, double c) {
-    constexpr double kTwoPi = 6.283185307179586;
-    const double x = a / c;
-    const double y = b / c;
-    return (x / std::hypot(1.0, x) * std::atan(y / std::hypot(1.0, x)) +
-            y / std::hypot(1.0, y) * std::atan(x / std::hypot(1.0, y))) /
-           kTwoPi;
-}
-
-/// Form factor from a point to a perpendicular rectangle whose lower side lies in the point's own plane, at distance
-/// c, and starts right in front of the point: b wide, a high. Odd in b.   [Howell, B-4]
-inline double perpendicular_corner_factor(double a, double b, double c) {
-    constexpr double kTwoPi = 6.283185307179586;
-    const double x = a / b;
-    const double y = c / b;
-    const double diagonal = std::copysign(std::hypot(x, y), b);
-    return (std::atan(1.0 / y) - y / diagonal * std::atan(1.0 / diagonal)) / kTwoPi;
-}
 
 /// A lamp of radiance 1 that only emits, and a floor y = 0 of albedo 0.6 that only reflects. Nothing else.
 struct LampOverFloor {

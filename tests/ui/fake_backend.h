@@ -159,6 +159,7 @@ public:
             tables.visits[i] += tables.pending_count[i];
         }
     }
+
 private:
     struct Film {
         int width = 0;

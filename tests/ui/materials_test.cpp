@@ -4,36 +4,18 @@
 
 #include "core/measure/picture_identity.h"
 #include "tests/catch.hpp"
-#include "tests/ui/fake_backend.h"
+#include "tests/ui/model_bench.h"
 #include "ui/edit_queue.h"
-#include "ui/viewer_model.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
 
-struct MaterialBench {
-    FakeDevices devices;
-    ViewerOptions options;
-    double clock = 0.0;
+struct MaterialBench : ModelBench {
     std::shared_ptr<const SceneDescription> asked_scene;  ///< that a reference was last looked for
 
-    MaterialBench() {
-        options.scene_name = "small";
-        options.settings.width = 16;
-        options.settings.height = 16;
-        options.settings.camera = small_scene()->camera;
-        options.make_backend = devices.maker();
-        devices.cpu->pass_microseconds = 200;
-    }
-    template <class Condition>
-    bool run_until(ViewerModel& model, Condition&& condition) {
-        return eventually([&] {
-            model.update(clock += 1.0 / 60.0);
-            return condition();
-        });
-    }
+    MaterialBench() : ModelBench(16) {}
 };
 
 MaterialDescription with_albedo(MaterialDescription material, float value) {

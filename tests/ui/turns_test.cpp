@@ -1,7 +1,7 @@
 // Two methods in turns on the render thread, and how the viewer shows and ends them; over fake back ends.
 #include "tests/catch.hpp"
+#include "tests/ui/model_bench.h"
 #include "tests/ui/worker_bench.h"
-#include "ui/viewer_model.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -15,28 +15,10 @@ bool both_rendered(const RenderWorker& worker, std::uint32_t passes) {
     return status.turns && status.turns->passes[0] >= passes && status.turns->passes[1] >= passes;
 }
 
-/// Options of a viewer over fake back ends, and its frames one after the other.
-struct ModelBench {
-    FakeDevices devices;
-    ViewerOptions options;
-    double clock = 0.0;
-
-    ModelBench() {
-        options.scene_name = "small";
-        options.settings.width = kSize;
-        options.settings.height = kSize;
-        options.settings.camera = small_scene()->camera;
+struct TurnsBench : ModelBench {
+    TurnsBench() : ModelBench(kSize) {
         options.settings.field.volumes = 16;
         options.settings.field.bins = 16;
-        options.make_backend = devices.maker();
-        devices.cpu->pass_microseconds = 200;
-    }
-    template <class Condition>
-    bool run_until(ViewerModel& model, Condition&& condition) {
-        return eventually([&] {
-            model.update(clock += 1.0 / 60.0);
-            return condition();
-        });
     }
 };
 
@@ -101,7 +83,7 @@ TEST_CASE("Turns on the render thread: limits end them, pauses hold them") {
 }
 
 TEST_CASE("Viewer model: in turns the picture is split, and each side keeps the newest frame of its method") {
-    ModelBench bench;
+    TurnsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
     model.set_method(MethodId::Reinforcement);
@@ -117,7 +99,7 @@ TEST_CASE("Viewer model: in turns the picture is split, and each side keeps the 
 }
 
 TEST_CASE("Viewer model: choosing a method ends turns, with that method") {
-    ModelBench bench;
+    TurnsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
     model.set_turns(true);  // default, and what is compared with it

@@ -1,0 +1,31 @@
+// Options of a viewer over fake back ends, and its frames one after the other.
+#pragma once
+
+#include "tests/ui/fake_backend.h"
+#include "ui/viewer_model.h"
+
+namespace pl::test {
+
+struct ModelBench {
+    FakeDevices devices;
+    ViewerOptions options;
+    double clock = 0.0;
+
+    explicit ModelBench(int size) {
+        options.scene_name = "small";
+        options.settings.width = size;
+        options.settings.height = size;
+        options.settings.camera = small_scene()->camera;
+        options.make_backend = devices.maker();
+        devices.cpu->pass_microseconds = 200;
+    }
+    template <class Condition>
+    bool run_until(ViewerModel& model, Condition&& condition) {
+        return eventually([&] {
+            model.update(clock += 1.0 / 60.0);
+            return condition();
+        });
+    }
+};
+
+}  // namespace pl::test
