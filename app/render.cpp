@@ -8,8 +8,10 @@
 #include "app/open_scene.h"
 #include "app/parse_values.h"
 #include "app/picture_file.h"
+#include "app/progress.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
+#include "app/trouble_file.h"
 #include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/measure/picture_identity.h"
@@ -23,6 +25,16 @@ void require_outputs(const Options& options) {
     require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
+    if (options.trouble_file.empty()) return;
+    image_kind(options.trouble_file);
+    require_writable(options.trouble_file);
+}
+
+/// Throws Error(Usage) if trouble is looked for where there are no paths.
+void require_paths(const Options& options) {
+    if (!options.trouble_file.empty() && options.render.view != View::Beauty)
+        throw Error(ErrorKind::Usage, fmt::format("--trouble: expected --view beauty, got '{}', which has no paths",
+                                                  info_of(options.render.view).name));
 }
 
 /// Empty without --target-error. Throws Error(Input) if a reference is asked for that is not there.
@@ -82,6 +94,20 @@ void require_target(ErrorTarget* target, const RunOutcome& outcome) {
                             name_of(outcome.ended_by)));
 }
 
+/// Writes where something went wrong, and puts it into the statistics. False if an interruption came first: then it is what
+/// was found by then.
+bool look_for_trouble(const TroubleSource& source, const Snapshot& snapshot, const Options& options,
+                      const ImageMetadata& metadata, const InterruptGuard& interrupt, Console& console, Json& stats) {
+    ProgressDisplay progress(console, !options.no_progress && !options.quiet);
+    const TroubleMap found = find_trouble(source, options.threads, interrupt.flag(), [&](double share) {
+        progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
+    });
+    save_trouble(options.trouble_file, snapshot, options.display, found, metadata);
+    stats["trouble"] = trouble_json(snapshot, &found);
+    console.remark(fmt::format("{}: {}\n", options.trouble_file, summary_of(found)));
+    return found.is_complete;
+}
+
 void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted,
             const ErrorTarget* target, Console& console) {
     const double seconds = snapshot.clocks.total();
@@ -103,6 +129,9 @@ void report(const Snapshot& snapshot, const Options& options, const Json& stats,
     if (snapshot.counters.invalid_samples > 0)
         console.log().warning(
             fmt::format("{} samples were NaN, infinite or negative and left out", snapshot.counters.invalid_samples));
+    if (snapshot.is_closed && snapshot.counters.path.escaped > 0)
+        console.log().warning(fmt::format("{} paths escaped although closed surfaces surround the camera",
+                                          snapshot.counters.path.escaped));
 }
 
 }  // namespace
@@ -113,6 +142,7 @@ int run_render(const CommandLine& line, Console& console) {
     const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
+    require_paths(options);
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
@@ -123,14 +153,17 @@ int run_render(const CommandLine& line, Console& console) {
     const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Rendered, aim);
     if (aim != nullptr) aim->look_at_last(session);
     const Snapshot snapshot = session.snapshot();
-    const Json stats = stats_json(session, snapshot, options, outcome, aim);
+    Json stats = stats_json(session, snapshot, options, outcome, aim);
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
-    save_picture(options.output, snapshot, options.display,
-                 metadata_of(session, snapshot, stats, command, outcome.interrupted()));
+    const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
+    save_picture(options.output, snapshot, options.display, metadata);
+    const bool has_looked =
+        options.trouble_file.empty() ||
+        look_for_trouble(session.trouble_source(), snapshot, options, metadata, interrupt, console, stats);
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, console);
-    if (outcome.interrupted()) return kExitInterrupted;
+    if (outcome.interrupted() || !has_looked) return kExitInterrupted;
     require_target(aim, outcome);
     return 0;
 }

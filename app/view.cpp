@@ -16,6 +16,7 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/picture_file.h"
+#include "app/selftest/self_test.h"
 #include "app/viewer_references.h"
 #include "core/io/field_file.h"
 #include "core/io/load_scene.h"
@@ -153,10 +154,12 @@ void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& o
     viewer.find_reference = [](const OpenScene& scene, const RenderSettings& settings) {
         return find_viewer_reference(kViewerReferences, *scene.description, settings);
     };
-    viewer.make_reference = [&](const OpenScene& scene, const RenderSettings& settings,
-                                const ReferenceMonitor& monitor) {
+    viewer.make_reference = [&](const OpenScene& scene, const RenderSettings& settings, const JobMonitor& monitor) {
         return make_viewer_reference(kViewerReferences, scene.name, scene.description, settings,
                                      viewer_threads(options.threads), monitor);
+    };
+    viewer.run_self_test = [&](const JobMonitor& monitor, const std::function<void(const SelfCheck&)>& told) {
+        (void)run_self_test(available_backends(), viewer_threads(options.threads), told, monitor.stop);
     };
     viewer.save_screen = [](const std::filesystem::path& path, const ScreenPixels& pixels) {
         write_png8(path, {.width = pixels.width, .height = pixels.height, .rgb = pixels.rgb});

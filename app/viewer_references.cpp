@@ -49,7 +49,7 @@ std::shared_ptr<const StoredReference> make_viewer_reference(const std::filesyst
                                                              const std::string& scene_name,
                                                              const std::shared_ptr<const SceneDescription>& scene,
                                                              const RenderSettings& settings, int threads,
-                                                             const ReferenceMonitor& monitor) {
+                                                             const JobMonitor& monitor) {
     Session session(make_backend("cpu", threads), scene, reference_settings(settings));
     const ReferenceOutcome outcome =
         make_reference(session,

@@ -22,6 +22,6 @@ std::shared_ptr<const StoredReference> make_viewer_reference(const std::filesyst
                                                              const std::string& scene_name,
                                                              const std::shared_ptr<const SceneDescription>& scene,
                                                              const RenderSettings& settings, int threads,
-                                                             const ReferenceMonitor& monitor);
+                                                             const JobMonitor& monitor);
 
 }  // namespace pl

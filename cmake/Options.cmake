@@ -18,8 +18,9 @@ target_include_directories(pl_options INTERFACE "${PROJECT_SOURCE_DIR}")
 # Same source, same bits: no fused multiply-add unless it is written, and never value-changing optimization, also
 # when CXXFLAGS asks for it. errno and trap flags are never read, and giving them up lets loops vectorize; it
 # changes no value. No -march=native: hot loops are cloned per instruction set inside the back end.
-target_compile_options(pl_options INTERFACE
-    $<$<COMPILE_LANGUAGE:CXX>:-fno-fast-math;-ffp-contract=off;-fno-math-errno;-fno-trapping-math>)
+set(pl_exact_flags -fno-fast-math -ffp-contract=off -fno-math-errno -fno-trapping-math)
+target_compile_options(pl_options INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:${pl_exact_flags}>")
+include("${CMAKE_CURRENT_LIST_DIR}/Arithmetic.cmake")
 
 if(PL_FUZZ)
     if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang" OR PL_TESTS STREQUAL "ON")

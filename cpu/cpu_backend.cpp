@@ -78,6 +78,7 @@ public:
     }
     FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, settings_.threads); }
     FilmReading read_halves(FilmSlot slot) const override { return films_.read_halves(slot, settings_.threads); }
+    std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const override { return films_.invalid_samples(slot); }
     DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override {
         return films_.show(slot, style, settings_.threads);
     }

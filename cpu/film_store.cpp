@@ -28,6 +28,12 @@ FilmReading FilmStore::read(FilmSlot slot, int threads) const { return read<fals
 
 FilmReading FilmStore::read_halves(FilmSlot slot, int threads) const { return read<true>(slot, threads); }
 
+std::vector<std::uint32_t> FilmStore::invalid_samples(FilmSlot slot) const {
+    std::vector<std::uint32_t> counts;
+    for (const FilmPixel& pixel : films_.existing(slot).pixels) counts.push_back(pixel.invalid);
+    return counts;
+}
+
 /// All pictures in one go over the film, which is larger than the cache.
 template <bool kHalves>
 FilmReading FilmStore::read(FilmSlot slot, int threads) const {

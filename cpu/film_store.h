@@ -14,6 +14,7 @@ public:
     FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
     FilmReading read(FilmSlot slot, int threads) const;
     FilmReading read_halves(FilmSlot slot, int threads) const;
+    std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const;
     DisplayFrame show(FilmSlot slot, const FrameStyle& style, int threads);
     float largest_value(FilmSlot slot, int threads);
 

@@ -68,6 +68,9 @@ public:
     void reset_film(FilmSlot slot, int width, int height) override { films_.reset(slot, width, height, stream_); }
     FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, stream_); }
     FilmReading read_halves(FilmSlot slot) const override { return films_.read_halves(slot, stream_); }
+    std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const override {
+        return films_.invalid_samples(slot, stream_);
+    }
     DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override {
         return films_.show(slot, style, stream_);
     }

@@ -22,6 +22,17 @@ FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const { retur
 
 FilmReading DeviceFilms::read_halves(FilmSlot slot, const Stream& stream) const { return read(slot, 2, stream); }
 
+/// The film as it is: asked for by a person, who can wait for 64 bytes a pixel.
+std::vector<std::uint32_t> DeviceFilms::invalid_samples(FilmSlot slot, const Stream& stream) const {
+    auto& film = films_.existing(slot);
+    std::vector<FilmPixel> pixels;
+    film.pixels.download(pixels, stream);
+    stream.wait("reading the invalid samples of a film");
+    std::vector<std::uint32_t> counts;
+    for (const FilmPixel& pixel : pixels) counts.push_back(pixel.invalid);
+    return counts;
+}
+
 FilmReading DeviceFilms::read(FilmSlot slot, std::uint32_t halves, const Stream& stream) const {
     auto& film = films_.existing(slot);
     const auto pixels = static_cast<std::uint32_t>(film.pixels.size());

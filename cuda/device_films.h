@@ -16,6 +16,7 @@ public:
     FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
     FilmReading read(FilmSlot slot, const Stream& stream) const;
     FilmReading read_halves(FilmSlot slot, const Stream& stream) const;
+    std::vector<std::uint32_t> invalid_samples(FilmSlot slot, const Stream& stream) const;
     /// The frame is made in `stream` and travels in one of its own.
     DisplayFrame show(FilmSlot slot, const FrameStyle& style, const Stream& stream);
     float largest_value(FilmSlot slot, const Stream& stream);

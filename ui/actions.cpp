@@ -64,6 +64,7 @@ constexpr std::array kActions{
     Action{CellsFainter, ActionGroup::Overlay, ";", "fainter tint", {at(SDL_SCANCODE_SEMICOLON)}},
     Action{CellsStronger, ActionGroup::Overlay, "'", "stronger tint", {at(SDL_SCANCODE_APOSTROPHE)}},
     Action{Hemisphere, ActionGroup::Overlay, "H", "hemisphere of the selected volume", {sign(SDLK_h)}},
+    Action{ShowTrouble, ActionGroup::Overlay, "T", "where samples were invalid, paths lost, ...", {sign(SDLK_t)}},
 
     Action{Accuracy, ActionGroup::Compare, "P", "accuracy panel: error against time", {sign(SDLK_p)}},
     Action{CompareNext, ActionGroup::Compare, "C", "compare two pictures: next mode", {sign(SDLK_c)}},
@@ -77,6 +78,7 @@ constexpr std::array kActions{
     Action{HidePanels, ActionGroup::Window, "Tab", "hide or show the panels", {at(SDL_SCANCODE_TAB)}},
     Action{FullScreen, ActionGroup::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
     Action{Help, ActionGroup::Window, "F1 or ?", "this list", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
+    Action{SelfTest, ActionGroup::Window, "F2", "self test: does this machine compute right?", {at(SDL_SCANCODE_F2)}},
     Action{Cancel, ActionGroup::Window, "Esc", "close, cancel or deselect", {at(SDL_SCANCODE_ESCAPE)}},
 
     Action{Reload, ActionGroup::File, "F5", "reload the scene", {at(SDL_SCANCODE_F5)}},

@@ -18,7 +18,10 @@ void ImageLayer::fill(const ViewerModel& model, const Key& key) {
     }
     CellOverlay overlay{frame.cells.get(), key.opacity, std::nullopt};
     if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_.view());
-    texture_.fill([&](std::uint32_t* out, std::size_t pitch) { write_picture(frame.picture, overlay, out, pitch); });
+    texture_.fill([&](std::uint32_t* out, std::size_t pitch) {
+        write_picture(frame.picture, overlay, out, pitch);
+        if (key.trouble) mark_trouble(*key.trouble, out, pitch);
+    });
 }
 
 void ImageLayer::draw(const ViewerModel& model, const Rect& image) {
@@ -26,7 +29,7 @@ void ImageLayer::draw(const ViewerModel& model, const Rect& image) {
     const Snapshot& snapshot = model.frame()->snapshot;
     if (texture_.resize(snapshot.width, snapshot.height)) key_ = {};
     const Key key{model.frame()->serial, model.window().cells ? model.window().cells_opacity : 0.0f,
-                  model.selected_volume()};
+                  model.selected_volume(), model.trouble()};
     if (!(key == key_)) {
         fill(model, key);
         key_ = key;

@@ -61,6 +61,7 @@ void perform(ViewerModel& model, ActionId action) {
     case ActionId::CellsFainter: step_opacity(model, -kOpacityStep); break;
     case ActionId::CellsStronger: step_opacity(model, kOpacityStep); break;
     case ActionId::Hemisphere: window.hemisphere = !window.hemisphere; break;
+    case ActionId::ShowTrouble: model.toggle_trouble(); break;
     case ActionId::Accuracy: window.accuracy = !window.accuracy; break;
     case ActionId::CompareNext: model.step_compare(1); break;
     case ActionId::CompareBack: model.step_compare(-1); break;
@@ -69,6 +70,7 @@ void perform(ViewerModel& model, ActionId action) {
     case ActionId::MakeReference: model.make_reference(); break;
     case ActionId::HidePanels: window.panels = !window.panels; break;
     case ActionId::Help: window.help = !window.help; break;
+    case ActionId::SelfTest: window.self_test = !window.self_test; break;
     case ActionId::FullScreen: window.full_screen_asked = true; break;
     case ActionId::Reload: model.reload(); break;
     case ActionId::Screenshot: model.save_screenshot(); break;

@@ -11,6 +11,7 @@
 #include "core/measure/paired_cost.h"
 #include "core/scene/pack_scene.h"
 #include "core/session/shown_range.h"
+#include "core/session/trouble.h"
 #include "ui/viewer.h"
 
 namespace pl {
@@ -90,6 +91,13 @@ struct WorkerMessage {
 struct LearnedAnswer {
     std::shared_ptr<const LearnedField> field;  ///< null if there is none
     std::string reason;                         ///< why there is none
+};
+
+/// Answer to RenderWorker::request_trouble.
+struct TroubleAnswer {
+    std::optional<TroubleSource> source{};  ///< none if the picture has nothing to look at
+    std::string reason{};                   ///< why not
+    std::uint64_t generation = 0;           ///< of the newest edit that the picture shows
 };
 
 /// Answer to RenderWorker::request_pick.

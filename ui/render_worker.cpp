@@ -141,6 +141,12 @@ void RenderWorker::request_learned() {
     wake_.notify_all();
 }
 
+void RenderWorker::request_trouble() {
+    const std::lock_guard lock(mutex_);
+    wishes_.trouble = true;
+    wake_.notify_all();
+}
+
 void RenderWorker::select_volume(std::int32_t volume) {
     const std::lock_guard lock(mutex_);
     wishes_.volume = volume;
@@ -176,6 +182,11 @@ std::optional<PickAnswer> RenderWorker::take_pick() {
 std::optional<LearnedAnswer> RenderWorker::take_learned() {
     const std::lock_guard lock(mutex_);
     return std::exchange(learned_answer_, std::nullopt);
+}
+
+std::optional<TroubleAnswer> RenderWorker::take_trouble() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(trouble_answer_, std::nullopt);
 }
 
 std::exception_ptr RenderWorker::failure() const {

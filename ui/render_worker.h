@@ -92,6 +92,8 @@ public:
     void request_pick(Vec2f image_point);
     /// Asks for what the method has learned, after the pass under way.
     void request_learned();
+    /// Asks for what it takes to look for trouble in the picture, after the pass under way.
+    void request_trouble();
     /// The volume whose inspection frames carry; kNoVolume for none.
     void select_volume(std::int32_t volume);
 
@@ -104,6 +106,7 @@ public:
     std::vector<WorkerMessage> take_messages();
     std::optional<PickAnswer> take_pick();
     std::optional<LearnedAnswer> take_learned();
+    std::optional<TroubleAnswer> take_trouble();
     /// What ended the thread, or null. Only a session that cannot be made ends it.
     std::exception_ptr failure() const;
 
@@ -122,6 +125,7 @@ private:
         std::int32_t volume = kNoVolume;
         std::optional<Vec2f> pick;
         bool learned = false;
+        bool trouble = false;
         std::optional<TurnMethods> turns;
         std::optional<FeatureSet> trial;  ///< effects that are measured
         std::shared_ptr<const LiveReference> reference;
@@ -160,6 +164,7 @@ private:
     void render_cells();
     void answer_pick(Vec2f image_point);
     void answer_learned();
+    void answer_trouble();
     void refresh_inspection();
     void publish();
     bool publish_is_due() const;
@@ -183,6 +188,7 @@ private:
     std::vector<WorkerMessage> messages_;
     std::optional<PickAnswer> pick_answer_;
     std::optional<LearnedAnswer> learned_answer_;
+    std::optional<TroubleAnswer> trouble_answer_;
     std::shared_ptr<const LiveRunSet> run_set_;
     std::shared_ptr<const PublishedFrame> frame_;
     bool frame_taken_ = true;

@@ -61,6 +61,12 @@ std::string measured_pairs(const ViewerModel& model) {
     return fmt::format("{}", cost != nullptr ? cost->result.pairs : 0);
 }
 
+/// What is marked in the picture.
+std::string trouble_found(const ViewerModel& model) {
+    const auto map = model.trouble();
+    return map ? summary_of(*map) : "not looked for";
+}
+
 std::string turn_passes(const ViewerModel& model, std::size_t side) {
     return fmt::format("{}", model.status().turns ? model.status().turns->passes[side] : 0);
 }
@@ -167,6 +173,10 @@ constexpr std::array kValues{
           }},
     Value{"kernel",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
+    Value{"trouble", trouble_found},
+    Value{"searching", [](const ViewerModel& m) { return word(m.trouble_share().has_value()); }},
+    Value{"selftest", [](const ViewerModel& m) { return std::string(name_of(m.self_test().outcome())); }},
+    Value{"checks", [](const ViewerModel& m) { return fmt::format("{}", m.self_test().checks().size()); }},
     Value{"invalid",
           [](const ViewerModel& m) {
               return shown(

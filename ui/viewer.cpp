@@ -11,11 +11,10 @@
 
 #include "core/base/error.h"
 #include "ui/compare/compare_layer.h"
+#include "ui/draw_interface.h"
 #include "ui/gui.h"
 #include "ui/image_layer.h"
 #include "ui/input_router.h"
-#include "ui/overlays/overlays.h"
-#include "ui/panels/panels.h"
 #include "ui/script_player.h"
 #include "ui/ui_trace.h"
 
@@ -212,8 +211,8 @@ void Viewer::build_panels() {
     image_ = image_layer_.place(model_, layout_.view);
     plan_ = model_.compare_plan(layout_.view);
     model_.window().values_shown = false;  // the tab sets it again if it shows some
+    std::optional<HoveredPixel> hovered;
     if (layout_.panels) {
-        std::optional<HoveredPixel> hovered;
         const PublishedFrame* frame = model_.frame();
         if (frame != nullptr && plan_.at_image && image_.contains(input_.pointer()) &&
             !ImGui::GetIO().WantCaptureMouse) {
@@ -224,17 +223,8 @@ void Viewer::build_panels() {
                 std::min(static_cast<int>(at.y / image_.height * static_cast<float>(frame->snapshot.height)),
                          frame->snapshot.height - 1)};
         }
-        draw_menu_bar(model_, layout_);
-        draw_settings_panel(model_, layout_);
-        draw_knowledge_panel(model_, layout_, hovered);
-        if (layout_.accuracy.height > 0.0f) draw_accuracy_panel(model_, layout_);
-        draw_status_bar(model_, layout_);
     }
-    if (plan_.at_image) draw_hemisphere(model_, image_);
-    draw_comparison(model_, plan_);
-    if (layout_.panels) draw_badges(model_, layout_, plan_);
-    draw_toasts(model_, layout_, plan_);
-    draw_help(model_, layout_);
+    draw_interface(model_, layout_, image_, plan_, hovered);
 }
 
 void Viewer::do_window_wishes() {

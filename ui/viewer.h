@@ -15,6 +15,7 @@
 #include "core/scene/description.h"
 #include "core/session/backend.h"
 #include "core/session/learned_field.h"
+#include "core/session/self_check.h"
 #include "core/session/settings.h"
 #include "core/session/snapshot.h"
 
@@ -65,10 +66,11 @@ struct StoredReference {
     double noise_relmse = 0.0;           ///< of the mean of both
 };
 
-/// How making a reference is followed; both may be called from its thread at any time.
-struct ReferenceMonitor {
+/// How work in the background is followed; both functions may be called from its threads at any time.
+struct JobMonitor {
     std::function<bool()> stopped;
     std::function<void(double share, const std::string& detail)> progress;
+    const StopFlag* stop = nullptr;  ///< says what `stopped` says, for work that takes a flag
 };
 
 /// 8-bit RGB, rows from the top without padding.
@@ -118,9 +120,11 @@ struct ViewerOptions {
     std::function<std::shared_ptr<const StoredReference>(const OpenScene&, const RenderSettings&)> find_reference;
     /// Goes on with the stored reference until it is converged or the monitor says stop, and stores it. Null if there
     /// are no samples in both halves yet.
-    std::function<std::shared_ptr<const StoredReference>(const OpenScene&, const RenderSettings&,
-                                                         const ReferenceMonitor&)>
+    std::function<std::shared_ptr<const StoredReference>(const OpenScene&, const RenderSettings&, const JobMonitor&)>
         make_reference;
+    /// Runs the self test on every back end that is there, and calls `told` after each check. Throws what a back end throws. On
+    /// a thread of its own.
+    std::function<void(const JobMonitor&, const std::function<void(const SelfCheck&)>& told)> run_self_test;
     /// The shell command that renders what is shown.
     std::function<std::string(const ViewerPicture&)> command_line;
 };

@@ -47,6 +47,8 @@ void ViewerModel::update(double seconds) {
     take_effects();
     take_pick();
     take_learned();
+    take_trouble();
+    take_self_test();
     for (const JobThread::Report& report : jobs_.take_reports())
         if (report) report();
     std::erase_if(toasts_, [&](const Toast& toast) { return toast.until <= now_; });
@@ -235,10 +237,16 @@ void ViewerModel::forget() {
 void ViewerModel::cancel() {
     if (window_.help)
         window_.help = false;
+    else if (window_.self_test && self_test_.is_running())
+        stop_self_test();
+    else if (window_.self_test)
+        window_.self_test = false;
     else if (status_.state == WorkerState::Precomputing)
         cancel_precomputation();
     else if (reference_job_)
         stop_reference();
+    else if (trouble_.is_searching() || trouble())
+        toggle_trouble();
     else if (selected_volume_ != kNoVolume || window_.compare.mode == CompareMode::Off)
         deselect();
     else

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ui/accuracy/accuracy_model.h"
+#include "ui/background_job.h"
 #include "ui/camera_controls.h"
 #include "ui/compare/compare_plan.h"
 #include "ui/edited_materials.h"
@@ -15,8 +16,9 @@
 #include "ui/numbered_names.h"
 #include "ui/overlays/direction_disc.h"
 #include "ui/plot/plot_drag.h"
-#include "ui/reference_job.h"
 #include "ui/render_worker.h"
+#include "ui/self_test_run.h"
+#include "ui/trouble_finder.h"
 #include "ui/viewer.h"
 
 namespace pl {
@@ -45,6 +47,7 @@ struct WindowState {
     Rect plot;               ///< where its curves are
     CompareState compare;
     bool help = false;
+    bool self_test = false;
     bool cells = false;
     float cells_opacity = 0.4f;
     bool hemisphere = true;
@@ -93,7 +96,10 @@ public:
     const WindowState& window() const { return window_; }
     bool paused() const { return paused_; }
     bool moving() const { return moving_; }
-    bool busy() const { return jobs_.pending() > 0 || !unsaved_.empty() || reference_job_ != nullptr; }
+    bool busy() const {
+        return jobs_.pending() > 0 || !unsaved_.empty() || reference_job_ != nullptr || trouble_.is_searching() ||
+               self_test_.is_running();
+    }
     double now() const { return now_; }
     std::int32_t selected_volume() const { return selected_volume_; }
     const std::optional<PickedPoint>& picked() const { return picked_; }
@@ -168,6 +174,18 @@ public:
     /// The present method and what it is compared with render in turns of equal time.
     void set_turns(bool on);
 
+    /// Where something went wrong in the picture; null until that was looked for, and when the picture is another one.
+    std::shared_ptr<const TroubleMap> trouble() const;
+    /// The share of the search that is done; empty if there is none.
+    std::optional<double> trouble_share() const {
+        return trouble_.is_searching() ? std::optional(trouble_.share()) : std::nullopt;
+    }
+    void find_trouble();    ///< rendering rests meanwhile
+    void toggle_trouble();  ///< shows where it was, or ends that
+    const SelfTestRun& self_test() const { return self_test_; }
+    void start_self_test();  ///< rendering rests meanwhile
+    void stop_self_test();
+
     void set_exposure(float ev);
     void set_curve(ToneCurve curve);
     void set_cells(bool on);
@@ -228,6 +246,8 @@ private:
     void look_for_reference();
     void adopt_reference(const std::shared_ptr<const StoredReference>& found);
     void take_reference();
+    void take_trouble();
+    void take_self_test();
     void hold_rendering();
     CompareInput compare_input() const;
     CompareSides sides_in_turns() const;
@@ -275,6 +295,8 @@ private:
 
     RenderWorker worker_;
     std::unique_ptr<ReferenceJob> reference_job_;
+    TroubleFinder trouble_;
+    SelfTestRun self_test_;
     JobThread jobs_;  ///< last: its reports use what is above
 };
 

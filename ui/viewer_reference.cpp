@@ -50,7 +50,7 @@ void ViewerModel::make_reference() {
     }
     set_turns(false);
     reference_job_ = std::make_unique<ReferenceJob>(
-        [this, scene = open_scene(), settings = asked_settings()](const ReferenceMonitor& monitor) {
+        [this, scene = open_scene(), settings = asked_settings()](const JobMonitor& monitor) {
             return options_.make_reference(scene, settings, monitor);
         });
     hold_rendering();
@@ -69,13 +69,15 @@ void ViewerModel::take_reference() {
     hold_rendering();
     if (!result->failure.empty())
         say(LogLevel::Error, "the reference could not be made: " + result->failure);
-    else if (result->reference)
-        adopt_reference(result->reference);
+    else if (result->value)
+        adopt_reference(result->value);
     else
         say(LogLevel::Info, "the reference was ended before both halves had samples");
 }
 
-/// A reference would slow down what is measured: rendering rests meanwhile, and its clocks too.
-void ViewerModel::hold_rendering() { worker_.set_paused(paused_ || reference_job_ != nullptr); }
+/// Work in the background would slow down what is measured: rendering rests meanwhile, and its clocks too.
+void ViewerModel::hold_rendering() {
+    worker_.set_paused(paused_ || reference_job_ != nullptr || trouble_.is_searching() || self_test_.is_running());
+}
 
 }  // namespace pl

@@ -14,12 +14,12 @@
 namespace pl {
 namespace {
 
-void tell(const std::string& backend, const SelfCheck& check, Console& console) {
+void tell(const SelfCheck& check, Console& console) {
     const std::string used =
         check.tolerance > 0.0 ? fmt::format("{:4.0f} % of the tolerance", 100.0 * check.used_share) : "exact";
-    console.result(fmt::format("{:<5} {:<6} {:<58} {:>12.6g} {:>12.6g}  {}\n", backend,
+    console.result(fmt::format("{:<5} {:<6} {:<58} {:>12.6g} {:>12.6g}  {}\n", check.backend,
                                check.passed ? "ok" : "FAILED", check.name, check.expected, check.measured, used));
-    console.event("selfcheck", {{"backend", backend},
+    console.event("selfcheck", {{"backend", check.backend},
                                 {"name", check.name},
                                 {"criterion", check.criterion},
                                 {"passed", check.passed},
@@ -39,16 +39,11 @@ int run_selftest(const CommandLine& line, Console& console) {
         line.options.backend == "auto" ? available_backends() : std::vector{line.options.backend};
     console.result(
         fmt::format("{:<5} {:<6} {:<58} {:>12} {:>12}  {}\n", "", "", "check", "expected", "measured", "margin"));
-    std::size_t run = 0;
-    std::size_t failed = 0;
-    for (const std::string& backend : backends) {
-        const auto told = [&](const SelfCheck& check) { tell(backend, check, console); };
-        const std::vector<SelfCheck> checks =
-            run_self_test(make_backend(backend, line.options.threads), told, interrupt.flag());
-        run += checks.size();
-        failed += static_cast<std::size_t>(
-            std::count_if(checks.begin(), checks.end(), [](const SelfCheck& check) { return !check.passed; }));
-    }
+    const std::vector<SelfCheck> checks = run_self_test(
+        backends, line.options.threads, [&](const SelfCheck& check) { tell(check, console); }, interrupt.flag());
+    const std::size_t run = checks.size();
+    const auto failed = static_cast<std::size_t>(
+        std::count_if(checks.begin(), checks.end(), [](const SelfCheck& check) { return !check.passed; }));
     const double seconds = watch.seconds();
     console.result(fmt::format("{} of {} checks passed in {:.1f} s on {}\n", run - failed, run, seconds,
                                fmt::join(backends, ", ")));

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "app/make_backend.h"
 #include "app/selftest/known_scenes.h"
 #include "core/base/timer.h"
 #include "core/session/session.h"
@@ -72,7 +74,8 @@ private:
     void check(std::string name, std::string criterion, Measure&& measure) {
         if (stopped()) return;
         const Stopwatch watch;
-        SelfCheck result{.name = std::move(name), .criterion = std::move(criterion)};
+        SelfCheck result{
+            .backend = backend_->info().name, .name = std::move(name), .criterion = std::move(criterion)};
         measure(result);
         if (stopped()) return;
         result.seconds = watch.seconds();
@@ -235,6 +238,16 @@ private:
 std::vector<SelfCheck> run_self_test(const std::shared_ptr<RenderBackend>& backend,
                                      const std::function<void(const SelfCheck&)>& told, const StopFlag* stop) {
     return SelfTest(backend, told, stop).run();
+}
+
+std::vector<SelfCheck> run_self_test(const std::vector<std::string>& backends, int threads,
+                                     const std::function<void(const SelfCheck&)>& told, const StopFlag* stop) {
+    std::vector<SelfCheck> all;
+    for (const std::string& backend : backends) {
+        if (stop != nullptr && *stop) break;
+        std::ranges::move(run_self_test(make_backend(backend, threads), told, stop), std::back_inserter(all));
+    }
+    return all;
 }
 
 }  // namespace pl

@@ -8,25 +8,19 @@
 #include <vector>
 
 #include "core/session/backend.h"
+#include "core/session/self_check.h"
 
 namespace pl {
-
-/// One scene, one way to render it, one number that has to come out.
-struct SelfCheck {
-    std::string name;       ///< "lamp over a floor: reinforcement"
-    std::string criterion;  ///< what has to hold, in words
-    double expected = 0.0;
-    double measured = 0.0;
-    double tolerance = 0.0;   ///< how far the two may be apart; 0: they have to be equal
-    double used_share = 0.0;  ///< of the tolerance; of checks without tolerance 0 if they hold, else infinite
-    bool passed = false;
-    double seconds = 0.0;
-};
 
 /// Runs every check on a back end of its own; it needs no files. Calls `told` after each one. Ends early, with what is
 /// done, when `stop` is raised. A statistical check passes only if its samples could have shown an error of the size
 /// that its criterion names, and fails by chance once in a million. Throws what the back end throws.
 std::vector<SelfCheck> run_self_test(const std::shared_ptr<RenderBackend>& backend,
+                                     const std::function<void(const SelfCheck&)>& told = {},
+                                     const StopFlag* stop = nullptr);
+
+/// The same on new back ends of these names, one after the other. `threads` 0: all.
+std::vector<SelfCheck> run_self_test(const std::vector<std::string>& backends, int threads,
                                      const std::function<void(const SelfCheck&)>& told = {},
                                      const StopFlag* stop = nullptr);
 

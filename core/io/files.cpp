@@ -1,18 +1,20 @@
 #include "core/io/files.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <system_error>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/io/temporary_file.h"
 
 namespace pl {
 
@@ -35,23 +37,20 @@ std::string reason(int error_number) { return std::generic_category().message(er
     throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
 }
 
-/// Writes and closes; 0 or the error number.
-int write_all(const fs::path& path, const char* mode, std::string_view bytes) {
-    FileHandle file(std::fopen(path.c_str(), mode));
-    if (!file) {
-        return errno;
-    }
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
-        return errno;
-    }
-    // The buffer is written here: a full disk shows up at the latest in this call.
-    return std::fclose(file.release()) == 0 ? 0 : errno;
+/// Into what is no regular file; 0 or the error number.
+int write_through(const fs::path& path, std::string_view bytes) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+    return file < 0 ? errno : write_and_close(file, bytes);
 }
 
-/// A name in the folder of `path` that no other writer of this machine uses. Short, because names are limited.
-fs::path temporary_beside(const fs::path& path) {
-    static std::atomic<unsigned> counter{0};
-    return path.parent_path() / fmt::format(".pathlight-{}-{}.tmp", ::getpid(), counter.fetch_add(1));
+/// Removes what killed writers have left in a folder, when this process first writes there.
+void clear_once(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> cleared;
+    const std::lock_guard lock(mutex);
+    if (cleared.insert(folder).second) {
+        remove_leftovers(folder);
+    }
 }
 
 }  // namespace
@@ -99,20 +98,14 @@ void write_file_atomic(const fs::path& path, std::string_view bytes) {
         fail_write(path, "it is a directory");
     }
     if (fs::exists(status) && !fs::is_regular_file(status)) {
-        if (const int failed = write_all(target, "wb", bytes)) {
+        if (const int failed = write_through(target, bytes)) {
             fail_write(path, reason(failed));
         }
         return;
     }
-    const fs::path temporary = temporary_beside(target);
-    int failed = write_all(temporary, "wbx", bytes);
-    if (failed == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) {
-        failed = errno;
-    }
-    if (failed != 0) {
-        if (failed != EEXIST) {
-            fs::remove(temporary, ignored);
-        }
+    clear_once(target.parent_path());
+    TemporaryFile file(target);
+    if (const int failed = file.replace_target(bytes)) {
         fail_write(path, reason(failed));
     }
 }

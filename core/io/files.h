@@ -21,7 +21,7 @@ bool stays_inside(const std::filesystem::path& path);
 
 /// Writes a temporary file beside `path` and renames it, so readers see the old content or the new, never a part.
 /// A link is followed; a device or a pipe is written directly. Throws Error(Runtime) with path and reason, and
-/// then leaves nothing behind.
+/// then leaves nothing behind. What killed writers have left in the folder is removed when a process first writes there.
 void write_file_atomic(const std::filesystem::path& path, std::string_view bytes);
 
 /// write_file_atomic() under the name that says what the bytes are.

@@ -16,6 +16,7 @@
 #include "core/io/hdr_check.h"
 #include "core/io/image.h"
 #include "core/io/image_checks.h"
+#include "core/io/image_ends.h"
 
 namespace pl {
 
@@ -56,19 +57,6 @@ void require_size(const fs::path& path, long long width, long long height) {
 
 /// [IEC 61966-2-1]
 float decode_srgb(float code) { return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f); }
-
-/// Fewest bytes of a TGA file, whose decoder takes what is missing for black: all texels, or where they are coded, of each
-/// run of at most 128 a mark and one texel.
-std::size_t least_tga_size(const std::string& bytes, std::size_t texels) {
-    constexpr std::size_t kHeader = 18;
-    if (bytes.size() < kHeader) {
-        return kHeader;
-    }
-    constexpr int kCoded = 8;
-    const bool is_coded = (bytes[2] & kCoded) != 0;
-    const std::size_t texel_bytes = (static_cast<std::size_t>(static_cast<unsigned char>(bytes[16])) + 7) / 8;
-    return kHeader + (is_coded ? (texels + 127) / 128 * (1 + texel_bytes) : texels * texel_bytes);
-}
 
 template <class Sample>
 using StbPixels = std::unique_ptr<Sample, decltype(&stbi_image_free)>;
@@ -116,8 +104,7 @@ RawImage read_by_stb(const fs::path& path, const std::string& suffix) {
         }
         image.texels = unpack(pixels, image, largest);
     };
-    if (suffix == ".tga" && bytes.size() < least_tga_size(bytes, static_cast<std::size_t>(image.width) *
-                                                                     static_cast<std::size_t>(image.height))) {
+    if (ends_early(suffix, bytes, static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height))) {
         fail_image(path, "damaged: it ends too early");
     }
     image.is_ldr = suffix != ".hdr";

@@ -83,8 +83,12 @@ std::vector<Vec3f> pixels_of(const HalfPicture& picture) {
     return pixels;
 }
 
-LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details, double measure_share)
-    : picture_bytes_cap_(picture_bytes_cap), details_(std::move(details)), budget_(measure_share) {
+LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details)
+    : LiveRuns(picture_bytes_cap, std::move(details), Allowance{}) {}
+
+LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details, const Allowance& allowance)
+    : picture_bytes_cap_(picture_bytes_cap), details_(std::move(details)), allowance_(allowance),
+      budget_(allowance.share) {
     publish();
 }
 
@@ -161,6 +165,9 @@ bool LiveRuns::is_due(const Session& session, const FilmOrigin& origin) {
     if (session.passes() == track.passes) return false;  // a part of a pass
     track.passes = session.passes();
     const double passing = passing_seconds(session.clocks());
+    const auto pixels = static_cast<double>(film_pixels(session.settings().width, session.settings().height));
+    budget_.guess((reference_ ? 2.0 : 1.0) * allowance_.guessed_seconds_per_pixel * pixels /
+                  measuring_threads(session));
     if (session.passes() < 2 || passing < track.next_seconds || !budget_.allows(charged_seconds_)) return false;
     track.next_seconds = passing * kPointRatio;
     return true;

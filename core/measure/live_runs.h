@@ -86,10 +86,17 @@ public:
     /// while a picture stays.
     using Details = std::function<std::string(const Session&)>;
 
-    /// A fifth below what measuring may take: it is held to what the last measurement took, and the next may take longer.
-    static constexpr double kMeasureShare = 0.8 * MeasureBudget::kDefaultShare;
+    /// What measuring may take of the time that is charged.
+    struct Allowance {
+        /// A fifth below what is promised: it is held to what the last measurement took, and the next may take longer.
+        double share = 0.8 * MeasureBudget::kDefaultShare;
+        /// Of one thread, for the first measurement, which has to be paid for like the others; twice as much where there is a
+        /// reference.
+        double guessed_seconds_per_pixel = 70e-9;
+    };
 
-    explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {}, double measure_share = kMeasureShare);
+    explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {});
+    LiveRuns(std::size_t picture_bytes_cap, Details details, const Allowance& allowance);
 
     /// Errors are measured against it from now on where pictures are the same, and for points of the past that still
     /// have their pictures: that takes about as long as measuring them did. Errors that were measured stay. Null: none.
@@ -139,6 +146,7 @@ private:
     std::map<std::uint64_t, Track> tracks_;  ///< by number, of the present generation
     std::uint64_t number_ = 0;               ///< of the film that was last observed; 0 for one that is not measured
     std::uint64_t generation_ = 0;
+    Allowance allowance_;
     MeasureBudget budget_;
     double charged_seconds_ = 0.0;      ///< to all runs
     double catching_up_seconds_ = 0.0;  ///< of set_reference(), which was asked for and is on no budget

@@ -19,6 +19,10 @@ public:
         spent_seconds_ += seconds;
         last_seconds_ = seconds;
     }
+    /// What the first measurement may take; of no concern once there was one.
+    void guess(double seconds) {
+        if (spent_seconds_ == 0.0) last_seconds_ = seconds;
+    }
     /// From now on a measurement takes so much longer than the last one.
     void expect_more(double seconds) { last_seconds_ += seconds; }
     double spent_seconds() const { return spent_seconds_; }

@@ -137,12 +137,6 @@ private:
 
 }  // namespace
 
-bool is_finite(const Vec3f& pixel) {
-    return std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z);
-}
-
-double luminance_of(const Vec3d& radiance) { return 0.2126 * radiance.x + 0.7152 * radiance.y + 0.0722 * radiance.z; }
-
 std::size_t count_invalid(Pixels picture) {
     return static_cast<std::size_t>(
         std::count_if(picture.begin(), picture.end(), [](const Vec3f& pixel) { return !is_finite(pixel); }));

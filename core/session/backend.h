@@ -113,6 +113,8 @@ public:
     virtual FilmReading read_film(FilmSlot slot) const = 0;
     /// The same with the film's halves, all of one moment.
     virtual FilmReading read_halves(FilmSlot slot) const = 0;
+    /// How many samples of each pixel were invalid. [row][column]
+    virtual std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const = 0;
     /// Starts to make the 8-bit frame of a film as it is now; later passes may begin at once.
     virtual DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) = 0;
     /// Largest range_value() of a film: where the colors of some views end.

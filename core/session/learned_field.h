@@ -12,7 +12,7 @@ namespace pl {
 
 /// How far a method's learning has come. Exact: work that was interrupted goes on where it ended.
 struct FieldProgress {
-    std::uint64_t passes = 0;  ///< publications
+    std::uint64_t passes = 0;  ///< that were learned from
     std::uint64_t records = 0;
     std::uint64_t lookup_misses = 0;
     std::uint32_t precomputed_slices = 0;  ///< complete ones

@@ -10,13 +10,15 @@
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/scene_hash.h"
+#include "core/session/publication_times.h"
 
 namespace pl {
 namespace {
 
 /// Paths guided by what was learned know what they are still worth, and soon end at a light: they play roulette only
-/// when little is left, so that few of them end without having found any. Others play for every loss.
-constexpr float kGuidedRouletteThreshold = 0.01f;
+/// when a fifth is left, so that few of them end without having found any. Others play for every loss. Lower thresholds leave a
+/// little less noise for the same samples and more for the same time (docs/learning.md).
+constexpr float kGuidedRouletteThreshold = 0.2f;
 /// Where what is learned decides alone: the lower end of a window of weights whose ends differ by a factor of 5, around 1.
 /// [Vorba and Krivanek 2016, section 4]
 constexpr float kFieldRouletteThreshold = 2.0f / (1.0f + 5.0f);
@@ -34,6 +36,7 @@ Session::Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const S
 void Session::load_scene() {
     const Stopwatch build;
     packed_ = std::make_shared<const HostScene>(pack_scene(*scene_));
+    enclosure_.reset();
     build_seconds_ = build.seconds();
     const Stopwatch upload;
     backend_->upload_scene(packed_);
@@ -170,6 +173,7 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
                             .stop = stop});
     state.render_seconds += watch.seconds();
     state.counters += counters;
+    note_escapes(counters);
     state.next_pixel += static_cast<std::uint32_t>(counters.paths);
     if (target.view == View::Beauty) {
         field().records += counters.path.method.records;
@@ -178,13 +182,13 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
     if (state.next_pixel < pixel_count()) return Progress::Stopped;
     state.next_pixel = 0;
     ++state.passes;
-    if (target.view == View::Beauty && info_of(target.method).learns) publish_pass(state);
+    if (learns) finish_learning_pass(state);
     return Progress::Rendered;
 }
 
-void Session::publish_pass(FilmState& state) {
+void Session::finish_learning_pass(FilmState& state) {
     const Stopwatch watch;
-    backend_->publish(settings_.method);
+    if (is_published_after(state.passes)) backend_->publish(settings_.method);
     ++field().passes;
     state.learn_seconds += watch.seconds();
 }
@@ -239,6 +243,7 @@ Snapshot Session::summary() const {
             .halves = {},
             .passes = state.passes,
             .counters = state.counters,
+            .is_closed = is_closed_.value_or(false),
             .clocks = clocks(),
             .field = field_status(),
             .bins = volumes_ ? shape_.cells.count() : 0,

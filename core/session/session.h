@@ -5,11 +5,13 @@
 #include <array>
 #include <memory>
 
+#include "core/scene/enclosure.h"
 #include "core/session/backend.h"
 #include "core/session/edits.h"
 #include "core/session/learned_field.h"
 #include "core/session/served_kernel.h"
 #include "core/session/shown_range.h"
+#include "core/session/trouble.h"
 
 namespace pl {
 
@@ -50,6 +52,9 @@ public:
     Snapshot summary() const;
     /// The current film as a window shows it.
     ShownFilm show_film(const DisplaySettings& display);
+
+    /// What it takes to look for trouble in the current picture. Throws Error(Usage) if the view shows no paths.
+    TroubleSource trouble_source() const;
 
     /// What the current method learned at a volume. Throws Error(Usage) if it learns nothing.
     VolumeInspection inspect_volume(std::int32_t volume) const;
@@ -119,7 +124,8 @@ private:
     bool needs_precompute() const;
     Progress precompute_slice(const StopFlag* stop);
     Progress render_slot(FilmSlot slot, const StopFlag* stop);
-    void publish_pass(FilmState& state);
+    void finish_learning_pass(FilmState& state);
+    void note_escapes(const PassCounters& counters);
     PathSettings path_settings() const;
     MixtureSettings mixture_of(MethodId method) const;
 
@@ -128,6 +134,8 @@ private:
     std::shared_ptr<const SceneDescription> scene_;
     RenderSettings settings_;
     std::shared_ptr<const HostScene> packed_;
+    std::optional<Enclosure> enclosure_;  ///< of the scene, once a path has escaped
+    std::optional<bool> is_closed_;       ///< it contains the camera; unknown before a path has escaped
     std::shared_ptr<const HostVolumes> volumes_;
     FieldShape shape_;
     FilmStates films_{};

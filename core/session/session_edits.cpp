@@ -76,11 +76,13 @@ void Session::change_material(const EditMaterial& edit) {
     if (!same_placement(*packed_, *packed)) volumes_.reset();
     scene_ = std::move(scene);
     packed_ = std::move(packed);
+    enclosure_.reset();
     if (volumes_) shape_ = make_field_shape(*packed_, settings_.field);  // lights may be brighter
 }
 
 void Session::clear_films() {
     ++film_generation_;
+    is_closed_.reset();
     films_.fill(FilmState{});
     for (ParkedBackend& parked : parked_) parked.films.fill(FilmState{});
 }

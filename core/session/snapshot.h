@@ -52,6 +52,9 @@ struct Snapshot {
     FilmHalves halves{};        ///< only of Session::snapshot_with_halves()
     std::uint32_t passes = 0;   ///< samples per pixel
     PassCounters counters;      ///< of this film
+    /// Closed surfaces surround the camera, so that paths that escaped were lost. Known once one has (in
+    /// large scenes after the first pass); false before, and where there is light from far away.
+    bool is_closed = false;
     Clocks clocks;
     std::optional<FieldStatus> field;
     int bins = 0;  ///< directions per volume; 0 before volumes are placed

@@ -1,7 +1,8 @@
 // How much less noise learning leaves than default path tracing: mean squared error at equal samples and at equal time,
 // which is processor time, because other work on the machine comes and goes.
 // Usage: gain_bench SCENE... [KEY=NUMBER]...; keys and their defaults are in Setup. The error is measured against two
-// independent halves of a reference, (x-r1)(x-r2), whose noise drops out of the mean.
+// independent halves of a reference, (x-r1)(x-r2), whose noise drops out of the mean. With uniform=1 a last column has the gain
+// over directions that are even over the hemisphere.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -16,6 +17,7 @@
 #include "cpu/cpu_backend.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
+#include "tests/bench/uniform_sampling.h"
 
 namespace pl::bench {
 namespace {
@@ -23,9 +25,12 @@ namespace {
 /// What the command line can change.
 struct Setup {
     std::map<std::string, double> numbers{
-        {"spp", 128},      {"seeds", 5},  {"side", 128},       {"reference", 4096},      {"threads", 2},
-        {"volumes", 0},    {"bins", 256}, {"fraction", 0},     {"floor", kUniformShare}, {"rate", 4},
-        {"precompute", 0}, {"nee", 0},    {"megabytes", 16.0},
+        {"spp", 128},        {"seeds", 5},      {"side", 128},
+        {"reference", 4096}, {"threads", 2},    {"volumes", 0},
+        {"bins", 256},       {"fraction", 0},   {"floor", kUniformShare},
+        {"rate", 4},         {"precompute", 0}, {"nee", 0},
+        {"megabytes", 16.0}, {"target", 0},     {"light", 0},
+        {"roulette", 0},     {"uniform", 0},
     };
     std::vector<std::string> scenes;
 
@@ -63,6 +68,9 @@ RenderSettings settings_of(const Setup& setup, const SceneDescription& scene) {
     settings.field.budget_megabytes = setup["megabytes"];
     settings.field.uniform_floor = static_cast<float>(setup["floor"]);
     settings.field.rate = static_cast<LearningRate>(setup.integer("rate"));
+    settings.field.learning = {.target = static_cast<LearningTarget>(setup.integer("target")),
+                               .light = static_cast<LearnedLight>(setup.integer("light"))};
+    settings.roulette = static_cast<RouletteRule>(setup.integer("roulette"));
     if (setup["precompute"] > 0.0) settings.field.precompute_samples = setup.integer("precompute");
     return settings;
 }
@@ -104,19 +112,24 @@ void measure(const Setup& setup, const std::string& name) {
     exact.seed = 1002;
     const Picture r2 = render(scene, exact, reference_passes, threads);
 
+    const auto add = [&](Series& series, const Picture& x) {
+        const Metrics metrics = measure_error(x.pixels, {r1.pixels, r2.pixels});
+        series.error.push_back(metrics.mse);
+        series.trimmed.push_back(metrics.mse_trimmed);
+        series.seconds.push_back(x.seconds);
+        series.dark_share = x.dark_share;
+    };
+    const auto passes = static_cast<std::uint32_t>(setup["spp"]);
     std::map<MethodId, Series> results;
-    for (int seed = 1; seed <= setup.integer("seeds"); ++seed)
+    Series uniform;
+    for (int seed = 1; seed <= setup.integer("seeds"); ++seed) {
+        settings.seed = static_cast<std::uint64_t>(seed);
         for (const MethodInfo& method : all_methods()) {
             settings.method = method.id;
-            settings.seed = static_cast<std::uint64_t>(seed);
-            const Picture x = render(scene, settings, static_cast<std::uint32_t>(setup["spp"]), threads);
-            Series& series = results[method.id];
-            const Metrics metrics = measure_error(x.pixels, {r1.pixels, r2.pixels});
-            series.error.push_back(metrics.mse);
-            series.trimmed.push_back(metrics.mse_trimmed);
-            series.seconds.push_back(x.seconds);
-            series.dark_share = x.dark_share;
+            add(results[method.id], render(scene, settings, passes, threads));
         }
+        if (setup["uniform"] != 0.0) add(uniform, {render_uniform(*scene, settings, passes, threads)});
+    }
     const Series& plain = results.at(MethodId::Default);
     for (const MethodInfo& method : all_methods()) {
         const Series& series = results.at(method.id);
@@ -124,9 +137,11 @@ void measure(const Setup& setup, const std::string& name) {
         const double gain = quartiles_of(plain.error).median / error;
         const double trimmed_gain = quartiles_of(plain.trimmed).median / quartiles_of(series.trimmed).median;
         const double slowdown = quartiles_of(series.seconds).median / quartiles_of(plain.seconds).median;
-        std::printf("%-12s %-14s %10.3g %8.2f %8.2f %8.2f %8.2f %7.3f\n", name.c_str(),
+        std::printf("%-12s %-14s %10.3g %8.2f %8.2f %8.2f %8.2f %7.3f", name.c_str(),
                     std::string(method.name).c_str(), error, gain, trimmed_gain, slowdown, gain / slowdown,
                     series.dark_share);
+        if (!uniform.error.empty()) std::printf(" %8.2f", quartiles_of(uniform.error).median / error);
+        std::printf("\n");
     }
     std::fflush(stdout);
 }
@@ -142,6 +157,7 @@ int main(int argc, char** argv) {
         const pl::bench::MachineLoad load;
         std::printf("%-12s %-14s %10s %8s %8s %8s %8s %7s\n", "scene", "method", "MSE", "gain", "-0.1 %", "time",
                     "gain/t", "dark");
+        if (setup["uniform"] != 0.0) std::printf("%94s\n", "over uniform");
         for (const std::string& scene : setup.scenes) pl::bench::measure(setup, scene);
         const pl::bench::MachineLoad::Shares shares = load.shares();
         std::printf("processors busy: %.2f own, %.2f others, %.2f stolen\n", shares.own, shares.foreign,

@@ -20,7 +20,7 @@ RenderSettings small_settings(const SceneDescription& scene) {
 }
 
 /// Stops after so many looks.
-ReferenceMonitor stop_after(int& looks) {
+JobMonitor stop_after(int& looks) {
     return {.stopped = [&looks] { return --looks < 0; }, .progress = [](double, const std::string&) {}};
 }
 

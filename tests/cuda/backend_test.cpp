@@ -2,12 +2,15 @@
 // run the same steps with the same random numbers. On a device rounding may differ: tests/parity looks at that.
 #include "cuda/cuda_backend.h"
 
+#include <algorithm>
+
 #include "core/kernel/base/rng.h"
 #include "tests/catch.hpp"
 #include "tests/cuda/shim/control.h"
 #include "tests/session/same_bits.h"
 #include "tests/session/small_settings.h"
 #include "tests/statistical/image_scenes.h"
+#include "tests/statistical/scenes.h"
 #include "tests/statistical/shipped_scenes.h"
 #include "tests/statistical/variants.h"
 
@@ -76,6 +79,25 @@ TEST_CASE("Every view gives the bits of the CPU back end") {
                 CHECK(same_film(got, expected));
                 CHECK(same_events(got.snapshot.counters, expected.snapshot.counters));
             }
+}
+
+TEST_CASE("Invalid samples are counted at the pixels of the CPU back end") {
+    shim::reset();
+    BoxLook look;
+    look.albedo.fill(glm::vec3{0.9f});
+    look.emission[kFloor] = look.emission[kWallX1] = glm::vec3{2.5e38f};  // together they are no number
+    SceneDescription scene = box_scene(look);
+    scene.camera.fov_deg = 90.0f;
+    RenderSettings settings = small_settings(scene, {MethodId::Default, false});
+    Session cpu = make_session(scene, settings);
+    Session cuda = make_cuda_session(scene, settings);
+    render_passes(cpu, 3);
+    render_passes(cuda, 3);
+    const FilmSlot slot{MethodId::Default, View::Beauty};
+    const std::vector<std::uint32_t> counts = cuda.backend_access().invalid_samples(slot);
+    CHECK(counts == cpu.backend_access().invalid_samples(slot));
+    CHECK(std::count(counts.begin(), counts.end(), 0u) > 100);
+    CHECK(std::count(counts.begin(), counts.end(), 1u) > 10);
 }
 
 TEST_CASE("Frames of every view have the bits of the CPU back end") {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # check_device_code.sh NVCC ROOT [--write]: what the device compiler makes of the kernels, without a device.
 #   - no contraction: not one fused multiply-add, so that a hit is the same on every back end
+#   - no float is summed by atomics, whose order is another in each run
 #   - double arithmetic only in the exact edge test of triangles, once per ray that is traced
 #   - an effect that a set lacks has no code in its kernels: no shadow ray, no random numbers, no normals
 #   - default path tracing has no code for learning
@@ -36,6 +37,7 @@ count() { kernel "$1" "$2" | grep -cE -- "$3" || true; }
 
 for file in "${files[@]}"; do
     expect "fused multiply-adds in $file" "$(grep -c 'fma\.' "$work/$file.ptx" || true)" -eq 0
+    expect "atomic sums of floats in $file" "$(grep -cE '(atom|red)[a-z0-9_.]*\.b?f(16|32|64)' "$work/$file.ptx" || true)" -eq 0
 done
 # Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 63 lobes too, 2047 all. Philox' key schedule and its
 # first multiplier show how many draws there are; doubles how many traversals; rounding down only images and maps need.

@@ -9,6 +9,9 @@
 #include "tests/fuzz/entries.h"
 #include "tests/io/small_field.h"
 #include "tests/io/temporary_folder.h"
+#if PL_FUZZ_SCRIPTS
+#include "tests/fuzz/play_script.h"
+#endif
 
 using namespace pl;
 using namespace pl::test;
@@ -79,6 +82,17 @@ TEST_CASE("Damaged copies of the corpora are read or refused", "[hard]") { run_d
 TEST_CASE("A hundred thousand damaged copies of the corpora are read or refused", "[hard][nightly]") {
     run_damaged(100000, 6);
 }
+
+#if PL_FUZZ_SCRIPTS
+TEST_CASE("Scripts of the corpora are played on the viewer's model and panels", "[hard]") {
+    const auto play = [](const char* script) { play_script(parse_script(script, "s")); };
+    const std::string click = "3 aim_at 0.5 0.5 Effects\n4 down left\n5 up left\n8 aim_at 0.5 0.5 measure specular";
+    CHECK_NOTHROW(play(click.c_str()));
+    CHECK_THROWS_WITH(play("3 aim_at 0.5 0.5 measure specular"), contains("there is no control 'measure specular'"));
+    CHECK_THROWS_WITH(play("0 tap Tab\n3 aim_at 0.5 0.5 Effects"), contains("there is no control 'Effects'"));
+    CHECK_NOTHROW(play("0 tap Tab\n2 tap Tab\n6 aim_at 0.5 0.5 Effects"));
+}
+#endif
 
 // A field of today in the corpus is of another version tomorrow: it would only be refused.
 TEST_CASE("The corpus of fields holds one of this version", "[hard]") {

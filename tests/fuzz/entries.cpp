@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include <unistd.h>
@@ -18,7 +19,7 @@
 #include "core/io/texture_file.h"
 #include "core/scene/pack_scene.h"
 #if PL_FUZZ_SCRIPTS
-#include "ui/script.h"
+#include "tests/fuzz/play_script.h"
 #endif
 
 namespace pl::test {
@@ -138,6 +139,7 @@ void run_image(std::string_view bytes) {
 
 #if PL_FUZZ_SCRIPTS
 void run_script(std::string_view bytes) {
+    std::vector<ScriptCommand> commands;
     read_or_refuse([&] {
         int before = 0;
         for (const ScriptCommand& command : parse_script(bytes, "fuzz.script")) {
@@ -147,8 +149,17 @@ void run_script(std::string_view bytes) {
                 fail("a place outside of any window");
             holds(command.condition, "12.5");
             holds(command.condition, "default");
+            commands.push_back(command);
         }
     });
+    if (commands.empty()) return;
+    try {
+        play_script(std::move(commands));
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Runtime) fail("an error of another kind than Runtime");  // no such control
+    } catch (const std::logic_error& defect) {
+        fail(defect.what());
+    }
 }
 #endif
 

@@ -88,6 +88,7 @@ void kill_renders(int kills) {
         if (stats != "old") CHECK_NOTHROW(json::parse(stats));
     }
     REQUIRE(run_program(render_command(folder)).code == 0);
+    CHECK(folder.names() == std::vector<std::string>{"x.exr", "x.field", "x.json"});
     CHECK(read_exr(folder / "x.exr").pixels == expected.pixels);
     CHECK(read_field(folder / "x.field").progress.records == read_field(folder / "x.field").progress.records);
     CHECK(read_all(folder / "x.field").size() == field.size());
@@ -121,6 +122,14 @@ void check_readable(const fs::path& folder) {
     }
 }
 
+/// Hidden files of writers that were killed, in a folder and below.
+int leftovers_in(const fs::path& folder) {
+    int count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        count += entry.path().filename().string().starts_with(".pathlight-") ? 1 : 0;
+    return count;
+}
+
 void kill_benches(int kills) {
     const TempDir folder;
     const Clock::time_point start = Clock::now();
@@ -137,6 +146,7 @@ void kill_benches(int kills) {
     REQUIRE(result.code == 0);
     CHECK(json::parse(read_all(folder / "killed/results.json")).at("complete") == true);
     CHECK(errors_in(folder / "killed") == errors_in(folder / "whole"));
+    CHECK(leftovers_in(folder / "killed") == 0);
 }
 
 void kill_references(int kills) {

@@ -1,14 +1,17 @@
 // Whole files: written completely or not at all.
 #include "core/io/files.h"
 
+#include <atomic>
 #include <csignal>
 #include <thread>
 
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/io/temporary_file.h"
 #include "tests/catch.hpp"
 #include "tests/io/input_error.h"
 #include "tests/io/temporary_folder.h"
@@ -121,5 +124,111 @@ TEST_CASE("A reader sees one version or the other, never a part") {
     }
     writer.join();
     CHECK(torn == 0);
+    CHECK(folder.file_count() == 1);
+}
+
+namespace {
+
+/// Another process that begins to write `target`, and ends it when it is told to, unless it is killed before.
+class OtherWriter {
+public:
+    explicit OtherWriter(const fs::path& target) {
+        int ready[2], go_on[2];
+        REQUIRE((::pipe(ready) == 0 && ::pipe(go_on) == 0));
+        child_ = ::fork();
+        REQUIRE(child_ >= 0);
+        char byte = 0;
+        if (child_ == 0) {
+            TemporaryFile file(target);
+            const bool told = ::write(ready[1], &byte, 1) == 1 && ::read(go_on[0], &byte, 1) == 1;
+            ::_exit(told && file.replace_target("whole") == 0 ? 0 : 1);
+        }
+        REQUIRE(::read(ready[0], &byte, 1) == 1);
+        ::close(ready[0]);
+        ::close(ready[1]);
+        ::close(go_on[0]);
+        go_on_ = go_on[1];
+    }
+    ~OtherWriter() { ::close(go_on_); }
+    OtherWriter(const OtherWriter&) = delete;
+    OtherWriter& operator=(const OtherWriter&) = delete;
+
+    void kill() const {
+        ::kill(child_, SIGKILL);
+        ::waitpid(child_, nullptr, 0);
+    }
+    bool finish() const {
+        int status = 1;
+        return ::write(go_on_, "", 1) == 1 && ::waitpid(child_, &status, 0) == child_ && status == 0;
+    }
+
+private:
+    ::pid_t child_ = -1;
+    int go_on_ = -1;
+};
+
+}  // namespace
+
+TEST_CASE("What a killed writer left is removed by the next one, and what a living one writes is not", "[hard]") {
+    const TemporaryFolder folder;
+    const OtherWriter killed(folder.path() / "a");
+    const OtherWriter living(folder.path() / "b");
+    CHECK(folder.file_count() == 2);
+    killed.kill();
+    write_file_atomic(folder.path() / "c", "new");
+    CHECK(folder.file_count() == 2);
+    CHECK(living.finish());
+    CHECK(read_file(folder.path() / "b") == "whole");
+    CHECK(read_file(folder.path() / "c") == "new");
+    CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("Only files that are named as leftovers are removed") {
+    const TemporaryFolder folder;
+    for (const char* name : {".pathlight-.tmp", ".pathlight-12-3.tmp.txt", ".pathlight-a-3.tmp", "pathlight-12-3.tmp",
+                             ".pathlight-1.exr", ".pathlight-12-3.tmp"})
+        folder.write(name, "x");
+    fs::create_directories(folder.path() / ".pathlight-12-4.tmp");
+    fs::create_symlink("pathlight-12-3.tmp", folder.path() / ".pathlight-12-5.tmp");
+    remove_leftovers(folder.path());
+    CHECK(folder.file_count() == 7);
+    CHECK_FALSE(fs::exists(folder.path() / ".pathlight-12-3.tmp"));
+    remove_leftovers(folder.path() / "gone");
+}
+
+// In a container a process may well have the number of the one that was killed before it.
+TEST_CASE("A name that is taken by a leftover is passed over") {
+    const TemporaryFolder folder;
+    const auto only_name = [&] { return fs::directory_iterator(folder.path())->path().filename().string(); };
+    std::string name;
+    {
+        const TemporaryFile file(folder.path() / "a");
+        REQUIRE(file.error() == 0);
+        name = only_name();
+    }
+    const std::size_t counter = name.rfind('-') + 1;
+    const int used = std::stoi(name.substr(counter));
+    for (int next = used + 1; next < used + 4; ++next)
+        folder.write(name.substr(0, counter) + std::to_string(next) + ".tmp", "left");
+    TemporaryFile file(folder.path() / "a");
+    CHECK(file.replace_target("new") == 0);
+    CHECK(read_file(folder.path() / "a") == "new");
+    CHECK(folder.file_count() == 4);
+}
+
+TEST_CASE("Who removes leftovers at any moment removes no file of a writer") {
+    const TemporaryFolder folder;
+    const fs::path path = folder.path() / "a";
+    std::atomic<bool> done{false};
+    std::thread cleaner([&] {
+        while (!done) remove_leftovers(folder.path());
+    });
+    for (int i = 0; i < 2000; ++i) {
+        TemporaryFile file(path);
+        CHECK(file.replace_target(std::to_string(i)) == 0);
+    }
+    done = true;
+    cleaner.join();
+    CHECK(read_file(path) == "1999");
     CHECK(folder.file_count() == 1);
 }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <random>
 
+#include <stb_image_write.h>
+
 #include "core/io/files.h"
 #include "core/io/image.h"
 #include "tests/catch.hpp"
@@ -103,20 +105,37 @@ TEST_CASE("Coded lines of HDR files are whole, or the file is refused") {
     }
 }
 
-// The decoder takes what is missing for black: 23 bytes made a texture of 25 million texels.
-TEST_CASE("TGA files that cannot hold their texels are refused") {
-    const auto refused = [](const std::string& bytes) {
-        const TemporaryFolder folder;
-        std::vector<std::string> warnings;
-        const auto path = folder.write("a.tga", bytes);
-        return input_error([&] { read_texture(path, TextureContent::Color, true, warnings); });
+// The decoder takes what is missing for black or gray: 23 bytes made a texture of 25 million texels.
+TEST_CASE("Images that end too early are refused, wherever they are cut") {
+    constexpr int kWidth = 13;
+    constexpr int kHeight = 6;
+    std::string rgb;
+    for (int i = 0; i < 3 * kWidth * kHeight; ++i) rgb += static_cast<char>(i * 7);
+    const auto append = [](void* context, void* data, int size) {
+        static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
     };
-    const std::string texels(4 * 6, '\x50');
-    CHECK(read("a.tga", tga(3, 2, texels), TextureContent::Color).texels.size() == 6);
-    CHECK_THAT(refused(tga(3, 2, texels.substr(1))), contains("ends too early"));
-    std::string coded = tga(100, 100, "\xff\x50\x50\x50\x50");
-    coded[2] = 10;
-    CHECK_THAT(refused(coded), contains("ends too early"));
+    std::string jpeg, bmp, coded_tga;
+    REQUIRE(stbi_write_jpg_to_func(append, &jpeg, kWidth, kHeight, 3, rgb.data(), 80) != 0);
+    REQUIRE(stbi_write_bmp_to_func(append, &bmp, kWidth, kHeight, 3, rgb.data()) != 0);
+    REQUIRE(stbi_write_tga_to_func(append, &coded_tga, kWidth, kHeight, 3, rgb.data()) != 0);
+    struct File {
+        std::string name, bytes;
+        std::size_t filling;  ///< bytes at the end that hold nothing
+    };
+    for (const File& file : {File{"a.jpg", jpeg, 0}, File{"a.bmp", bmp, kWidth % 4}, File{"a.tga", coded_tga, 0},
+                             File{"a.tga", tga(3, 2, std::string(4 * 6, '\x50')), 0}}) {
+        INFO(file.name);
+        CHECK(read(file.name, file.bytes, TextureContent::Color).texels.size() >= 6);
+        CHECK(read(file.name, file.bytes + "more", TextureContent::Color).texels.size() >= 6);
+        for (std::size_t size = 0; size < file.bytes.size() - file.filling; ++size) {
+            INFO("cut to " << size << " of " << file.bytes.size() << " bytes");
+            CHECK_THAT(input_error([&] { read(file.name, file.bytes.substr(0, size), TextureContent::Color); }),
+                       contains("ends too early") || contains("damaged") || contains("not a file of this kind"));
+        }
+    }
+    std::string promised = tga(100, 100, "\xff\x50\x50\x50\x50");
+    promised[2] = 10;
+    CHECK_THAT(input_error([&] { read("a.tga", promised, TextureContent::Color); }), contains("ends too early"));
 }
 
 TEST_CASE("What is no light counts as 0, with one warning that counts") {

@@ -18,7 +18,7 @@ namespace {
 constexpr int kSide = 16;
 constexpr std::size_t kPictureBytes = kSide * kSide * 6;
 constexpr std::size_t kPlenty = 1u << 24;
-constexpr double kAlways = std::numeric_limits<double>::infinity();
+constexpr LiveRuns::Allowance kAlways{std::numeric_limits<double>::infinity(), 0.0};
 constexpr float kEmission = 0.5f;
 constexpr float kAlbedo = 0.5f;
 
@@ -28,8 +28,9 @@ struct Recording {
     Session session;
     LiveRuns runs;
 
-    explicit Recording(std::size_t cap = kPlenty, double share = kAlways, MethodId method = MethodId::Default)
-        : session(make_session(scene, quick_learner(scene, {method, false}, kSide, 1))), runs(cap, {}, share) {}
+    explicit Recording(std::size_t cap = kPlenty, LiveRuns::Allowance allowance = kAlways,
+                       MethodId method = MethodId::Default)
+        : session(make_session(scene, quick_learner(scene, {method, false}, kSide, 1))), runs(cap, {}, allowance) {}
 
     /// So many samples per pixel more, observed one by one; how often the set changed.
     int render(std::uint32_t passes) {
@@ -86,7 +87,7 @@ std::size_t pictures_of(const LiveRun& run) {
 }  // namespace
 
 TEST_CASE("the charged time is told while no point is due") {
-    Recording recording(kPlenty, 1e-9);  // measuring may take next to nothing: one point, and then none
+    Recording recording(kPlenty, {1e-9, 0.0});  // measuring may take next to nothing: one point, and then none
     recording.render(2);
     REQUIRE(recording.last().points.size() == 1);
     const double told = recording.runs.current()->charged_seconds;
@@ -249,9 +250,19 @@ TEST_CASE("other views are not measured, and interrupt no run") {
     CHECK(recording.run(0).points.size() > points);
 }
 
+TEST_CASE("the first measurement waits until it is paid for, too") {
+    Recording patient(kPlenty, {0.01, 1.0});  // 256 s for the whole picture
+    patient.render(200);
+    CHECK(patient.count() == 0);
+    CHECK(patient.runs.current()->measure_seconds == 0.0);
+    Recording modest(kPlenty, {0.01, 1e-9});  // 0.26 us, which the second pass has paid for
+    modest.render(2);
+    CHECK(modest.count() == 1);
+}
+
 // The rule itself is tested with made-up seconds in measure_budget_test.cpp.
 TEST_CASE("the share of measuring is one of all runs together") {
-    Recording never(kPlenty, 0.0);
+    Recording never(kPlenty, {0.0, 0.0});
     never.render(500);
     REQUIRE(never.count() == 1);
     CHECK(never.run(0).points.size() == 1);  // nothing was known of what it would cost

@@ -36,6 +36,17 @@ TEST_CASE("a thousand measurements in a row of passes never exceed their share")
     CHECK(taken > 1000);
 }
 
+TEST_CASE("a guess holds until something was measured") {
+    MeasureBudget budget(0.01);
+    budget.guess(0.02);
+    CHECK_FALSE(budget.allows(1.99));
+    CHECK(budget.allows(2.01));
+    budget.spend(0.005);
+    budget.guess(0.02);
+    CHECK_FALSE(budget.allows(0.99));
+    CHECK(budget.allows(1.01));
+}
+
 TEST_CASE("what is known to take longer has to fit in beforehand") {
     MeasureBudget budget(0.01);
     budget.spend(0.02);

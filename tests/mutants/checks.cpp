@@ -7,6 +7,7 @@
 
 #include "tests/mutants/field_checks.h"
 #include "tests/mutants/light_checks.h"
+#include "tests/mutants/ray_checks.h"
 #include "tests/mutants/surface_checks.h"
 
 namespace pl::test {
@@ -33,6 +34,9 @@ constexpr Check kChecks[] = {
     {"facets", check_facets},
     {"white-surfaces", check_white_surfaces},
     {"many-lights", check_many_lights},
+    {"edges", check_edges},
+    {"walk", check_walk},
+    {"leaning", check_leaning},
 };
 
 }  // namespace

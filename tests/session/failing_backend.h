@@ -34,6 +34,7 @@ public:
     void reset_film(FilmSlot slot, int width, int height) override { inner_->reset_film(slot, width, height); }
     FilmReading read_film(FilmSlot slot) const override { return inner_->read_film(slot); }
     FilmReading read_halves(FilmSlot slot) const override { return inner_->read_halves(slot); }
+    std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const override { return inner_->invalid_samples(slot); }
     DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override { return inner_->show_film(slot, style); }
     float largest_value(FilmSlot slot) override { return inner_->largest_value(slot); }
     PassCounters run_pass(const PassRequest& request) override {

@@ -1,5 +1,11 @@
 // Models of ten thousand and of a million triangles: they load, their memory is what is stated, and every method renders
 // them without an invalid sample.
+#include <cmath>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include "core/base/timer.h"
 #include "core/io/load_scene.h"
 #include "core/scene/pack_scene.h"
@@ -48,6 +54,58 @@ void render_with_every_method(const std::shared_ptr<const SceneDescription>& sce
     }
 }
 
+/// What a process of its own takes to load a model from its file and to pack it.
+struct LoadCost {
+    double processor_seconds = 0.0;
+    double peak_bytes = 0.0;
+    double packed_bytes = 0.0;
+};
+
+LoadCost cost_of_loading(std::size_t rows) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = write_bumpy_ball(folder.path(), rows);
+    int answer[2];
+    REQUIRE(::pipe(answer) == 0);
+    const ::pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        std::size_t packed = 0;
+        try {
+            const SceneDescription scene = load_scene(path.string(), folder.path());
+            packed = bytes_of(pack_scene(scene));
+        } catch (const std::exception&) {
+        }
+        ::_exit(packed > 0 && ::write(answer[1], &packed, sizeof(packed)) == sizeof(packed) ? 0 : 1);
+    }
+    int status = 1;
+    std::size_t packed = 0;
+    ::rusage used{};
+    REQUIRE(::wait4(child, &status, 0, &used) == child);
+    REQUIRE(status == 0);
+    REQUIRE(::read(answer[0], &packed, sizeof(packed)) == sizeof(packed));
+    ::close(answer[0]);
+    ::close(answer[1]);
+    const auto seconds = [](const ::timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return {seconds(used.ru_utime) + seconds(used.ru_stime), 1024.0 * static_cast<double>(used.ru_maxrss),
+            static_cast<double>(packed)};
+}
+
+/// Time grows as n log n, with a fifth to spare; memory as n, and its peak is at most three times what is packed.
+void check_growth(std::size_t small_rows, std::size_t large_rows) {
+    const LoadCost small = cost_of_loading(small_rows);
+    const LoadCost large = cost_of_loading(large_rows);
+    const auto work = [](std::size_t rows) {
+        const auto n = static_cast<double>(ball_triangles(rows));
+        return n * std::log(n);
+    };
+    INFO(small.processor_seconds << " and " << large.processor_seconds << " s, peak " << small.peak_bytes << " and "
+                                 << large.peak_bytes << ", packed " << large.packed_bytes << " bytes");
+    CHECK(large.processor_seconds <= 1.2 * work(large_rows) / work(small_rows) * small.processor_seconds);
+    CHECK(large.peak_bytes <= 3.0 * large.packed_bytes);
+}
+
 }  // namespace
 
 TEST_CASE("A model of ten thousand triangles takes the memory that is stated and renders with every method") {
@@ -75,4 +133,13 @@ TEST_CASE("A model of a million triangles is on screen within five seconds", "[n
     CHECK(session.snapshot().passes == 1);
     INFO(watch.seconds() << " s");
     CHECK(watch.seconds() < 5.0);
+}
+
+TEST_CASE("A file of ten million triangles takes no more for each than one of a million", "[nightly]") {
+    constexpr double kNeeded = 12e9;
+    if (static_cast<double>(::sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) < kNeeded) {
+        WARN("skipped: there are no 12 GB of free memory");
+        return;
+    }
+    check_growth(501, 1582);
 }

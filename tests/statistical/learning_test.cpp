@@ -92,8 +92,9 @@ TEST_CASE("Guided methods have less noise than default path tracing on the door 
                                   << " times as large, paths without light " << guided.zero_share << " against "
                                   << plain.zero_share);
         CHECK(error < plain_error / 3.0);
-        // A map that does not learn from what it brings leaves half to the BSDF, and so more paths in the dark.
-        CHECK(guided.zero_share <= plain.zero_share / (info_of(method).learns ? 5.0 : 2.0));
+        // Roulette ends most of those that are left, whose directions were as good. A map that does not learn from what it
+        // brings leaves half to the BSDF.
+        CHECK(guided.zero_share <= plain.zero_share / (info_of(method).learns ? 2.5 : 1.5));
     }
 }
 

@@ -31,6 +31,7 @@ struct FakeControl {
     std::atomic<int> alive{0};              ///< of them, those that are still there
     std::atomic<int> stopped{0};            ///< passes that saw the stop flag
     std::atomic<int> passes{0};             ///< passes that were complete
+    std::atomic<int> bad_pixel{-1};         ///< its samples of pictures are invalid
     std::atomic<int> pass_microseconds{0};  ///< of a picture of 64x64; others in proportion to their pixels
 
     void keep_tables(std::map<MethodId, HostTables>& where, MethodId method, const HostTables& tables) {
@@ -91,7 +92,8 @@ public:
 
     void reset_film(FilmSlot slot, int width, int height) override {
         require_device();
-        films_[slot.index()] = {width, height, std::vector<Vec3f>(static_cast<std::size_t>(width * height))};
+        const auto pixels = static_cast<std::size_t>(width * height);
+        films_[slot.index()] = {width, height, std::vector<Vec3f>(pixels), std::vector<std::uint32_t>(pixels)};
     }
     FilmReading read_film(FilmSlot slot) const override {
         require_device();
@@ -103,6 +105,11 @@ public:
         FilmReading reading = read_film(slot);
         reading.halves = {.mean = {reading.mean, reading.mean}, .samples = {1, 1}};
         return reading;
+    }
+
+    std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const override {
+        require_device();
+        return films_.at(slot.index()).invalid;
     }
 
     DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override {
@@ -135,6 +142,10 @@ public:
             film.pixels[i] = request.slot.view == View::Voronoi ? color_of_id(i % 7) : Vec3f{request.camera.eye.x};
         counters.paths = pixels - request.first_pixel;
         counters.path.method.records = counters.paths;
+        if (const int bad = control_->bad_pixel; bad >= 0 && request.slot.view == View::Beauty) {
+            ++film.invalid.at(static_cast<std::size_t>(bad));
+            ++counters.invalid_samples;
+        }
         record(request);
         {
             const std::lock_guard lock(control_->mutex);
@@ -165,6 +176,7 @@ private:
         int width = 0;
         int height = 0;
         std::vector<Vec3f> pixels;
+        std::vector<std::uint32_t> invalid;
     };
 
     void require_device() const {

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/measure/picture_identity.h"
 #include "tests/catch.hpp"
+#include "tests/ui/model_bench.h"
 #include "tests/ui/worker_bench.h"
 #include "ui/viewer_model.h"
 
@@ -13,28 +14,18 @@ using namespace pl::test;
 namespace {
 
 /// A viewer whose references are all of one color, made of one sample for every look at the monitor.
-struct ReferenceBench {
-    FakeDevices devices;
-    ViewerOptions options;
+struct ReferenceBench : ModelBench {
     std::atomic<bool> stored{false};  ///< find_reference has one
     std::atomic<bool> other_light{false};
     std::atomic<bool> broken{false};
     std::atomic<bool> finish{false};
     std::atomic<int> looks{0};
-    double clock = 0.0;
 
-    ReferenceBench() {
-        options.scene_name = "small";
-        options.settings.width = kSize;
-        options.settings.height = kSize;
-        options.settings.camera = small_scene()->camera;
-        options.make_backend = devices.maker();
-        devices.cpu->pass_microseconds = 200;
+    ReferenceBench() : ModelBench(kSize) {
         options.find_reference = [this](const OpenScene&, const RenderSettings& settings) {
             return stored ? make(settings) : nullptr;
         };
-        options.make_reference = [this](const OpenScene&, const RenderSettings& settings,
-                                        const ReferenceMonitor& monitor) {
+        options.make_reference = [this](const OpenScene&, const RenderSettings& settings, const JobMonitor& monitor) {
             if (broken) throw Error(ErrorKind::Input, "the disk is full");
             bool started = false;
             while (!finish && !monitor.stopped()) {
@@ -58,14 +49,6 @@ struct ReferenceBench {
         reference->spp = {3, 1};
         reference->noise_relmse = 1e-3;
         return reference;
-    }
-
-    template <class Condition>
-    bool run_until(ViewerModel& model, Condition&& condition) {
-        return eventually([&] {
-            model.update(clock += 1.0 / 60.0);
-            return condition();
-        });
     }
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "ui/actions.h"
+#include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
 
 namespace pl {
@@ -38,14 +39,8 @@ void draw_group(ActionGroup group) {
 
 void draw_help(ViewerModel& model, const Layout& layout) {
     if (!model.window().help) return;
-    const float screen_width = layout.panels ? layout.menu.width : layout.view.width;
-    const float screen_height = layout.panels ? layout.status.y + layout.status.height : layout.view.height;
-    ImGui::SetNextWindowPos({0.5f * screen_width, 0.5f * screen_height}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(em(56.0f), screen_width - em(2.0f)), 0.0f});
     ImGui::SetNextWindowFocus();
-    ImGui::Begin("Keys", &model.window().help,
-                 ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
+    begin_dialog("Keys", model.window().help, layout, em(56.0f));
     if (ImGui::BeginTable("columns", 2, ImGuiTableFlags_SizingStretchSame)) {
         ImGui::TableNextColumn();
         draw_group(ActionGroup::Fly);

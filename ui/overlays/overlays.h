@@ -26,6 +26,9 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
 /// Messages that go away by themselves, and the camera's speed after it changed.
 void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePlan& plan);
 
+/// The self test: a button, and its results as they come.
+void draw_self_test(ViewerModel& model, const Layout& layout);
+
 /// All keys, from the table that dispatches them.
 void draw_help(ViewerModel& model, const Layout& layout);
 

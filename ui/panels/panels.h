@@ -19,7 +19,7 @@ void draw_menu_bar(ViewerModel& model, const Layout& layout);
 void draw_settings_panel(ViewerModel& model, const Layout& layout);
 void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered);
 void draw_accuracy_panel(ViewerModel& model, const Layout& layout);
-void draw_status_bar(const ViewerModel& model, const Layout& layout);
+void draw_status_bar(ViewerModel& model, const Layout& layout);
 
 // Tabs of the right panel.
 void draw_volume_tab(ViewerModel& model);

@@ -34,7 +34,7 @@ void draw_clocks(const Clocks& clocks) {
     clock_row("Upload", clocks.upload, total, "Sending the scene to the back end.");
     clock_row("Place volumes", clocks.place, total, "Placing radiance volumes and building their tree.");
     clock_row("Precompute", clocks.precompute, total, "Filling the precomputed radiance map.");
-    clock_row("Learn", clocks.learn, total, "Publishing learned tables between passes.");
+    clock_row("Learn", clocks.learn, total, "Making tables of what passes recorded.");
     clock_row("Render", clocks.render, total, "Passes of this picture, including the records they make.");
     ImGui::EndTable();
 }
@@ -70,7 +70,7 @@ void draw_field(const std::optional<FieldStatus>& field) {
     }
     text_row("Volumes", fmt::format("{} x {} directions", field->volumes, field->bins));
     text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");
-    text_row("Passes", fmt::format("{}", field->passes), "Times that tables were published.");
+    text_row("Passes", fmt::format("{}", field->passes), "Passes that were learned from.");
     text_row("Records", count_text(field->records));
     text_row("Misses", count_text(field->lookup_misses), "Surface points that no volume serves.");
 }

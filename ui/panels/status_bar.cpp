@@ -9,7 +9,8 @@ namespace {
 /// Items in one line with bars between them.
 class StatusLine {
 public:
-    void add(const std::string& text, const char* tip, ImU32 color = colors::kText) {
+    /// True if it was clicked.
+    bool add(const std::string& text, const char* tip, ImU32 color = colors::kText) {
         if (!first_) {
             ImGui::SameLine(0.0f, em(0.5f));
             ImGui::TextDisabled("|");
@@ -19,7 +20,9 @@ public:
         ImGui::PushStyleColor(ImGuiCol_Text, color);
         ImGui::TextUnformatted(text.c_str());
         ImGui::PopStyleColor();
+        const bool is_clicked = ImGui::IsItemClicked();
         tooltip(tip);
+        return is_clicked;
     }
 
 private:
@@ -27,21 +30,39 @@ private:
 };
 
 void draw_counts(StatusLine& line, const ViewerModel& model) {
-    const PublishedFrame* frame = model.frame();
-    if (frame == nullptr) return;
-    const PassCounters& counters = frame->snapshot.counters;
-    if (const auto& field = model.status().field) {
+    if (model.frame() == nullptr) return;
+    if (const auto& field = model.status().field)
         line.add(fmt::format("{} learned", field->passes),
-                 "Times that tables were published. Camera moves keep them.");
-        if (field->lookup_misses > 0)
-            line.add(fmt::format("{} misses", short_number(static_cast<double>(field->lookup_misses))),
-                     "Surface points that no radiance volume serves: sampled by reflectance alone.", colors::kFaint);
+                 "Passes that were learned from. Camera moves keep what was learned.");
+}
+
+/// What went wrong, each kind alone; a click shows where.
+void draw_trouble(StatusLine& line, ViewerModel& model) {
+    if (model.frame() == nullptr) return;
+    TroubleCounts counts = counted_trouble(model.frame()->snapshot);
+    if (const auto found = model.trouble())
+        counts[static_cast<std::size_t>(Trouble::ClampedRecord)] =
+            found->found[static_cast<std::size_t>(Trouble::ClampedRecord)];
+    bool is_clicked = false;
+    bool is_sound = true;
+    for (const TroubleInfo& trouble : all_troubles()) {
+        const std::uint64_t count = counts[static_cast<std::size_t>(trouble.id)];
+        if (count == 0) continue;
+        is_sound = false;
+        const std::string tip = fmt::format("{}\nA click shows where (T).", trouble.meaning);
+        is_clicked |= line.add(fmt::format("{} {}", short_number(static_cast<double>(count)), trouble.label),
+                               tip.c_str(), colors::kWarning);
+        note_place(std::string(trouble.label).c_str());
     }
-    line.add(fmt::format("{} invalid", counters.invalid_samples),
-             "Samples that were NaN, infinite or negative. They are dropped.",
-             counters.invalid_samples > 0 ? colors::kWarning : colors::kFaint);
-    line.add(fmt::format("{} escaped", short_number(static_cast<double>(counters.path.escaped))),
-             "Paths that left the scene. 0 in a closed one.", colors::kFaint);
+    if (is_sound) {
+        is_clicked |=
+            line.add("no trouble",
+                     "No sample was invalid, no path left a closed scene, every surface point found its radiance "
+                     "volume. Whether records are clamped is seen by looking for it: a click (T).",
+                     colors::kFaint);
+        note_place("no trouble");
+    }
+    if (is_clicked) model.toggle_trouble();
 }
 
 std::string samples_text(const ViewerModel& model) {
@@ -55,7 +76,7 @@ std::string samples_text(const ViewerModel& model) {
 
 }  // namespace
 
-void draw_status_bar(const ViewerModel& model, const Layout& layout) {
+void draw_status_bar(ViewerModel& model, const Layout& layout) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(0.6f), em(0.35f)});
     begin_fixed_window("status", layout.status, ImGuiWindowFlags_NoScrollbar);
     ImGui::PopStyleVar();
@@ -64,6 +85,7 @@ void draw_status_bar(const ViewerModel& model, const Layout& layout) {
     line.add(name_of(state), "What the render thread does.",
              state == WorkerState::Failed ? colors::kError
                                           : (state == WorkerState::Rendering ? colors::kGood : colors::kWarning));
+    draw_trouble(line, model);
     line.add(std::string(info_of(model.settings().method).label), "The method; keys 1, 2, 3.");
     if (model.frame() != nullptr)
         line.add(back_end_label(model.status().backend), model.frame()->backend.device.c_str());

@@ -1,0 +1,21 @@
+// What went wrong in a picture, as a picture and as JSON.
+#pragma once
+
+#include <filesystem>
+
+#include "app/events.h"
+#include "core/io/image.h"
+#include "core/session/settings.h"
+#include "core/session/trouble.h"
+
+namespace pl {
+
+/// What the passes counted, and where it was: `found` is null if nobody looked. Clamped records are null then, too.
+Json trouble_json(const Snapshot& snapshot, const TroubleMap* found);
+
+/// By suffix. .png: the picture, dark, with marks in the colors of all_troubles(). .exr and .pfm: red counts invalid samples,
+/// green escaped paths, blue lookup misses and clamped records of each pixel.
+void save_trouble(const std::filesystem::path& path, const Snapshot& snapshot, const DisplaySettings& display,
+                  const TroubleMap& map, ImageMetadata metadata);
+
+}  // namespace pl

@@ -1,0 +1,65 @@
+#include "core/io/image_ends.h"
+
+#include <algorithm>
+
+namespace pl {
+namespace {
+
+/// Little-endian number of `size` bytes; 0 beyond the end.
+std::size_t number_at(std::string_view file, std::size_t at, int size) {
+    std::size_t value = 0;
+    for (int i = size; i-- > 0;) {
+        const std::size_t place = at + static_cast<std::size_t>(i);
+        value = value << 8 | (place < file.size() ? static_cast<unsigned char>(file[place]) : 0u);
+    }
+    return value;
+}
+
+/// The mark of the end has to come after the last scan begins: one before is that of a thumbnail.
+bool jpeg_ends_early(std::string_view file) {
+    const std::size_t scan = file.rfind("\xff\xda");
+    return scan == std::string_view::npos || file.find("\xff\xd9", scan) == std::string_view::npos;
+}
+
+/// Follows the runs of a coded image: a mark, and one texel or up to 128.
+bool tga_runs_end_early(std::string_view file, std::size_t at, std::size_t texels, std::size_t texel_bytes) {
+    constexpr std::size_t kRepeats = 128;
+    while (texels > 0) {
+        if (at >= file.size()) return true;
+        const std::size_t mark = number_at(file, at, 1);
+        const std::size_t length = mark % kRepeats + 1;
+        at += 1 + (mark >= kRepeats ? 1 : length) * texel_bytes;
+        texels -= std::min(texels, length);
+    }
+    return at > file.size();
+}
+
+bool tga_ends_early(std::string_view file, std::size_t texels) {
+    constexpr std::size_t kHeader = 18;
+    constexpr std::size_t kCoded = 8;
+    const std::size_t palette = number_at(file, 5, 2) * ((number_at(file, 7, 1) + 7) / 8);
+    const std::size_t first = kHeader + number_at(file, 0, 1) + (number_at(file, 1, 1) != 0 ? palette : 0);
+    const std::size_t texel_bytes = (number_at(file, 16, 1) + 7) / 8;
+    if ((number_at(file, 2, 1) & kCoded) != 0) return tga_runs_end_early(file, first, texels, texel_bytes);
+    return file.size() < first + texels * texel_bytes;
+}
+
+/// Rows begin at multiples of four bytes; what fills the last one up may be missing.
+bool bmp_ends_early(std::string_view file, std::size_t width, std::size_t height) {
+    constexpr std::size_t kOldHeader = 12;
+    const std::size_t first = number_at(file, 10, 4);
+    const std::size_t texel_bits = number_at(file, number_at(file, 14, 4) == kOldHeader ? 24 : 28, 2);
+    const std::size_t row = (width * texel_bits + 31) / 32 * 4;
+    return file.size() < first + row * (height - 1) + (width * texel_bits + 7) / 8;
+}
+
+}  // namespace
+
+bool ends_early(const std::string& suffix, std::string_view file, std::size_t width, std::size_t height) {
+    if (suffix == ".jpg" || suffix == ".jpeg") return jpeg_ends_early(file);
+    if (suffix == ".tga") return tga_ends_early(file, width * height);
+    if (suffix == ".bmp") return bmp_ends_early(file, width, height);
+    return false;
+}
+
+}  // namespace pl

@@ -1,0 +1,134 @@
+#include "core/scene/enclosure.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace pl {
+namespace {
+
+struct Edge {
+    std::uint32_t low;
+    std::uint32_t high;
+    std::uint32_t triangle;
+
+    auto ends() const { return std::tie(low, high); }
+};
+
+/// One number for all corners at the same place. [position]
+std::vector<std::uint32_t> places_of(const std::vector<glm::vec3>& positions) {
+    const auto at = [&](std::uint32_t i) { return std::tie(positions[i].x, positions[i].y, positions[i].z); };
+    std::vector<std::uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return at(i) < at(j); });
+    std::vector<std::uint32_t> places(positions.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool is_same = i > 0 && at(order[i]) == at(order[i - 1]);
+        places[order[i]] = is_same ? places[order[i - 1]] : order[i];
+    }
+    return places;
+}
+
+/// Light passes through glass and through holes.
+bool is_solid(const MaterialDescription& material) {
+    return material.kind != SurfaceKind::Dielectric && material.textures.opacity == kNoTexture;
+}
+
+/// Of all solid triangles, sorted by their ends; those without an area have none.
+std::vector<Edge> edges_of(const SceneDescription& scene) {
+    const std::vector<std::uint32_t> places = places_of(scene.positions);
+    std::vector<Edge> edges;
+    edges.reserve(3 * scene.triangles.size());
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+        const TriangleDescription& triangle = scene.triangles[t];
+        if (!is_solid(scene.materials[triangle.material])) continue;
+        const std::array<std::uint32_t, 3> corner{places[triangle.vertex[0]], places[triangle.vertex[1]],
+                                                  places[triangle.vertex[2]]};
+        if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [low, high] = std::minmax({corner[i], corner[(i + 1) % 3]});
+            edges.push_back({low, high, t});
+        }
+    }
+    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends() < b.ends(); });
+    return edges;
+}
+
+/// Which triangles hang together.
+class Connections {
+public:
+    explicit Connections(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    std::uint32_t root(std::uint32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::uint32_t i, std::uint32_t j) { parent_[root(i)] = root(j); }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// Distances are compared with 0 alone, so that nothing depends on the size of the scene.   [Moeller and Trumbore 1997]
+bool crosses(glm::dvec3 origin, glm::dvec3 direction, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+    const glm::dvec3 p = glm::cross(direction, c - a);
+    const double determinant = glm::dot(b - a, p);
+    if (determinant == 0.0) return false;
+    const glm::dvec3 s = origin - a;
+    const double u = glm::dot(s, p) / determinant;
+    const glm::dvec3 q = glm::cross(s, b - a);
+    const double v = glm::dot(direction, q) / determinant;
+    return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && glm::dot(c - a, q) / determinant > 0.0;
+}
+
+}  // namespace
+
+Enclosure::Enclosure(const SceneDescription& scene) {
+    const std::vector<Edge> edges = edges_of(scene);
+    Connections connections(scene.triangles.size());
+    std::vector<std::uint32_t> at_border;
+    for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {
+        while (end < edges.size() && edges[end].ends() == edges[first].ends())
+            connections.join(edges[first].triangle, edges[end++].triangle);
+        if ((end - first) % 2 != 0) at_border.push_back(edges[first].triangle);
+    }
+    std::vector<bool> is_open(scene.triangles.size());
+    for (const std::uint32_t triangle : at_border) is_open[connections.root(triangle)] = true;
+
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> closed;  // surface and triangle
+    for (const Edge& edge : edges)
+        if (const std::uint32_t root = connections.root(edge.triangle); !is_open[root])
+            closed.emplace_back(root, edge.triangle);
+    std::sort(closed.begin(), closed.end());
+    closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
+    for (std::size_t i = 0; i < closed.size(); ++i) {
+        const glm::uvec3 corner = scene.triangles[closed[i].second].vertex;
+        const Face face{scene.positions[corner[0]], scene.positions[corner[1]], scene.positions[corner[2]]};
+        if (i == 0 || closed[i - 1].first != closed[i].first) surfaces_.push_back({0, face.a, face.a});
+        Surface& surface = surfaces_.back();
+        surface.low = glm::min(glm::min(surface.low, face.a), glm::min(face.b, face.c));
+        surface.high = glm::max(glm::max(surface.high, face.a), glm::max(face.b, face.c));
+        faces_.push_back(face);
+        surface.end = faces_.size();
+    }
+}
+
+bool Enclosure::contains(glm::vec3 point) const {
+    // Along no axis and no diagonal, so that it meets no edge of what people build.
+    constexpr glm::dvec3 kDirection{0.314159265358979, 0.577215664901533, 0.754877666246693};
+    const glm::dvec3 origin{point};
+    std::size_t first = 0;
+    for (const Surface& surface : surfaces_) {
+        const std::size_t begin = std::exchange(first, surface.end);
+        const bool is_near =
+            glm::all(glm::lessThanEqual(surface.low, origin)) && glm::all(glm::lessThanEqual(origin, surface.high));
+        bool is_inside = false;
+        for (std::size_t i = begin; is_near && i < surface.end; ++i)
+            if (crosses(origin, kDirection, faces_[i].a, faces_[i].b, faces_[i].c)) is_inside = !is_inside;
+        if (is_inside) return true;
+    }
+    return false;
+}
+
+}  // namespace pl

@@ -1,0 +1,123 @@
+// `render --trouble` from outside: pictures and numbers of where something went wrong.
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/image.h"
+#include "core/kernel/film/frame_pixel.h"
+#include "core/session/trouble.h"
+#include "tests/cli/refusal.h"
+
+namespace pl::test {
+namespace {
+
+using nlohmann::json;
+
+/// A closed room, so bright that the light of two walls together is no number.
+std::string write_bright_room(const TempDir& folder) {
+    write_all(folder / "room.mtl", "newmtl wall\nKd 0.9 0.9 0.9\nKe 2.5e38 2.5e38 2.5e38\n");
+    write_all(folder / "room.obj",
+              "mtllib room.mtl\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+              "usemtl wall\nf 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 2 6 7 3\n");
+    return folder / "room.obj";
+}
+
+json render_with_trouble(const TempDir& folder, const std::string& scene, const std::string& picture,
+                         const Arguments& more) {
+    Arguments arguments{"render",    scene, "-o",        folder / "a.pfm", "--size",  "20x12",
+                        "--backend", "cpu", "--trouble", picture,          "--stats", folder / "s.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(arguments);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    return json::parse(read_all(folder / "s.json"));
+}
+
+const Arguments kInside{"--eye", "0,0,0.5", "--target", "0,0,-1", "--max-depth", "2", "--roulette", "albedo"};
+
+}  // namespace
+
+TEST_CASE("trouble: invalid samples are counted where they are, in numbers and in pictures") {
+    const TempDir folder;
+    const std::string scene = write_bright_room(folder);
+    for (const char* method : {"default", "precomputed", "reinforcement"}) {
+        Arguments more = kInside;
+        more.insert(more.end(), {"--method", method, "--spp", "3", "--volumes", "20", "--bins", "16"});
+        const json stats = render_with_trouble(folder, scene, folder / "t.exr", more);
+        INFO(method << stats["trouble"].dump());
+        const std::uint64_t invalid = stats["invalid_samples"];
+        CHECK(invalid > 100);
+        const json& found = stats["trouble"]["found"];
+        CHECK(stats["trouble"]["invalid_samples"] == invalid);
+        CHECK(found["invalid_samples"]["count"] == invalid);
+        CHECK(found["complete"] == true);
+        double red = 0.0;
+        const LinearImage counts = read_exr(folder / "t.exr");
+        for (const glm::vec3 pixel : counts.pixels) red += static_cast<double>(pixel.x);
+        CHECK(red == static_cast<double>(invalid));
+        const json worst = found["invalid_samples"]["worst"][0];
+        CHECK(worst[2] == 3);
+        const auto index = worst[1].get<std::size_t>() * 20 + worst[0].get<std::size_t>();
+        CHECK(counts.pixels[index].x == 3.0f);
+    }
+}
+
+TEST_CASE("trouble: a PNG is dark but for the marks, and tells what they are") {
+    const TempDir folder;
+    Arguments more = kInside;
+    more.insert(more.end(), {"--spp", "1"});
+    const json stats = render_with_trouble(folder, write_bright_room(folder), folder / "t.png", more);
+    ImageMetadata metadata;
+    const ByteImage image = read_png8(folder / "t.png", &metadata);
+    std::uint64_t marked = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+        marked += pack_pixel(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]) == info_of(Trouble::Invalid).color;
+    CHECK(marked >= stats["trouble"]["found"]["invalid_samples"]["pixels"]);
+    CHECK(std::any_of(metadata.begin(), metadata.end(), [](const auto& entry) {
+        return entry.first == "trouble" && entry.second.find(" invalid in ") != std::string::npos;
+    }));
+}
+
+TEST_CASE("trouble: misses are found, paths may leave an open scene, and clamped records are told by who learns") {
+    const TempDir folder;
+    const json misses =
+        render_with_trouble(folder, "cornell", folder / "t.pfm",
+                            {"--method", "precomputed", "--volumes", "1", "--bins", "16", "--spp", "2"})["trouble"];
+    CHECK(misses["lookup_misses"] > 100);
+    CHECK(misses["found"]["lookup_misses"]["count"] == misses["lookup_misses"]);
+    CHECK(misses["closed"] == false);
+    CHECK(misses["escaped_paths"] == 0);
+    CHECK(misses["clamped_records"].is_null());
+    CHECK(misses["found"]["clamped_records"].is_null());
+    const json learning =
+        render_with_trouble(folder, "cornell", folder / "t.pfm", {"--method", "reinforcement", "--spp", "2"});
+    CHECK(learning["escaped_paths"] > 100);
+    CHECK(learning["trouble"]["clamped_records"] == 0);
+    CHECK(learning["trouble"]["found"]["traced"] == 2);
+    CHECK(learning["trouble"]["found"]["moving_tables"] == true);
+}
+
+TEST_CASE("trouble: statistics have what was counted without looking, too") {
+    const TempDir folder;
+    REQUIRE(run_program({"render", "furnace", "-o", folder / "a.pfm", "--size", "8x8", "--spp", "1", "--stats",
+                         folder / "s.json"})
+                .code == 0);
+    const json trouble = json::parse(read_all(folder / "s.json"))["trouble"];
+    CHECK(trouble["invalid_samples"] == 0);
+    CHECK(trouble["lookup_misses"] == 0);
+    CHECK(trouble["found"].is_null());
+    CHECK(trouble["closed"].is_null());
+}
+
+TEST_CASE("2: trouble is looked for in paths, and written to pictures") {
+    const TempDir folder;
+    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--view", "normal", "--trouble", folder / "t.png"},
+                  "--trouble: expected --view beauty, got 'normal'");
+    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--trouble", folder / "t.json"}, "t.json");
+    check_refused(2, {"info", "cornell", "--trouble", folder / "t.png"}, "--trouble");
+    check_refused(1, {"render", "cornell", "-o", folder / "a.png", "--trouble", folder / "missing/t.png"},
+                  "cannot be written");
+    CHECK(folder.names().empty());
+}
+
+}  // namespace pl::test

@@ -1,0 +1,58 @@
+// Renders passes of a plain scene when it is told to, and says what each took: a program for check_effect_time.py.
+// Usage: timed_passes METHOD [forced]: for each line of input one pass with one thread, answered by a line with its seconds
+// of processor time, at the end of input by a checksum of the picture. 'forced': the kernel that can do every effect.
+#include <bit>
+#include <ctime>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/io/load_scene.h"
+#include "core/session/methods.h"
+#include "core/session/session.h"
+#include "cpu/cpu_backend.h"
+
+namespace pl::test {
+namespace {
+
+RenderSettings settings_of(const SceneDescription& scene, const std::string& method, bool forced) {
+    RenderSettings settings;
+    for (const MethodInfo& info : all_methods())
+        if (info.name == method) settings.method = info.id;
+    if (info_of(settings.method).name != method) throw Error(ErrorKind::Usage, "no such method: " + method);
+    settings.width = settings.height = 128;
+    settings.camera = scene.camera;
+    settings.field.volumes = 200;
+    settings.field.precompute_samples = 4;
+    if (forced) settings.forced_effects = kEveryFeature;
+    return settings;
+}
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void serve(const std::string& method, bool forced) {
+    const auto scene = std::make_shared<const SceneDescription>(load_scene("cornell", PL_SOURCE_DIR "/assets"));
+    Session session(make_cpu_backend({.threads = 1}), scene, settings_of(*scene, method, forced));
+    std::string line;
+    while (std::getline(std::cin, line)) {
+        double start = processor_seconds();
+        while (session.advance() != Progress::Rendered) start = processor_seconds();  // placing, precomputing
+        std::cout << processor_seconds() - start << std::endl;
+    }
+    std::uint32_t sum = 0;
+    for (const Vec3f& pixel : session.snapshot().pixels)
+        for (int i = 0; i < 3; ++i) sum = 31u * sum + std::bit_cast<std::uint32_t>(pixel[i]);
+    std::cout << sum << std::endl;
+}
+
+}  // namespace
+}  // namespace pl::test
+
+int main(int count, char** arguments) try {
+    pl::test::serve(count > 1 ? arguments[1] : "default", count > 2);
+    return 0;
+} catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+}

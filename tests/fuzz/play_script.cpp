@@ -1,0 +1,193 @@
+#include "tests/fuzz/play_script.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include <SDL.h>
+
+#include "core/base/error.h"
+#include "tests/ui/model_bench.h"
+#include "ui/display.h"
+#include "ui/draw_interface.h"
+#include "ui/gui_memory.h"
+#include "ui/input_router.h"
+#include "ui/mouse_tracker.h"
+#include "ui/script_player.h"
+#include "ui/script_values.h"
+
+namespace pl::test {
+namespace {
+
+using Kind = ScriptCommand::Kind;
+
+constexpr std::size_t kMostCommands = 64;
+constexpr int kLongestPause = 3;  ///< frames
+constexpr int kWindowWidth = 960;
+constexpr int kWindowHeight = 640;
+constexpr double kLargestWindow = 2000.0;  ///< of a resize; the picture takes memory
+
+/// The window's driver and a hidden window, kept for the life of the process.
+SDL_Window* hidden_window() {
+    static const VideoSubsystem* const video = [] {
+        SDL_setenv("SDL_VIDEODRIVER", "dummy", 1);
+        return new VideoSubsystem;  // SDL is not to be shut down after its own atexit
+    }();
+    (void)video;
+    static SDL_Window* const window =
+        SDL_CreateWindow("fuzz", 0, 0, kWindowWidth, kWindowHeight, SDL_WINDOW_HIDDEN | SDL_WINDOW_RESIZABLE);
+    return window;
+}
+
+/// Dear ImGui without anything to draw with, new for each script: what one leaves behind would change the next.
+class Panels {
+public:
+    explicit Panels(SDL_Window* window) : window_(window) {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.LogFilename = nullptr;
+        io.UserData = &memory_;
+        init_imgui_platform(window, nullptr);
+        apply_style(1.0f);
+        load_fonts("", 1.0f);
+        unsigned char* pixels = nullptr;
+        int width = 0, height = 0;
+        io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
+    }
+    ~Panels() {
+        ImGui_ImplSDL2_Shutdown();
+        ImGui::DestroyContext();
+    }
+    Panels(const Panels&) = delete;
+    Panels& operator=(const Panels&) = delete;
+
+    void handle(const SDL_Event& event) {
+        ImGui_ImplSDL2_ProcessEvent(&event);
+        mouse_.handle(event);
+    }
+    Layout layout(const ViewerModel& model) const {
+        int width = 0, height = 0;
+        SDL_GetWindowSize(window_, &width, &height);
+        return make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels, model.window().panels,
+                           model.window().accuracy);
+    }
+    void frame(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan) {
+        ImGui_ImplSDL2_NewFrame();
+        mouse_.write_to_imgui();
+        ImGuiIO& io = ImGui::GetIO();
+        io.DeltaTime = static_cast<float>(ScriptPlayer::kFrameSeconds);
+        int width = 0, height = 0;
+        SDL_GetWindowSize(window_, &width, &height);
+        io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+        ImGui::NewFrame();
+        memory_.places.clear();
+        memory_.pointer_rest_seconds = 1.0f;  // tooltips, too
+        draw_interface(model, layout, image, plan, HoveredPixel{});
+        ImGui::Render();
+    }
+
+private:
+    SDL_Window* window_;
+    MouseTracker mouse_;
+    GuiMemory memory_;
+};
+
+/// A model whose files are not there: scenes come from memory, and what is saved goes nowhere.
+ModelBench make_bench() {
+    ModelBench bench(32);
+    ViewerOptions& options = bench.options;
+    options.settings.field.volumes = 16;
+    options.settings.field.bins = 16;
+    options.backends = {{"cpu", "", ""}, {"cuda", "", ""}, {"other", "", "there is none"}};
+    options.load_scene = [](const std::string& name) {
+        if (name.size() % 2 == 0) throw Error(ErrorKind::Input, name + ":1: expected a scene");
+        return small_scene();
+    };
+    options.save_image = [](const auto&...) {};
+    options.save_screen = [](const auto&...) {};
+    options.save_field = [](const auto&...) {};
+    options.load_field = [](const std::filesystem::path& path, const OpenScene&) -> std::shared_ptr<LearnedField> {
+        throw Error(ErrorKind::Input, path.string() + ": expected a field");
+    };
+    options.command_line = [](const ViewerPicture&) { return std::string("pathlight"); };
+    return bench;
+}
+
+/// In frames of their own that follow each other closely, without conditions and too large windows.
+std::vector<ScriptCommand> shortened(std::vector<ScriptCommand> commands) {
+    std::erase_if(commands, [](const ScriptCommand& c) { return c.kind == Kind::Wait || c.kind == Kind::Expect; });
+    if (commands.size() > kMostCommands) commands.resize(kMostCommands);
+    int before = 0, now = 0;
+    for (ScriptCommand& command : commands) {
+        now += std::min(command.frame - before, kLongestPause);
+        before = std::exchange(command.frame, now);
+        if (command.kind != Kind::Resize) continue;
+        command.x = std::min(command.x, kLargestWindow);
+        command.y = std::min(command.y, kLargestWindow);
+    }
+    return commands;
+}
+
+/// Every value can be read, and what a picture is made with is made of numbers.
+void check(const ViewerModel& model, const std::vector<ScriptCommand>& conditions) {
+    for (const ScriptCommand& command : conditions)
+        holds(command.condition, script_value(model, command.condition.name));
+    const CameraDescription& camera = model.settings().camera;
+    for (const glm::vec3& v : {camera.eye, camera.target, camera.up})
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(v[axis])) throw std::logic_error("a camera that is no number");
+    if (!std::isfinite(model.display().exposure_ev) || !(model.controls().speed() > 0.0f))
+        throw std::logic_error("an exposure or a speed that is no number");
+    if (model.settings().width < 1 || model.settings().height < 1) throw std::logic_error("a picture without pixels");
+}
+
+/// Events that an earlier script left behind.
+void drop_events() {
+    SDL_Event event;
+    while (SDL_PollEvent(&event) != 0)
+        if (event.type == SDL_DROPFILE) SDL_free(event.drop.file);
+}
+
+}  // namespace
+
+void play_script(std::vector<ScriptCommand> commands) {
+    SDL_Window* const window = hidden_window();
+    SDL_SetWindowSize(window, kWindowWidth, kWindowHeight);
+    SDL_SetModState(KMOD_NONE);
+    drop_events();
+    std::vector<ScriptCommand> conditions = commands;
+    std::erase_if(conditions, [](const ScriptCommand& c) { return c.kind != Kind::Wait && c.kind != Kind::Expect; });
+    Panels panels(window);
+    ModelBench bench = make_bench();
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    if (!bench.run_until(model, [&] { return model.frame() != nullptr; })) throw std::logic_error("no picture");
+    InputRouter input(window);
+    ScriptPlayer player(shortened(std::move(commands)), window);
+    double seconds = bench.clock;
+    while (!model.window().quit_asked) {
+        std::this_thread::sleep_for(std::chrono::microseconds(100));  // for passes of the fake back end
+        seconds += ScriptPlayer::kFrameSeconds;
+        const Layout layout = panels.layout(model);
+        const Rect image = place_image(layout.view, model.settings().width, model.settings().height);
+        const ComparePlan plan = model.compare_plan(layout.view);
+        player.step(model, image, seconds);
+        const ImGuiIO& io = ImGui::GetIO();
+        SDL_Event event;
+        while (SDL_PollEvent(&event) != 0) {
+            panels.handle(event);
+            input.handle(
+                event, model,
+                {plan.at_image ? image : Rect{}, layout.view, io.WantCaptureMouse, io.WantTextInput, seconds});
+        }
+        model.update(seconds);
+        model.fly(input.move_keys(), ScriptPlayer::kFrameSeconds);
+        panels.frame(model, layout, image, plan);
+        check(model, conditions);
+    }
+}
+
+}  // namespace pl::test

@@ -1,0 +1,84 @@
+// Work in the background that a person waits for: a thread of low priority, its progress, and a way to stop it.
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <sys/resource.h>
+
+#include "ui/viewer.h"
+
+namespace pl {
+
+template <class Value>
+class BackgroundJob {
+public:
+    using Make = std::function<Value(const JobMonitor&)>;
+
+    explicit BackgroundJob(Make make) : thread_([this, make = std::move(make)] { run(make); }) {}
+    /// Stops it, and waits until it has seen that.
+    ~BackgroundJob() {
+        stop();
+        thread_.join();
+    }
+    BackgroundJob(const BackgroundJob&) = delete;
+    BackgroundJob& operator=(const BackgroundJob&) = delete;
+
+    void stop() { stopped_ = true; }
+    bool stopped() const { return stopped_; }
+
+    struct Progress {
+        double share = 0.0;  ///< of the whole, in [0, 1]
+        std::string detail;
+    };
+    Progress progress() const {
+        const std::lock_guard lock(mutex_);
+        return progress_;
+    }
+
+    struct Result {
+        Value value{};        ///< what is there by then, if it was stopped
+        std::string failure;  ///< empty if it did not fail
+    };
+    /// Once, when it is over.
+    std::optional<Result> take_result() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(result_, std::nullopt);
+    }
+
+private:
+    void run(const Make& make) {
+        constexpr int kNice = 10;  // on Linux about this thread and those that it starts: everything else comes first
+        (void)setpriority(PRIO_PROCESS, 0, kNice);
+        const JobMonitor monitor{.stopped = [this] { return stopped_.load(); },
+                                 .progress =
+                                     [this](double share, const std::string& detail) {
+                                         const std::lock_guard lock(mutex_);
+                                         progress_ = {share, detail};
+                                     },
+                                 .stop = &stopped_};
+        Result result;
+        try {
+            result.value = make(monitor);
+        } catch (const std::exception& error) {
+            result.failure = error.what();
+        }
+        const std::lock_guard lock(mutex_);
+        result_ = std::move(result);
+    }
+
+    StopFlag stopped_{false};
+    mutable std::mutex mutex_;
+    Progress progress_;
+    std::optional<Result> result_;
+    std::thread thread_;  ///< last: starts when all else is there
+};
+
+/// A reference in the making. Null if it was stopped before there was any; what it has by then is stored.
+using ReferenceJob = BackgroundJob<std::shared_ptr<const StoredReference>>;
+
+}  // namespace pl

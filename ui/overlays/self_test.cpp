@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "ui/overlays/dialog.h"
+#include "ui/overlays/overlays.h"
+#include "ui/panels/widgets.h"
+
+namespace pl {
+namespace {
+
+void cell(const std::string& text, ImU32 color = colors::kText) {
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
+std::string margin_text(const SelfCheck& check) {
+    if (check.tolerance <= 0.0) return "exact";
+    return std::isfinite(check.used_share) ? fmt::format("{:.0f} % used", 100.0 * check.used_share) : "none";
+}
+
+void draw_check(const SelfCheck& check) {
+    ImGui::TableNextRow();
+    cell(check.passed ? "ok" : "FAILED", check.passed ? colors::kGood : colors::kError);
+    cell(check.backend, colors::kFaint);
+    cell(check.name);
+    tooltip(check.criterion.c_str());
+    cell(fmt::format("{:.6g}", check.expected));
+    cell(fmt::format("{:.6g}", check.measured), check.passed ? colors::kText : colors::kError);
+    cell(margin_text(check), colors::kFaint);
+    tooltip("Share of the tolerance that the result used; exact: there is none.");
+}
+
+void draw_checks(const std::vector<SelfCheck>& checks, float height) {
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
+    if (!ImGui::BeginTable("checks", 6, kFlags, {0.0f, height})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("");
+    ImGui::TableSetupColumn("back end");
+    ImGui::TableSetupColumn("check", ImGuiTableColumnFlags_WidthStretch);
+    for (const char* title : {"expected", "measured", "margin"}) ImGui::TableSetupColumn(title);
+    ImGui::TableHeadersRow();
+    for (const SelfCheck& check : checks) draw_check(check);
+    // Follows what comes, until a person scrolls away from the end.
+    if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) ImGui::SetScrollHereY(1.0f);
+    ImGui::EndTable();
+}
+
+ImU32 color_of(SelfTestRun::Outcome outcome) {
+    switch (outcome) {
+    case SelfTestRun::Outcome::Failed:
+    case SelfTestRun::Outcome::Broken: return colors::kError;
+    case SelfTestRun::Outcome::Passed: return colors::kGood;
+    case SelfTestRun::Outcome::Stopped: return colors::kWarning;
+    case SelfTestRun::Outcome::None:
+    case SelfTestRun::Outcome::Running: break;
+    }
+    return colors::kText;
+}
+
+void draw_button(ViewerModel& model) {
+    const SelfTestRun& test = model.self_test();
+    const char* label =
+        test.is_running() ? "Cancel" : (test.outcome() == SelfTestRun::Outcome::None ? "Run" : "Again");
+    if (ImGui::Button(label, {em(6.0f), 0.0f})) {
+        if (test.is_running())
+            model.stop_self_test();
+        else
+            model.start_self_test();
+    }
+    note_place("self test");
+    ImGui::SameLine();
+    text_line(test.summary().c_str(), color_of(test.outcome()));
+}
+
+}  // namespace
+
+void draw_self_test(ViewerModel& model, const Layout& layout) {
+    if (!model.window().self_test) return;
+    begin_dialog("Self test", model.window().self_test, layout, em(58.0f));
+    faint_text(
+        "Renders small scenes whose light is known in closed form on every back end that is there, as 'pathlight "
+        "selftest' does. It takes about ten seconds a back end; rendering rests meanwhile.");
+    draw_button(model);
+    draw_checks(model.self_test().checks(), std::min(em(26.0f), screen_size(layout).y - em(14.0f)));
+    ImGui::End();
+}
+
+}  // namespace pl
