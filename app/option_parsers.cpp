@@ -185,6 +185,10 @@ void parse_field_budget(Options& options, const std::string& text) {
     options.render.field.budget_megabytes = megabytes;
 }
 
+void parse_refine(Options& options, const std::string& text) {
+    options.render.field.refine_share = static_cast<float>(parse_real(text, 0.0, 1.0));
+}
+
 void parse_time_limit(Options& options, const std::string& text) {
     const double seconds = parse_real(text, 0.0, 1.0e9);
     if (!(seconds > 0.0)) fail_value("a number of seconds above 0", text);

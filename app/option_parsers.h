@@ -25,6 +25,7 @@ void parse_fov(Options& options, const std::string& text);
 void parse_aperture(Options& options, const std::string& text);
 void parse_focus(Options& options, const std::string& text);
 void parse_field_budget(Options& options, const std::string& text);
+void parse_refine(Options& options, const std::string& text);
 void parse_time_limit(Options& options, const std::string& text);
 void parse_target_error(Options& options, const std::string& text);
 void parse_window(Options& options, const std::string& text);

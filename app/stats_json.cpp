@@ -31,8 +31,13 @@ Json target_json(const ErrorTarget* target) {
 
 Json field_json(const std::optional<FieldStatus>& field) {
     if (!field) return nullptr;
-    return {{"volumes", field->volumes}, {"bins", field->bins},       {"bytes", field->bytes},
-            {"passes", field->passes},   {"records", field->records}, {"lookup_misses", field->lookup_misses}};
+    return {{"volumes", field->volumes},
+            {"added_volumes", field->added_volumes},
+            {"bins", field->bins},
+            {"bytes", field->bytes},
+            {"passes", field->passes},
+            {"records", field->records},
+            {"lookup_misses", field->lookup_misses}};
 }
 
 void add_counters(Json& stats, const PassCounters& counters) {

@@ -56,6 +56,7 @@ void RenderWorker::render_cells() {
     if (progress != Progress::Rendered) return;
     cells_ = std::make_shared<CellImage>(make_cell_image(session_->show_film({}).frame));
     cells_pose_ = pose_;
+    cells_refinement_ = session_->refinement();
     republish_ = true;
 }
 
@@ -149,7 +150,7 @@ void RenderWorker::publish() {
     frame->description = session_->shared_scene();
     frame->scene = session_->packed_scene();
     frame->diagonal = diagonal_;
-    frame->cells = cells_pose_ == pose_ && now_.cells ? cells_ : nullptr;
+    frame->cells = now_.cells && cells_are_current() ? cells_ : nullptr;
     frame->volume = inspection_;
     pose_unseen_ = false;
     published_at_ = now_seconds();

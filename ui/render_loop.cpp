@@ -94,7 +94,7 @@ bool RenderWorker::has_work() const {
     if (failed_) return false;
     const bool size_is_stale = divider_ != 1 && !coarse();
     return size_is_stale || wants_pass() || republish_ || inspection_stale_ ||
-           now_.volume != (inspection_ ? inspection_->volume : kNoVolume) || (now_.cells && cells_pose_ != pose_);
+           now_.volume != (inspection_ ? inspection_->volume : kNoVolume) || (now_.cells && !cells_are_current());
 }
 
 void RenderWorker::apply_edits(std::vector<SessionEdit> edits) {
@@ -207,7 +207,7 @@ void RenderWorker::work() {
     if (turns_) take_turn();
     if (wants_pass()) render();
     if (stop_) return;
-    if (now_.cells && cells_pose_ != pose_ && session_->passes() > 0) render_cells();
+    if (now_.cells && !cells_are_current() && session_->passes() > 0) render_cells();
     refresh_inspection();
     if (republish_ || publish_is_due()) publish();
 }

@@ -162,6 +162,8 @@ private:
     void work();
     void render();
     void render_cells();
+    /// Whether cells_ shows the present volumes from the present place.
+    bool cells_are_current() const { return cells_pose_ == pose_ && cells_refinement_ == session_->refinement(); }
     void answer_pick(Vec2f image_point);
     void answer_learned();
     void answer_trouble();
@@ -215,6 +217,7 @@ private:
     int divider_ = 1;
     std::uint64_t pose_ = 1;        ///< grows with everything that changes which cell a pixel sees
     std::uint64_t cells_pose_ = 0;  ///< pose that cells_ shows
+    Refinement cells_refinement_;   ///< of the volumes that it shows
     std::shared_ptr<const CellImage> cells_;
     std::shared_ptr<const VolumeInspection> inspection_;
     bool inspection_stale_ = false;

@@ -13,6 +13,11 @@ constexpr double kBytesPerMegabyte = 1.0e6;
 
 int side_of(int bins) { return static_cast<int>(std::lround(std::sqrt(static_cast<double>(bins)))); }
 
+/// Volumes that the budget holds.
+double affordable(const FieldSettings& settings) {
+    return settings.budget_megabytes * kBytesPerMegabyte / static_cast<double>(bytes_per_volume(settings.bins));
+}
+
 /// Smallest power of two not below `value`, kept where neither dividing by it nor kMaxRecordedUnits times it can
 /// leave the range of float.
 float power_of_two_above(float value) {
@@ -46,9 +51,13 @@ std::size_t bytes_per_volume(int bins) {
 
 int volume_count(const FieldSettings& settings) {
     if (settings.volumes > 0) return settings.volumes;
-    const double budget = settings.budget_megabytes * kBytesPerMegabyte;
-    const double affordable = budget / static_cast<double>(bytes_per_volume(settings.bins));
-    return std::max(1, static_cast<int>(std::min(affordable, static_cast<double>(kDefaultVolumes))));
+    return std::max(1, static_cast<int>(std::min(affordable(settings), static_cast<double>(kDefaultVolumes))));
+}
+
+std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t placed) {
+    double most = std::floor((1.0 + settings.refine_share) * static_cast<double>(placed));
+    if (settings.volumes == 0) most = std::min(most, std::floor(affordable(settings)));
+    return std::max(placed, static_cast<std::size_t>(most));
 }
 
 FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "core/fields/field_storage.h"
 #include "core/kernel/methods/learning_target.h"
@@ -18,6 +19,8 @@ struct FieldSettings {
     float uniform_floor = kUniformShare;
     int precompute_samples = 16;  ///< paths per cell and volume, a square number
     Lookup lookup = Lookup::Grid;
+    float refine_share =
+        0.0f;  ///< of the volumes placed, how many more splitting may add, in [0, 1]; see refine_placement()
 
     friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };
@@ -35,6 +38,10 @@ std::size_t bytes_per_volume(int bins);
 /// Number of volumes that the settings ask for (before surfaces too small for their share get one of their own).
 int volume_count(const FieldSettings& settings);
 
+/// Most volumes that splitting may make of those that were placed: their share more, and no more than the budget holds
+/// where it decides about their number.
+std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t placed);
+
 /// Shape of the tables; the radiance unit is the smallest power of two not below the brightest emission.
 FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings);
 
@@ -43,6 +50,11 @@ FieldShape make_field_shape(const HostScene& scene, const FieldSettings& setting
 /// each side gets at least one volume unless there are more sides than volumes. Deterministic in the scene and the
 /// settings; scaling the scene by a power of two scales the result.
 HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings);
+
+/// Points of the sides that place_volumes() puts volumes on: the same way of placing, with `density` times as many on each
+/// side. Side by side.
+void for_each_site(const HostScene& scene, const FieldSettings& settings, std::uint32_t density,
+                   const std::function<void(const SurfacePoint&)>& visit);
 
 /// Balanced tree over the sites, in the layout of KdTreeView. Sites with positions that are not finite are left out.
 std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites);

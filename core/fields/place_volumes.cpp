@@ -62,15 +62,16 @@ float radical_inverse(std::uint32_t index) {
     return static_cast<float>(mirrored >> 8) * 0x1p-24f;
 }
 
-/// Places the volumes of one side: a Hammersley set over its cumulative area.
-void place_on(const SceneView& scene, const Surface& surface, const Side& side, HostVolumes& volumes) {
-    // Half a step of the mirrored numbers below `volumes`, so that the first one does not stand on an edge.
-    const float half_step = 0.5f / static_cast<float>(std::bit_ceil(side.volumes));
+/// A Hammersley set of `count` points over the cumulative area of one side.
+void for_each_point(const SceneView& scene, const Surface& surface, const Side& side, std::uint32_t count,
+                    const std::function<void(const SurfacePoint&)>& visit) {
+    // Half a step of the mirrored numbers below `count`, so that the first one does not stand on an edge.
+    const float half_step = 0.5f / static_cast<float>(std::bit_ceil(count));
     std::size_t current = 0;
     double start = 0.0;  // area of the triangles before the current one
     double area = area_of(scene, surface.triangles.front());
-    for (std::uint32_t i = 0; i < side.volumes; ++i) {
-        const double target = (i + 0.5) / side.volumes * side.area;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double target = (i + 0.5) / count * side.area;
         while (target >= start + area && current + 1 < surface.triangles.size()) {
             start += area;
             area = area_of(scene, surface.triangles[++current]);
@@ -79,19 +80,27 @@ void place_on(const SceneView& scene, const Surface& surface, const Side& side, 
         const Vec2f b = square_to_triangle({across, radical_inverse(i) + half_step});
         const Hit hit{.primitive = surface.triangles[current], .b1 = b.x, .b2 = b.y};
         const Vec3f normal = scene.planes[hit.primitive].normal;
-        volumes.sites.push_back(make_surface_point<FeatureSet{}>(scene, hit, side.front ? normal : -normal));
-        volumes.normals.push_back(volumes.sites.back().geometric_normal);
+        visit(make_surface_point<FeatureSet{}>(scene, hit, side.front ? normal : -normal));
     }
 }
 
 }  // namespace
 
-HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings) {
+void for_each_site(const HostScene& scene, const FieldSettings& settings, std::uint32_t density,
+                   const std::function<void(const SurfacePoint&)>& visit) {
     const Surfaces surfaces = find_surfaces(scene);
     std::vector<Side> sides = lit_sides_of(scene, surfaces);
     share_out(sides, static_cast<std::uint32_t>(volume_count(settings)));
+    for (const Side& side : sides)
+        for_each_point(scene.view(), surfaces.list[side.surface], side, density * side.volumes, visit);
+}
+
+HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings) {
     HostVolumes volumes;
-    for (const Side& side : sides) place_on(scene.view(), surfaces.list[side.surface], side, volumes);
+    for_each_site(scene, settings, 1, [&](const SurfacePoint& site) {
+        volumes.sites.push_back(site);
+        volumes.normals.push_back(site.geometric_normal);
+    });
     volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
     return volumes;
 }

@@ -69,6 +69,7 @@ private:
         require(s.precompute_samples > 0 && is_square(s.precompute_samples), "precomputed samples",
                 "a square number above 0", s.precompute_samples);
         require(s.lookup <= Lookup::Grid, "lookup", "0 to 2", static_cast<std::uint32_t>(s.lookup));
+        require(s.refine_share >= 0.0f && s.refine_share <= 1.0f, "share of added volumes", "0 to 1", s.refine_share);
     }
 
     void shape() const {
@@ -99,6 +100,8 @@ private:
             require(array.size() == expected, what, fmt::format("{} values", expected), array.size());
         };
         size("places", volumes_.sites, volumes);
+        require(field_.refinement.added <= volumes, "added volumes", fmt::format("at most {}", volumes),
+                field_.refinement.added);
         require(volumes_.kd_nodes.size() <= volumes, "search tree", fmt::format("at most {} values", volumes),
                 volumes_.kd_nodes.size());
         size("radiance", t.radiance, cells);

@@ -19,7 +19,7 @@ namespace pl {
 namespace {
 
 constexpr std::string_view kMagic = "PLFIELD\n";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 constexpr std::size_t kPrefixBytes = kMagic.size() + sizeof kVersion + sizeof(std::uint64_t);
 
@@ -152,9 +152,11 @@ void transfer_header(Stream& stream, Field& field) {
     const auto all = [&](auto&... values) { (transfer(stream, values), ...); };
     auto& settings = field.settings;
     all(settings.volumes, settings.budget_megabytes, settings.bins, settings.rate, settings.learning.target,
-        settings.learning.light, settings.uniform_floor, settings.precompute_samples, settings.lookup);
+        settings.learning.light, settings.uniform_floor, settings.precompute_samples, settings.lookup,
+        settings.refine_share);
     auto& shape = field.shape;
     all(shape.cells.side, shape.radiance_unit, shape.extent, shape.rate, shape.uniform_floor, shape.lookup);
+    all(field.refinement.rounds, field.refinement.added);
     auto& progress = field.progress;
     all(progress.passes, progress.records, progress.lookup_misses, progress.precomputed_slices, progress.next_probe,
         progress.precompute_seconds);

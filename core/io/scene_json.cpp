@@ -25,7 +25,7 @@ constexpr const char* kSchema = "pathlight.scene/1";
 const std::vector<std::string> kSettings = {
     "method",  "view", "backend",       "threads",       "spp",          "time-limit", "target-error", "width",
     "height",  "size", "seed",          "nee",           "max-depth",    "exposure",   "tonemap",      "field-budget",
-    "volumes", "bins", "bsdf-fraction", "learning-rate", "learn-target", "learn-from", "roulette"};
+    "volumes", "bins", "bsdf-fraction", "learning-rate", "learn-target", "learn-from", "roulette",     "refine"};
 
 void read_camera(const JsonDocument& file, SceneDescription& scene) {
     const bool given =

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "core/fields/make_field.h"
+#include "core/fields/refine_placement.h"
 #include "core/scene/description.h"
 #include "core/session/methods.h"
 
@@ -28,6 +28,7 @@ struct LearnedField {
     FieldSettings settings;
     FieldShape shape;
     std::shared_ptr<const HostVolumes> volumes;
+    Refinement refinement{};  ///< of the volumes
     HostTables tables;
     FieldProgress progress;
 };

@@ -48,6 +48,7 @@ void Session::ensure_volumes() {
     const Stopwatch watch;
     shape_ = make_field_shape(*packed_, settings_.field);
     volumes_ = with_lookup(place_volumes(*packed_, settings_.field), shape_.lookup);
+    refinement_ = {};
     backend_->upload_volumes(volumes_, shape_);
     place_seconds_ = watch.seconds();
 }
@@ -188,8 +189,10 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
 
 void Session::finish_learning_pass(FilmState& state) {
     const Stopwatch watch;
-    if (is_published_after(state.passes)) backend_->publish(settings_.method);
+    const bool is_published = is_published_after(state.passes);
+    if (is_published) backend_->publish(settings_.method);
     ++field().passes;
+    if (is_published) refine_if_due();
     state.learn_seconds += watch.seconds();
 }
 
@@ -210,6 +213,7 @@ std::optional<FieldStatus> Session::field_status() const {
     if (!volumes_ || !info_of(settings_.method).uses_field) return std::nullopt;
     const FieldProgress& state = field();
     FieldStatus status{.volumes = static_cast<int>(volumes_->normals.size()),
+                       .added_volumes = static_cast<int>(refinement_.added),
                        .bins = shape_.cells.count(),
                        .bytes =
                            volume_bytes(*volumes_) + volumes_->normals.size() * table_bytes(shape_.cells.count()),
@@ -318,6 +322,7 @@ LearnedField Session::export_field() const {
             .settings = settings_.field,
             .shape = shape_,
             .volumes = volumes_,
+            .refinement = refinement_,
             .tables = backend_->download_tables(method),
             .progress = field()};
 }

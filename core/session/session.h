@@ -78,6 +78,8 @@ public:
     ServedKernel served_kernel() const;
     std::uint32_t passes() const { return film().passes; }
     std::optional<FieldStatus> field_status() const;
+    /// Of the placement that all methods share; nothing before the volumes are placed.
+    Refinement refinement() const { return volumes_ ? refinement_ : Refinement{}; }
     /// Of the current film and method; cheap, unlike a snapshot.
     Clocks clocks() const;
     /// Of the current film. A picture that is resumed keeps its origin; one that was emptied gets another.
@@ -125,6 +127,9 @@ private:
     Progress precompute_slice(const StopFlag* stop);
     Progress render_slot(FilmSlot slot, const StopFlag* stop);
     void finish_learning_pass(FilmState& state);
+    void refine_if_due();
+    void replace_volumes(RefinedPlacement refined, HostTables learned);
+    void clear_cell_films();
     void note_escapes(const PassCounters& counters);
     PathSettings path_settings() const;
     MixtureSettings mixture_of(MethodId method) const;
@@ -137,6 +142,7 @@ private:
     std::optional<Enclosure> enclosure_;  ///< of the scene, once a path has escaped
     std::optional<bool> is_closed_;       ///< it contains the camera; unknown before a path has escaped
     std::shared_ptr<const HostVolumes> volumes_;
+    Refinement refinement_;  ///< of volumes_
     FieldShape shape_;
     FilmStates films_{};
     std::array<FieldProgress, kMethodCount> fields_{};

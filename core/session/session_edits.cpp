@@ -42,7 +42,8 @@ bool fits_together(const LearnedField& field) {
     if (field.volumes == nullptr || field.shape.cells.side < 1) return false;
     const std::size_t volumes = field.volumes->normals.size();
     const HostTables expected = make_tables(field.shape, volumes);
-    bool fits = field.volumes->sites.size() == volumes && field.volumes->kd_nodes.size() <= volumes;
+    bool fits = field.volumes->sites.size() == volumes && field.volumes->kd_nodes.size() <= volumes &&
+                field.refinement.added <= volumes;
     zip(expected, field.tables,
         [&](const auto& want, const auto& have) { fits = fits && want.size() == have.size(); });
     return fits;
@@ -118,6 +119,7 @@ Session::ParkedBackend Session::unpark(const std::shared_ptr<RenderBackend>& bac
 
 void Session::clear_tables() {
     fields_.fill(FieldProgress{});
+    if (refinement_.rounds > 0) volumes_.reset();  // what is forgotten decided where the added ones stand
     if (volumes_) backend_->upload_volumes(volumes_, shape_);
 }
 
@@ -131,6 +133,7 @@ void Session::import_field(LearnedField learned) {
     settings_.field = learned.settings;
     shape_ = learned.shape;
     volumes_ = volumes;
+    refinement_ = learned.refinement;
     fields_.fill(FieldProgress{});
     fields_[static_cast<std::size_t>(learned.method)] = learned.progress;
     clear_films();

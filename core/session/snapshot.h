@@ -36,6 +36,7 @@ struct FilmOrigin {
 /// What is known about the learned field of the session's method.
 struct FieldStatus {
     int volumes = 0;
+    int added_volumes = 0;  ///< of these, by refining
     int bins = 0;
     std::size_t bytes = 0;
     std::uint64_t passes = 0;  ///< publications

@@ -30,7 +30,7 @@ struct Setup {
         {"bins", 256},       {"fraction", 0},   {"floor", kUniformShare},
         {"rate", 4},         {"precompute", 0}, {"nee", 0},
         {"megabytes", 16.0}, {"target", 0},     {"light", 0},
-        {"roulette", 0},     {"uniform", 0},
+        {"roulette", 0},     {"uniform", 0},    {"refine", 0},
     };
     std::vector<std::string> scenes;
 
@@ -67,6 +67,7 @@ RenderSettings settings_of(const Setup& setup, const SceneDescription& scene) {
     settings.field.bins = setup.integer("bins");
     settings.field.budget_megabytes = setup["megabytes"];
     settings.field.uniform_floor = static_cast<float>(setup["floor"]);
+    settings.field.refine_share = static_cast<float>(setup["refine"]);
     settings.field.rate = static_cast<LearningRate>(setup.integer("rate"));
     settings.field.learning = {.target = static_cast<LearningTarget>(setup.integer("target")),
                                .light = static_cast<LearnedLight>(setup.integer("light"))};

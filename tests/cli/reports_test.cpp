@@ -122,6 +122,14 @@ TEST_CASE("statistics of the field: null without one, complete with one") {
     CHECK(field["bytes"] > 60 * 64 * 4);
     CHECK(field["passes"] == 4);
     CHECK(field["records"] > 0);
+    CHECK(field["added_volumes"] == 0);
+}
+
+TEST_CASE("statistics tell how many volumes refinement added") {
+    const ordered_json field = stats_of(
+        {"--method", "reinforcement", "--volumes", "60", "--bins", "16", "--refine", "0.5", "--spp", "17"})["field"];
+    CHECK(field["added_volumes"] > 20);
+    CHECK(field["added_volumes"] <= field["volumes"].get<int>() / 3);
 }
 
 TEST_CASE("statistics of next-event estimation") {

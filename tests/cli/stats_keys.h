@@ -41,6 +41,7 @@ inline const std::vector<std::string> kStatsKeys{"schema",
 inline const std::vector<std::string> kSecondsKeys{"load",       "build", "upload", "place",
                                                    "precompute", "learn", "render", "total"};
 
-inline const std::vector<std::string> kFieldKeys{"volumes", "bins", "bytes", "passes", "records", "lookup_misses"};
+inline const std::vector<std::string> kFieldKeys{"volumes", "added_volumes", "bins",         "bytes",
+                                                 "passes",  "records",       "lookup_misses"};
 
 }  // namespace pl::test

@@ -60,6 +60,10 @@ TEST_CASE("wrong values name the option, what is expected and what was given") {
         {{"--threads", "0"}, "--threads: expected"},
         {{"--volumes", "0"}, "--volumes: expected"},
         {{"--field-budget", "0"}, "--field-budget: expected"},
+        {{"--refine", "1.01"}, "--refine: expected a number from 0 to 1, got '1.01'"},
+        {{"--refine", "-0.1"}, "--refine: expected a number from 0 to 1"},
+        {{"--refine", "nan"}, "--refine: expected"},
+        {{"--refine", "half"}, "--refine: expected"},
         {{"--learning-rate", "means"},
          "--learning-rate: expected mean, forgetful, power or floor, got 'means' (nearest: 'mean')"},
         {{"--learn-target", "montecarlo"},
@@ -85,7 +89,9 @@ TEST_CASE("the limits of values are values") {
                                                {"--size", "16384x1"},
                                                {"--seed", "18446744073709551615"},
                                                {"--fov", "179.99"},
-                                               {"--max-depth", "1"}}) {
+                                               {"--max-depth", "1"},
+                                               {"--refine", "0"},
+                                               {"--refine", "1"}}) {
         CAPTURE(words);
         CHECK_NOTHROW(parse(render_with(words)));
     }
@@ -187,6 +193,7 @@ TEST_CASE("what is given beside a loaded field has to agree with it, but for the
         {{"--bins", "256"}, "--bins 256: the field in my.field was learned with --bins 64"},
         {{"--volumes", "9"}, "--volumes 9: the field in my.field was learned without --volumes"},
         {{"--field-budget", "1"}, "--field-budget 1: the field in my.field was learned with --field-budget 16"},
+        {{"--refine", "0.5"}, "--refine 0.5: the field in my.field was learned with --refine 0"},
         {{"--method", "reinforcement"},
          "--method reinforcement: the field in my.field was learned with --method prec"},
         {{"--method", "default"}, "--method default: the field in my.field was learned with --method precomputed"},

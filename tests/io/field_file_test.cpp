@@ -47,6 +47,7 @@ void check_same(const LearnedField& a, const LearnedField& b) {
     CHECK(a.shape.extent == b.shape.extent);
     CHECK(a.shape.uniform_floor == b.shape.uniform_floor);
     CHECK((a.shape.lookup == b.shape.lookup));
+    CHECK((a.refinement == b.refinement));
     CHECK((a.progress == b.progress));
     const auto check = [](const auto& x, const auto& y) { CHECK(same_bits(x, y)); };
     zip(*a.volumes, *b.volumes, check);
@@ -183,8 +184,8 @@ TEST_CASE("Other files and other versions are no damaged fields") {
     CHECK_THAT(told(""), contains("f: not a learned field: expected a file that begins with PLFIELD"));
     CHECK_THAT(told("v 0 0 0\n"), contains("not a learned field") && contains("got 76 20 30"));
     std::string newer = bytes;
-    newer[8] = 5;
-    CHECK_THAT(told(newer), contains("another version: expected 4, got 5"));
+    newer[8] = 6;
+    CHECK_THAT(told(newer), contains("another version: expected 5, got 6"));
     CHECK_THAT(input_error([&] { read_field(folder.path() / "gone"); }), contains("gone: cannot be read"));
     CHECK_THAT(input_error([&] { read_field(folder.path()); }), contains("it is a directory"));
 }

@@ -90,6 +90,29 @@ void check_variants(const std::string& name, double resolution) {
     }
 }
 
+/// Refined as often as may be: one long picture, and the beginnings of many, each with both moments of splitting.
+void check_refined(const std::string& name, int runs, double resolution) {
+    constexpr std::uint32_t kPasses = 20;
+    const SceneDescription scene = shipped_scene(name);
+    const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution);
+    for (const bool next_event : {false, true}) {
+        const Estimator estimator{MethodId::Reinforcement, next_event};
+        INFO(name << ", refined, " << estimator);
+        RenderSettings settings = quick_learner(scene, estimator, kSide, kSeed);
+        settings.field.refine_share = 1.0f;
+        Session session = make_session(scene, settings);
+        Picture picture(kSide, kSide);
+        if (runs == 0) render_batches(session, picture, kBatches, passes_for(estimator, resolution));
+        for (int run = 0; run < runs; ++run) {
+            session.apply(EditSeed{kFirstRunSeed + static_cast<std::uint64_t>(run)});
+            render_passes(session, kPasses);
+            picture.add(film_sums(session), kPasses);
+        }
+        CHECK(session.field_status()->added_volumes > 150);
+        CHECK(same_picture(picture, expected, resolution));
+    }
+}
+
 }  // namespace
 
 // 64 batches of pictures of 64 x 64 pixels (16 tiles), seeds 1 and 2; alpha 1e-6 per decision and channel. The
@@ -109,6 +132,12 @@ TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") {
 
 TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") { check_variants("cornell", 0.06); }
 TEST_CASE("All targets, rates and rules of roulette agree on the door ajar") { check_variants("door", 0.06); }
+
+TEST_CASE("Refining the placement agrees on the door ajar") { check_refined("door", 0, 0.06); }
+TEST_CASE("Refining the placement agrees on the Cornell box", "[merge]") { check_refined("cornell", 0, 0.04); }
+TEST_CASE("The first passes of refining the placement agree on the door ajar", "[merge]") {
+    check_refined("door", 64, 0.04);
+}
 
 // The same with four times the samples.
 TEST_CASE("All methods agree on the Cornell box within 2 %", "[merge]") { check_agreement("cornell", 0.02); }

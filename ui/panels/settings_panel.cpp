@@ -167,6 +167,12 @@ void draw_learning(ViewerModel& model) {
         settings.volumes = std::clamp(volumes, 0, 1000000);
         model.set_field(settings);
     }
+    if (slider_row(
+            "Refine",
+            "How many more volumes reinforcement may add, as a share of those placed: it splits those that many "
+            "paths ask and whose neighbours have learned something else.",
+            &settings.refine_share, 0.0f, 1.0f, FieldSettings{}.refine_share, "%.2f"))
+        model.set_field(settings);
     int side = static_cast<int>(std::lround(std::sqrt(settings.bins))) - 2;
     if (choice_row("Directions", "Cells of the hemisphere per volume.", &side,
                    "4\0009\00016\00025\00036\00049\00064\00081\000100\000121\000144\000169\000196\000225\0002"

@@ -69,6 +69,9 @@ void draw_field(const std::optional<FieldStatus>& field) {
         return;
     }
     text_row("Volumes", fmt::format("{} x {} directions", field->volumes, field->bins));
+    if (field->added_volumes > 0)
+        text_row("Added", fmt::format("{} volumes", field->added_volumes),
+                 "By splitting others, after 8 and 16 passes.");
     text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");
     text_row("Passes", fmt::format("{}", field->passes), "Passes that were learned from.");
     text_row("Records", count_text(field->records));

@@ -1,0 +1,29 @@
+// How much a volume's table differs from what those around it would say in its place, where many paths ask.
+#pragma once
+
+#include <vector>
+
+#include "core/fields/field_storage.h"
+
+namespace pl {
+
+/// Neighbours that a volume is compared with: about those whose cells touch its own on a plane.
+inline constexpr int kComparedNeighbours = 4;
+
+/// Squared Hellinger distance 1 - sum sqrt(p q) of two volumes' published tables, in [0, 1]. p are the probabilities of
+/// the cells of `volume`, q what the table of `other` gives them as seen from the site of `volume`, carried there as
+/// guided paths carry it (Parallax), so that what differs by the place alone counts as little as it does to them. 1 if
+/// the other one knows nothing of that hemisphere. `field` has placement and tables.   [Hellinger 1909]
+double hellinger2(const FieldView& field, std::int32_t volume, std::int32_t other);
+
+/// Records of a volume, all its cells together.
+double visits_of(const FieldView& field, std::int32_t volume);
+
+/// What splitting a volume promises: its records times its mean squared Hellinger distance to its nearest neighbours
+/// with agreeing normals, each weighted by its records, since one that knows little says little. Were all tables drawn
+/// from the same light, n H^2 would be the same for all n (8 n H^2 is chi-square distributed), so tables that differ by
+/// noise alone are no better candidates for having had many or few records.   [Freeman and Tukey 1950; Matusita 1955]
+/// 0 where there is nothing to compare. No unit; does not depend on the number of threads. [volume]
+std::vector<double> disagreements(const FieldView& field, int threads);
+
+}  // namespace pl

@@ -1,0 +1,69 @@
+// The part of Session that refines the placement of volumes while a method learns.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/session/session.h"
+
+namespace pl {
+namespace {
+
+/// After how many passes that were learned from the placement is refined, each time by its part of the share. Later rounds
+/// would find little that is left to learn from; earlier ones see mostly noise. docs/learning.md has what was tried.
+constexpr std::array<std::uint64_t, 2> kRefinedAfter{8, 16};
+
+/// Volumes that may be added in the round after `rounds` others.
+std::size_t most_added(const FieldSettings& settings, std::size_t volumes, const Refinement& so_far) {
+    const std::size_t placed = volumes - so_far.added;
+    const std::size_t most = most_refined_volumes(settings, placed) - placed;
+    const std::size_t due = most * (so_far.rounds + 1) / kRefinedAfter.size();
+    return due > so_far.added ? due - so_far.added : 0;
+}
+
+}  // namespace
+
+/// Right after a publication, when no record waits. Counts passes that were learned from, as fields keep them, so that one
+/// that was saved in between is refined at the same moment; at most one round per publication.
+void Session::refine_if_due() {
+    if (!(settings_.field.refine_share > 0.0f) || refinement_.rounds >= kRefinedAfter.size()) return;
+    if (field().passes < kRefinedAfter[refinement_.rounds]) return;
+    const std::size_t most = most_added(settings_.field, volumes_->normals.size(), refinement_);
+    ++refinement_.rounds;
+    if (most == 0) return;
+    HostTables learned = backend_->download_tables(settings_.method);
+    RefinedPlacement refined = refine_placement(*packed_, settings_.field, field_view(shape_, *volumes_, learned),
+                                                most, backend_->info().threads);
+    if (!refined.parents.empty()) replace_volumes(std::move(refined), std::move(learned));
+}
+
+/// The pictures stay: tables only decide which directions are tried. A radiance map that is complete goes on with the tables
+/// of the parents, as measured; one that is not begins anew, since its slices are counted for all volumes at once.
+void Session::replace_volumes(RefinedPlacement refined, HostTables learned) {
+    std::vector<std::pair<MethodId, HostTables>> tables;
+    tables.emplace_back(settings_.method, split_tables(shape_, std::move(learned), refined.parents));
+    for (const MethodInfo& other : all_methods()) {
+        if (other.id == settings_.method || !backend_->has_tables(other.id)) continue;
+        FieldProgress& progress = fields_[static_cast<std::size_t>(other.id)];
+        if (progress.passes > 0)
+            tables.emplace_back(other.id, split_tables(shape_, backend_->download_tables(other.id), refined.parents));
+        else
+            progress = {.precompute_seconds = progress.precompute_seconds};
+    }
+    volumes_ = with_lookup(std::move(refined.volumes), shape_.lookup);
+    refinement_.added += static_cast<std::uint32_t>(refined.parents.size());
+    backend_->upload_volumes(volumes_, shape_);
+    for (auto& [method, table] : tables) backend_->upload_tables(method, std::move(table));
+    clear_cell_films();
+}
+
+/// Pictures of the cells would be mixtures of those before and after.
+void Session::clear_cell_films() {
+    const auto clear = [](FilmStates& films) {
+        for (const MethodInfo& method : all_methods())
+            films[static_cast<std::size_t>(FilmSlot{method.id, View::Voronoi}.index())] = FilmState{};
+    };
+    clear(films_);
+    for (ParkedBackend& parked : parked_) clear(parked.films);
+}
+
+}  // namespace pl
