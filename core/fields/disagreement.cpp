@@ -12,7 +12,7 @@ namespace {
 /// Volumes that a thread takes at a time.
 constexpr std::uint32_t kChunk = 16;
 
-double disagreement(const FieldView& field, std::int32_t volume) {
+double worth_of(const FieldView& field, std::int32_t volume) {
     const auto index = static_cast<std::uint32_t>(volume);
     // One more than is compared, since the nearest is the volume itself, or one at the same place.
     NearestSeveral<kComparedNeighbours + 1> nearest;
@@ -26,7 +26,8 @@ double disagreement(const FieldView& field, std::int32_t volume) {
         sum += weight * hellinger2(field, volume, nearest.volume[i]);
         weights += weight;
     }
-    return weights > 0.0 ? visits_of(field, volume) * (sum / weights) : 0.0;
+    const double mean = field.mean_radiance[index];
+    return weights > 0.0 ? visits_of(field, volume) * (sum / weights) * mean * mean : 0.0;
 }
 
 }  // namespace
@@ -64,14 +65,14 @@ double visits_of(const FieldView& field, std::int32_t volume) {
     return visits;
 }
 
-std::vector<double> disagreements(const FieldView& field, int threads) {
+std::vector<double> split_worth(const FieldView& field, int threads) {
     const auto count = static_cast<std::uint32_t>(field.volume_count());
     std::vector<double> result(count, 0.0);
     ChunkQueue queue(0, count, kChunk);
     run_on_plain_threads(std::max(threads, 1), [&](int) {
         for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
             for (std::uint32_t i = range.begin; i < range.end; ++i)
-                result[i] = disagreement(field, static_cast<std::int32_t>(i));
+                result[i] = worth_of(field, static_cast<std::int32_t>(i));
     });
     return result;
 }

@@ -19,11 +19,15 @@ double hellinger2(const FieldView& field, std::int32_t volume, std::int32_t othe
 /// Records of a volume, all its cells together.
 double visits_of(const FieldView& field, std::int32_t volume);
 
-/// What splitting a volume promises: its records times its mean squared Hellinger distance to its nearest neighbours
-/// with agreeing normals, each weighted by its records, since one that knows little says little. Were all tables drawn
-/// from the same light, n H^2 would be the same for all n (8 n H^2 is chi-square distributed), so tables that differ by
-/// noise alone are no better candidates for having had many or few records.   [Freeman and Tukey 1950; Matusita 1955]
-/// 0 where there is nothing to compare. No unit; does not depend on the number of threads. [volume]
-std::vector<double> disagreements(const FieldView& field, int threads);
+/// What splitting a volume promises: n H^2 V^2, with n its records, V its mean radiance, and H^2 its mean squared
+/// Hellinger distance to its nearest neighbours with agreeing normals, each weighted by its records, since one that
+/// knows little says little.
+/// * n H^2: were all tables drawn from the same light, this would be the same for all n (8 n H^2 is chi-square
+///   distributed), so tables that differ by noise alone gain nothing by having had many or few records.
+///   [Freeman and Tukey 1950; Matusita 1955]
+/// * V^2: what a volume's directions leave of squared noise in the picture grows so, and rooms in the dark have none to
+///   lose. Tried without it, and with V; see docs/learning.md.
+/// 0 where there is nothing to compare. In radiance squared; does not depend on the number of threads. [volume]
+std::vector<double> split_worth(const FieldView& field, int threads);
 
 }  // namespace pl

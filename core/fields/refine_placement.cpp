@@ -19,7 +19,7 @@ constexpr std::uint32_t kNotSplit = 0xffffffffu;
 
 /// The volumes to split, worst first.
 std::vector<std::uint32_t> worst_volumes(const FieldView& field, std::size_t most, int threads) {
-    const std::vector<double> worth = disagreements(field, threads);
+    const std::vector<double> worth = split_worth(field, threads);
     std::vector<std::uint32_t> order(worth.size());
     std::iota(order.begin(), order.end(), 0u);
     std::erase_if(order, [&](std::uint32_t volume) { return !(worth[volume] > 0.0); });

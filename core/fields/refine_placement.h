@@ -23,7 +23,7 @@ struct RefinedPlacement {
     std::vector<std::uint32_t> parents;  ///< of the new volumes, in their order: no number twice
 };
 
-/// Splits up to `most` volumes, each once: those whose disagreements() are largest, ties to the lower number. A volume is
+/// Splits up to `most` volumes, each once: those whose split_worth() is largest, ties to the lower number. A volume is
 /// split by another one that stands on a surface that it served, where the two leave the points of its cell closest to
 /// one of them: the best second center of the least-squares quantizer, tried at points of a denser placement. Volumes
 /// whose cell has no such point stay alone. The place is where place_volumes() could have put one: on a reflecting side

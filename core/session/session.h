@@ -128,6 +128,7 @@ private:
     Progress render_slot(FilmSlot slot, const StopFlag* stop);
     void finish_learning_pass(FilmState& state);
     void refine_if_due();
+    void split_volumes(std::size_t most);
     void replace_volumes(RefinedPlacement refined, HostTables learned);
     void clear_cell_films();
     void note_escapes(const PassCounters& counters);

@@ -28,8 +28,11 @@ void Session::refine_if_due() {
     if (!(settings_.field.refine_share > 0.0f) || refinement_.rounds >= kRefinedAfter.size()) return;
     if (field().passes < kRefinedAfter[refinement_.rounds]) return;
     const std::size_t most = most_added(settings_.field, volumes_->normals.size(), refinement_);
+    if (most > 0) split_volumes(most);
     ++refinement_.rounds;
-    if (most == 0) return;
+}
+
+void Session::split_volumes(std::size_t most) {
     HostTables learned = backend_->download_tables(settings_.method);
     RefinedPlacement refined = refine_placement(*packed_, settings_.field, field_view(shape_, *volumes_, learned),
                                                 most, backend_->info().threads);
@@ -51,8 +54,15 @@ void Session::replace_volumes(RefinedPlacement refined, HostTables learned) {
     }
     volumes_ = with_lookup(std::move(refined.volumes), shape_.lookup);
     refinement_.added += static_cast<std::uint32_t>(refined.parents.size());
-    backend_->upload_volumes(volumes_, shape_);
-    for (auto& [method, table] : tables) backend_->upload_tables(method, std::move(table));
+    try {
+        backend_->upload_volumes(volumes_, shape_);
+        for (auto& [method, table] : tables) backend_->upload_tables(method, std::move(table));
+    } catch (...) {  // nobody knows what the back end holds now
+        volumes_.reset();
+        clear_tables();
+        clear_films();
+        throw;
+    }
     clear_cell_films();
 }
 

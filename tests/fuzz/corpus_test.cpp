@@ -117,6 +117,7 @@ TEST_CASE("Writes the corpus of fields anew, for another version of the files", 
     LearnedField empty = small_field();
     empty.volumes = std::make_shared<const HostVolumes>();
     empty.tables = {};
+    empty.refinement = {};
     empty.progress.next_probe = 0;
     write_field(corpus / "empty", empty);
     const std::string bytes = read_file(corpus / "small");

@@ -89,6 +89,7 @@ TEST_CASE("A learned field without volumes comes back") {
     LearnedField field = small_field();
     field.volumes = std::make_shared<const HostVolumes>();
     field.tables = {};
+    field.refinement = {};
     field.progress.next_probe = 0;
     written(folder, field);
     check_same(field, read_field(folder.path() / "field"));

@@ -4,8 +4,10 @@
 
 #include "core/io/field_file.h"
 #include "tests/catch.hpp"
+#include "tests/io/input_error.h"
 #include "tests/io/temporary_folder.h"
 #include "tests/kernel/shapes.h"
+#include "tests/session/failing_backend.h"
 #include "tests/session/interruption.h"
 #include "tests/session/same_bits.h"
 #include "tests/session/small_settings.h"
@@ -174,6 +176,24 @@ TEST_CASE("Another back end goes on with the refined placement") {
     render_passes(whole, 10);
     render_passes(moved, 10);
     check_same(whole, moved);
+}
+
+TEST_CASE("A back end that fails while the placement is refined leaves a session that begins anew") {
+    using Failure = FailingBackend::Failure;
+    Session fresh = make_session(door(), refining(), 2);
+    render_passes(fresh, kFirst + 1);
+    for (const Failure failure : {Failure::Volumes, Failure::Tables}) {
+        const auto lost = std::make_shared<FailingBackend>();
+        Session session(lost, std::make_shared<const SceneDescription>(door()), refining());
+        render_passes(session, kFirst - 1);
+        lost->failure = failure;
+        CHECK_THAT(error_message(ErrorKind::Unavailable, [&] { session.advance(); }), contains("gone"));
+        CHECK(session.passes() == 0);
+        CHECK((session.refinement() == Refinement{}));
+        session.apply(EditBackend{.backend = make_cpu_backend({.threads = 2}), .forget_old = true});
+        render_passes(session, kFirst + 1);
+        check_same(fresh, session);
+    }
 }
 
 TEST_CASE("A radiance map that is complete and its picture go on, one that is not begins anew") {
