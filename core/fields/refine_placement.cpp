@@ -17,20 +17,6 @@ constexpr std::size_t kMostTried = 64;
 
 constexpr std::uint32_t kNotSplit = 0xffffffffu;
 
-/// The volumes to split, worst first.
-std::vector<std::uint32_t> worst_volumes(const FieldView& field, std::size_t most, int threads) {
-    const std::vector<double> worth = split_worth(field, threads);
-    std::vector<std::uint32_t> order(worth.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::erase_if(order, [&](std::uint32_t volume) { return !(worth[volume] > 0.0); });
-    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(std::min(most, order.size()));
-    std::partial_sort(order.begin(), middle, order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return worth[a] != worth[b] ? worth[a] > worth[b] : a < b;
-    });
-    order.erase(middle, order.end());
-    return order;
-}
-
 /// For each of `split`, points of the surfaces that it serves, evenly by area.
 std::vector<std::vector<SurfacePoint>> cells_of(const HostScene& scene, const FieldSettings& settings,
                                                 const FieldView& field, std::span<const std::uint32_t> split) {

@@ -23,11 +23,11 @@ struct RefinedPlacement {
     std::vector<std::uint32_t> parents;  ///< of the new volumes, in their order: no number twice
 };
 
-/// Splits up to `most` volumes, each once: those whose split_worth() is largest, ties to the lower number. A volume is
-/// split by another one that stands on a surface that it served, where the two leave the points of its cell closest to
-/// one of them: the best second center of the least-squares quantizer, tried at points of a denser placement. Volumes
-/// whose cell has no such point stay alone. The place is where place_volumes() could have put one: on a reflecting side
-/// that light reaches. Deterministic; scaling scene and tables by a power of two scales the result.   [Lloyd 1982]
+/// Splits up to `most` volumes, the worst_volumes(), each once: by another one that stands on a surface that it served,
+/// where the two leave the points of its cell closest to one of them. That is the best second center of a least-squares
+/// quantizer, tried at points of a denser placement, so it stands where place_volumes() could have put one: on a
+/// reflecting side that light reaches. Volumes whose cell has no such point stay alone. Deterministic; scaling the scene by a
+/// power of two scales the result.   [Lloyd 1982]
 /// `field` has placement and published tables, `settings` are those of the placement.
 RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const FieldView& field,
                                   std::size_t most, int threads);
