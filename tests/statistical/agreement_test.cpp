@@ -133,10 +133,10 @@ TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") {
 TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") { check_variants("cornell", 0.06); }
 TEST_CASE("All targets, rates and rules of roulette agree on the door ajar") { check_variants("door", 0.06); }
 
-TEST_CASE("Refining the placement agrees on the door ajar") { check_refined("door", 0, 0.06); }
+TEST_CASE("Refining the placement agrees on the door ajar") { check_refined("door", 0, 0.08); }
 TEST_CASE("Refining the placement agrees on the Cornell box", "[merge]") { check_refined("cornell", 0, 0.04); }
 TEST_CASE("The first passes of refining the placement agree on the door ajar", "[merge]") {
-    check_refined("door", 64, 0.04);
+    check_refined("door", 64, 0.06);
 }
 
 // The same with four times the samples.
