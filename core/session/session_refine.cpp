@@ -8,8 +8,8 @@
 namespace pl {
 namespace {
 
-/// After how many passes that were learned from the placement is refined, each time by its part of the share. Later rounds
-/// would find little that is left to learn from; earlier ones see mostly noise. docs/learning.md has what was tried.
+/// After how many passes that were learned from the placement is refined, each time by its part of the share: tables have
+/// to know something first, and the new ones have to have something left to learn from. docs/learning.md has what was tried.
 constexpr std::array<std::uint64_t, 2> kRefinedAfter{8, 16};
 
 /// Volumes that may be added in the round after `rounds` others.
