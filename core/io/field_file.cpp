@@ -19,7 +19,7 @@ namespace pl {
 namespace {
 
 constexpr std::string_view kMagic = "PLFIELD\n";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 constexpr std::size_t kPrefixBytes = kMagic.size() + sizeof kVersion + sizeof(std::uint64_t);
 
@@ -156,7 +156,7 @@ void transfer_header(Stream& stream, Field& field) {
     auto& shape = field.shape;
     all(shape.cells.side, shape.radiance_unit, shape.extent, shape.rate, shape.uniform_floor, shape.lookup);
     auto& progress = field.progress;
-    all(progress.passes, progress.records, progress.lookup_misses, progress.precomputed_slices, progress.next_probe,
+    all(progress.passes, progress.records, progress.clamped_records, progress.lookup_misses, progress.precomputed_slices, progress.next_probe,
         progress.precompute_seconds);
 }
 
