@@ -74,9 +74,6 @@ Json trouble_json(const Snapshot& snapshot, const TroubleMap* found) {
     Json json{{"closed", is_known ? Json(snapshot.is_closed) : Json(nullptr)}};
     for (const TroubleInfo& trouble : all_troubles())
         json[std::string(trouble.name)] = counted[static_cast<std::size_t>(trouble.id)];
-    const bool has_clamped = found != nullptr && found->has_clamped_records;
-    json["clamped_records"] =
-        has_clamped ? Json(found->found[static_cast<std::size_t>(Trouble::ClampedRecord)]) : Json(nullptr);
     json["found"] = found != nullptr ? found_json(*found) : Json(nullptr);
     return json;
 }

@@ -10,7 +10,7 @@
 
 namespace pl {
 
-/// What the passes counted, and where it was: `found` is null if nobody looked. Clamped records are null then, too.
+/// What the passes counted, and where it was: `found` is null if nobody looked, its clamped records are null where tracing again meets none.
 Json trouble_json(const Snapshot& snapshot, const TroubleMap* found);
 
 /// By suffix. .png: the picture, dark, with marks in the colors of all_troubles(). .exr and .pfm: red counts invalid samples,

@@ -21,7 +21,9 @@ struct PictureWork {
         __builtin_prefetch(&film.pixels[pixel], 1);  // the film does not stay in the cache, the batch does
         return begin_path<F, M>(camera, film.width, film.height, pixel, sample, u);
     }
-    bool finish(const PathState<F, M>& state) const { return accumulate(film, state.pixel, state.radiance, sample); }
+    bool finish(const PathState<F, M>& state, MethodCounters&) const {
+        return accumulate(film, state.pixel, state.radiance, sample);
+    }
 };
 
 /// One path per cell of every volume, into a table.
@@ -37,8 +39,8 @@ struct ProbeWork {
     PathState<F, ProbeMethod> begin(std::uint32_t probe, Vec4f u) const {
         return begin_probe<F>(field, probe, sample, strata_side, u);
     }
-    bool finish(const PathState<F, ProbeMethod>& state) const {
-        finish_probe(field, state);
+    bool finish(const PathState<F, ProbeMethod>& state, MethodCounters& counters) const {
+        finish_probe(field, state, counters);
         return is_valid_radiance(state.radiance);
     }
 };

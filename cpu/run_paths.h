@@ -30,10 +30,11 @@ struct PassSetup {
 
 /// Where paths start and end. Paths are numbered from 0; finish() says whether the sample was valid.
 template <class W, FeatureSet F, class M>
-concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<F, M>& state) {
+concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<F, M>& state,
+                            MethodCounters& counters) {
     { work.count() } -> std::same_as<std::uint32_t>;
     { work.begin(number, u) } -> std::same_as<PathState<F, M>>;
-    { work.finish(state) } -> std::same_as<bool>;
+    { work.finish(state, counters) } -> std::same_as<bool>;
 };
 
 /// The paths of one thread, the live ones first.
@@ -191,7 +192,9 @@ private:
         }
     }
 
-    void finish(const PathState<F, M>& state) { count_path(counters_, state.radiance, work_.finish(state)); }
+    void finish(const PathState<F, M>& state) {
+        count_path(counters_, state.radiance, work_.finish(state, counters_.path.method));
+    }
 
     const PassSetup& setup_;
     const I& intersector_;

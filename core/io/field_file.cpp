@@ -158,8 +158,8 @@ void transfer_header(Stream& stream, Field& field) {
     all(shape.cells.side, shape.radiance_unit, shape.extent, shape.rate, shape.uniform_floor, shape.lookup);
     all(field.refinement.rounds, field.refinement.added);
     auto& progress = field.progress;
-    all(progress.passes, progress.records, progress.lookup_misses, progress.precomputed_slices, progress.next_probe,
-        progress.precompute_seconds);
+    all(progress.passes, progress.records, progress.clamped_records, progress.lookup_misses,
+        progress.precomputed_slices, progress.next_probe, progress.precompute_seconds);
 }
 
 /// What lies between prefix and checksum, once both have been found right.

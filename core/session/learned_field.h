@@ -14,6 +14,7 @@ namespace pl {
 struct FieldProgress {
     std::uint64_t passes = 0;  ///< that were learned from
     std::uint64_t records = 0;
+    std::uint64_t clamped_records = 0;  ///< of them
     std::uint64_t lookup_misses = 0;
     std::uint32_t precomputed_slices = 0;  ///< complete ones
     std::uint32_t next_probe = 0;          ///< where the running slice goes on

@@ -130,6 +130,7 @@ Progress Session::precompute_slice(const StopFlag* stop) {
                               .first_probe = state.next_probe,
                               .stop = stop});
     state.records += counters.paths;
+    state.clamped_records += counters.path.method.clamped_records;
     state.next_probe += static_cast<std::uint32_t>(counters.paths);
     const bool complete = state.next_probe >= probe_count();
     if (complete) {
@@ -178,6 +179,7 @@ Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
     state.next_pixel += static_cast<std::uint32_t>(counters.paths);
     if (target.view == View::Beauty) {
         field().records += counters.path.method.records;
+        field().clamped_records += counters.path.method.clamped_records;
         field().lookup_misses += counters.path.method.lookup_misses;
     }
     if (state.next_pixel < pixel_count()) return Progress::Stopped;
@@ -219,6 +221,7 @@ std::optional<FieldStatus> Session::field_status() const {
                            volume_bytes(*volumes_) + volumes_->normals.size() * table_bytes(shape_.cells.count()),
                        .passes = state.passes,
                        .records = state.records,
+                       .clamped_records = state.clamped_records,
                        .lookup_misses = state.lookup_misses,
                        .precomputed_share = 1.0};
     if (settings_.method == MethodId::Precomputed)

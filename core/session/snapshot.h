@@ -41,6 +41,7 @@ struct FieldStatus {
     std::size_t bytes = 0;
     std::uint64_t passes = 0;  ///< publications
     std::uint64_t records = 0;
+    std::uint64_t clamped_records = 0;
     std::uint64_t lookup_misses = 0;
     double precomputed_share = 0.0;  ///< of the radiance map, in [0, 1]; 1 for methods that need none
 };

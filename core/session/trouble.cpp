@@ -40,7 +40,7 @@ struct NotingMethod : ReinforcementMethod {
 
     void commit(const Record& learned) const {
         if (clamped == nullptr || learned.volume == kNoVolume) return;
-        *clamped += learned.target / field.radiance_unit > kMaxRecordedUnits ? 1u : 0u;
+        *clamped += is_clamped(learned.target, field.radiance_unit) ? 1u : 0u;
     }
 };
 
@@ -95,13 +95,15 @@ public:
 private:
     bool is_stopped() const { return stop_ != nullptr && *stop_; }
 
-    /// Not before some records were met. With tables that have moved, as many as were counted may never be found.
+    /// With tables that have moved, as many as were counted may never be found.
     bool is_all_found() const {
-        if (source_.has_clamped_records && map_.traced < std::min(map_.samples, kPassesForRecords)) return false;
         return std::ranges::all_of(all_troubles(), [&](const TroubleInfo& trouble) {
-            return trouble.id == Trouble::ClampedRecord || trouble.id == Trouble::Invalid ||
-                   map_.count(trouble.id) >= source_.counted[index_of(trouble.id)];
+            return !is_sought(trouble.id) || map_.count(trouble.id) >= source_.counted[index_of(trouble.id)];
         });
+    }
+    bool is_sought(Trouble trouble) const {
+        if (trouble == Trouble::Invalid) return false;  // the film knows
+        return trouble != Trouble::ClampedRecord || (source_.has_clamped_records && map_.traced < kPassesForRecords);
     }
 
     void trace_pass(std::uint32_t pass, std::uint32_t pixels) {
@@ -167,8 +169,11 @@ const TroubleInfo& info_of(Trouble trouble) { return kTroubles[index_of(trouble)
 
 TroubleCounts counted_trouble(const Snapshot& snapshot) {
     const PassCounters& counters = snapshot.counters;
+    // A radiance map was recorded before the picture began.
+    const bool has_map = snapshot.field && !info_of(snapshot.slot.method).learns;
     return {counters.invalid_samples, snapshot.is_closed ? counters.path.escaped : 0,
-            counters.path.method.lookup_misses, 0};
+            counters.path.method.lookup_misses,
+            has_map ? snapshot.field->clamped_records : counters.path.method.clamped_records};
 }
 
 std::uint64_t TroubleMap::count(Trouble trouble) const {

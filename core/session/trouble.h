@@ -35,7 +35,7 @@ const TroubleInfo& info_of(Trouble trouble);
 /// How often each happened.
 using TroubleCounts = std::array<std::uint64_t, kTroubleCount>;
 
-/// What the passes of a picture have counted. Clamped records are not among it: they are counted where they are looked for.
+/// What the passes of a picture have counted, and those of the radiance map it goes by.
 TroubleCounts counted_trouble(const Snapshot& snapshot);
 
 /// All that it takes to look for trouble in a picture, taken out of a session at one moment: see
@@ -75,7 +75,7 @@ struct TroubleMap {
         false;  ///< all that was counted has been found, or all samples were traced again; see find_trouble()
     bool has_moving_tables = false;
     bool has_clamped_records = false;
-    TroubleCounts counted{};      ///< by the passes themselves; clamped records never are
+    TroubleCounts counted{};      ///< by the passes themselves
     TroubleCounts found{};        ///< sums over the pixels, once the search is over
     std::vector<Pixel> pixels{};  ///< [row][column]
 
@@ -85,7 +85,7 @@ struct TroubleMap {
 
 /// Where invalid samples were is what the film knows. For the rest the passes are traced again, the newest first: paths are
 /// decided by scene, pixel and number, so that they are the same ones, except where a method has learned since. Ends when
-/// everything that was counted has been found (where records are met, not before 16 samples a pixel), or when `stop` is raised,
+/// everything that was counted has been found (of clamped records what 16 samples a pixel show), or when `stop` is raised,
 /// with what was found by then. Calls `told` with the share of passes that are done. `threads` 0: all.
 TroubleMap find_trouble(TroubleSource source, int threads, const StopFlag* stop = nullptr,
                         const std::function<void(double share)>& told = {});

@@ -21,12 +21,12 @@ __device__ inline PathState<F, M> begin(const ProbePaths& paths, const PathSetti
 }
 
 template <FeatureSet F, class M>
-__device__ inline void finish(const PixelPaths& paths, const PathState<F, M>& state) {
+__device__ inline void finish(const PixelPaths& paths, const PathState<F, M>& state, MethodCounters&) {
     paths.radiance[state.pixel - paths.first] = state.radiance;
 }
 template <FeatureSet F>
-__device__ inline void finish(const ProbePaths& paths, const PathState<F, ProbeMethod>& state) {
-    finish_probe(paths.field, state);
+__device__ inline void finish(const ProbePaths& paths, const PathState<F, ProbeMethod>& state, MethodCounters& counters) {
+    finish_probe(paths.field, state, counters);
 }
 
 /// The next path for a thread; false if there is none.
@@ -50,7 +50,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup
                                                                           setup.path, state, counters.path);
         if (status == PathStatus::Continues) continue;
         count_path(counters, state.radiance, is_valid_radiance(state.radiance));
-        finish(paths, state);
+        finish(paths, state, counters.path.method);
         active = start(setup, paths, state);
     }
     add_up(*setup.counters, counters);

@@ -137,7 +137,7 @@ TEST_CASE("Batches of probes equal single probes") {
     for (std::uint32_t probe = 0; probe < field.normals.count * 16; ++probe) {
         auto state = begin_probe<kLights>(field, settings, probe, 2, 4);
         trace_path<kLights>(scene, BvhIntersector{scene}, ProbeMethod{}, settings, state, counters.path);
-        finish_probe(field, state);
+        finish_probe(field, state, counters.path.method);
         count_path(counters, state.radiance, true);
     }
     for (const std::uint32_t batch : {1u, 16u, 1024u})

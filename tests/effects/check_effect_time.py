@@ -3,9 +3,9 @@
 
 Usage: check_effect_time.py PROGRAM PROGRAM_WITHOUT [PAIRS]
 
-Both render the Cornell box with every method, one thread, and the same bits. A pair is a fresh process of each kind, which take
-turns pass by pass; what counts is the ratio of the processor times of their median passes. Beside each pair runs a second process of PROGRAM, and one
-with the kernel that can do every effect:
+Both render the Cornell box with every method, one thread, and the same bits. A pair is a fresh process of each kind. They render
+several pictures, each in other memory, and take turns pass by pass; what counts is the ratio of the processor times of their median
+passes, averaged over the pictures. Beside each pair runs a second process of PROGRAM, and one with the kernel that can do every effect:
   floor     the same program twice. If the 95 % interval of this ratio is not within [0.99, 1.01], or half of it is more than 0.4 %,
             the machine is too noisy to tell: exit code 77, which is a skip and no pass.
   claim     PROGRAM over PROGRAM_WITHOUT: the interval has to be within [0.99, 1.01] (two one-sided tests of 2.5 % each).
@@ -18,7 +18,8 @@ import subprocess
 import sys
 
 METHODS = ["default", "precomputed", "reinforcement"]
-PASSES = 32  # of each process in a pair, after one that does not count
+PICTURES = 8  # of each process in a pair
+PASSES = 9  # of each picture; the first one does not count
 LIMIT = 0.01
 WIDEST = 0.004  # half of an interval
 STUDENT_975 = {29: 2.045}  # by degrees of freedom; fewer pairs are for trying out and take the normal quantile
@@ -31,8 +32,8 @@ class Runner:
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1)
         self.seconds = []
 
-    def ask(self):
-        self.process.stdin.write("pass\n")
+    def ask(self, what="pass"):
+        self.process.stdin.write(what + "\n")
         self.process.stdin.flush()
         answer = self.process.stdout.readline()
         if not answer:
@@ -47,26 +48,32 @@ class Runner:
 
 
 def measure(commands, turn):
-    """Processor seconds of the median pass of every command, all in turns; `turn` says who begins."""
+    """For every command the logarithms of the processor seconds of the median pass of each picture, all in turns; `turn` says who
+    begins."""
     runners = [Runner(command) for command in commands]
-    for runner in runners:
-        runner.ask()
-    for i in range(PASSES):
-        for k in range(len(runners)):
-            runner = runners[(k + i + turn) % len(runners)]
-            runner.seconds.append(runner.ask())
+    for picture in range(PICTURES):
+        for runner in runners:
+            runner.ask("anew")
+            runner.seconds.append([])
+        for i in range(1, PASSES):
+            for k in range(len(runners)):
+                runner = runners[(k + i + picture + turn) % len(runners)]
+                runner.seconds[-1].append(runner.ask())
     pictures = {runner.end() for runner in runners}
     if len(pictures) != 1:
-        sys.exit(f"FAILED: expected the same bits of all kernels, got {len(pictures)} pictures")
-    return [statistics.median(runner.seconds) for runner in runners]
+        sys.exit(f"FAILED: expected the same bits of all kernels, got {len(pictures)} checksums")
+    return [[math.log(statistics.median(seconds)) for seconds in runner.seconds] for runner in runners]
 
 
-def interval(ratios):
-    """95 % interval of the geometric mean."""
-    logs = [math.log(ratio) for ratio in ratios]
-    mean = sum(logs) / len(logs)
-    variance = sum((x - mean) ** 2 for x in logs) / (len(logs) - 1)
-    half = STUDENT_975.get(len(logs) - 1, 1.96) * math.sqrt(variance / len(logs))
+def log_ratios(measured, above, below):
+    """One for each pair: the mean over its pictures."""
+    return [statistics.mean(a - b for a, b in zip(logs[above], logs[below])) for logs in measured]
+
+
+def interval(logs):
+    """95 % interval of the ratio: of the geometric mean."""
+    mean = statistics.mean(logs)
+    half = STUDENT_975.get(len(logs) - 1, 1.96) * statistics.stdev(logs) / math.sqrt(len(logs))
     return math.exp(mean - half), math.exp(mean + half)
 
 
@@ -82,10 +89,10 @@ def main():
     failures, noisy = [], []
     for method in METHODS:
         commands = [[program, method], [without, method], [program, method], [program, method, "forced"]]
-        seconds = [measure(commands, pair) for pair in range(pairs)]
-        floor = interval([s[2] / s[0] for s in seconds])
-        claim = interval([s[0] / s[1] for s in seconds])
-        control = interval([s[3] / s[0] for s in seconds])
+        measured = [measure(commands, pair) for pair in range(pairs)]
+        floor = interval(log_ratios(measured, 2, 0))
+        claim = interval(log_ratios(measured, 0, 1))
+        control = interval(log_ratios(measured, 3, 0))
         for what, (low, high) in (("floor", floor), ("claim", claim), ("control", control)):
             print(f"{method}: {what} [{low:.4f}, {high:.4f}]", flush=True)
         if not within(floor) or floor[1] - floor[0] > 2.0 * WIDEST:

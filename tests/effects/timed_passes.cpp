@@ -1,6 +1,9 @@
 // Renders passes of a plain scene when it is told to, and says what each took: a program for check_effect_time.py.
 // Usage: timed_passes METHOD [forced]: for each line of input one pass with one thread, answered by a line with its seconds
-// of processor time, at the end of input by a checksum of the picture. 'forced': the kernel that can do every effect.
+// of processor time, at the end of input by a checksum of all pictures. A line "anew" begins another picture first, in
+// other memory. 'forced': the kernel that can do every effect.
+#include <malloc.h>
+
 #include <bit>
 #include <ctime>
 #include <iostream>
@@ -31,25 +34,37 @@ RenderSettings settings_of(const SceneDescription& scene, const std::string& met
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-void serve(const std::string& method, bool forced) {
-    const auto scene = std::make_shared<const SceneDescription>(load_scene("cornell", PL_SOURCE_DIR "/assets"));
-    Session session(make_cpu_backend({.threads = 1}), scene, settings_of(*scene, method, forced));
-    std::string line;
-    while (std::getline(std::cin, line)) {
-        double start = processor_seconds();
-        while (session.advance() != Progress::Rendered) start = processor_seconds();  // placing, precomputing
-        std::cout << processor_seconds() - start << std::endl;
-    }
-    std::uint32_t sum = 0;
+std::uint32_t add_picture(std::uint32_t sum, const Session& session) {
     for (const Vec3f& pixel : session.snapshot().pixels)
         for (int i = 0; i < 3; ++i) sum = 31u * sum + std::bit_cast<std::uint32_t>(pixel[i]);
-    std::cout << sum << std::endl;
+    return sum;
+}
+
+void serve(const std::string& method, bool forced) {
+    const auto scene = std::make_shared<const SceneDescription>(load_scene("cornell", PL_SOURCE_DIR "/assets"));
+    std::unique_ptr<Session> session;
+    std::uint32_t sum = 0;
+    std::string line;
+    while (std::getline(std::cin, line)) {
+        if (!session || line == "anew") {
+            if (session) sum = add_picture(sum, *session);
+            session.reset();
+            session = std::make_unique<Session>(make_cpu_backend({.threads = 1}), scene,
+                                                settings_of(*scene, method, forced));
+        }
+        double start = processor_seconds();
+        while (session->advance() != Progress::Rendered) start = processor_seconds();  // placing, precomputing
+        std::cout << processor_seconds() - start << std::endl;
+    }
+    std::cout << (session ? add_picture(sum, *session) : sum) << std::endl;
 }
 
 }  // namespace
 }  // namespace pl::test
 
 int main(int count, char** arguments) try {
+    // Large blocks go back to the system, so that each picture has other pages: which ones they are makes a percent.
+    mallopt(M_MMAP_THRESHOLD, 64 * 1024);
     pl::test::serve(count > 1 ? arguments[1] : "default", count > 2);
     return 0;
 } catch (const std::exception& error) {

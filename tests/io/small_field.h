@@ -51,6 +51,7 @@ inline LearnedField small_field() {
                        .tables = {},
                        .progress = {.passes = std::uint64_t{3} << 40,
                                     .records = std::uint64_t{5} << 50,
+                                    .clamped_records = 13,
                                     .lookup_misses = 7,
                                     .precomputed_slices = 4,
                                     .next_probe = 11,

@@ -163,12 +163,20 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     CHECK(field.tables.pending_count[9] == 2);
     CHECK(counters.records == 2);
 
+    // More than the sums can hold is counted, and added as the most that they can.
+    CHECK(counters.clamped_records == 0);
+    const float most = kMaxRecordedUnits * field.view().radiance_unit;
+    method.commit(method.learn(memory, {.emitted = Vec3f{2.0f * most}}, {kNoVolume}, counters));
+    CHECK(counters.clamped_records == 1);
+    CHECK(counters.records == 3);
+    CHECK(field.tables.pending_sum[9] == static_cast<std::int64_t>((quarter_gray + 1.0 + 65536.0) * 16777216.0));
+
     // Nothing is known where the surface reflects but no volume serves it, and nothing where none was left.
     method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}, .albedo = Vec3f{0.5f}}, {kNoVolume}, counters));
     ReinforcementMethod::Memory none{};
     method.commit(method.learn(none, {.emitted = Vec3f{1.0f}}, {1}, counters));
-    CHECK(counters.records == 2);
-    CHECK(field.tables.pending_count[9] == 2);
+    CHECK(counters.records == 3);
+    CHECK(field.tables.pending_count[9] == 3);
     CHECK(method.remember({kNoVolume}, method.weigh({kNoVolume}, SurfacePoint{}, wi)).volume == kNoVolume);
     CHECK(method.remember({0}, method.weigh({0}, SurfacePoint{}, {0, 0.6f, -0.8f})).volume ==
           kNoVolume);  // below the volume's horizon

@@ -85,6 +85,26 @@ TEST_CASE("Sarsa records what the table says of the direction that was drawn") {
     CHECK(learner.counters.records == 2);
 }
 
+TEST_CASE("Records that are too bright for the sums are counted by every target") {
+    Learner late;
+    const auto sarsa = late.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
+    const float most = kMaxRecordedUnits * sarsa.field.radiance_unit;
+    Learner whole;
+    const auto monte_carlo = whole.method<MonteCarloMethod>(LearningTarget::MonteCarlo, LearnedLight::All);
+    const auto walk = [&](const auto& method, auto memory, Learner& learner) {
+        for (const float emitted : {most, 1.01f * most}) {
+            method.depart(memory, kVertex, going(1.0f, 1), learner.counters);
+            method.learn(memory, meeting(emitted, 1.0f, 0.0f), {kNoVolume}, learner.counters);
+            method.stop(memory, learner.counters);
+            method.finish(memory, learner.counters);
+        }
+        CHECK(learner.counters.records == 2);
+        CHECK(learner.counters.clamped_records == 1);
+    };
+    walk(sarsa, SarsaMethod::Memory{}, late);
+    walk(monte_carlo, MonteCarloMethod::Memory{}, whole);
+}
+
 TEST_CASE("Sarsa takes the mean where a cell knows nothing, and records nothing where no volume is") {
     Learner learner;
     const auto method = learner.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);

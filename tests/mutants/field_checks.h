@@ -93,7 +93,7 @@ inline Decision check_probed_cells() {
             PathCounters counters;
             auto state = begin_probe<FeatureSet{}>(tables, settings, tables.cell_index(volume, cell), sample, 4);
             trace_path<FeatureSet{}>(view, BvhIntersector{view}, ProbeMethod{}, settings, state, counters);
-            finish_probe(tables, state);
+            finish_probe(tables, state, counters.method);
         }
     field.publish();
     return judge_cells(field, volume, field.site(volume).position);

@@ -36,8 +36,8 @@ bool same_field_status(const Session& a, const Session& b) {
     const std::optional<FieldStatus> x = a.field_status();
     const std::optional<FieldStatus> y = b.field_status();
     return x && y && x->volumes == y->volumes && x->bins == y->bins && x->passes == y->passes &&
-           x->records == y->records && x->lookup_misses == y->lookup_misses &&
-           x->precomputed_share == y->precomputed_share;
+           x->records == y->records && x->clamped_records == y->clamped_records &&
+           x->lookup_misses == y->lookup_misses && x->precomputed_share == y->precomputed_share;
 }
 
 }  // namespace

@@ -119,6 +119,9 @@ TEST_CASE("Trouble: records are clamped where tables hold too much, and nowhere 
     CHECK(source.has_clamped_records);
     CHECK(source.has_moving_tables);
     CHECK(source.first_sample == 0);
+    CHECK(source.counted[static_cast<std::size_t>(Trouble::ClampedRecord)] == 0);
+    CHECK(find_trouble(source, 2).traced == 0);
+    source.counted[static_cast<std::size_t>(Trouble::ClampedRecord)] = ~std::uint64_t{0};
     const TroubleMap sound = find_trouble(source, 2);
     CHECK(sound.is_complete);
     CHECK(sound.traced == 3);
@@ -132,6 +135,7 @@ TEST_CASE("Trouble: for records alone the search looks at sixteen samples, for w
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}, 12, 8), 20);
     TroubleSource source = session.trouble_source();
+    ++source.counted[static_cast<std::size_t>(Trouble::ClampedRecord)];
     const TroubleMap some = find_trouble(source, 1);
     CHECK(some.is_complete);
     CHECK(some.traced == 16);
@@ -156,7 +160,9 @@ TEST_CASE("Trouble: the search can be stopped, and keeps what it found") {
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}), 5);
     StopFlag stop{false};
     double seen = 0.0;
-    const TroubleMap map = find_trouble(session.trouble_source(), 2, &stop, [&](double share) {
+    TroubleSource source = session.trouble_source();
+    ++source.counted[static_cast<std::size_t>(Trouble::ClampedRecord)];
+    const TroubleMap map = find_trouble(source, 2, &stop, [&](double share) {
         seen = share;
         stop = share > 0.3;
     });
@@ -178,6 +184,17 @@ TEST_CASE("Trouble: a closed room is known as soon as a path has left, and not f
     session.advance();
     CHECK(session.summary().counters.path.escaped > 0);
     CHECK_FALSE(session.summary().is_closed);
+}
+
+TEST_CASE("Trouble: clamped records of the passes count, and of a map those that made it") {
+    Snapshot snapshot{};
+    snapshot.slot.method = MethodId::Reinforcement;
+    snapshot.counters.path.method.clamped_records = 3;
+    snapshot.field = FieldStatus{.records = 9, .clamped_records = 5};
+    const auto clamped = [&] { return counted_trouble(snapshot)[static_cast<std::size_t>(Trouble::ClampedRecord)]; };
+    CHECK(clamped() == 3);
+    snapshot.slot.method = MethodId::Precomputed;
+    CHECK(clamped() == 5);
 }
 
 TEST_CASE("Trouble: marks are rings around what they mark, of the first kind that is there, but not in a crowd") {

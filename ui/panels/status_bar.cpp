@@ -39,10 +39,7 @@ void draw_counts(StatusLine& line, const ViewerModel& model) {
 /// What went wrong, each kind alone; a click shows where.
 void draw_trouble(StatusLine& line, ViewerModel& model) {
     if (model.frame() == nullptr) return;
-    TroubleCounts counts = counted_trouble(model.frame()->snapshot);
-    if (const auto found = model.trouble())
-        counts[static_cast<std::size_t>(Trouble::ClampedRecord)] =
-            found->found[static_cast<std::size_t>(Trouble::ClampedRecord)];
+    const TroubleCounts counts = counted_trouble(model.frame()->snapshot);
     bool is_clicked = false;
     bool is_sound = true;
     for (const TroubleInfo& trouble : all_troubles()) {
@@ -58,7 +55,7 @@ void draw_trouble(StatusLine& line, ViewerModel& model) {
         is_clicked |=
             line.add("no trouble",
                      "No sample was invalid, no path left a closed scene, every surface point found its radiance "
-                     "volume. Whether records are clamped is seen by looking for it: a click (T).",
+                     "volume, no record was too bright.",
                      colors::kFaint);
         note_place("no trouble");
     }

@@ -67,19 +67,25 @@ PL_HD inline Vec2f square_to_triangle(Vec2f u) {
     return {u.x - b2, b2};
 }
 
-/// Index of the interval that holds u in [0,1), of `count` > 0 that end at cumulative(index), ascending to 1.
-template <class Cumulative>
-PL_HD inline std::uint32_t find_interval(std::uint32_t count, float u, Cumulative cumulative) {
+/// The first of `count` indices at which `holds` is true; it is for all behind that one. `count` if there is none.
+template <class Predicate>
+PL_HD inline std::uint32_t find_first(std::uint32_t count, Predicate holds) {
     std::uint32_t low = 0;
-    std::uint32_t high = count - 1;
+    std::uint32_t high = count;
     while (low < high) {
         const std::uint32_t middle = (low + high) / 2;
-        if (u < cumulative(middle))
+        if (holds(middle))
             high = middle;
         else
             low = middle + 1;
     }
     return low;
+}
+
+/// Index of the interval that holds u in [0,1), of `count` > 0 that end at cumulative(index), ascending to 1.
+template <class Cumulative>
+PL_HD inline std::uint32_t find_interval(std::uint32_t count, float u, Cumulative cumulative) {
+    return find_first(count - 1, [&](std::uint32_t index) { return u < cumulative(index); });
 }
 
 /// Triangular density on [-1, 1] from a uniform number: one cell to each side.

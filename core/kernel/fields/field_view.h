@@ -65,6 +65,11 @@ struct FieldView {
     PL_HD Frame frame(std::int32_t volume) const { return make_frame(normals[static_cast<std::uint32_t>(volume)]); }
 };
 
+/// Whether the sums will hold less than was observed.
+PL_HD inline bool is_clamped(float radiance, float radiance_unit) {
+    return radiance > kMaxRecordedUnits * radiance_unit;
+}
+
 /// Fixed-point steps of one recorded radiance; NaN and negative values record nothing.
 PL_HD inline std::int64_t to_fixed_point(float radiance, float radiance_unit) {
     const float units = radiance / radiance_unit;

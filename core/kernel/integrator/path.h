@@ -91,6 +91,7 @@ PL_HD inline void add_counters(PassCounters& totals, const PassCounters& counts,
     add(totals.path.truncated, counts.path.truncated);
     add(totals.path.zero_directions, counts.path.zero_directions);
     add(totals.path.method.records, counts.path.method.records);
+    add(totals.path.method.clamped_records, counts.path.method.clamped_records);
     add(totals.path.method.lookups, counts.path.method.lookups);
     add(totals.path.method.lookup_misses, counts.path.method.lookup_misses);
     add(totals.path.method.cut_returns, counts.path.method.cut_returns);

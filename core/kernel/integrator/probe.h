@@ -68,11 +68,13 @@ PL_HD inline PathState<F, ProbeMethod> begin_probe(const FieldView& field, const
 
 /// Stores what a finished probe path brought.
 template <FeatureSet F>
-PL_HD inline void finish_probe(const FieldView& field, const PathState<F, ProbeMethod>& state) {
+PL_HD inline void finish_probe(const FieldView& field, const PathState<F, ProbeMethod>& state,
+                               MethodCounters& counters) {
     constexpr float kWeightPerUnit = 256.0f;  // before anything is published nobody knows what is much
     const ProbeTarget target = probe_target(field, state.pixel);
     const float light = luminance(state.radiance);
     record(field, target.volume, target.cell, light);
+    counters.clamped_records += is_clamped(light, field.radiance_unit) ? 1u : 0u;
     record_reach(field, target.volume, kWeightPerUnit * (light / field.radiance_unit), state.memory.distance);
 }
 

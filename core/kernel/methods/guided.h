@@ -220,6 +220,11 @@ struct GuidedSampling {
         return {vertex.volume, direction.cell, direction.bsdf_pdf_sa / direction.pdf_sa};
     }
 
+    /// One more observation is on its way into the tables.
+    PL_HD void count_record(float target, MethodCounters& counters) const {
+        ++counters.records;
+        counters.clamped_records += is_clamped(target, field.radiance_unit) ? 1u : 0u;
+    }
     /// Adds an observation of the radiance (luminance) that arrived, if there is an entry for it.
     PL_HD void record_target(const TableEntry& entry, float target) const {
         if (entry.volume == kNoVolume) return;

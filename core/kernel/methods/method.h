@@ -51,6 +51,7 @@ struct Scattering {
 /// Events a method reports; the driver adds them up.
 struct MethodCounters {
     std::uint64_t records = 0;
+    std::uint64_t clamped_records = 0;  ///< those that were too bright for the sums
     std::uint64_t lookups = 0;
     std::uint64_t lookup_misses = 0;
     std::uint64_t cut_returns = 0;  ///< paths that were too long to be remembered to their end

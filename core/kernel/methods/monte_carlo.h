@@ -89,8 +89,9 @@ struct MonteCarloMethod : GuidedSampling {
             const Step& step = memory.steps[i];
             brought = step.brought + step.weight * brought;
             if (step.entry.volume == kNoVolume) continue;
-            record_target(step.entry, luminance(brought) + step.unshared);
-            ++counters.records;
+            const float target = luminance(brought) + step.unshared;
+            record_target(step.entry, target);
+            count_record(target, counters);
         }
         memory.count = 0;
     }

@@ -31,7 +31,7 @@ struct ReinforcementMethod : GuidedSampling {
             if (vertex.volume == kNoVolume) return {};
             target += luminance(arrival.albedo) * field.mean_radiance[static_cast<std::uint32_t>(vertex.volume)];
         }
-        ++counters.records;
+        count_record(target, counters);
         memory.distance = arrival.distance;
         return {memory, target};
     }

@@ -88,8 +88,9 @@ private:
     }
     PL_HD void settle(Memory& memory, float reflected, MethodCounters& counters) const {
         if (memory.left.volume == kNoVolume) return;
-        record_target(memory.left, memory.emitted + reflected);
-        ++counters.records;
+        const float target = memory.emitted + reflected;
+        record_target(memory.left, target);
+        count_record(target, counters);
         memory.left = {};
     }
 };

@@ -28,16 +28,8 @@ PL_HD inline std::uint32_t choose_light(const SceneView& scene, float u) {
 
 /// The light that a triangle is, or one behind it if it is none.
 PL_HD inline std::uint32_t light_of(const SceneView& scene, std::uint32_t primitive) {
-    std::uint32_t low = 0;
-    std::uint32_t high = scene.lights.count;
-    while (low < high) {
-        const std::uint32_t middle = (low + high) / 2;
-        if (scene.lights[middle].primitive < primitive)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return find_first(scene.lights.count,
+                      [&](std::uint32_t light) { return scene.lights[light].primitive >= primitive; });
 }
 
 /// Density, per steradian, with which light samples at `from` take the direction `wi` that meets `on_light`.
