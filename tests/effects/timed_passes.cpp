@@ -63,7 +63,7 @@ void serve(const std::string& method, bool forced) {
 }  // namespace pl::test
 
 int main(int count, char** arguments) try {
-    // Large blocks go back to the system, so that each picture has other pages: which ones they are makes a percent.
+    // Large blocks go back to the system, so that each picture has other pages: processes that keep theirs differ by a percent.
     mallopt(M_MMAP_THRESHOLD, 64 * 1024);
     pl::test::serve(count > 1 ? arguments[1] : "default", count > 2);
     return 0;
