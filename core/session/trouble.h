@@ -1,4 +1,5 @@
-// What may go wrong on a path, how often it did in a picture, and at which pixels: nothing of this costs a pass anything.
+// What may go wrong on a path, how often it did in a picture, and at which pixels. All that a pass pays for is
+// a comparison for each record, whether it is clamped: the rest is counted anyway, or looked for afterwards.
 #pragma once
 
 #include <array>

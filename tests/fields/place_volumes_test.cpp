@@ -5,6 +5,7 @@
 #include "core/fields/make_field.h"
 #include "core/fields/surfaces.h"
 #include "tests/catch.hpp"
+#include "tests/fields/lit_room.h"
 #include "tests/kernel/brute_force.h"
 #include "tests/kernel/shapes.h"
 
@@ -17,17 +18,6 @@ FieldSettings asking_for(int volumes) {
     FieldSettings settings;
     settings.volumes = volumes;
     return settings;
-}
-
-/// A room with one wall that glows, and a free block that is lit from outside only.
-SceneDescription lit_room() {
-    SceneDescription scene;
-    scene.materials = {gray(), gray()};
-    scene.materials[1].emission = Vec3f{1.0f};
-    add_box(scene, {-2, -1, -1}, {2, 1, 1}, true);
-    scene.triangles[0].material = scene.triangles[1].material = 1;
-    add_box(scene, {-0.5f, -0.6f, -0.3f}, {0.1f, 0.2f, 0.3f}, false);
-    return scene;
 }
 
 /// A horizontal square with its front up.

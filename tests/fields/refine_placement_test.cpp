@@ -7,6 +7,7 @@
 #include "core/fields/disagreement.h"
 #include "core/fields/volume_grid.h"
 #include "tests/catch.hpp"
+#include "tests/fields/lit_room.h"
 #include "tests/kernel/walk.h"
 
 using namespace pl;
@@ -55,16 +56,6 @@ struct Learned {
     }
 };
 
-SceneDescription room() {
-    SceneDescription scene;
-    scene.materials = {gray(), gray()};
-    scene.materials[1].emission = Vec3f{1.0f};
-    add_box(scene, {-2, -1, -1}, {2, 1, 1}, true);
-    scene.triangles[0].material = scene.triangles[1].material = 1;
-    add_box(scene, {-0.5f, -0.6f, -0.3f}, {0.1f, 0.2f, 0.3f}, false);
-    return scene;
-}
-
 template <class Array>
 double sum(const Array& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
@@ -73,7 +64,7 @@ double sum(const Array& values) {
 }  // namespace
 
 TEST_CASE("Tables that say the same do not disagree, and the distance grows to 1 with what they differ in") {
-    Learned field(room(), 100);
+    Learned field(lit_room(), 100);
     // A volume and its neighbour on one plane, and with one frame: around other axes, frames tell 0 from -0.
     const FieldView view = field.view();
     const auto along_z = std::ranges::find_if(field.volumes.normals, [](Vec3f n) { return n.z == 1.0f; });
@@ -100,7 +91,7 @@ TEST_CASE("Tables that say the same do not disagree, and the distance grows to 1
 
 TEST_CASE("The volume that many paths ask and that its neighbours contradict is split") {
     for (const std::size_t planted : {3u, 40u, 77u}) {
-        Learned field(room(), 100);
+        Learned field(lit_room(), 100);
         field.teach(planted, 1000, true);            // asked for often, unlike the others
         field.teach((planted + 10) % 100, 1, true);  // unlike the others, but hardly asked for
         const RefinedPlacement refined = field.refine(1);
@@ -110,14 +101,14 @@ TEST_CASE("The volume that many paths ask and that its neighbours contradict is 
 }
 
 TEST_CASE("Volumes are asked for in vain where nothing was learned or all agree") {
-    Learned blank(room(), 50, 0);
+    Learned blank(lit_room(), 50, 0);
     CHECK(blank.refine(50).parents.empty());
-    Learned single(room(), 1);
+    Learned single(lit_room(), 1);
     CHECK(single.refine(5).parents.size() <= 1);
 }
 
 TEST_CASE("New volumes stand where their parents served, the others keep place and number") {
-    Learned field(room(), 100);
+    Learned field(lit_room(), 100);
     for (std::size_t i = 0; i < field.count(); i += 3) field.teach(i, 100, true);
     const Learned before = field;
     const RefinedPlacement refined = field.refine(60);
@@ -146,7 +137,7 @@ TEST_CASE("New volumes stand where their parents served, the others keep place a
 }
 
 TEST_CASE("A child stands well away from its parent, and takes about half of its cell") {
-    Learned field(room(), 40);
+    Learned field(lit_room(), 40);
     for (std::size_t i = 0; i < field.count(); i += 2) field.teach(i, 100, true);
     const Learned before = field;
     RefinedPlacement refined = field.refine(40);
@@ -168,7 +159,7 @@ TEST_CASE("A child stands well away from its parent, and takes about half of its
 }
 
 TEST_CASE("No more volumes than asked for, and none beyond the budget") {
-    Learned field(room(), 100);
+    Learned field(lit_room(), 100);
     for (std::size_t i = 0; i < field.count(); i += 2) field.teach(i, 100, true);
     for (const std::size_t most : {0u, 1u, 7u, 30u}) CHECK(field.refine(most).parents.size() == most);
 
@@ -186,7 +177,7 @@ TEST_CASE("No more volumes than asked for, and none beyond the budget") {
 }
 
 TEST_CASE("All lookups find the same volumes of a refined placement") {
-    Learned field(room(), 200);
+    Learned field(lit_room(), 200);
     for (std::size_t i = 0; i < field.count(); i += 2) field.teach(i, 100, true);
     field.take(field.refine(150));
     REQUIRE(field.count() == 350);
@@ -208,7 +199,7 @@ TEST_CASE("All lookups find the same volumes of a refined placement") {
 }
 
 TEST_CASE("A child begins with its parent's table, and no record is lost or counted twice") {
-    Learned field(room(), 30, 5);
+    Learned field(lit_room(), 30, 5);
     for (std::size_t i = 0; i < field.count(); i += 2) field.teach(i, 1 + static_cast<std::uint32_t>(i), true);
     Uniforms random(3);
     for (LargeArray<float>* sums : {&field.tables.mixture_target, &field.tables.mixture_weight,
@@ -258,7 +249,7 @@ TEST_CASE("A child begins with its parent's table, and no record is lost or coun
 }
 
 TEST_CASE("Refinement does not depend on threads, and scales with the scene") {
-    SceneDescription scene = room();
+    SceneDescription scene = lit_room();
     Learned field(scene, 300);
     for (std::size_t i = 0; i < field.count(); i += 2) field.teach(i, 100, true);
     const RefinedPlacement expected = field.refine(200, 1);
