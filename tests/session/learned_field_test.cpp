@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/io/field_file.h"
 #include "core/session/shown_range.h"
 #include "tests/catch.hpp"
 #include "tests/io/input_error.h"
-#include "tests/io/temporary_folder.h"
 #include "tests/kernel/shapes.h"
 #include "tests/session/interruption.h"
 #include "tests/session/same_bits.h"
 #include "tests/session/small_settings.h"
+#include "tests/session/through_file.h"
 #include "tests/statistical/shipped_scenes.h"
 
 using namespace pl;
@@ -24,12 +23,6 @@ std::vector<Estimator> learning_estimators() {
     for (const Estimator& estimator : kEstimators)
         if (info_of(estimator.method).uses_field) result.push_back(estimator);
     return result;
-}
-
-LearnedField through_file(const LearnedField& field) {
-    const TemporaryFolder folder;
-    write_field(folder.path() / "field", field);
-    return read_field(folder.path() / "field");
 }
 
 bool same_field_status(const Session& a, const Session& b) {

@@ -2,15 +2,14 @@
 // nothing that was recorded or rendered is lost.
 #include <numeric>
 
-#include "core/io/field_file.h"
 #include "tests/catch.hpp"
 #include "tests/io/input_error.h"
-#include "tests/io/temporary_folder.h"
 #include "tests/kernel/shapes.h"
 #include "tests/session/failing_backend.h"
 #include "tests/session/interruption.h"
 #include "tests/session/same_bits.h"
 #include "tests/session/small_settings.h"
+#include "tests/session/through_file.h"
 #include "tests/statistical/shipped_scenes.h"
 
 using namespace pl;
@@ -39,12 +38,6 @@ std::uint64_t known_records(const Session& session) {
     const HostTables tables = session.export_field().tables;
     return std::accumulate(tables.visits.begin(), tables.visits.end(), std::uint64_t{0}) +
            std::accumulate(tables.pending_count.begin(), tables.pending_count.end(), std::uint64_t{0});
-}
-
-LearnedField through_file(const LearnedField& field) {
-    const TemporaryFolder folder;
-    write_field(folder.path() / "field", field);
-    return read_field(folder.path() / "field");
 }
 
 bool same_sites(const HostVolumes& a, const HostVolumes& b) {
