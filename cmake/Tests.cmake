@@ -4,7 +4,8 @@ include(Catch)
 
 # pl_add_test(NAME SOURCES a.cpp... [LIBS target...] [LABELS label...] [PROCESSORS n])
 # One Catch2 program build/<preset>/bin/NAME; its cases become tests called "NAME.case".
-# PROCESSORS: how many cores a case keeps busy (default 1).
+# PROCESSORS: how many cores a case needs for itself (default 1). Threads that wait do so asleep: tests run side by side,
+# some with more threads than there are cores, and each spinning thread would keep a working one from its core.
 function(pl_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "PROCESSORS" "SOURCES;LIBS;LABELS")
     pl_check_arguments(pl_add_test "${name}" "${arg_SOURCES}" "${arg_UNPARSED_ARGUMENTS}")
@@ -50,7 +51,7 @@ function(pl_discover name tier spec timeout)
         TEST_SPEC "${spec}"
         TEST_PREFIX "${name}."
         TEST_LIST ${list}
-        PROPERTIES TIMEOUT ${timeout} PROCESSORS ${arg_PROCESSORS})
+        PROPERTIES TIMEOUT ${timeout} PROCESSORS ${arg_PROCESSORS} ENVIRONMENT OMP_WAIT_POLICY=passive)
     # A list of labels does not survive catch_discover_tests, so ctest sets it when it has read the tests.
     set(script "${CMAKE_CURRENT_BINARY_DIR}/${name}_${tier}_labels.cmake")
     file(CONFIGURE OUTPUT "${script}" @ONLY CONTENT [[

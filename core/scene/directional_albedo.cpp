@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "core/kernel/shading/fresnel.h"
 #include "core/kernel/shading/microfacet.h"
@@ -82,25 +84,52 @@ float facet_reflectance(Vec3f wo, Vec3f m, float eta) {
     return fresnel_dielectric(clamp_to(glm::dot(wo, m), 0.0f, 1.0f), eta);
 }
 
+/// Tables made so far by their eta. One costs some 20 ms, and every edit of any material packs the scene anew.
+class TablesByEta {
+public:
+    template <class Make>
+    std::vector<float> get(float eta, Make make) {
+        const std::lock_guard lock(mutex_);
+        if (const auto known = tables_.find(eta); known != tables_.end()) return known->second;
+        if (tables_.size() >= kMost) tables_.clear();
+        return tables_.emplace(eta, make()).first->second;
+    }
+
+private:
+    /// A megabyte or so: who drags an index of refraction leaves a trail of them.
+    static constexpr std::size_t kMost = 256;
+
+    std::mutex mutex_;
+    std::map<float, std::vector<float>> tables_;
+};
+
 }  // namespace
 
 std::vector<float> lossless_albedo() {
-    return make_table([](float) { return 1.0f; }, mirrored);
+    static const std::vector<float> table = make_table([](float) { return 1.0f; }, mirrored);
+    return table;
 }
 
 std::vector<float> coat_albedo(float eta) {
-    return make_table(
-        [eta](float cos_theta) { return fresnel_dielectric(cos_theta, eta); },
-        [eta](const Ggx& ggx, Vec3f wo, Vec3f m) { return facet_reflectance(wo, m, eta) * mirrored(ggx, wo, m); });
+    static TablesByEta tables;
+    return tables.get(eta, [eta] {
+        return make_table([eta](float cos_theta) { return fresnel_dielectric(cos_theta, eta); },
+                          [eta](const Ggx& ggx, Vec3f wo, Vec3f m) {
+                              return facet_reflectance(wo, m, eta) * mirrored(ggx, wo, m);
+                          });
+    });
 }
 
 std::vector<float> glass_albedo(float eta) {
-    return make_table([](float) { return 1.0f; },
-                      [eta](const Ggx& ggx, Vec3f wo, Vec3f m) {
-                          const float f = facet_reflectance(wo, m, eta);
-                          const float passed = f < 1.0f ? (1.0f - f) * refracted(ggx, wo, m, eta) : 0.0f;
-                          return f * mirrored(ggx, wo, m) + passed;
-                      });
+    static TablesByEta tables;
+    return tables.get(eta, [eta] {
+        return make_table([](float) { return 1.0f; },
+                          [eta](const Ggx& ggx, Vec3f wo, Vec3f m) {
+                              const float f = facet_reflectance(wo, m, eta);
+                              const float passed = f < 1.0f ? (1.0f - f) * refracted(ggx, wo, m, eta) : 0.0f;
+                              return f * mirrored(ggx, wo, m) + passed;
+                          });
+    });
 }
 
 }  // namespace pl

@@ -223,7 +223,7 @@ TEST_CASE("progress is a bar on a terminal only") {
     const TempDir folder;
     const auto arguments = [&](const Arguments& more) {
         Arguments all{"render", "cornell", "-o",         folder / "x.png", "--size",
-                      "64x64",  "--spp",   "1000000000", "--time-limit",   "0.8"};
+                      "64x64",  "--spp",   "1000000000", "--time-limit",   "0.5"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     };
@@ -239,7 +239,7 @@ TEST_CASE("progress is a bar on a terminal only") {
     CHECK(run_program(arguments({})).err.empty());
 }
 
-TEST_CASE("without a terminal progress is a plain line every five seconds") {
+TEST_CASE("without a terminal progress is a plain line every five seconds", "[merge]") {
     const TempDir folder;
     const ProgramResult result = run_program(
         {"render", "cornell", "-o", folder / "x.png", "--size", "16x16", "--spp", "1000000000", "--time-limit", "6"});

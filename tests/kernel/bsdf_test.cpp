@@ -10,7 +10,35 @@
 using namespace pl;
 using namespace pl::test;
 
-namespace {}  // namespace
+namespace {
+
+void check_metals(SamplingTest test) {
+    for (const float roughness : {0.3f, 0.6f, 1.0f})
+        for (const float cos_o : {1.0f, 0.6f, 0.15f}) {
+            INFO("roughness " << roughness << ", cosine " << cos_o);
+            CHECK(check_sampling(LobeSurface(rough(SurfaceKind::Conductor, roughness)), cos_o, true, test));
+        }
+}
+
+void check_glass(SamplingTest test) {
+    for (const float roughness : {0.3f, 0.6f, 1.0f})
+        for (const float cos_o : {0.9f, 0.6f, 0.15f})
+            for (const bool front : {true, false}) {
+                INFO("roughness " << roughness << ", cosine " << cos_o << (front ? ", outside" : ", inside"));
+                CHECK(check_sampling(LobeSurface(rough(SurfaceKind::Dielectric, roughness)), cos_o, front, test));
+            }
+}
+
+void check_plastics(SamplingTest test) {
+    for (const float roughness : {0.0f, 0.3f, 1.0f})
+        for (const float cos_o : {1.0f, 0.6f, 0.15f}) {
+            INFO("roughness " << roughness << ", cosine " << cos_o);
+            const LobeSurface plastic(rough(SurfaceKind::Plastic, roughness), Vec3f{0.5f});
+            CHECK(check_sampling(plastic, cos_o, true, test));
+        }
+}
+
+}  // namespace
 
 TEST_CASE("Fresnel reflectances at their limits") {
     for (const float eta : {1.1f, 1.5f, 2.4f}) {
@@ -46,30 +74,13 @@ TEST_CASE("Refraction obeys Snell's law, there and back") {
     }
 }
 
-// S3: 576 bins, N = 1e6; a density off by 3 % would be found.
-TEST_CASE("Rough metals are sampled as their density says") {
-    for (const float roughness : {0.3f, 0.6f, 1.0f})
-        for (const float cos_o : {1.0f, 0.6f, 0.15f}) {
-            INFO("roughness " << roughness << ", cosine " << cos_o);
-            CHECK(check_sampling(LobeSurface(rough(SurfaceKind::Conductor, roughness)), cos_o, true, 0.03));
-        }
-}
-TEST_CASE("Rough glass is sampled as its density says, from outside and from inside") {
-    for (const float roughness : {0.3f, 0.6f, 1.0f})
-        for (const float cos_o : {0.9f, 0.6f, 0.15f})
-            for (const bool front : {true, false}) {
-                INFO("roughness " << roughness << ", cosine " << cos_o << (front ? ", outside" : ", inside"));
-                CHECK(check_sampling(LobeSurface(rough(SurfaceKind::Dielectric, roughness)), cos_o, front, 0.03));
-            }
-}
-TEST_CASE("Plastics are sampled as their density says") {
-    for (const float roughness : {0.0f, 0.3f, 1.0f})
-        for (const float cos_o : {1.0f, 0.6f, 0.15f}) {
-            INFO("roughness " << roughness << ", cosine " << cos_o);
-            CHECK(
-                check_sampling(LobeSurface(rough(SurfaceKind::Plastic, roughness), Vec3f{0.5f}), cos_o, true, 0.03));
-        }
-}
+// S3 over 576 bins.
+TEST_CASE("Rough metals are sampled as their density says") { check_metals(kQuickSampling); }
+TEST_CASE("Rough glass is sampled as its density says, from outside and from inside") { check_glass(kQuickSampling); }
+TEST_CASE("Plastics are sampled as their density says") { check_plastics(kQuickSampling); }
+TEST_CASE("Rough metals are sampled as their density says, finely", "[merge]") { check_metals(kFineSampling); }
+TEST_CASE("Rough glass is sampled as its density says, finely", "[merge]") { check_glass(kFineSampling); }
+TEST_CASE("Plastics are sampled as their density says, finely", "[merge]") { check_plastics(kFineSampling); }
 
 // Of light that nothing absorbs all comes back. What is left is the interpolation of tables.
 TEST_CASE("White surfaces return all light") {

@@ -81,20 +81,28 @@ inline SurfaceLobes rough(SurfaceKind kind, float roughness) {
     return {.kind = kind, .roughness = roughness, .ior = 1.5f};
 }
 
+/// Samples that resolve a density off by `delta`.
+struct SamplingTest {
+    int samples;
+    double delta;
+};
+inline constexpr SamplingTest kQuickSampling{250000, 0.06};
+inline constexpr SamplingTest kFineSampling{1000000, 0.03};
+
 /// S3 for the lobes of a surface; what goes to the wrong side is left out of both.
-inline Decision check_sampling(const LobeSurface& surface, float cos_o, bool front, double delta) {
+inline Decision check_sampling(const LobeSurface& surface, float cos_o, bool front, SamplingTest test) {
     const LayeredBsdf bsdf = surface.from(tilted(cos_o), front);
     const SurfacePoint point = LobeSurface::point(front);
     const auto probabilities = SphereBins::integrate(
         [&](Vec3f wi) { return bsdf.cosine(point, wi) > 0.0f ? bsdf.pdf_sa(point, wi) : 0.0f; });
     std::vector<std::uint64_t> counts(SphereBins::kCount);
     Uniforms random(17);
-    for (int i = 0; i < 1000000; ++i) {
+    for (int i = 0; i < test.samples; ++i) {
         const Vec2f u = random.square();
         const Vec3f wi = bsdf.sample(point, u, random.next());
         if (bsdf.cosine(point, wi) > 0.0f && bsdf.pdf_sa(point, wi) > 0.0f) ++counts[SphereBins::of(wi)];
     }
-    return sampler_matches(counts, probabilities, delta);
+    return sampler_matches(counts, probabilities, test.delta);
 }
 
 /// Weights of samples: their mean is what is returned of light from all around.

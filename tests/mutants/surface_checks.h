@@ -9,8 +9,10 @@ namespace pl::test {
 
 /// Rule S3 for rough metal and for rough glass from inside. 1e6 samples each, finds 3 %.
 inline Decision check_facets() {
-    const Decision metal = check_sampling(LobeSurface(rough(SurfaceKind::Conductor, 0.6f)), 0.6f, true, 0.03);
-    return worse_of(metal, check_sampling(LobeSurface(rough(SurfaceKind::Dielectric, 0.6f)), 0.8f, false, 0.03));
+    const Decision metal =
+        check_sampling(LobeSurface(rough(SurfaceKind::Conductor, 0.6f)), 0.6f, true, kFineSampling);
+    return worse_of(metal,
+                    check_sampling(LobeSurface(rough(SurfaceKind::Dielectric, 0.6f)), 0.8f, false, kFineSampling));
 }
 
 /// Rule S1 for white surfaces: they return all light. Their tables are good to 1 %. 4e5 samples each, resolves 2 %.

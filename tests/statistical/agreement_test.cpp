@@ -116,34 +116,27 @@ void check_refined(const std::string& name, int runs, double resolution) {
 }  // namespace
 
 // 64 batches of pictures of 64 x 64 pixels (16 tiles), seeds 1 and 2; alpha 1e-6 per decision and channel. The
-// comparisons resolve a global difference of 4 % (8 standard errors), and one tile that is 20 % off.
-TEST_CASE("All methods agree on the Cornell box") { check_agreement("cornell", 0.04); }
-TEST_CASE("All methods agree on the door ajar") { check_agreement("door", 0.04); }
-TEST_CASE("The first passes of learning agree on the Cornell box") { check_first_passes("cornell", 128, 0.04); }
-TEST_CASE("The first passes of learning agree on the door ajar") { check_first_passes("door", 128, 0.04); }
+// comparisons resolve a global difference of 12 % (8 standard errors), and one tile that is 60 % off.
+TEST_CASE("All methods agree on the Cornell box") { check_agreement("cornell", 0.12); }
+TEST_CASE("All methods agree on the door ajar") { check_agreement("door", 0.12); }
+TEST_CASE("The first passes of learning agree on the door ajar") { check_first_passes("door", 64, 0.06); }
+TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") { check_variants("cornell", 0.15); }
 
 // Caustics are found by chance alone: with light samples, too, pictures are noisier than those of diffuse scenes.
-TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.08); }
-TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.08); }
-TEST_CASE("All targets agree on mirror and glass", "[merge]") { check_variants("spheres", 0.06); }
-TEST_CASE("All targets agree on coats and rough metals", "[merge]") { check_variants("coats", 0.06); }
-TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03); }
-TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
-
-TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") { check_variants("cornell", 0.06); }
-TEST_CASE("All targets, rates and rules of roulette agree on the door ajar") { check_variants("door", 0.06); }
+TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.2); }
+TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.2); }
+TEST_CASE("All methods agree on the row before the lens") { check_agreement("lens", 0.16); }
 
 TEST_CASE("Refining the placement agrees on the door ajar") { check_refined("door", 0, 0.08); }
-TEST_CASE("Refining the placement agrees on the Cornell box", "[merge]") { check_refined("cornell", 0, 0.04); }
-TEST_CASE("The first passes of refining the placement agree on the door ajar", "[merge]") {
-    check_refined("door", 64, 0.06);
-}
 
-// The same with four times the samples.
+// The same with 36 times the samples and more, and what the short ones leave out.
 TEST_CASE("All methods agree on the Cornell box within 2 %", "[merge]") { check_agreement("cornell", 0.02); }
 TEST_CASE("All methods agree on the door ajar within 2 %", "[merge]") { check_agreement("door", 0.02); }
 TEST_CASE("The first passes of learning agree on the Cornell box within 2 %", "[merge]") {
     check_first_passes("cornell", 768, 0.02);
+}
+TEST_CASE("The first passes of learning agree on the door ajar within 2 %", "[merge]") {
+    check_first_passes("door", 768, 0.02);
 }
 TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box within 2 %", "[merge]") {
     check_variants("cornell", 0.02);
@@ -151,15 +144,19 @@ TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box wit
 TEST_CASE("All targets, rates and rules of roulette agree on the door ajar within 2 %", "[merge]") {
     check_variants("door", 0.02);
 }
-TEST_CASE("The first passes of learning agree on the door ajar within 2 %", "[merge]") {
-    check_first_passes("door", 768, 0.02);
-}
-
+TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03); }
+TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
+TEST_CASE("All targets agree on mirror and glass", "[merge]") { check_variants("spheres", 0.06); }
+TEST_CASE("All targets agree on coats and rough metals", "[merge]") { check_variants("coats", 0.06); }
 // Sky and sun through a lattice, textures: without light samples few paths find the sun, which has most of the light.
 TEST_CASE("All methods agree on the textured room", "[merge]") { check_agreement("textured-room", 0.1, 2.0); }
-TEST_CASE("All methods agree on the row before the lens") { check_agreement("lens", 0.08); }
+TEST_CASE("All methods agree on the row before the lens within 8 %", "[merge]") { check_agreement("lens", 0.08); }
+TEST_CASE("Refining the placement agrees on the Cornell box", "[merge]") { check_refined("cornell", 0, 0.04); }
+TEST_CASE("The first passes of refining the placement agree on the door ajar", "[merge]") {
+    check_refined("door", 64, 0.06);
+}
 
-// And with 64 times.
+// And with 576 times.
 TEST_CASE("All methods agree on the Cornell box within 0.5 %", "[nightly]") { check_agreement("cornell", 0.005); }
 TEST_CASE("All methods agree on the door ajar within 0.5 %", "[nightly]") { check_agreement("door", 0.005); }
 TEST_CASE("The first passes of learning agree on the Cornell box within 0.5 %", "[nightly]") {
