@@ -37,7 +37,8 @@ concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const 
     { work.finish(state, counters) } -> std::same_as<bool>;
 };
 
-/// The paths of one thread, the live ones first.
+/// The paths of one thread, the live ones first. Its stages are functions of their own, inlined to the last call: what the
+/// compiler makes of them hangs on nothing else that is compiled beside them, so that sets of effects cost each other nothing.
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 class PathBatch {
 public:
@@ -50,7 +51,7 @@ public:
 
     /// Traces paths until the source has no more, and finishes those under way.
     PassCounters run(PathSource& source) {
-        while (active_ < setup_.batch_paths && start(source, active_)) ++active_;
+        fill(source);
         while (active_ > 0) {
             solid_hits_.find_closest(rays_, active_);
             numbers_.draw(setup_.path, active_);
@@ -64,8 +65,12 @@ public:
 private:
     static constexpr bool kSamplesLights = F.has(Feature::NextEventEstimation);
 
+    [[gnu::flatten, gnu::noinline]] void fill(PathSource& source) {
+        while (active_ < setup_.batch_paths && start(source, active_)) ++active_;
+    }
+
     /// Puts the next path of the source into place i. Returns false if there is none.
-    bool start(PathSource& source, std::uint32_t i) {
+    PL_INLINE bool start(PathSource& source, std::uint32_t i) {
         std::uint32_t number = 0;
         Vec4f u;
         if (!source.next(number, u)) return false;
@@ -102,8 +107,8 @@ private:
         }
     }
 
-    /// Inlined to the last call: half of the time of a small scene is spent here.
-    [[gnu::flatten]] void extend_each() {
+    /// Half of the time of a small scene is spent here.
+    [[gnu::flatten, gnu::noinline]] void extend_each() {
         for (std::uint32_t i = 0; i < active_; ++i) {
             ShadowRequest shadow;
             statuses_[i] = extend_path<F>(setup_.scene, method_, setup_.path, rays_.hit(i), numbers_.numbers(i),
@@ -113,7 +118,7 @@ private:
     }
 
     /// Paths from `first` to `end`, in the parts of extend_path, so that directions are chosen for many at once.
-    [[gnu::flatten]] void extend_block(std::uint32_t first, std::uint32_t end, const LookupsAhead& lookups) {
+    [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end, const LookupsAhead& lookups) {
         block_.departures.clear();
         for (std::uint32_t i = first; i < end; ++i) {
             ShadowRequest shadow;
@@ -158,7 +163,7 @@ private:
         }
     }
 
-    void connect() {
+    [[gnu::flatten, gnu::noinline]] void connect() {
         find_blocked();
         for (std::uint32_t i = 0; i < shadow_count_; ++i)
             if (!shadow_rays_.occluded(i))
@@ -174,7 +179,7 @@ private:
     }
 
     /// Hands in the finished paths and puts new ones, or the last ones, into their places.
-    void retire(PathSource& source) {
+    [[gnu::flatten, gnu::noinline]] void retire(PathSource& source) {
         for (std::uint32_t i = 0; i < active_;) {
             if (statuses_[i] == PathStatus::Continues) {
                 prepare(i++);

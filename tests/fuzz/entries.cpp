@@ -44,7 +44,7 @@ public:
 
     fs::path write(const std::string& name, std::string_view bytes) const {
         if (std::FILE* file = std::fopen((path_ / name).c_str(), "wb")) {
-            std::fwrite(bytes.data(), 1, bytes.size(), file);
+            if (!bytes.empty()) std::fwrite(bytes.data(), 1, bytes.size(), file);
             std::fclose(file);
         }
         return path_ / name;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <new>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -32,9 +34,11 @@ constexpr double kLargestWindow = 2000.0;  ///< of a resize; the picture takes m
 
 /// The window's driver and a hidden window, kept for the life of the process.
 SDL_Window* hidden_window() {
+    // Never destroyed: SDL is not to be shut down after its own atexit.
+    alignas(VideoSubsystem) static std::byte memory[sizeof(VideoSubsystem)];
     static const VideoSubsystem* const video = [] {
         SDL_setenv("SDL_VIDEODRIVER", "dummy", 1);
-        return new VideoSubsystem;  // SDL is not to be shut down after its own atexit
+        return ::new (memory) VideoSubsystem;
     }();
     (void)video;
     static SDL_Window* const window =

@@ -53,14 +53,18 @@ Vec3f near_pole(test::Uniforms& random, float pole) {
 }  // namespace
 
 TEST_CASE("Sine and cosine and arctangent keep the error they state") {
+    // By lambdas: functions that are always inlined have no address.
+    const auto sine = [](float x) { return sin_quarter<One>(x); };
+    const auto cosine = [](float x) { return cos_quarter<One>(x); };
+    const auto atan = [](float x) { return atan_unit<One>(x); };
     const auto to_sin = [](double x) { return std::sin(x); };
     const auto to_cos = [](double x) { return std::cos(x); };
     const auto to_atan = [](double x) { return std::atan(x); };
-    CHECK(largest_error(-kPiOver4, kPiOver4, sin_quarter<One>, to_sin) < 1e-7);
-    CHECK(largest_error(-kPiOver4, kPiOver4, cos_quarter<One>, to_cos) < 1e-7);
-    CHECK(largest_error(-1.0f, 1.0f, atan_unit<One>, to_atan) < 2e-7);
-    CHECK(largest_error(-1e-20f, 1e-20f, atan_unit<One>, to_atan) < 1e-27);
-    CHECK(largest_error(-1e-20f, 1e-20f, sin_quarter<One>, to_sin) < 1e-27);
+    CHECK(largest_error(-kPiOver4, kPiOver4, sine, to_sin) < 1e-7);
+    CHECK(largest_error(-kPiOver4, kPiOver4, cosine, to_cos) < 1e-7);
+    CHECK(largest_error(-1.0f, 1.0f, atan, to_atan) < 2e-7);
+    CHECK(largest_error(-1e-20f, 1e-20f, atan, to_atan) < 1e-27);
+    CHECK(largest_error(-1e-20f, 1e-20f, sine, to_sin) < 1e-27);
 }
 
 TEST_CASE("Sine and arctangent are odd and cosine is even bit by bit") {

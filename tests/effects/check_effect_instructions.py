@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""That effects which a scene lacks cost no instruction: passes of the whole program against those compiled for no effects.
+
+Usage: check_effect_instructions.py PROGRAM PROGRAM_WITHOUT
+
+Both render passes of the Cornell box by every method under valgrind's callgrind, which counts instructions by function.
+  exact    every function of pathlight that does a thousandth of the work or more executes as many in both.
+  total    of all functions of pathlight, those that render and those that prepare, within a ten-thousandth. Which small ones become
+           part of others is up to the compiler, and looking through a table of kernels takes longer if there are more.
+  control  the kernel that can do every effect executes more, or this test would see nothing.
+Exit code 77: there is no valgrind.
+"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from pathlib import Path
+
+METHODS = ["default", "precomputed", "reinforcement"]
+PASSES = 3
+LEAST_SHARE = 1e-3
+LARGEST_DIFFERENCE = 1e-4
+
+
+def instructions_by_function(command):
+    """Instructions that a function executed itself, without those of the functions that it called."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "callgrind.out"
+        done = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", *command],
+                              input="pass\n" * PASSES, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            sys.exit(f"FAILED: {' '.join(command)}\n{done.stderr}")
+        return parse(out.read_text())
+
+
+def parse(profile):
+    """Sums of a callgrind profile by function; a line behind 'calls=' tells what a called function spent."""
+    names, counts, current, is_call = {}, Counter(), "", False
+    for line in profile.splitlines():
+        named = re.match(r"(fn|cfn)=\((\d+)\)(?: (.*))?$", line)
+        if named:
+            if named[3]:
+                names[named[2]] = re.sub(r"'\d+$", "", named[3])  # the number tells depths of recursion apart
+            if named[1] == "fn":
+                current = names[named[2]]
+        elif line.startswith("calls="):
+            is_call = True
+        elif re.match(r"[+\-*\d]", line):
+            if not is_call:
+                counts[current] += int(line.split()[1])
+            is_call = False
+    return counts
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    if not shutil.which("valgrind"):
+        print("skipped: there is no valgrind")
+        sys.exit(77)
+    program, without = sys.argv[1:]
+    failures = []
+    for method in METHODS:
+        able, unable, forced = (
+            {name: count for name, count in instructions_by_function(command).items() if "pl::" in name}
+            for command in ([program, method], [without, method], [program, method, "forced"]))
+        total = sum(unable.values())
+        difference = (sum(able.values()) - total) / total
+        extra = (sum(forced.values()) - total) / total
+        working = [name for name in able | unable
+                   if max(able.get(name, 0), unable.get(name, 0)) >= LEAST_SHARE * total]
+        print(f"{method}: {total} instructions, {difference:+.1e} with effects, {extra:+.1e} with the kernel for every effect, "
+              f"{len(working)} functions compared", flush=True)
+        for name in working:
+            got, expected = able.get(name, 0), unable.get(name, 0)
+            if got != expected:
+                failures.append(f"{method}: {name}: expected {expected} instructions, got {got} with effects")
+        if abs(difference) > LARGEST_DIFFERENCE:
+            failures.append(f"{method}: expected {total} instructions within {LARGEST_DIFFERENCE}, got {difference:+.1e} with effects")
+        if extra < 100 * LARGEST_DIFFERENCE:
+            failures.append(f"{method}: the kernel for every effect seems to cost nothing, so this test tells nothing")
+    if failures:
+        sys.exit("FAILED:\n" + "\n".join(failures))
+
+
+if __name__ == "__main__":
+    main()
