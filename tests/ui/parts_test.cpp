@@ -1,6 +1,7 @@
 #include <fstream>
 
 #include "tests/catch.hpp"
+#include "tests/io/temporary_folder.h"
 #include "ui/edit_queue.h"
 #include "ui/layout.h"
 #include "ui/motion_resolution.h"
@@ -121,9 +122,8 @@ TEST_CASE("Layout: the picture keeps its shape, and is shown pixel by pixel wher
 }
 
 TEST_CASE("Numbered names: no file is ever hit twice") {
-    const std::filesystem::path dir = std::filesystem::temp_directory_path() / "pathlight-names-test";
-    std::filesystem::remove_all(dir);
-    std::filesystem::create_directories(dir);
+    const test::TemporaryFolder folder;
+    const std::filesystem::path& dir = folder.path();
     std::ofstream(dir / "box-0001.png") << "x";
     std::ofstream(dir / "box-0003.exr") << "x";
     NumberedNames names;
@@ -132,7 +132,6 @@ TEST_CASE("Numbered names: no file is ever hit twice") {
     CHECK(names.next(dir, "box", {".exr", ".png"}) == dir / "box-0004");
     CHECK(file_name_part("my scene/a.b") == "my-scene-a-b");
     CHECK(file_name_part("") == "picture");
-    std::filesystem::remove_all(dir);
 }
 
 TEST_CASE("UI trace: percentiles interpolate, latencies run from a move to the picture that shows it") {
@@ -141,8 +140,8 @@ TEST_CASE("UI trace: percentiles interpolate, latencies run from a move to the p
     CHECK(percentile({4.0, 1.0, 3.0, 2.0}, 0.5) == Approx(2.5));
     CHECK(percentile({4.0, 1.0, 3.0, 2.0}, 1.0) == 4.0);
 
-    const std::filesystem::path path = std::filesystem::temp_directory_path() / "pathlight-trace-test.jsonl";
-    UiTrace trace(path);
+    const test::TemporaryFolder folder;
+    UiTrace trace(folder.path() / "trace.jsonl");
     trace.camera_moved(1.0, 5);
     trace.camera_moved(1.1, 6);                        // same motion
     trace.frame_shown(1.02, {0.004, 0.003, -1.0}, 4);  // does not show them yet
@@ -157,5 +156,4 @@ TEST_CASE("UI trace: percentiles interpolate, latencies run from a move to the p
     CHECK_THAT(summary, test::contains("n 4"));
     CHECK_THAT(summary, test::contains("switch of back ends          p50   20.00 ms"));
     CHECK_THAT(summary, test::contains("max   20.00 ms   n 1"));
-    std::filesystem::remove(path);
 }

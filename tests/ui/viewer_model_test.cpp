@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "tests/catch.hpp"
+#include "tests/io/temporary_folder.h"
 #include "tests/ui/fake_backend.h"
 #include "ui/script_values.h"
 #include "ui/viewer_model.h"
@@ -20,6 +21,7 @@ struct Bench {
     ViewerOptions options;
     std::mutex mutex;
     std::vector<std::filesystem::path> saved;
+    TemporaryFolder folder;
     double clock = 0.0;
 
     Bench() {
@@ -29,7 +31,7 @@ struct Bench {
         options.settings.camera = small_scene()->camera;
         options.settings.field.volumes = 16;
         options.settings.field.bins = 16;
-        options.screenshot_dir = std::filesystem::temp_directory_path() / "pathlight-model-test";
+        options.screenshot_dir = folder.path();
         options.make_backend = devices.maker();
         options.backends = {{"cpu", "", ""}, {"cuda", "", ""}};
         options.load_scene = [](const std::string& name) -> std::shared_ptr<const SceneDescription> {
@@ -138,7 +140,6 @@ TEST_CASE("Viewer model: views go round in both directions") {
 
 TEST_CASE("Viewer model: saves both formats under one new number, without waiting") {
     Bench bench;
-    std::filesystem::create_directories(bench.options.screenshot_dir);
     std::ofstream(bench.options.screenshot_dir / "small-default-0001.png") << "x";
     {
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
@@ -148,7 +149,6 @@ TEST_CASE("Viewer model: saves both formats under one new number, without waitin
         model.save_picture();
         model.save_screenshot();
     }  // what was asked for is written before the end
-    std::filesystem::remove_all(bench.options.screenshot_dir);
     const auto name = [&](const char* file) { return bench.options.screenshot_dir / file; };
     REQUIRE(bench.saved.size() == 3);
     CHECK(bench.saved[0] == name("small-default-0002.exr"));
@@ -158,8 +158,6 @@ TEST_CASE("Viewer model: saves both formats under one new number, without waitin
 
 TEST_CASE("Viewer model: what was learned is saved, and gone on from later") {
     Bench bench;
-    bench.options.screenshot_dir /= "fields";
-    std::filesystem::create_directories(bench.options.screenshot_dir);
     std::shared_ptr<LearnedField> file;
     bench.options.save_field = [&](const std::filesystem::path& path, const LearnedField& field) {
         file = std::make_shared<LearnedField>(field);
@@ -208,7 +206,6 @@ TEST_CASE("Viewer model: what was learned is saved, and gone on from later") {
         CHECK(told("gone.field: cannot be read"));
         CHECK(model.settings().method == MethodId::Reinforcement);
     }
-    std::filesystem::remove_all(bench.options.screenshot_dir);
 }
 
 TEST_CASE("Viewer model: a viewer started from a field goes on from it") {
