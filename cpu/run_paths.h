@@ -118,7 +118,8 @@ private:
     }
 
     /// Paths from `first` to `end`, in the parts of extend_path, so that directions are chosen for many at once.
-    [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end, const LookupsAhead& lookups) {
+    [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end,
+                                                      const LookupsAhead& lookups) {
         block_.departures.clear();
         for (std::uint32_t i = first; i < end; ++i) {
             ShadowRequest shadow;

@@ -25,7 +25,8 @@ __device__ inline void finish(const PixelPaths& paths, const PathState<F, M>& st
     paths.radiance[state.pixel - paths.first] = state.radiance;
 }
 template <FeatureSet F>
-__device__ inline void finish(const ProbePaths& paths, const PathState<F, ProbeMethod>& state, MethodCounters& counters) {
+__device__ inline void finish(const ProbePaths& paths, const PathState<F, ProbeMethod>& state,
+                              MethodCounters& counters) {
     finish_probe(paths.field, state, counters);
 }
 
