@@ -25,14 +25,14 @@ void RenderWorker::read_turns() {
     }
 }
 
-/// Once a method is at a limit: the other one until it has had the same time, and then that one. Empty before.
+/// Once a method is at a limit: the other one until it has had the same time and a pass, and then that one. Empty before.
 std::optional<std::size_t> RenderWorker::side_at_limit() const {
     const TurnsStatus& status = turns_->status;
     for (const std::size_t side : {0u, 1u}) {
         if (!is_enough(status.passes[side], status.seconds[side])) continue;
         const std::size_t other = 1 - side;
-        const bool is_behind =
-            status.seconds[other] < status.seconds[side] && !is_enough(status.passes[other], status.seconds[other]);
+        const bool has_had_its_time = status.seconds[other] >= status.seconds[side] && status.passes[other] > 0;
+        const bool is_behind = !has_had_its_time && !is_enough(status.passes[other], status.seconds[other]);
         return is_behind ? other : side;
     }
     return std::nullopt;

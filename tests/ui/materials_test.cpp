@@ -1,5 +1,6 @@
 // Materials that are changed in the window: what is asked, what is refused, what the render thread makes of it.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/measure/picture_identity.h"
@@ -13,8 +14,6 @@ using namespace pl::test;
 namespace {
 
 struct MaterialBench : ModelBench {
-    std::shared_ptr<const SceneDescription> asked_scene;  ///< that a reference was last looked for
-
     MaterialBench() : ModelBench(16) {}
 };
 
@@ -88,19 +87,16 @@ TEST_CASE("Materials: two of them are changed and restored together") {
 
 TEST_CASE("Materials: references are looked for with the changed scene") {
     MaterialBench bench;
+    std::atomic<float> asked{-1.0f};  // looks are made on a thread of their own
     bench.options.find_reference = [&](const OpenScene& scene, const RenderSettings&) {
-        bench.asked_scene = scene.description;
+        asked = scene.description->materials[0].albedo.x;
         return std::shared_ptr<const StoredReference>();
     };
     const auto scene = small_scene();
-    {
-        ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
-        model.set_material(0, with_albedo(scene->materials[0], 0.25f));
-        CHECK(bench.run_until(model, [&] { return model.status().picture != 0 && !model.busy(); }));
-        bench.run_until(model, [&] { return model.status().passes > 3 && !model.busy(); });
-    }  // waits for the look
-    REQUIRE(bench.asked_scene != nullptr);
-    CHECK(bench.asked_scene->materials[0].albedo.x == 0.25f);
+    ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return asked == scene->materials[0].albedo.x; }));
+    model.set_material(0, with_albedo(scene->materials[0], 0.25f));
+    CHECK(bench.run_until(model, [&] { return asked == 0.25f; }));
 }
 
 TEST_CASE("Materials: a new scene has those of its file, and pictures of it tell which are others") {

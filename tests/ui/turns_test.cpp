@@ -82,6 +82,21 @@ TEST_CASE("Turns on the render thread: limits end them, pauses hold them") {
     CHECK(eventually([&] { return both_rendered(worker, 10); }));
 }
 
+// The first pass is cut, so that time is charged for no sample: placing volumes takes longer than all passes of the other.
+TEST_CASE("Turns on the render thread: a limit waits for the first pass of both methods") {
+    Bench bench;
+    bench.control->hold = true;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement, {.spp = 8, .seconds = 0.0}));
+    REQUIRE(eventually([&] { return bench.control->inside.load(); }));
+    worker.set_turns(kBoth);
+    REQUIRE(eventually([&] { return bench.control->stopped > 0; }));
+    bench.control->hold = false;
+    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Done; }));
+    const TurnsStatus done = *worker.status().turns;
+    CHECK(done.passes[0] >= 1);
+    CHECK(done.passes[1] == 8);
+}
+
 TEST_CASE("Viewer model: in turns the picture is split, and each side keeps the newest frame of its method") {
     TurnsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
