@@ -84,7 +84,7 @@ float facet_reflectance(Vec3f wo, Vec3f m, float eta) {
     return fresnel_dielectric(clamp_to(glm::dot(wo, m), 0.0f, 1.0f), eta);
 }
 
-/// Tables made so far by their eta. One costs some 20 ms, and every edit of any material packs the scene anew.
+/// Tables made so far by their eta. One costs some 33 ms, and every edit of any material packs the scene anew.
 class TablesByEta {
 public:
     template <class Make>

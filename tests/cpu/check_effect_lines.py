@@ -7,13 +7,13 @@ Renders small pictures under valgrind's callgrind, which counts instructions per
 effect must not execute a single one of an effect's file; a scene that needs the effect must, or this test would see nothing.
 Exit code 77: there is no valgrind.
 """
-import re
 import shutil
-import subprocess
 import sys
 import tempfile
-from collections import Counter
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from callgrind import count_instructions, sum_by
 
 # File of core/kernel: a scene that needs it.
 EFFECTS = {
@@ -35,34 +35,9 @@ PLAIN = (["cornell"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinf
 def instructions_by_file(program, arguments):
     """Instructions executed, by file of source, where the program knows its lines."""
     with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / "callgrind.out"
-        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", program, "render", *arguments, "--spp", "2",
-                   "--size", "16x16", "--volumes", "50", "--threads", "1", "--output", str(Path(folder) / "picture.pfm")]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            sys.exit(f"FAILED: {' '.join(command)}\n{done.stderr}")
-        return parse(out.read_text())
-
-
-def parse(profile):
-    """Sums of a callgrind profile by file. What is spent in a called function belongs to that function's own lines."""
-    names, counts, current, is_call = {}, Counter(), "", False
-    for line in profile.splitlines():
-        named = re.match(r"(fl|fi|fe)=\((\d+)\)(?: (.*))?$", line)
-        if named:
-            if named[3]:
-                names[named[2]] = named[3]
-            current = names.get(named[2], "")
-        elif re.match(r"(cfi|cfl)=\((\d+)\) (.*)$", line):
-            called = re.match(r"(cfi|cfl)=\((\d+)\) (.*)$", line)
-            names[called[2]] = called[3]
-        elif line.startswith("calls="):
-            is_call = True
-        elif re.match(r"[+\-*\d]", line):
-            if not is_call:
-                counts[current] += int(line.split()[1])
-            is_call = False
-    return counts
+        command = [program, "render", *arguments, "--spp", "2", "--size", "16x16", "--volumes", "50", "--threads", "1",
+                   "--output", str(Path(folder) / "picture.pfm")]
+        return sum_by(count_instructions(command), 0)
 
 
 def spent_in(counts, file):

@@ -10,13 +10,12 @@ Both render passes of the Cornell box by every method under valgrind's callgrind
   control  the kernel that can do every effect executes more, or this test would see nothing.
 Exit code 77: there is no valgrind.
 """
-import re
 import shutil
-import subprocess
 import sys
-import tempfile
-from collections import Counter
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from callgrind import count_instructions, sum_by
 
 METHODS = ["default", "precomputed", "reinforcement"]
 PASSES = 3
@@ -25,33 +24,7 @@ LARGEST_DIFFERENCE = 1e-4
 
 
 def instructions_by_function(command):
-    """Instructions that a function executed itself, without those of the functions that it called."""
-    with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / "callgrind.out"
-        done = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", *command],
-                              input="pass\n" * PASSES, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            sys.exit(f"FAILED: {' '.join(command)}\n{done.stderr}")
-        return parse(out.read_text())
-
-
-def parse(profile):
-    """Sums of a callgrind profile by function; a line behind 'calls=' tells what a called function spent."""
-    names, counts, current, is_call = {}, Counter(), "", False
-    for line in profile.splitlines():
-        named = re.match(r"(fn|cfn)=\((\d+)\)(?: (.*))?$", line)
-        if named:
-            if named[3]:
-                names[named[2]] = re.sub(r"'\d+$", "", named[3])  # the number tells depths of recursion apart
-            if named[1] == "fn":
-                current = names[named[2]]
-        elif line.startswith("calls="):
-            is_call = True
-        elif re.match(r"[+\-*\d]", line):
-            if not is_call:
-                counts[current] += int(line.split()[1])
-            is_call = False
-    return counts
+    return sum_by(count_instructions(command, "pass\n" * PASSES), 1)
 
 
 def main():
