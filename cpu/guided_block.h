@@ -2,17 +2,12 @@
 // directions that are chosen for all of them at once.
 #pragma once
 
-#include <concepts>
-#include <type_traits>
-
 #include "core/kernel/integrator/steps.h"
+#include "cpu/guided_records.h"
 #include "cpu/lane_kernels.h"
 #include "cpu/lookups_ahead.h"
 
 namespace pl {
-
-template <class M>
-concept GuidedMethod = std::derived_from<M, GuidedSampling>;
 
 inline constexpr std::uint32_t kGuidedGroups = group_count(kGuidedBlock);
 
@@ -88,42 +83,22 @@ private:
     DirectionGroup directions_[kGuidedGroups];
 };
 
-/// What the paths of one block learn, on its way into the tables: the cells are asked for when a record comes and changed
-/// when they have arrived, because they are larger than the caches.
+/// What the threads of a pass share besides scene and tables, and what each needs to extend blocks of paths; nothing for
+/// methods that are not guided.
+template <class M>
+struct SharedByThreads {
+    explicit SharedByThreads(const M&) {}
+};
 template <GuidedMethod M>
-class GuidedRecords {
-public:
-    explicit GuidedRecords(const M& method) : method_(method) {}
+struct SharedByThreads<M> {
+    VolumeLocks locks;
 
-    void push(const typename M::Record& record) {
-        if constexpr (kLearns) {
-            if (record.volume == kNoVolume) return;
-            const FieldView& field = method_.field;
-            const std::uint32_t cell = field.cell_index(record.volume, record.cell);
-            __builtin_prefetch(field.pending_sum.data + cell, 1);
-            __builtin_prefetch(field.pending_count.data + cell, 1);
-            records_[count_++] = record;
-        }
-    }
-    void commit() {
-        if constexpr (kLearns) {
-            for (std::uint32_t i = 0; i < count_; ++i) method_.commit(records_[i]);
-            count_ = 0;
-        }
-    }
-
-private:
-    static constexpr bool kLearns = !std::is_empty_v<typename M::Record>;
-
-    const M& method_;
-    std::uint32_t count_ = 0;
-    typename M::Record records_[kLearns ? kGuidedBlock : 1];
+    explicit SharedByThreads(const M& method) : locks(method.field.normals.count) {}
 };
 
-/// What a block of paths needs while it is extended; nothing for methods that are not guided.
 template <FeatureSet F, class M>
 struct BlockMemory {
-    BlockMemory(const M&, const PathSettings&) {}
+    BlockMemory(const M&, const PathSettings&, SharedByThreads<M>&) {}
 };
 template <FeatureSet F, GuidedMethod M>
 struct BlockMemory<F, M> {
@@ -131,7 +106,8 @@ struct BlockMemory<F, M> {
     GuidedDepartures<F, M> departures;
     GuidedRecords<M> records;
 
-    BlockMemory(const M& method, const PathSettings& settings) : departures(method, settings), records(method) {}
+    BlockMemory(const M& method, const PathSettings& settings, SharedByThreads<M>& shared)
+        : departures(method, settings), records(method, shared.locks) {}
 };
 
 }  // namespace pl

@@ -42,12 +42,13 @@ concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const 
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 class PathBatch {
 public:
-    PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work)
+    PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work,
+              SharedByThreads<M>& shared)
         : setup_(setup), intersector_(intersector), method_(method), work_(work), states_(setup.batch_paths),
           statuses_(setup.batch_paths), numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0),
           rays_(setup.batch_paths), shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())),
-          solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method_, setup.path) {}
+          solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method_, setup.path, shared) {}
 
     /// Traces paths until the source has no more, and finishes those under way.
     PassCounters run(PathSource& source) {
@@ -59,6 +60,7 @@ public:
             if constexpr (kSamplesLights) connect();
             retire(source);
         }
+        if constexpr (GuidedMethod<M>) block_.records.commit();
         return counters_;
     }
 
@@ -139,7 +141,6 @@ private:
             statuses_[path] = leave(method_, block_.departures.departure(i), block_.departures.direction(i),
                                     states_[path], none, counters_.path);
         }
-        block_.records.commit();
     }
 
     /// Lets path i wait for its direction, which many Lambert reflectors get at once; at other surfaces it goes on alone.
@@ -224,10 +225,11 @@ private:
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& method, const W& work) {
     ChunkQueue queue(setup.first_path, work.count(), kPathChunk, setup.stop);
+    SharedByThreads<M> shared(method);
     std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));
     run_on_threads(setup.threads, [&](int thread) {
         PathSource source(queue, {setup.path.seed, setup.path.stream, W::kStartPurpose, work.sample});
-        PathBatch<F, M, I, W> batch(setup, intersector, method, work);
+        PathBatch<F, M, I, W> batch(setup, intersector, method, work, shared);
         counters[static_cast<std::size_t>(thread)] = batch.run(source);
     });
     PassCounters total;

@@ -1,6 +1,7 @@
 // What a segment of a guided path costs, compared with one of default path tracing.
-// Usage: segment_bench [SCENE [VOLUMES [ROUNDS]]]. Processor time of one thread. The methods take turns, one pass each, so
-// that other work on the machine meets all of them; a checksum tells whether two builds make the same pictures.
+// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS]]]]. Processor time, of one thread unless told otherwise. The methods
+// take turns, one pass each, so that other work on the machine meets all of them; a checksum tells whether two builds make
+// the same pictures.
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -27,8 +28,8 @@ constexpr int kPrecompute = 4;  ///< paths per cell: what is in the tables hardl
 /// One method under way, and the time of its passes.
 class Run {
 public:
-    Run(std::shared_ptr<const SceneDescription> scene, MethodId method, int volumes)
-        : session_(make_cpu_backend({.threads = 1}), scene, settings_of(*scene, method, volumes)) {}
+    Run(std::shared_ptr<const SceneDescription> scene, MethodId method, int volumes, int threads)
+        : session_(make_cpu_backend({.threads = threads}), scene, settings_of(*scene, method, volumes)) {}
 
     void render_pass() {
         std::clock_t start = std::clock();
@@ -71,10 +72,11 @@ private:
     Snapshot last_;
 };
 
-void measure(const std::string& name, int volumes, int rounds) {
+void measure(const std::string& name, int volumes, int rounds, int threads) {
     const auto scene = std::make_shared<const SceneDescription>(load_scene(name, PL_SOURCE_DIR "/assets"));
     std::vector<std::unique_ptr<Run>> runs;
-    for (const MethodInfo& method : all_methods()) runs.push_back(std::make_unique<Run>(scene, method.id, volumes));
+    for (const MethodInfo& method : all_methods())
+        runs.push_back(std::make_unique<Run>(scene, method.id, volumes, threads));
     for (const auto& run : runs) {
         for (int pass = 0; pass < kWarmUp; ++pass) run->render_pass();
         run->forget_times();
@@ -101,12 +103,14 @@ int main(int count, char** arguments) try {
     const std::string scene = count > 1 ? arguments[1] : "cornell";
     const int volumes = count > 2 ? std::atoi(arguments[2]) : 0;
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 15;
+    const int threads = count > 4 ? std::max(1, std::atoi(arguments[4])) : 1;
     const pl::bench::MachineLoad load;
-    std::printf("%s, %d volumes (0: the default): ns per segment, as a multiple of the first row, and for learning\n",
-                scene.c_str(), volumes);
+    std::printf("%s, %d volumes (0: the default), %d threads: ns per segment, as a multiple of the first row, and "
+                "for learning\n",
+                scene.c_str(), volumes, threads);
     std::printf("%-14s %8s %8s %8s %13s %8s   picture\n", "method", "median", "least", "ratio", "[quartiles]",
                 "learning");
-    pl::bench::measure(scene, volumes, rounds);
+    pl::bench::measure(scene, volumes, rounds, threads);
     const pl::bench::MachineLoad::Shares shares = load.shares();
     std::printf("processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
                 shares.stolen);

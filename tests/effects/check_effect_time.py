@@ -5,8 +5,10 @@ Usage: check_effect_time.py PROGRAM PROGRAM_WITHOUT [PAIRS]
 
 Both render the Cornell box with every method, one thread, and the same bits. A pair is a fresh process of each kind. They render
 many pictures, each in other memory, and take turns pass by pass, all in random order: who follows whom changes what is in the caches.
-What counts is the ratio of the processor times of their median passes, averaged over the pictures: those of one picture vary by 5 %
-and more. Beside each pair runs a second process of PROGRAM, and one with the kernel that can do every effect:
+All stay on one processor, because those of a shared machine are not equally fast, and each changes its speed from moment to moment: a
+pass takes 3.1 or 4.1 ms, now here, now there. What counts is the ratio of the processor times of their median passes, its mean over
+the middle half of the pictures: the others met such a change. Beside each pair runs a second process of PROGRAM, and one with the
+kernel that can do every effect:
   floor     the same program twice. If the 95 % interval of this ratio is not within [0.99, 1.01], the machine is too noisy to tell:
             exit code 77, which is a skip and no pass. The same if half of this interval or of the next is more than 0.4 % even after
             three times as many pairs; how many there are hangs on the width alone, not on where the intervals lie.
@@ -22,7 +24,7 @@ import subprocess
 import sys
 
 METHODS = ["default", "precomputed", "reinforcement"]
-PICTURES = 40  # of each process in a pair
+PICTURES = 24  # of each process in a pair
 PASSES = 5  # of each picture; the first one does not count
 LIMIT = 0.01
 WIDEST = 0.004  # half of an interval
@@ -69,9 +71,15 @@ def measure(commands, turns):
     return [[math.log(statistics.median(seconds)) for seconds in runner.seconds] for runner in runners]
 
 
+def middle_mean(values):
+    """Of the middle half."""
+    quarter = len(values) // 4
+    return statistics.mean(sorted(values)[quarter:len(values) - quarter])
+
+
 def log_ratios(measured, above, below):
-    """One for each pair: the mean over its pictures."""
-    return [statistics.mean(a - b for a, b in zip(logs[above], logs[below])) for logs in measured]
+    """One for each pair, from its pictures."""
+    return [middle_mean([a - b for a, b in zip(logs[above], logs[below])]) for logs in measured]
 
 
 def interval(logs):
@@ -95,6 +103,7 @@ def main():
         sys.exit(__doc__)
     program, without = sys.argv[1:3]
     pairs = int(sys.argv[3]) if len(sys.argv) == 4 else 30
+    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
     failures, noisy = [], []
     turns = random.Random(1)
     for method in METHODS:
