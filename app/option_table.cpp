@@ -179,8 +179,8 @@ const auto kTable = std::to_array<OptionSpec>({
      .parse = [](Options& o, Text text) { o.render.next_event = parse_switch(text); },
      .print = [](const Options& o) { return std::string(o.render.next_event ? "on" : "off"); }},
     {.name = "roulette", .flags = "--roulette", .value = "NAME", .group = kPicture,
-     .help = "What ends paths early: spare (default): the reflectances, but what is learned may spare a path; albedo: the "
-             "reflectances alone; field: what is learned alone",
+     .help = "What ends paths early, and splits them: spare (default): the reflectances end them, what is learned may spare "
+             "or split one; albedo: the reflectances alone; field: what is learned alone",
      .commands = kSampling, .in_scene_files = true, .parse = parse_roulette,
      .print = [](const Options& o) { return std::string(name_of(o.render.roulette)); }},
     {.name = "force-effects", .flags = "--force-effects", .value = "NAME,..", .group = kPicture,

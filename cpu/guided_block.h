@@ -39,7 +39,7 @@ public:
         group.u_y[lane] = u.z;
         group.counters.pixel[lane] = state.pixel;
         group.counters.sample[lane] = state.sample;
-        group.counters.vertex[lane] = state.vertices;
+        group.counters.vertex[lane] = state.draw_index();
         paths_[count_++] = path;
         if (lane + 1 == kGroupSize) choose_rows();
     }

@@ -183,11 +183,12 @@ private:
     /// Hands in the finished paths and puts new ones, or the last ones, into their places.
     [[gnu::flatten, gnu::noinline]] void retire(PathSource& source) {
         for (std::uint32_t i = 0; i < active_;) {
+            if (statuses_[i] == PathStatus::Finished)
+                statuses_[i] = end_branch(setup_.scene, method_, setup_.path, states_[i], counters_.path);
             if (statuses_[i] == PathStatus::Continues) {
                 prepare(i++);
                 continue;
             }
-            end_path(method_, states_[i], counters_.path);
             finish(states_[i]);
             if (start(source, i)) {
                 ++i;

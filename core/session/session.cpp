@@ -23,6 +23,9 @@ constexpr float kGuidedRouletteThreshold = 0.2f;
 /// [Vorba and Krivanek 2016, section 4]
 constexpr float kFieldRouletteThreshold = 2.0f / (1.0f + 5.0f);
 
+/// Above twice what was expected of them at first, paths are split (docs/learning.md).
+constexpr float kSplitThreshold = 2.0f;
+
 bool is_power_of_two(std::uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 
 }  // namespace
@@ -91,11 +94,13 @@ FeatureSet Session::needed_features() const { return pl::needed_features(*packed
 ServedKernel Session::served_kernel() const { return pl::served_kernel(backend_->info().name, *packed_, settings_); }
 
 PathSettings Session::path_settings() const {
+    const bool splits = info_of(settings_.method).uses_field && settings_.roulette != RouletteRule::Albedo;
     const float guided =
         settings_.roulette == RouletteRule::Field ? kFieldRouletteThreshold : kGuidedRouletteThreshold;
     return {.seed = settings_.seed,
             .max_depth = static_cast<std::uint32_t>(settings_.max_depth),
             .roulette_threshold = info_of(settings_.method).uses_field ? guided : 1.0f,
+            .split_threshold = splits ? kSplitThreshold : kInfinity,
             .roulette = settings_.roulette,
             .next_event = settings_.next_event ? 1u : 0u};
 }

@@ -42,7 +42,10 @@ bool same(const Outcome& a, const Outcome& b) {
 
 constexpr std::uint32_t kPasses = 3;
 
-PathSettings path_settings(bool next_event) { return {.seed = 77, .next_event = next_event ? 1u : 0u}; }
+/// Guided paths are split at every second vertex or so.
+PathSettings path_settings(bool next_event) {
+    return {.seed = 77, .split_threshold = 0.25f, .next_event = next_event ? 1u : 0u};
+}
 
 /// One path after the other.
 template <FeatureSet F, Method M>

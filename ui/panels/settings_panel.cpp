@@ -90,8 +90,8 @@ void draw_sampling(ViewerModel& model) {
     int roulette = static_cast<int>(model.settings().roulette);
     if (choice_row(
             "Roulette",
-            "What ends paths early. Spare: the reflectances, but what is learned may spare a path. Field: what is "
-            "learned alone.",
+            "What ends paths early, and splits them. Spare: the reflectances end them, what is learned may spare or "
+            "split one. Albedo: the reflectances alone. Field: what is learned alone.",
             &roulette, "Spare\0Albedo\0Field\0"))
         model.set_roulette(static_cast<RouletteRule>(roulette));
     int seed = static_cast<int>(model.settings().seed);

@@ -100,7 +100,7 @@ PL_HD inline PathStatus leave(const M& method, const Departure<F, M>& departure,
 template <FeatureSet F, Method M>
 PL_HD inline PathStatus leave_by_lobe(const M& method, const Departure<F, M>& departure, const Rng& rng, Vec4f u,
                                       PathState<F, M>& state, typename M::Record& record, PathCounters& counters) {
-    const Vec4f choice = rng.draw(state.vertices, Purpose::Lobe);
+    const Vec4f choice = rng.draw(state.draw_index(), Purpose::Lobe);
     const float p = departure.bsdf.delta_probability();
     if (choice.x < p) {
         const DeltaDirection delta = departure.bsdf.sample_delta(departure.surface, choice.y);
@@ -108,7 +108,7 @@ PL_HD inline PathStatus leave_by_lobe(const M& method, const Departure<F, M>& de
         return go_on(method, departure, {.wi = delta.wi}, delta.weight * (1.0f / p), 0.0f, state, counters);
     }
     const DirectionSample direction = method.sample_direction(departure.vertex, departure.surface, departure.bsdf,
-                                                              rng, state.vertices, u, choice.z);
+                                                              rng, state.draw_index(), u, choice.z);
     const float pdf_sa = (1.0f - p) * direction.pdf_sa;
     const float cos_i = departure.bsdf.cosine(departure.surface, direction.wi);
     if (!(pdf_sa > 0.0f) || cos_i == 0.0f) return end_in_the_dark(method, state, record, counters);
@@ -125,7 +125,7 @@ PL_HD inline PathStatus choose_and_leave(const M& method, const Departure<F, M>&
         if (!departure.bsdf.is_lambert()) return leave_by_lobe(method, departure, rng, u, state, record, counters);
     }
     const DirectionSample direction =
-        method.sample_direction(departure.vertex, departure.surface, rng, state.vertices, u);
+        method.sample_direction(departure.vertex, departure.surface, rng, state.draw_index(), u);
     return leave(method, departure, direction, state, record, counters);
 }
 

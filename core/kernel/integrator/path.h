@@ -6,16 +6,15 @@
 
 #include "core/kernel/base/features.h"
 #include "core/kernel/base/rng.h"
-#include "core/kernel/geometry/ray.h"
-#include "core/kernel/methods/method.h"
+#include "core/kernel/integrator/branches.h"
 
 namespace pl {
 
 /// What Russian roulette listens to. The surfaces' reflectances are always at hand; what a guided method has learned says
 /// more, and may be wrong.
 enum class RouletteRule : std::uint32_t {
-    Spare,   ///< what is learned may spare a path, but not end it sooner than the reflectances alone would
-    Albedo,  ///< the reflectances alone
+    Spare,  ///< what is learned may spare a path or split it, but not end it sooner than the reflectances alone would
+    Albedo,  ///< the reflectances alone; no path is split
     Field,   ///< what is learned alone, where something is   [Vorba and Krivanek 2016]
 };
 
@@ -23,9 +22,10 @@ enum class RouletteRule : std::uint32_t {
 struct PathSettings {
     std::uint64_t seed = 1;
     Stream stream = Stream::Picture;
-    std::uint32_t max_depth = 64;      ///< most surface vertices of a path; longer ones are cut and counted
-    std::uint32_t roulette_start = 3;  ///< surface vertices after which Russian roulette may end a path
-    float roulette_threshold = 1.0f;   ///< worth, as a share of what it was at first, below which a path has to play
+    std::uint32_t max_depth = 64;       ///< most surface vertices of a path; longer ones are cut and counted
+    std::uint32_t roulette_start = 3;   ///< surface vertices after which Russian roulette may end a path
+    float roulette_threshold = 1.0f;    ///< worth, as a share of what it was at first, below which a path has to play
+    float split_threshold = kInfinity;  ///< the same above which it is split, where the method can
     RouletteRule roulette = RouletteRule::Spare;
     std::uint32_t next_event = 0;  ///< 1: sample lights at every vertex, combined with the method's directions
 };
@@ -53,6 +53,13 @@ struct PathState {
     [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), Passage, Nothing> passage{};
     [[no_unique_address]] typename M::Memory memory{};
     [[no_unique_address]] typename M::Expectation expectation{};
+    [[no_unique_address]] BranchesOf<M> branches;
+
+    /// By which random numbers are drawn for the vertex under way: no other one of the path has it, nor the branches.
+    PL_HD std::uint32_t draw_index() const {
+        if constexpr (SplittingMethod<M>) return vertices + (branches.number << kBranchShift);
+        return vertices;
+    }
 };
 
 /// A light sample that counts if nothing is in between.

@@ -5,13 +5,11 @@
 
 #include "core/kernel/integrator/departure.h"
 #include "core/kernel/integrator/environment.h"
+#include "core/kernel/integrator/roulette.h"
 #include "core/kernel/scene/camera.h"
 #include "core/kernel/shading/lights.h"
 
 namespace pl {
-
-/// Roulette never ends more than 9 of 10 paths at once, which bounds its weight.
-inline constexpr float kMinSurvival = 0.1f;
 
 PL_HD inline Rng path_rng(const PathSettings& settings, std::uint32_t pixel, std::uint32_t sample) {
     return {settings.seed, settings.stream, pixel, sample};
@@ -27,9 +25,9 @@ struct VertexNumbers {
 template <FeatureSet F, class M>
 PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, const PathState<F, M>& state) {
     const Rng rng = path_rng(settings, state.pixel, state.sample);
-    VertexNumbers numbers{.scatter = rng.draw(state.vertices + 1, Purpose::Scatter)};
+    VertexNumbers numbers{.scatter = rng.draw(state.draw_index() + 1, Purpose::Scatter)};
     if constexpr (F.has(Feature::NextEventEstimation)) {
-        if (settings.next_event != 0) numbers.light = rng.draw(state.vertices + 1, Purpose::Light);
+        if (settings.next_event != 0) numbers.light = rng.draw(state.draw_index() + 1, Purpose::Light);
     }
     return numbers;
 }
@@ -88,31 +86,6 @@ PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, co
     }
 }
 
-/// Chance of going on. An opinion may be wrong, and most are at first, so by RouletteRule::Spare it can spare a path but not
-/// end it sooner than the reflectances alone would: weights then grow no faster than they fall by reflection, and their
-/// variance stays finite. RouletteRule::Field trusts the opinion.
-PL_HD inline float survival_probability(const PathSettings& settings, float worth, float survival) {
-    float wanted = survival;
-    if (settings.roulette == RouletteRule::Spare) wanted = max_of(worth / settings.roulette_threshold, survival);
-    if (settings.roulette == RouletteRule::Field) wanted = worth / settings.roulette_threshold;
-    return clamp_to(wanted, kMinSurvival, 1.0f);
-}
-
-/// Plays Russian roulette with the method's opinion of what the path is still worth. Returns 0 if the path ends, else the
-/// weight of those that go on.
-template <FeatureSet F, Method M>
-PL_HD inline float play_roulette(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
-                                 Vec3f albedo, float u, PathState<F, M>& state) {
-    state.survival *= max_component(albedo);
-    const float worth = method.roulette_worth(vertex, albedo, state.throughput, state.survival, state.expectation);
-    if (state.vertices < settings.roulette_start) return 1.0f;
-    const float probability = survival_probability(settings, worth, state.survival);
-    if (u >= probability) return 0.0f;
-    state.throughput *= 1.0f / probability;
-    state.survival = min_of(state.survival / probability, 1.0f);
-    return 1.0f / probability;
-}
-
 /// What the path learns where its segment ends; returns what the method knows about the place.
 template <FeatureSet F, Method M>
 PL_HD inline typename M::Vertex learn_at(const M& method, const SurfacePoint& surface, const Bsdf<F>& bsdf,
@@ -168,11 +141,16 @@ PL_HD inline PathStatus arrive(const SceneView& scene, const M& method, const Pa
         if (settings.next_event != 0)
             request_shadow_ray<F, M>(scene, method, {surface, bsdf, vertex}, numbers.light, state, shadow);
     }
-    const float roulette_weight = play_roulette(method, settings, vertex, albedo, numbers.scatter.w, state);
-    if (roulette_weight == 0.0f) return cut_path(method, state, record, counters);
-    if constexpr (FollowingMethod<M>) state.memory.roulette_weight = roulette_weight;
+    const Continuation next = play_roulette(method, settings, vertex, albedo, numbers.scatter.w, state);
+    if (next.branches == 0) return cut_path(method, state, record, counters);
+    if constexpr (FollowingMethod<M>) state.memory.roulette_weight = next.weight;
     if constexpr (F.has_any(kLobeFeatures)) {
-        if (bsdf.passes_on()) state.passage.weight *= roulette_weight;
+        if (bsdf.passes_on()) state.passage.weight *= next.weight;
+    }
+    if constexpr (SplittingMethod<M>) {
+        if (next.branches > 1)
+            state.branches.wait({-state.ray.direction, hit, state.throughput, state.survival, state.vertices,
+                                 next.branches - 1, vertex});
     }
     departure = {surface, bsdf, vertex};
     return PathStatus::Continues;
@@ -202,10 +180,36 @@ PL_HD inline void connect_light(const M& method, const ShadowRequest& shadow, Pa
     if constexpr (FollowingMethod<M>) method.receive_light(state.memory, counters.method);
 }
 
-/// The path is over, and so is its last shadow ray: what can be learned only from whole paths is learned.
+/// Sends a branch that waits on its way. It knows nothing of those before it, and no light is sampled for it again.
+template <FeatureSet F, SplittingMethod M>
+PL_HD inline PathStatus begin_branch(const SceneView& scene, const M& method, const PathSettings& settings,
+                                     PathState<F, M>& state, PathCounters& counters) {
+    const Fork<typename M::Vertex> fork = state.branches.begin();
+    state.throughput = fork.throughput;
+    state.survival = fork.survival;
+    state.vertices = fork.vertices;
+    state.memory = {};
+    state.passage = {};
+    const SurfacePoint surface = make_surface_point<F>(scene, fork.hit, fork.wo);
+    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, hit_weights(fork.hit), fork.wo);
+    const Rng rng = path_rng(settings, state.pixel, state.sample);
+    typename M::Record none{};
+    return choose_and_leave<F, M>(method, {surface, bsdf, fork.vertex}, rng,
+                                  rng.draw(state.draw_index(), Purpose::Scatter), state, none, counters);
+}
+
+/// The path, or a branch of it, is over, and so is its last shadow ray: what can be learned only from whole paths is
+/// learned, and the next branch sets out. Returns whether there is one.
 template <FeatureSet F, Method M>
-PL_HD inline void end_path(const M& method, PathState<F, M>& state, PathCounters& counters) {
+PL_HD inline PathStatus end_branch(const SceneView& scene, const M& method, const PathSettings& settings,
+                                   PathState<F, M>& state, PathCounters& counters) {
     if constexpr (FollowingMethod<M>) method.finish(state.memory, counters.method);
+    if constexpr (SplittingMethod<M>) {
+        while (state.branches.waiting > 0)
+            if (begin_branch(scene, method, settings, state, counters) == PathStatus::Continues)
+                return PathStatus::Continues;
+    }
+    return PathStatus::Finished;
 }
 
 }  // namespace pl

@@ -6,6 +6,8 @@
 namespace pl {
 
 struct DefaultMethod {
+    static constexpr bool kSplitsPaths = false;
+
     struct Vertex {};
     struct Memory {};
     struct Expectation {};

@@ -140,6 +140,8 @@ struct TableEntry {
 };
 
 struct GuidedSampling {
+    static constexpr bool kSplitsPaths = true;
+
     FieldView field;
     MixtureSettings mixture{};
 

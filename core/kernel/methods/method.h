@@ -67,7 +67,8 @@ struct MethodCounters {
 ///
 /// roulette_worth(vertex, albedo, throughput, survival, expectation): what the path can still bring, as a share of
 /// what it could at its first vertex: Russian roulette is played on it. Called once per vertex. `survival` is the product of the
-/// albedos, divided by the chances of earlier roulettes.
+/// albedos, divided by the chances of earlier roulettes. `kSplitsPaths`: whether the opinion is good enough to go on in several
+/// directions where the path is worth much.
 template <class M>
 concept Method = requires(const M& method, const typename M::Vertex& vertex, typename M::Memory& memory,
                           const SurfacePoint& surface, const Rng& rng, Vec3f wi, Vec4f u, const Arrival& arrival,
@@ -81,6 +82,7 @@ concept Method = requires(const M& method, const typename M::Vertex& vertex, typ
     { method.pdf_sa(vertex, surface, bsdf, wi) } -> std::same_as<float>;
     { method.remember(vertex, DirectionSample{}) } -> std::same_as<typename M::Memory>;
     { method.roulette_worth(vertex, wi, wi, float{}, expectation) } -> std::same_as<float>;
+    { M::kSplitsPaths } -> std::convertible_to<bool>;
     { method.learn(memory, arrival, vertex, counters) } -> std::same_as<typename M::Record>;
     { method.commit(typename M::Record{}) } -> std::same_as<void>;
 };
@@ -88,7 +90,7 @@ concept Method = requires(const M& method, const typename M::Vertex& vertex, typ
 /// Methods that learn from more than where the last direction led. Their Memory follows the path; instead of remember(),
 /// the integrator calls depart() where a vertex is left, and stop() where a path ends at one by chance. request_light() gets
 /// what the surface would reflect of the light sample there, receive_light() follows if nothing is in between, also after
-/// depart(). finish() comes last, once per path. Memory holds the weight of the roulette that the path survived last, which
+/// depart(). finish() comes last, once for each branch of a path. Memory holds the weight of the roulette that the path survived last, which
 /// the integrator sets.
 template <class M>
 concept FollowingMethod = Method<M> &&
@@ -101,5 +103,9 @@ concept FollowingMethod = Method<M> &&
     method.stop(memory, counters);
     method.finish(memory, counters);
 };
+
+/// Methods whose paths have branches: each begins with an empty Memory.
+template <class M>
+concept SplittingMethod = Method<M> && M::kSplitsPaths;
 
 }  // namespace pl
