@@ -17,7 +17,7 @@ struct FieldSettings {
     LearningRate rate = LearningRate::Forgetful;
     LearningSettings learning{};
     float uniform_floor = kUniformShare;
-    int precompute_samples = 16;  ///< paths per cell and volume, a square number
+    int precompute_samples = 4;  ///< paths per cell and volume, a square number
     Lookup lookup = Lookup::Grid;
     float refine_share =
         0.0f;  ///< of the volumes placed, how many more splitting may add, in [0, 1]; see refine_placement()

@@ -36,7 +36,7 @@ json inspected(const Arguments& more) {
 TEST_CASE("an inspection has everything that was learned") {
     for (const std::string method : {"reinforcement", "precomputed"}) {
         CAPTURE(method);
-        const json volume = inspected({"--pixel", "16,28", "--method", method});
+        const json volume = inspected({"--pixel", "8,16", "--method", method});
         CHECK(volume["method"] == method);
         CHECK(volume["bins"] == 64);
         CHECK(volume["partial"] == false);
