@@ -1,14 +1,11 @@
 #include "cpu/lookups_ahead.h"
 
+#include <new>
+
 namespace pl {
 namespace {
 
-/// Of the surface, only what lookups need: the same for all effects.
-PL_INLINE SurfacePoint surface_of(const SceneView& scene, const RayBatch& rays, std::uint32_t i) {
-    return make_surface_point<FeatureSet{}>(scene, rays.hit(i), -rays.ray(i).direction);
-}
-
-PL_INLINE void ask_for_nodes(const FieldView& field, VolumePlace place) {
+void ask_for_nodes(const FieldView& field, VolumePlace place) {
     if (place.kind() == VolumePlace::Kind::Node) __builtin_prefetch(field.tree.nodes.data + place.number());
     if (place.kind() != VolumePlace::Kind::Cell) return;
     const VolumeCell cell = field.grid.cells[place.number()];
@@ -20,30 +17,33 @@ PL_INLINE void ask_for_nodes(const FieldView& field, VolumePlace place) {
 
 }  // namespace
 
-void LookupsAhead::place(const SceneView& scene, const FieldView& field, const RayBatch& rays, std::uint32_t ray) {
-    if (!rays.hit(ray).found()) return;
-    const SurfacePoint point = surface_of(scene, rays, ray);
-    if (!scene.materials[point.material].reflects()) return;
-    VolumePlace place{VolumePlace::Kind::Search, 0};
-    if (field.tree.lookup == Lookup::Grid) place = field.grid.place_of(point.primitive, point.front, point.position);
-    if (place.kind() == VolumePlace::Kind::Cell) __builtin_prefetch(&field.grid.cells[place.number()]);
-    pending_[count_++] = {point.position, place, ray};
-}
-
 void LookupsAhead::begin(const SceneView& scene, const FieldView& field, const RayBatch& rays, std::uint32_t first,
                          std::uint32_t end) {
     first_ = first;
     count_ = 0;
     known_ = 0;
-    for (std::uint32_t i = first; i < end; ++i) place(scene, field, rays, i);
+    const bool has_grid = field.tree.lookup == Lookup::Grid;
+    for (std::uint32_t i = first; i < end; ++i) {
+        const Hit hit = rays.hit(i);
+        if (!hit.found()) continue;
+        // Made in its place: copying what was just written in smaller pieces would wait for the writes.
+        const SurfacePoint& point = *::new (static_cast<void*>(&points_[i - first]))
+                                        SurfacePoint(make_flat_point(scene, hit, -rays.ray(i).direction));
+        if (!scene.materials[point.material].reflects()) continue;
+        VolumePlace place{VolumePlace::Kind::Search, 0};
+        if (has_grid) place = field.grid.place_of(point.primitive, point.front, point.position);
+        if (place.kind() == VolumePlace::Kind::Cell) __builtin_prefetch(&field.grid.cells[place.number()]);
+        pending_[count_++] = {place, i};
+    }
 }
 
-void LookupsAhead::finish(const SceneView& scene, const FieldView& field, const RayBatch& rays) {
+void LookupsAhead::finish(const FieldView& field) {
     for (std::uint32_t k = 0; k < count_; ++k) ask_for_nodes(field, pending_[k].place);
     for (std::uint32_t k = 0; k < count_; ++k) {
         const Pending& at = pending_[k];
-        const GridAnswer answer = volume_at_place(field.tree, field.grid, at.place, at.position);
-        found_[at.ray - first_] = answer.is_known ? answer.found : field.find(surface_of(scene, rays, at.ray));
+        const SurfacePoint& point = points_[at.ray - first_];
+        const GridAnswer answer = volume_at_place(field.tree, field.grid, at.place, point.position);
+        found_[at.ray - first_] = answer.is_known ? answer.found : field.find(point);
         known_ |= std::uint64_t{1} << (at.ray - first_);
     }
 }

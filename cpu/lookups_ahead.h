@@ -1,6 +1,6 @@
-// The volumes that serve a block of paths, found before the paths arrive there: one after the other in a loop of their own
-// lookups overlap, and each step asks for the memory of the next one. Cells are larger than the innermost caches.
-// The loops are the same for every set of effects, and compiled once.
+// Where the rays of a block of paths end, and the volumes that serve them there, found before the paths arrive: one after
+// the other in a loop of their own lookups overlap, and each step asks for the memory of the next one. Cells are larger than
+// the innermost caches. The loops are the same for every set of effects, and compiled once.
 #pragma once
 
 #include <concepts>
@@ -30,7 +30,15 @@ public:
     void begin(const SceneView& scene, const FieldView& field, const RayBatch& rays, std::uint32_t first,
                std::uint32_t end);
     /// Finds the volumes. Best called after other work, when the cells have come.
-    void finish(const SceneView& scene, const FieldView& field, const RayBatch& rays);
+    void finish(const FieldView& field);
+    /// Where a ray ends that hits something.
+    template <FeatureSet F>
+    decltype(auto) surface(const SceneView& scene, const Hit& hit, std::uint32_t ray) const {
+        if constexpr (F.has(Feature::SmoothNormals))
+            return with_shading_normal<F>(scene, points_[ray - first_], hit_weights(hit));
+        else
+            return (points_[ray - first_]);
+    }
     /// nullptr for rays that were left out.
     const FoundVolume* found(std::uint32_t ray) const {
         return ((known_ >> (ray - first_)) & 1u) != 0 ? &found_[ray - first_] : nullptr;
@@ -38,12 +46,9 @@ public:
 
 private:
     struct Pending {
-        Vec3f position;
         VolumePlace place;
         std::uint32_t ray;
     };
-
-    void place(const SceneView& scene, const FieldView& field, const RayBatch& rays, std::uint32_t ray);
 
     std::uint32_t first_ = 0;
     std::uint32_t count_ = 0;
@@ -51,6 +56,7 @@ private:
     static_assert(kGuidedBlock <= 64);
     Pending pending_[kGuidedBlock];
     FoundVolume found_[kGuidedBlock];
+    SurfacePoint points_[kGuidedBlock];
 };
 
 }  // namespace pl

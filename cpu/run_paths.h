@@ -104,7 +104,7 @@ private:
             const std::uint32_t next = end_of(first);
             LookupsAhead& lookups = block_.lookups[block % 2];
             block_.lookups[(block + 1) % 2].begin(setup_.scene, method_.field, rays_, next, end_of(next));
-            lookups.finish(setup_.scene, method_.field, rays_);
+            lookups.finish(method_.field);
             extend_block(first, next, lookups);
         }
     }
@@ -127,8 +127,12 @@ private:
             ShadowRequest shadow;
             typename M::Record record{};
             const VertexNumbers numbers = numbers_.numbers(i);
+            const Hit hit = rays_.hit(i);
             method_.found = lookups.found(i);
-            statuses_[i] = arrive<F>(setup_.scene, method_, setup_.path, rays_.hit(i), numbers, states_[i],
+            const auto surface_of = [&]() -> decltype(auto) {
+                return lookups.template surface<F>(setup_.scene, hit, i);
+            };
+            statuses_[i] = arrive<F>(setup_.scene, method_, setup_.path, hit, surface_of, numbers, states_[i],
                                      block_.departures.next(), record, shadow, counters_.path);
             if (statuses_[i] == PathStatus::Continues) send(i, numbers.scatter, record);
             block_.records.push(record);

@@ -1,12 +1,13 @@
 // What a segment of a guided path costs, compared with one of default path tracing.
-// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS]]]]. Processor time, of one thread unless told otherwise. The methods
-// take turns, one pass each, so that other work on the machine meets all of them; a checksum tells whether two builds make
-// the same pictures.
+// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS]]]]; the scene "ball" has a million triangles. Processor time, of
+// one thread unless told otherwise. The methods take turns, one pass each, so that other work on the machine meets all of
+// them; a checksum tells whether two builds make the same pictures.
 #include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@
 #include "cpu/cpu_backend.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
+#include "tests/bumpy_ball.h"
+#include "tests/io/temporary_folder.h"
 
 namespace pl::bench {
 namespace {
@@ -72,8 +75,16 @@ private:
     Snapshot last_;
 };
 
+SceneDescription open_scene(const std::string& name) {
+    constexpr std::size_t kRows = 501;  // of the ball
+    const std::filesystem::path assets = PL_SOURCE_DIR "/assets";
+    if (name != "ball") return load_scene(name, assets);
+    const test::TemporaryFolder folder;
+    return load_scene(test::write_bumpy_ball(folder.path(), kRows).string(), assets);
+}
+
 void measure(const std::string& name, int volumes, int rounds, int threads) {
-    const auto scene = std::make_shared<const SceneDescription>(load_scene(name, PL_SOURCE_DIR "/assets"));
+    const auto scene = std::make_shared<const SceneDescription>(open_scene(name));
     std::vector<std::unique_ptr<Run>> runs;
     for (const MethodInfo& method : all_methods())
         runs.push_back(std::make_unique<Run>(scene, method.id, volumes, threads));

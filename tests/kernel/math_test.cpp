@@ -85,6 +85,11 @@ TEST_CASE("Neighbouring floats") {
     CHECK(next_float_up(kInfinity) == kInfinity);
     CHECK(next_float_down(-kInfinity) == -kInfinity);
     CHECK(next_float_up(std::numeric_limits<float>::max()) == kInfinity);
+    for (const float same : {0.0f, -0.0f, 1.5f, -1.5f, kInfinity, -kInfinity})
+        CHECK(std::bit_cast<std::uint32_t>(step_float(same, 0)) == std::bit_cast<std::uint32_t>(same));
+    for (const std::int32_t step : {-1, 0, 1})
+        for (const std::uint32_t nan : {0x7f800001u, 0x7fffffffu, 0xff800001u, 0xffffffffu})
+            CHECK(std::isnan(step_float(std::bit_cast<float>(nan), step)));
     test::Uniforms random(2);
     for (int i = 0; i < 100000; ++i) {
         const float x = std::bit_cast<float>(random.bits());

@@ -152,5 +152,5 @@ TEST_CASE("Every method shows e/(1-rho) within 4 % in every pixel of the furnace
     judge_furnaces(192, 0.04, 0.004);
 }
 TEST_CASE("Every method shows e/(1-rho) in every pixel of the furnace, finely", "[nightly]") {
-    judge_furnaces(4000, 0.007, 0.0009);
+    judge_furnaces(5400, 0.007, 0.0009);
 }

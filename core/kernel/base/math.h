@@ -102,14 +102,16 @@ PL_HD inline float log2_normal(float x) {
     return exponent + kTwoOverLn2 * (s * series);
 }
 
-/// The neighbouring float towards +infinity; +infinity stays.
-PL_HD inline float next_float_up(float x) {
-    if (x == kInfinity) return x;
-    if (x == 0.0f) return std::bit_cast<float>(std::uint32_t{1});
-    const auto bits = std::bit_cast<std::uint32_t>(x);
-    return std::bit_cast<float>(x > 0.0f ? bits + 1u : bits - 1u);
+/// The neighbouring float towards +infinity for a `step` of 1, towards -infinity for -1; x itself for 0. What is not finite
+/// stays. Which way to go is as likely one as the other, so no branch hangs on it.
+PL_HD inline float step_float(float x, std::int32_t step) {
+    if (!(std::fabs(x) < kInfinity)) return x;
+    if (x == 0.0f) return step == 0 ? x : static_cast<float>(step) * std::bit_cast<float>(std::uint32_t{1});
+    const auto bits = std::bit_cast<std::int32_t>(x);
+    const std::int32_t sign = bits >> 31;  // 0 or -1
+    return std::bit_cast<float>(bits + ((step ^ sign) - sign));
 }
-/// The neighbouring float towards -infinity; -infinity stays.
-PL_HD inline float next_float_down(float x) { return -next_float_up(-x); }
+PL_HD inline float next_float_up(float x) { return step_float(x, 1); }
+PL_HD inline float next_float_down(float x) { return step_float(x, -1); }
 
 }  // namespace pl

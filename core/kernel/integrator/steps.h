@@ -108,11 +108,13 @@ PL_HD inline typename M::Vertex learn_at(const M& method, const SurfacePoint& su
 }
 
 /// Consumes the hit of the path's segment: collects emission, lets the method learn, asks for a shadow ray and decides
-/// whether the path goes on. `shadow` and `record` come in cleared; `departure` is only good if the path continues.
-template <FeatureSet F, Method M>
+/// whether the path goes on. surface_of() is asked for the surface once if there is one. `shadow` and `record` come in
+/// cleared; `departure` is only good if the path continues.
+template <FeatureSet F, Method M, class SurfaceOf>
 PL_HD inline PathStatus arrive(const SceneView& scene, const M& method, const PathSettings& settings, const Hit& hit,
-                               const VertexNumbers& numbers, PathState<F, M>& state, Departure<F, M>& departure,
-                               typename M::Record& record, ShadowRequest& shadow, PathCounters& counters) {
+                               const SurfaceOf& surface_of, const VertexNumbers& numbers, PathState<F, M>& state,
+                               Departure<F, M>& departure, typename M::Record& record, ShadowRequest& shadow,
+                               PathCounters& counters) {
     ++counters.segments;
     if (!hit.found()) {
         ++counters.escaped;
@@ -122,7 +124,7 @@ PL_HD inline PathStatus arrive(const SceneView& scene, const M& method, const Pa
                               typename M::Vertex{}, counters.method);
         return PathStatus::Finished;
     }
-    const SurfacePoint surface = make_surface_point<F>(scene, hit, -state.ray.direction);
+    const SurfacePoint& surface = surface_of();
     const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, hit_weights(hit), -state.ray.direction);
     const Vec3f albedo = bsdf.albedo();
     const Vec3f emitted = emitted_at<F>(scene, surface, hit_weights(hit));
@@ -163,7 +165,9 @@ PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, con
                                     ShadowRequest& shadow, PathCounters& counters) {
     Departure<F, M> departure;
     typename M::Record record{};
-    PathStatus status = arrive<F>(scene, method, settings, hit, numbers, state, departure, record, shadow, counters);
+    const auto surface_of = [&] { return make_surface_point<F>(scene, hit, -state.ray.direction); };
+    PathStatus status =
+        arrive<F>(scene, method, settings, hit, surface_of, numbers, state, departure, record, shadow, counters);
     if (status == PathStatus::Continues) {
         const Rng rng = path_rng(settings, state.pixel, state.sample);
         status = choose_and_leave(method, departure, rng, numbers.scatter, state, record, counters);

@@ -42,11 +42,21 @@ PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t prim
     return fallback;
 }
 
-/// Point at barycentric weights `b` of a triangle, seen from `wo`. `attributes` are the weights for what is
-/// interpolated besides the position.
+/// The point with the shading normal that F asks for; `attributes` are the weights for what is interpolated besides the
+/// position.
 template <FeatureSet F>
-PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32_t primitive, Vec3f b,
-                                             Vec3f attributes, Vec3f wo) {
+PL_HD inline SurfacePoint with_shading_normal(const SceneView& scene, SurfacePoint point, Vec3f attributes) {
+    if constexpr (F.has(Feature::SmoothNormals)) {
+        // A file may give normals that disagree with the winding: the shading normal follows the geometric one.
+        const Vec3f plane_normal = scene.planes[point.primitive].normal;
+        const Vec3f smooth = interpolate_normal<F>(scene, point.primitive, attributes, plane_normal);
+        point.shading_normal = (glm::dot(smooth, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f) * smooth;
+    }
+    return point;
+}
+
+/// Point at barycentric weights `b` of a triangle, seen from `wo`; with the normal of its plane.
+PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
     const Triangle& triangle = scene.triangles[primitive];
     const TrianglePlane& plane = scene.planes[primitive];
     SurfacePoint point;
@@ -58,32 +68,29 @@ PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32
     point.front = glm::dot(plane.normal, wo) >= 0.0f;
     point.geometric_normal = (point.front ? 1.0f : -1.0f) * plane.normal;
     point.shading_normal = point.geometric_normal;
-    if constexpr (F.has(Feature::SmoothNormals)) {
-        // A file may give normals that disagree with the winding: the shading normal follows the geometric one.
-        const Vec3f smooth = interpolate_normal<F>(scene, primitive, attributes, plane.normal);
-        point.shading_normal = (glm::dot(smooth, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f) * smooth;
-    }
     return point;
 }
 
 /// Point at barycentric weights, exactly there.
 template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
-    return make_surface_point<F>(scene, primitive, b, b, wo);
+    return with_shading_normal<F>(scene, make_flat_point(scene, primitive, b, wo), b);
 }
 
 /// Point of a hit, kept so far from the triangle's edges that rounding cannot put the origin of the next ray behind
 /// a wall that meets this one. Only the position moves: normals stay smooth on the smallest triangles.
+PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
+    return make_flat_point(scene, hit.primitive, inner_barycentrics(hit, scene.planes[hit.primitive].edge_margin),
+                           wo);
+}
 template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
-    return make_surface_point<F>(
-        scene, hit.primitive, inner_barycentrics(hit, scene.planes[hit.primitive].edge_margin), hit_weights(hit), wo);
+    return with_shading_normal<F>(scene, make_flat_point(scene, hit, wo), hit_weights(hit));
 }
 
 /// Moves `coordinate` by `offset` and then one float further in the same direction.
 PL_HD inline float offset_outwards(float coordinate, float offset) {
-    const float moved = coordinate + offset;
-    return offset > 0.0f ? next_float_up(moved) : (offset < 0.0f ? next_float_down(moved) : moved);
+    return step_float(coordinate + offset, (offset > 0.0f ? 1 : 0) - (offset < 0.0f ? 1 : 0));
 }
 
 /// Origin of a ray that leaves the surface towards `direction`: outside the error bound, on the right side.
