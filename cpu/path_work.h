@@ -17,9 +17,10 @@ struct PictureWork {
     FilmView film;
 
     std::uint32_t count() const { return film.pixels.count; }
-    PathState<F, M> begin(std::uint32_t pixel, Vec4f u) const {
+    std::uint32_t start_sample() const { return sequence_of(sample); }
+    PathState<F, M> begin(std::uint32_t pixel, Vec4f start) const {
         __builtin_prefetch(&film.pixels[pixel], 1);  // the film does not stay in the cache, the batch does
-        return begin_path<F, M>(camera, film.width, film.height, pixel, sample, u);
+        return begin_path<F, M>(camera, film.width, film.height, pixel, sample, start);
     }
     bool finish(const PathState<F, M>& state, MethodCounters&) const {
         return accumulate(film, state.pixel, state.radiance, sample);
@@ -36,6 +37,7 @@ struct ProbeWork {
     std::uint32_t strata_side = 1;
 
     std::uint32_t count() const { return field.normals.count * static_cast<std::uint32_t>(field.cells.count()); }
+    std::uint32_t start_sample() const { return sample; }
     PathState<F, ProbeMethod> begin(std::uint32_t probe, Vec4f u) const {
         return begin_probe<F>(field, probe, sample, strata_side, u);
     }

@@ -28,11 +28,13 @@ struct PassSetup {
     std::uint32_t batch_paths = 1024;
 };
 
-/// Where paths start and end. Paths are numbered from 0; finish() says whether the sample was valid.
+/// Where paths start and end. Paths are numbered from 0; start_sample() is whose random numbers they start with; finish() says
+/// whether the sample was valid.
 template <class W, FeatureSet F, class M>
 concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<F, M>& state,
                             MethodCounters& counters) {
     { work.count() } -> std::same_as<std::uint32_t>;
+    { work.start_sample() } -> std::same_as<std::uint32_t>;
     { work.begin(number, u) } -> std::same_as<PathState<F, M>>;
     { work.finish(state, counters) } -> std::same_as<bool>;
 };
@@ -233,7 +235,7 @@ PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& me
     SharedByThreads<M> shared(method);
     std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));
     run_on_threads(setup.threads, [&](int thread) {
-        PathSource source(queue, {setup.path.seed, setup.path.stream, W::kStartPurpose, work.sample});
+        PathSource source(queue, {setup.path.seed, setup.path.stream, W::kStartPurpose, work.start_sample()});
         PathBatch<F, M, I, W> batch(setup, intersector, method, work, shared);
         counters[static_cast<std::size_t>(thread)] = batch.run(source);
     });

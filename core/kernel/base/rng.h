@@ -10,7 +10,7 @@ namespace pl {
 
 /// Who draws. Every effect has its own purpose, so switching one never shifts the numbers of another.
 enum class Purpose : std::uint32_t {
-    Pixel = 0,       ///< position inside the pixel
+    Pixel = 0,       ///< where the positions inside a pixel start, see pixel_sample()
     Scatter = 1,     ///< choice of strategy, direction (2), roulette
     CellJitter = 2,  ///< position inside a direction cell
     Light = 3,       ///< which light, and where on it

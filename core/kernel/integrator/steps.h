@@ -3,6 +3,7 @@
 // that handles several paths at once calls the parts of extend_path: arrive, the method's choice of a direction, leave.
 #pragma once
 
+#include "core/kernel/film/pixel_sequence.h"
 #include "core/kernel/integrator/departure.h"
 #include "core/kernel/integrator/environment.h"
 #include "core/kernel/integrator/roulette.h"
@@ -32,10 +33,11 @@ PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, con
     return numbers;
 }
 
-/// Starts a path at the camera, somewhere in a pixel; `u` is drawn for vertex 0 and Purpose::Pixel.
+/// Starts a path at the camera, somewhere in a pixel; `start` is that of the pixel's sequence, see pixel_sample().
 template <FeatureSet F, class M>
 PL_HD inline PathState<F, M> begin_path(const Camera& camera, std::uint32_t width, std::uint32_t height,
-                                        std::uint32_t pixel, std::uint32_t sample, Vec4f u) {
+                                        std::uint32_t pixel, std::uint32_t sample, Vec4f start) {
+    const Vec4f u = pixel_sample(start, sample);
     const Vec2f film{static_cast<float>(pixel % width) + u.x, static_cast<float>(pixel / width) + u.y};
     PathState<F, M> state;
     state.ray = generate_ray(camera, film, {static_cast<float>(width), static_cast<float>(height)});
@@ -50,8 +52,8 @@ PL_HD inline PathState<F, M> begin_path(const Camera& camera, std::uint32_t widt
 template <FeatureSet F, class M>
 PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PathSettings& settings, std::uint32_t width,
                                         std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
-    const Vec4f u = path_rng(settings, pixel, sample).draw(0, Purpose::Pixel);
-    return begin_path<F, M>(camera, width, height, pixel, sample, u);
+    const Vec4f start = path_rng(settings, pixel, sequence_of(sample)).draw(0, Purpose::Pixel);
+    return begin_path<F, M>(camera, width, height, pixel, sample, start);
 }
 
 /// Emission of the surface just met, as the path sees it. Where the previous vertex sampled lights too, the two
