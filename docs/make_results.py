@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes results.md of the folder of a bench, with its plots of error against time.
 
-Usage: make_results.py BENCH   (after `pathlight bench SCENE... -o BENCH` and `pathlight report BENCH`)
+Usage: make_results.py BENCH   (after `pathlight reference SCENE -o references --size 128x128 --time-limit 10` for every scene,
+`pathlight bench SCENE... -o BENCH` with the options that results.md tells, and `pathlight report BENCH`)
 """
 import json
 import shutil
