@@ -3,9 +3,10 @@
 
 Usage: check_gains.py GAIN_BENCH [KEY=NUMBER ...]; the keys are those of gain_bench.
 
-Every scene has a least gain for each: the goal that was set where it is reached, else three quarters of what was measured. On easy scenes
-learning must not be noticeably worse than default path tracing: a tenth at equal samples, a quarter at equal time. Time is processor
-time; where other work takes more than a quarter of a processor, it meets the methods unevenly: exit code 77, a skip and no pass.
+Every scene has a least gain for each: the goal that was set where it is reached, else three quarters of what was measured. On easy
+scenes learning must not be noticeably worse than default path tracing: a tenth at equal samples, a quarter at equal time. Half of the
+gain on the door has to be there after 16 of 128 passes. Time is processor time; where other work takes more than a quarter of a
+processor, it meets the methods unevenly: exit code 77, a skip and no pass.
 """
 import re
 import subprocess
@@ -31,14 +32,32 @@ LEAST = HARD | {scene: (NOT_WORSE, NOT_WORSE) for scene in ("open-box", "ceiling
 ROW = re.compile(r"(?P<scene>\S+) +(?P<method>precomputed|reinforcement) +\S+ +(?P<samples>\S+) +\S+ +\S+ +(?P<time>\S+) ")
 
 
+EARLY = ["door", "seeds=9", "reference=256", "threads=1"]
+
+
+def rows_of(program, arguments):
+    """What the bench prints, and its rows of guided methods."""
+    output = subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
+    print(output)
+    return output, [match.groupdict() for match in map(ROW.match, output.splitlines()) if match]
+
+
+def early_share(program):
+    """How much of the gain of reinforcement after 128 passes of the door is there after 16."""
+    early, late = ([row for row in rows_of(program, [*EARLY, f"spp={passes}"])[1] if row["method"] == "reinforcement"]
+                   for passes in (16, 128))
+    return float(early[0]["samples"]) / float(late[0]["samples"])
+
+
 def main():
     keys = sys.argv[2:] or ["seeds=3", "reference=128", "threads=1"]
-    output = subprocess.run([sys.argv[1], *LEAST, *keys], check=True, capture_output=True, text=True).stdout
-    print(output)
-    rows = [match.groupdict() for match in map(ROW.match, output.splitlines()) if match]
+    output, rows = rows_of(sys.argv[1], [*LEAST, *keys])
     if len(rows) != 2 * len(LEAST):
         sys.exit(f"FAILED: expected {2 * len(LEAST)} rows of guided methods, got {len(rows)}")
     failures = []
+    share = early_share(sys.argv[1])
+    if not share >= 0.5:
+        failures.append(("samples", f"door: expected half of the gain within 16 passes, got {share:.3f} of it"))
     for row in rows:
         least = LEAST[row["scene"]][0 if row["method"] == "reinforcement" else 1]
         for what, limit in zip(("samples", "time"), least):

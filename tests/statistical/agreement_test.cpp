@@ -144,7 +144,7 @@ TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box wit
 TEST_CASE("All targets, rates and rules of roulette agree on the door ajar within 2 %", "[merge]") {
     check_variants("door", 0.02);
 }
-TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03); }
+TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03, 1.15); }
 TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
 TEST_CASE("All targets agree on mirror and glass", "[merge]") { check_variants("spheres", 0.06); }
 TEST_CASE("All targets agree on coats and rough metals", "[merge]") { check_variants("coats", 0.06); }
