@@ -29,10 +29,8 @@ HARD = {
 }
 NOT_WORSE = (1 / 1.1, 1 / 1.25)
 LEAST = HARD | {scene: (NOT_WORSE, NOT_WORSE) for scene in ("open-box", "ceiling", "sky")}
-ROW = re.compile(r"(?P<scene>\S+) +(?P<method>precomputed|reinforcement) +\S+ +(?P<samples>\S+) +\S+ +\S+ +(?P<time>\S+) ")
-
-
 EARLY = ["door", "seeds=9", "reference=256", "threads=1"]
+ROW = re.compile(r"(?P<scene>\S+) +(?P<method>precomputed|reinforcement) +\S+ +(?P<samples>\S+) +\S+ +\S+ +(?P<time>\S+) ")
 
 
 def rows_of(program, arguments):
@@ -44,9 +42,12 @@ def rows_of(program, arguments):
 
 def early_share(program):
     """How much of the gain of reinforcement after 128 passes of the door is there after 16."""
-    early, late = ([row for row in rows_of(program, [*EARLY, f"spp={passes}"])[1] if row["method"] == "reinforcement"]
-                   for passes in (16, 128))
-    return float(early[0]["samples"]) / float(late[0]["samples"])
+
+    def gain_after(passes):
+        rows = rows_of(program, [*EARLY, f"spp={passes}"])[1]
+        return next(float(row["samples"]) for row in rows if row["method"] == "reinforcement")
+
+    return gain_after(16) / gain_after(128)
 
 
 def main():
