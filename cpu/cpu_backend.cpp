@@ -85,7 +85,7 @@ public:
     float largest_value(FilmSlot slot) override { return films_.largest_value(slot, settings_.threads); }
 
     PassCounters run_pass(const PassRequest& request) override {
-        const PassSetup setup = make_setup(request.path, request.first_pixel, request.stop);
+        const PassSetup setup = make_setup(request.path, {request.first_pixel, request.end_pixel}, request.stop);
         if (request.slot.view != View::Beauty) return run_view(setup, request);
         const MethodId method = request.slot.method;
         const FieldView field = info_of(method).uses_field ? learned_field(method) : FieldView{};
@@ -102,7 +102,7 @@ public:
 
     PassCounters precompute(const PrecomputeRequest& request) override {
         return launch(kProbeKernels, request.features,
-                      ProbePass{.setup = make_setup(request.path, request.first_probe, request.stop),
+                      ProbePass{.setup = make_setup(request.path, {request.first_probe, kToTheLast}, request.stop),
                                 .tracer = *tracer_,
                                 .field = learned_field(request.method),
                                 .sample = request.sample,
@@ -117,11 +117,11 @@ public:
 private:
     static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }
 
-    PassSetup make_setup(const PathSettings& path, std::uint32_t first_path, const StopFlag* stop) const {
+    PassSetup make_setup(const PathSettings& path, IndexRange paths, const StopFlag* stop) const {
         if (!tracer_) throw Error(ErrorKind::Runtime, "CPU back end: expected a scene, got none");
         return {.scene = scene_->view(),
                 .path = path,
-                .first_path = first_path,
+                .paths = paths,
                 .stop = stop,
                 .threads = settings_.threads,
                 .batch_paths = settings_.batch_paths};

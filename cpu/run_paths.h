@@ -22,7 +22,7 @@ namespace pl {
 struct PassSetup {
     SceneView scene;
     PathSettings path;
-    std::uint32_t first_path = 0;  ///< those before it were done by an earlier pass that was stopped
+    IndexRange paths{0, kToTheLast};  ///< those to trace, as far as there are any
     const StopFlag* stop = nullptr;
     int threads = 1;
     std::uint32_t batch_paths = 1024;
@@ -231,7 +231,7 @@ private:
 /// Traces the paths of `work` on all threads.
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& method, const W& work) {
-    ChunkQueue queue(setup.first_path, work.count(), kPathChunk, setup.stop);
+    ChunkQueue queue(setup.paths.begin, std::min(setup.paths.end, work.count()), kPathChunk, setup.stop);
     SharedByThreads<M> shared(method);
     std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));
     run_on_threads(setup.threads, [&](int thread) {

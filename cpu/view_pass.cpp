@@ -1,5 +1,7 @@
 #include "cpu/view_pass.h"
 
+#include <algorithm>
+
 namespace pl {
 namespace {
 
@@ -7,7 +9,7 @@ template <FeatureSet F>
 PassCounters run_view_pass(const ViewPass& pass) {
     const PassSetup& setup = pass.setup;
     const BvhIntersector intersector{setup.scene};
-    ChunkQueue queue(setup.first_path, pass.film.pixels.count, kPathChunk, setup.stop);
+    ChunkQueue queue(setup.paths.begin, std::min(setup.paths.end, pass.film.pixels.count), kPathChunk, setup.stop);
     std::atomic<std::uint64_t> pixels{0};
     std::atomic<std::uint64_t> invalid{0};
     parallel_for(setup.threads, queue, [&](IndexRange range) {

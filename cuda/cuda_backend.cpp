@@ -203,7 +203,8 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
         is_picture ? ShownField{} : ShownField{shown_field(request.slot), volume_values(request.slot)};
     const AddSamplesKernel add = is_heat_map(request.slot.view) ? kSetSamples : kAddSamples;
     LaunchSize& size = picture_sizes_[static_cast<std::size_t>(request.slot.index())];
-    return run_launches(size, request.first_pixel, film.pixels.count, request.stop, [&](PathRange range) {
+    const std::uint32_t end = std::min(request.end_pixel, film.pixels.count);
+    return run_launches(size, request.first_pixel, end, request.stop, [&](PathRange range) {
         const std::uint32_t count = range.end - range.first;
         if (samples_.size() < count) samples_ = DeviceArray<Vec3f>(count);
         const PixelPaths pixels{.camera = request.camera,

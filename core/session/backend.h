@@ -41,7 +41,10 @@ struct BackendInfo {
 /// prefix, PassCounters::paths long, and the pass can be resumed behind it without changing a bit of the result.
 using StopFlag = std::atomic<bool>;
 
-/// One sample for every pixel of a film from `first_pixel` on.
+/// End of a range that has as much as there is.
+inline constexpr std::uint32_t kToTheLast = 0xffffffffu;
+
+/// One sample for every pixel of a film from `first_pixel` up to, but not including, `end_pixel`.
 struct PassRequest {
     FilmSlot slot;
     FeatureSet features;  ///< needed ones; the back end runs the smallest compiled superset
@@ -51,6 +54,7 @@ struct PassRequest {
     LearningSettings learning{};
     std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel; decides the half of the film
     std::uint32_t first_pixel = 0;
+    std::uint32_t end_pixel = kToTheLast;
     const StopFlag* stop = nullptr;
 };
 

@@ -19,6 +19,16 @@ struct FieldProgress {
     std::uint32_t precomputed_slices = 0;  ///< complete ones
     std::uint32_t next_probe = 0;          ///< where the running slice goes on
     double precompute_seconds = 0.0;
+    bool has_part = false;  ///< tables hold a part of a pass that is not complete, and its random numbers are used up
+
+    /// As it is for a picture that does not go on with that pass: numbers that tables were learned from are not drawn again,
+    /// because paths would meet what they taught, and weigh it too low.
+    FieldProgress without_part() const {
+        FieldProgress progress = *this;
+        progress.passes += has_part ? 1u : 0u;
+        progress.has_part = false;
+        return progress;
+    }
 
     friend bool operator==(const FieldProgress&, const FieldProgress&) = default;
 };

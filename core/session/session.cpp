@@ -1,7 +1,5 @@
 #include "core/session/session.h"
 
-#include <cmath>
-
 #include "core/base/error.h"
 #include "core/base/timer.h"
 #include "core/fields/volume_grid.h"
@@ -10,25 +8,8 @@
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/scene_hash.h"
-#include "core/session/publication_times.h"
 
 namespace pl {
-namespace {
-
-/// Paths guided by what was learned know what they are still worth, and soon end at a light: they play roulette only
-/// when a fifth is left, so that few of them end without having found any. Others play for every loss. Lower thresholds leave a
-/// little less noise for the same samples and more for the same time (docs/learning.md).
-constexpr float kGuidedRouletteThreshold = 0.2f;
-/// Where what is learned decides alone: the lower end of a window of weights whose ends differ by a factor of 5, around 1.
-/// [Vorba and Krivanek 2016, section 4]
-constexpr float kFieldRouletteThreshold = 2.0f / (1.0f + 5.0f);
-
-/// Above twice what was expected of them at first, paths are split (docs/learning.md).
-constexpr float kSplitThreshold = 2.0f;
-
-bool is_power_of_two(std::uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
-
-}  // namespace
 
 Session::Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
                  const RenderSettings& settings, double load_seconds)
@@ -84,7 +65,8 @@ void Session::begin_film(FilmSlot slot) {
     const FieldProgress& learned = fields_[static_cast<std::size_t>(slot.method)];
     origin = {.number = ++films_begun_,
               .generation = film_generation_,
-              .warm = learned.passes > 0 || learned.precomputed_slices > 0 || learned.next_probe > 0,
+              .warm =
+                  learned.passes > 0 || learned.has_part || learned.precomputed_slices > 0 || learned.next_probe > 0,
               .place_seconds = volumes_ ? place_seconds_ : 0.0,
               .precompute_seconds = learned.precompute_seconds};
 }
@@ -92,129 +74,6 @@ void Session::begin_film(FilmSlot slot) {
 FeatureSet Session::needed_features() const { return pl::needed_features(*packed_, settings_); }
 
 ServedKernel Session::served_kernel() const { return pl::served_kernel(backend_->info().name, *packed_, settings_); }
-
-PathSettings Session::path_settings() const {
-    const bool splits = info_of(settings_.method).uses_field && settings_.roulette != RouletteRule::Albedo;
-    const float guided =
-        settings_.roulette == RouletteRule::Field ? kFieldRouletteThreshold : kGuidedRouletteThreshold;
-    return {.seed = settings_.seed,
-            .max_depth = static_cast<std::uint32_t>(settings_.max_depth),
-            .roulette_threshold = info_of(settings_.method).uses_field ? guided : 1.0f,
-            .split_threshold = splits ? kSplitThreshold : kInfinity,
-            .roulette = settings_.roulette,
-            .next_event = settings_.next_event ? 1u : 0u};
-}
-
-/// Shares are learned by what paths bring, so a map that is frozen keeps the set one.
-MixtureSettings Session::mixture_of(MethodId method) const {
-    MixtureSettings mixture = settings_.mixture;
-    if (!info_of(method).learns) mixture.learned = 0;
-    return mixture;
-}
-
-bool Session::needs_precompute() const {
-    const bool wanted = settings_.view == View::Beauty || info_of(settings_.view).needs_tables;
-    return wanted && settings_.method == MethodId::Precomputed &&
-           field().precomputed_slices < static_cast<std::uint32_t>(settings_.field.precompute_samples);
-}
-
-Progress Session::precompute_slice(const StopFlag* stop) {
-    const Stopwatch watch;
-    FieldProgress& state = field();
-    film().origin.forced = film().origin.forced.with(settings_.forced_effects);
-    PathSettings path = path_settings();
-    path.stream = Stream::Precompute;
-    path.roulette_threshold = 1.0f;  // probes follow the default method
-    const auto slices = static_cast<std::uint32_t>(settings_.field.precompute_samples);
-    const PassCounters counters =
-        backend_->precompute({.method = settings_.method,
-                              .features = needed_features().with(settings_.forced_effects),
-                              .path = path,
-                              .sample = state.precomputed_slices,
-                              .strata_side = static_cast<std::uint32_t>(std::lround(std::sqrt(slices))),
-                              .first_probe = state.next_probe,
-                              .stop = stop});
-    state.records += counters.paths;
-    state.clamped_records += counters.path.method.clamped_records;
-    state.next_probe += static_cast<std::uint32_t>(counters.paths);
-    const bool complete = state.next_probe >= probe_count();
-    if (complete) {
-        state.next_probe = 0;
-        if (++state.precomputed_slices == slices) {
-            backend_->publish(settings_.method);
-            ++state.passes;
-        }
-    }
-    state.precompute_seconds += watch.seconds();
-    return complete ? Progress::Precomputed : Progress::Stopped;
-}
-
-std::uint32_t Session::probe_count() const {
-    return static_cast<std::uint32_t>(volumes_->normals.size()) * static_cast<std::uint32_t>(shape_.cells.count());
-}
-
-Progress Session::render_slot(FilmSlot target, const StopFlag* stop) {
-    begin_film(target);
-    ensure_film(target);
-    FilmState& state = films_[static_cast<std::size_t>(target.index())];
-    // What is learned changes under the map: restarting at powers of two keeps at least half of the samples recent.
-    if (target.view == View::RadianceMap && state.next_pixel == 0 && is_power_of_two(state.passes))
-        backend_->reset_film(target, settings_.width, settings_.height);
-
-    const Stopwatch watch;
-    // Never numbers that the tables were learned from: paths would meet again what they taught, and weigh it too low.
-    const bool learns = target.view == View::Beauty && info_of(target.method).learns;
-    std::uint32_t sample = learns ? static_cast<std::uint32_t>(field().passes) : state.passes;
-    // Passes of a heat map replace one another: with the same points, so that borders stand still.
-    if (is_heat_map(target.view)) sample = 0;
-    state.origin.forced = state.origin.forced.with(settings_.forced_effects);
-    const PassCounters counters =
-        backend_->run_pass({.slot = target,
-                            .features = needed_features().with(settings_.forced_effects),
-                            .path = path_settings(),
-                            .camera = make_camera(settings_.camera, settings_.width, settings_.height),
-                            .mixture = mixture_of(target.method),
-                            .learning = settings_.field.learning,
-                            .sample = sample,
-                            .first_pixel = state.next_pixel,
-                            .stop = stop});
-    state.render_seconds += watch.seconds();
-    state.counters += counters;
-    note_escapes(counters);
-    state.next_pixel += static_cast<std::uint32_t>(counters.paths);
-    if (target.view == View::Beauty) {
-        field().records += counters.path.method.records;
-        field().clamped_records += counters.path.method.clamped_records;
-        field().lookup_misses += counters.path.method.lookup_misses;
-    }
-    if (state.next_pixel < pixel_count()) return Progress::Stopped;
-    state.next_pixel = 0;
-    ++state.passes;
-    if (learns) finish_learning_pass(state);
-    return Progress::Rendered;
-}
-
-void Session::finish_learning_pass(FilmState& state) {
-    const Stopwatch watch;
-    const bool is_published = is_published_after(state.passes);
-    if (is_published) backend_->publish(settings_.method);
-    ++field().passes;
-    if (is_published) refine_if_due();
-    state.learn_seconds += watch.seconds();
-}
-
-Progress Session::advance(const StopFlag* stop) {
-    begin_film(slot());
-    const ViewInfo& view = info_of(settings_.view);
-    if (view.needs_volumes) ensure_volumes();
-    if (info_of(settings_.method).uses_field || view.needs_tables) ensure_tables();
-    if (needs_precompute()) return precompute_slice(stop);
-    if (view.needs_tables && info_of(settings_.method).learns && film().next_pixel == 0) {
-        const Progress learned = render_slot({settings_.method, View::Beauty}, stop);
-        if (learned == Progress::Stopped) return learned;
-    }
-    return render_slot(slot(), stop);
-}
 
 std::optional<FieldStatus> Session::field_status() const {
     if (!volumes_ || !info_of(settings_.method).uses_field) return std::nullopt;
@@ -332,7 +191,7 @@ LearnedField Session::export_field() const {
             .volumes = volumes_,
             .refinement = refinement_,
             .tables = backend_->download_tables(method),
-            .progress = field()};
+            .progress = field().without_part()};
 }
 
 std::int32_t Session::find_volume_at(Vec3f position, Vec3f normal) {

@@ -126,6 +126,10 @@ private:
     bool needs_precompute() const;
     Progress precompute_slice(const StopFlag* stop);
     Progress render_slot(FilmSlot slot, const StopFlag* stop);
+    Progress render_pass(FilmSlot slot, FilmState& state, const StopFlag* stop);
+    void render_part(FilmSlot slot, FilmState& state, std::uint32_t end, const StopFlag* stop);
+    std::uint32_t end_of_part(FilmSlot slot, const FilmState& state) const;
+    void finish_learning_part(FilmState& state);
     void finish_learning_pass(FilmState& state);
     void refine_if_due();
     void split_volumes(std::size_t most);

@@ -146,6 +146,28 @@ TEST_CASE("A stopped pass has done a prefix of the pixels, and can be resumed") 
     }
 }
 
+TEST_CASE("A pass in parts is the whole pass, and each part keeps to its pixels") {
+    const Room room;
+    for (const View view : {View::Beauty, View::Direct}) {
+        INFO(info_of(view).name);
+        const FilmSlot slot{MethodId::Default, view};
+        const auto whole = make_backend(room, {.threads = 2});
+        whole->reset_film(slot, kWidth, kHeight);
+        whole->run_pass(pass_of(room, slot));
+
+        const auto parts = make_backend(room, {.threads = 2});
+        parts->reset_film(slot, kWidth, kHeight);
+        PassRequest request = pass_of(room, slot);
+        request.end_pixel = 700;
+        CHECK(parts->run_pass(request).paths == 700);
+        CHECK(is_black(parts->read_film(slot).mean[700]));
+        request.first_pixel = 700;
+        request.end_pixel = kToTheLast;
+        CHECK(parts->run_pass(request).paths == kWidth * kHeight - 700);
+        CHECK(same_bits(whole->read_film(slot).mean, parts->read_film(slot).mean));
+    }
+}
+
 TEST_CASE("Publication in parallel equals publication volume by volume") {
     const Room room;
     HostTables expected = room.empty_tables();

@@ -7,6 +7,8 @@
 #include "core/io/field_file.h"
 #include "tests/catch.hpp"
 #include "tests/io/temporary_folder.h"
+#include "tests/kernel/shapes.h"
+#include "tests/session/interruption.h"
 #include "tests/session/same_bits.h"
 #include "tests/session/small_settings.h"
 #include "tests/statistical/shipped_scenes.h"
@@ -21,6 +23,20 @@ constexpr Estimator kLearning{MethodId::Reinforcement, false};
 template <class T, class Allocator>
 std::uint64_t sum(const std::vector<T, Allocator>& values) {
     return std::accumulate(values.begin(), values.end(), std::uint64_t{0});
+}
+
+/// A session that was stopped in its first pass when a part of it had been published.
+Session stopped_in_first_pass(const SceneDescription& scene) {
+    Uniforms random(1);
+    for (int attempt = 0; attempt < 20; ++attempt) {
+        Session session = make_session(scene, small_settings(scene, kLearning, 300, 200), 2);
+        while (session.passes() == 0) {
+            advance_interrupted(session, random.next());
+            if (pass_is_partial(session) && sum(session.export_field().tables.visits) > 0) return session;
+        }
+    }
+    FAIL("no first pass could be stopped");
+    throw std::logic_error("unreachable");
 }
 
 std::uint64_t waiting_records(const Session& session) { return sum(session.export_field().tables.pending_count); }
@@ -42,6 +58,56 @@ TEST_CASE(
     }
     CHECK(last == 4096);
     CHECK(is_published_after(0xfffffff0u));
+}
+
+TEST_CASE("The first pass is parted after as many paths as there are volumes, then wherever they have doubled") {
+    CHECK(end_of_first_part(0, 16384, 1000) == 1024);
+    CHECK(end_of_first_part(1023, 16384, 1000) == 1024);
+    CHECK(end_of_first_part(1024, 16384, 1000) == 2048);
+    CHECK(end_of_first_part(5000, 16384, 1000) == 8192);
+    CHECK(end_of_first_part(8192, 16384, 1000) == 16384);
+    CHECK(end_of_first_part(8192, 10000, 1000) == 10000);
+    CHECK(end_of_first_part(0, 1000, 1) == 1000);  // too few paths to tell anything
+    CHECK(end_of_first_part(0, 100000, 1) == kFewestPathsPublished);
+    CHECK(end_of_first_part(0, 100000, 20000) == 32768);
+    CHECK(end_of_first_part(0, 100000, 1024) == 1024);
+    CHECK(end_of_first_part(0, 0xffffffffu, 0x80000001u) == 0xffffffffu);
+    CHECK(end_of_first_part(0xfffffffeu, 0xffffffffu, 1) == 0xffffffffu);
+}
+
+TEST_CASE("The first pass is guided by its own first paths, later ones by whole passes") {
+    const SceneDescription scene = shipped_scene("door");
+    Session session = stopped_in_first_pass(scene);
+    REQUIRE(session.passes() == 0);
+    const HostTables published = session.export_field().tables;
+    CHECK(published.mean_radiance != make_tables(session.export_field().shape, 60).mean_radiance);
+    CHECK(sum(published.visits) + sum(published.pending_count) == session.field_status()->records);
+    // Stopped and gone on with, it is the pass that it would have been.
+    while (session.passes() == 0) session.advance();
+    Session whole = make_session(scene, session.settings(), 1);
+    whole.advance();
+    CHECK(same_state(state_of(whole), state_of(session)));
+    CHECK(session.export_field().progress.passes == 1);
+}
+
+// Paths that met what they had taught would weigh it too low.
+TEST_CASE("Random numbers of a pass that tables were learned from are not drawn again for another picture") {
+    const SceneDescription scene = shipped_scene("door");
+    Session session = stopped_in_first_pass(scene);
+    const LearnedField half_way = session.export_field();
+    CHECK(half_way.progress.passes == 1);
+    session.apply(EditRestart{});
+    render_passes(session, 1);
+    CHECK(session.film_origin().warm);
+    CHECK(session.export_field().progress.passes == 2);
+
+    Session other = make_session(scene, session.settings(), 2);
+    other.import_field(half_way);
+    render_passes(other, 1);
+    CHECK(same_bits(session.snapshot().pixels, other.snapshot().pixels));
+    Session fresh = make_session(scene, session.settings(), 2);
+    render_passes(fresh, 1);
+    CHECK_FALSE(same_bits(session.snapshot().pixels, fresh.snapshot().pixels));
 }
 
 TEST_CASE("Records wait in their sums until tables are published, and none is lost") {

@@ -133,14 +133,15 @@ public:
         Film& film = films_.at(request.slot.index());
         const auto pixels = static_cast<std::uint32_t>(film.width * film.height);
         PassCounters counters;
-        wait_in_pass(pixels, request.stop);
+        const std::uint32_t end = std::min(request.end_pixel, pixels);
+        wait_in_pass(end - request.first_pixel, request.stop);
         if (request.stop != nullptr && *request.stop) {
             ++control_->stopped;
             return counters;
         }
-        for (std::uint32_t i = request.first_pixel; i < pixels; ++i)
+        for (std::uint32_t i = request.first_pixel; i < end; ++i)
             film.pixels[i] = request.slot.view == View::Voronoi ? color_of_id(i % 7) : Vec3f{request.camera.eye.x};
-        counters.paths = pixels - request.first_pixel;
+        counters.paths = end - request.first_pixel;
         counters.path.method.records = counters.paths;
         if (const int bad = control_->bad_pixel; bad >= 0 && request.slot.view == View::Beauty) {
             ++film.invalid.at(static_cast<std::size_t>(bad));
@@ -151,7 +152,7 @@ public:
             const std::lock_guard lock(control_->mutex);
             control_->served.push_back(request.features);
         }
-        ++control_->passes;
+        if (end == pixels) ++control_->passes;
         return counters;
     }
     PassCounters precompute(const PrecomputeRequest& request) override {
