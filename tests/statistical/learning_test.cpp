@@ -156,9 +156,9 @@ TEST_CASE("Guided methods are never much noisier than default path tracing on ea
         check_that_guiding_is_not_noisier(name, middle_picture, 2);
 }
 
-// 128 x 128 pixels, seeds 1 to 8 in pairs. The error of default path tracing falls at least like 1/n, so two fifths of the gain over
-// it are there if the error itself falls by no more than 5/2 of that. By the median of more seeds it is half; see check_gains.py.
-TEST_CASE("Two fifths of the gain on the door ajar are there after 16 passes", "[merge]") {
+// 128 x 128 pixels, seeds 1 to 8 in pairs. The error of default path tracing falls at least like 1/n, so half of the gain over it
+// is there if the error itself falls by no more than twice that.
+TEST_CASE("Half of the gain on the door ajar is there after 16 passes", "[merge]") {
     const SceneDescription scene = shipped_scene("door");
     double early = 0.0, late = 0.0;
     for (std::uint64_t seed = 1; seed < 8; seed += 2) {
@@ -168,5 +168,5 @@ TEST_CASE("Two fifths of the gain on the door ajar are there after 16 passes", "
         late += mean_squared_error(render_on(first, 112), render_on(second, 112));
     }
     INFO("squared error after 16 passes over that after 128: " << early / late);
-    CHECK(early / late <= 2.5 * (128.0 / 16.0));
+    CHECK(early / late <= 2.0 * (128.0 / 16.0));
 }
