@@ -1,5 +1,5 @@
-// The learned field as the kernels see it: volumes, their sampling tables (frozen during a pass) and the sums in
-// which a pass collects what it saw. core/fields owns the memory.
+// The learned field as the kernels see it: volumes, their sampling tables (frozen while paths are under way) and the sums
+// in which they collect what they saw. core/fields owns the memory.
 #pragma once
 
 #include "core/kernel/base/atomics.h"
