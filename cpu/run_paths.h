@@ -26,6 +26,11 @@ struct PassSetup {
     const StopFlag* stop = nullptr;
     int threads = 1;
     std::uint32_t batch_paths = 1024;
+
+    /// The paths to trace of `count` in all.
+    ChunkQueue chunks(std::uint32_t count) const {
+        return ChunkQueue(paths.begin, std::min(paths.end, count), kPathChunk, stop);
+    }
 };
 
 /// Where paths start and end. Paths are numbered from 0; start_sample() is whose random numbers they start with; finish() says
@@ -231,7 +236,7 @@ private:
 /// Traces the paths of `work` on all threads.
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& method, const W& work) {
-    ChunkQueue queue(setup.paths.begin, std::min(setup.paths.end, work.count()), kPathChunk, setup.stop);
+    ChunkQueue queue = setup.chunks(work.count());
     SharedByThreads<M> shared(method);
     std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));
     run_on_threads(setup.threads, [&](int thread) {

@@ -1,7 +1,5 @@
 #include "cpu/view_pass.h"
 
-#include <algorithm>
-
 namespace pl {
 namespace {
 
@@ -9,7 +7,7 @@ template <FeatureSet F>
 PassCounters run_view_pass(const ViewPass& pass) {
     const PassSetup& setup = pass.setup;
     const BvhIntersector intersector{setup.scene};
-    ChunkQueue queue(setup.paths.begin, std::min(setup.paths.end, pass.film.pixels.count), kPathChunk, setup.stop);
+    ChunkQueue queue = setup.chunks(pass.film.pixels.count);
     std::atomic<std::uint64_t> pixels{0};
     std::atomic<std::uint64_t> invalid{0};
     parallel_for(setup.threads, queue, [&](IndexRange range) {

@@ -21,6 +21,14 @@ PassRequest pass_of(const Room& room, FilmSlot slot) {
     return {.slot = slot, .features = needed_effects(*room.scene), .path = {.seed = 3}, .camera = room.camera};
 }
 
+/// What one pass makes of an empty film.
+std::vector<Vec3f> whole_pass(const Room& room, FilmSlot slot) {
+    const auto backend = make_backend(room, {.threads = 2});
+    backend->reset_film(slot, kWidth, kHeight);
+    backend->run_pass(pass_of(room, slot));
+    return backend->read_film(slot).mean;
+}
+
 template <class T, class Allocator>
 bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
@@ -122,10 +130,7 @@ TEST_CASE("A stopped pass has done a prefix of the pixels, and can be resumed") 
     for (const View view : {View::Beauty, View::Direct}) {
         INFO(info_of(view).name);
         const FilmSlot slot{MethodId::Default, view};
-        const auto whole = make_backend(room, {.threads = 2});
-        whole->reset_film(slot, kWidth, kHeight);
-        whole->run_pass(pass_of(room, slot));
-
+        const std::vector<Vec3f> whole = whole_pass(room, slot);
         const auto parts = make_backend(room, {.threads = 2});
         parts->reset_film(slot, kWidth, kHeight);
         PassRequest request = pass_of(room, slot);
@@ -137,12 +142,12 @@ TEST_CASE("A stopped pass has done a prefix of the pixels, and can be resumed") 
         request.first_pixel = 1000;
         CHECK(parts->run_pass(request).paths == kWidth * kHeight - 1000);
         CHECK(is_black(parts->read_film(slot).mean[999]));
-        CHECK_FALSE(same_bits(whole->read_film(slot).mean, parts->read_film(slot).mean));
+        CHECK_FALSE(same_bits(whole, parts->read_film(slot).mean));
         // The pixels before it belong to another pass of the same sample.
         parts->reset_film(slot, kWidth, kHeight);
         request.first_pixel = 0;
         parts->run_pass(request);
-        CHECK(same_bits(whole->read_film(slot).mean, parts->read_film(slot).mean));
+        CHECK(same_bits(whole, parts->read_film(slot).mean));
     }
 }
 
@@ -151,10 +156,7 @@ TEST_CASE("A pass in parts is the whole pass, and each part keeps to its pixels"
     for (const View view : {View::Beauty, View::Direct}) {
         INFO(info_of(view).name);
         const FilmSlot slot{MethodId::Default, view};
-        const auto whole = make_backend(room, {.threads = 2});
-        whole->reset_film(slot, kWidth, kHeight);
-        whole->run_pass(pass_of(room, slot));
-
+        const std::vector<Vec3f> whole = whole_pass(room, slot);
         const auto parts = make_backend(room, {.threads = 2});
         parts->reset_film(slot, kWidth, kHeight);
         PassRequest request = pass_of(room, slot);
@@ -164,7 +166,7 @@ TEST_CASE("A pass in parts is the whole pass, and each part keeps to its pixels"
         request.first_pixel = 700;
         request.end_pixel = kToTheLast;
         CHECK(parts->run_pass(request).paths == kWidth * kHeight - 700);
-        CHECK(same_bits(whole->read_film(slot).mean, parts->read_film(slot).mean));
+        CHECK(same_bits(whole, parts->read_film(slot).mean));
     }
 }
 
