@@ -1,6 +1,8 @@
 // A render worker over fake back ends, for tests.
 #pragma once
 
+#include <future>
+
 #include "tests/ui/fake_backend.h"
 #include "ui/render_worker.h"
 
@@ -55,6 +57,38 @@ inline std::shared_ptr<const PublishedFrame> frame_of(RenderWorker& worker, std:
 inline bool rests(RenderWorker& worker) {
     worker.set_paused(true);
     return eventually([&] { return worker.status().state == WorkerState::Paused; });
+}
+
+/// Waits for a message that contains the text; all others before it are dropped.
+inline bool is_told(RenderWorker& worker, const std::string& text) {
+    return eventually([&] {
+        for (const WorkerMessage& message : worker.take_messages())
+            if (message.text.find(text) != std::string::npos) return true;
+        return false;
+    });
+}
+
+inline bool has_learned(RenderWorker& worker, std::uint64_t passes) {
+    return eventually([&] {
+        const WorkerStatus status = worker.status();
+        return status.field && status.field->passes >= passes;
+    });
+}
+
+/// A worker that has learned something on CUDA.
+inline void learn_on_cuda(RenderWorker& worker) {
+    REQUIRE(has_learned(worker, 5));
+    REQUIRE(frame_of(worker, worker.switch_backend("cuda")));
+    REQUIRE(has_learned(worker, 10));
+}
+
+/// Destroys a worker on another thread, so that a test can do without its end.
+template <class Release>
+bool ends_after(std::unique_ptr<RenderWorker> worker, Release&& release) {
+    std::future<void> end = std::async(std::launch::async, [&] { worker.reset(); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    release();
+    return end.wait_for(std::chrono::seconds(10)) == std::future_status::ready;
 }
 
 }  // namespace pl::test
