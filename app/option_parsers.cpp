@@ -186,8 +186,11 @@ void parse_field_budget(Options& options, const std::string& text) {
 }
 
 void parse_refine(Options& options, const std::string& text) {
-    options.render.field.refine_share = static_cast<float>(parse_real(text, 0.0, 1.0));
+    options.render.field.refine_share =
+        text == "auto" ? kRefineByRecords : static_cast<float>(parse_real(text, 0.0, 1.0));
 }
+
+std::string print_refine(float share) { return share == kRefineByRecords ? "auto" : print_float(share); }
 
 void parse_time_limit(Options& options, const std::string& text) {
     const double seconds = parse_real(text, 0.0, 1.0e9);

@@ -284,12 +284,12 @@ const auto kTable = std::to_array<OptionSpec>({
      .help = "Memory of one method's learned field (default 16)",
      .commands = kPaths, .in_scene_files = true, .parse = parse_field_budget,
      .print = [](const Options& o) { return print_real(o.render.field.budget_megabytes); }},
-    {.name = "refine", .flags = "--refine", .value = "SHARE", .group = kField,
-     .help = "How many more volumes reinforcement may add, 0 (default) to 1 of those placed: after 8 and 16 passes it splits "
+    {.name = "refine", .flags = "--refine", .value = "SHARE|auto", .group = kField,
+     .help = "How many more volumes reinforcement may add, 0 to 1 of those placed: after 8 and 16 passes it splits "
              "those that many paths ask and whose neighbours have learned something else; within the budget, unless "
-             "--volumes is given",
+             "--volumes is given. auto (default): up to 1 where pictures are large enough, 0 with --volumes",
      .commands = kPaths, .in_scene_files = true, .parse = parse_refine,
-     .print = [](const Options& o) { return print_float(o.render.field.refine_share); }},
+     .print = [](const Options& o) { return print_refine(o.render.field.refine_share); }},
     {.name = "bins", .flags = "--bins", .value = "N", .group = kField,
      .help = "Directions per volume, a square number from 4 to 1024 (default 256)",
      .commands = kPaths, .in_scene_files = true, .parse = parse_bins,

@@ -22,7 +22,8 @@ std::string details_of(const Session& session) {
     field.lookup = standard.field.lookup;  // the same bits
     if (field.volumes != standard.field.volumes) add(fmt::format("{} volumes", field.volumes));
     if (field.bins != standard.field.bins) add(fmt::format("{} bins", field.bins));
-    if (field.refine_share != standard.field.refine_share) add(fmt::format("refined by {:g}", field.refine_share));
+    if (field.refine_share != standard.field.refine_share)
+        add(field.refine_share == 0.0f ? "not refined" : fmt::format("refined by {:g}", field.refine_share));
     field.refine_share = standard.field.refine_share;
     field.volumes = standard.field.volumes;
     field.bins = standard.field.bins;

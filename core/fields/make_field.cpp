@@ -55,8 +55,11 @@ int volume_count(const FieldSettings& settings) {
 }
 
 std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t placed) {
-    double most = std::floor((1.0 + settings.refine_share) * static_cast<double>(placed));
-    if (settings.volumes == 0) most = std::min(most, std::floor(affordable(settings)));
+    const bool is_budgeted = settings.volumes == 0;
+    double share = settings.refine_share;
+    if (settings.refine_share == kRefineByRecords) share = is_budgeted ? 1.0 : 0.0;
+    double most = std::floor((1.0 + share) * static_cast<double>(placed));
+    if (is_budgeted) most = std::min(most, std::floor(affordable(settings)));
     return std::max(placed, static_cast<std::size_t>(most));
 }
 

@@ -10,6 +10,10 @@
 
 namespace pl {
 
+/// A share of volumes that splitting may add: up to 1, as far as there are records for them, where the budget decides about
+/// the number of volumes; none where that is given.
+inline constexpr float kRefineByRecords = -1.0f;
+
 struct FieldSettings {
     int volumes = 0;                 ///< 0: as many as the budget holds, at most kDefaultVolumes
     double budget_megabytes = 16.0;  ///< of 10^6 bytes, all that grows with the volumes of one method
@@ -19,8 +23,8 @@ struct FieldSettings {
     float uniform_floor = kUniformShare;
     int precompute_samples = 4;  ///< paths per cell and volume, a square number
     Lookup lookup = Lookup::Grid;
-    float refine_share =
-        0.0f;  ///< of the volumes placed, how many more splitting may add, in [0, 1]; see refine_placement()
+    /// Of the volumes placed, how many more splitting may add, in [0, 1], or kRefineByRecords; see refine_placement().
+    float refine_share = kRefineByRecords;
 
     friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };

@@ -69,7 +69,8 @@ private:
         require(s.precompute_samples > 0 && is_square(s.precompute_samples), "precomputed samples",
                 "a square number above 0", s.precompute_samples);
         require(s.lookup <= Lookup::Grid, "lookup", "0 to 2", static_cast<std::uint32_t>(s.lookup));
-        require(s.refine_share >= 0.0f && s.refine_share <= 1.0f, "share of added volumes", "0 to 1", s.refine_share);
+        require((s.refine_share >= 0.0f && s.refine_share <= 1.0f) || s.refine_share == kRefineByRecords,
+                "share of added volumes", "0 to 1, or -1", s.refine_share);
     }
 
     void shape() const {

@@ -119,7 +119,8 @@ Session::ParkedBackend Session::unpark(const std::shared_ptr<RenderBackend>& bac
 
 void Session::clear_tables() {
     fields_.fill(FieldProgress{});
-    if (refinement_.rounds > 0) volumes_.reset();  // what is forgotten decided where the added ones stand
+    if (refinement_.added > 0) volumes_.reset();  // what is forgotten decided where these stand
+    refinement_ = {};
     if (volumes_) backend_->upload_volumes(volumes_, shape_);
 }
 

@@ -1,6 +1,7 @@
 // The part of Session that refines the placement of volumes while a method learns.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "core/session/session.h"
@@ -12,12 +13,24 @@ namespace {
 /// to know something first, and the new ones have to have something left to learn from. docs/learning.md has what was tried.
 constexpr std::array<std::uint64_t, 2> kRefinedAfter{8, 16};
 
-/// Volumes that may be added in the round after `rounds` others.
-std::size_t most_added(const FieldSettings& settings, std::size_t volumes, const Refinement& so_far) {
+/// Records that a cell has on the mean when volumes are added without being asked for: fewer cells that know more, and
+/// pictures that are ready before splitting has paid, are better off as they are.
+constexpr std::uint64_t kRecordsPerCell = 32;
+
+/// Volumes that `records` are enough for.
+std::size_t worth_having(const FieldSettings& settings, std::uint64_t records) {
+    if (settings.refine_share != kRefineByRecords) return std::numeric_limits<std::size_t>::max();
+    return records / (kRecordsPerCell * static_cast<std::uint64_t>(settings.bins));
+}
+
+/// Volumes that may be added in the round after `so_far.rounds` others.
+std::size_t most_added(const FieldSettings& settings, std::size_t volumes, const Refinement& so_far,
+                       std::uint64_t records) {
     const std::size_t placed = volumes - so_far.added;
     const std::size_t most = most_refined_volumes(settings, placed) - placed;
-    const std::size_t due = most * (so_far.rounds + 1) / kRefinedAfter.size();
-    return due > so_far.added ? due - so_far.added : 0;
+    const std::size_t due =
+        std::min(placed + most * (so_far.rounds + 1) / kRefinedAfter.size(), worth_having(settings, records));
+    return due > volumes ? due - volumes : 0;
 }
 
 }  // namespace
@@ -25,9 +38,9 @@ std::size_t most_added(const FieldSettings& settings, std::size_t volumes, const
 /// Right after a publication, when no record waits. Counts passes that were learned from, as fields keep them, so that one
 /// that was saved in between is refined at the same moment; at most one round per publication.
 void Session::refine_if_due() {
-    if (!(settings_.field.refine_share > 0.0f) || refinement_.rounds >= kRefinedAfter.size()) return;
+    if (settings_.field.refine_share == 0.0f || refinement_.rounds >= kRefinedAfter.size()) return;
     if (field().passes < kRefinedAfter[refinement_.rounds]) return;
-    const std::size_t most = most_added(settings_.field, volumes_->normals.size(), refinement_);
+    const std::size_t most = most_added(settings_.field, volumes_->normals.size(), refinement_, field().records);
     if (most > 0) split_volumes(most);
     ++refinement_.rounds;
 }

@@ -30,7 +30,7 @@ struct Setup {
         {"bins", 256},       {"fraction", 0},   {"floor", kUniformShare},
         {"rate", 4},         {"precompute", 0}, {"nee", 0},
         {"megabytes", 16.0}, {"target", 0},     {"light", 0},
-        {"roulette", 0},     {"uniform", 0},    {"refine", 0},
+        {"roulette", 0},     {"uniform", 0},    {"refine", kRefineByRecords},
     };
     std::vector<std::string> scenes;
 

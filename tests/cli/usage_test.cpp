@@ -90,6 +90,7 @@ TEST_CASE("the limits of values are values") {
                                                {"--seed", "18446744073709551615"},
                                                {"--fov", "179.99"},
                                                {"--max-depth", "1"},
+                                               {"--refine", "auto"},
                                                {"--refine", "0"},
                                                {"--refine", "1"}}) {
         CAPTURE(words);
@@ -193,7 +194,7 @@ TEST_CASE("what is given beside a loaded field has to agree with it, but for the
         {{"--bins", "256"}, "--bins 256: the field in my.field was learned with --bins 64"},
         {{"--volumes", "9"}, "--volumes 9: the field in my.field was learned without --volumes"},
         {{"--field-budget", "1"}, "--field-budget 1: the field in my.field was learned with --field-budget 16"},
-        {{"--refine", "0.5"}, "--refine 0.5: the field in my.field was learned with --refine 0"},
+        {{"--refine", "0.5"}, "--refine 0.5: the field in my.field was learned with --refine auto"},
         {{"--method", "reinforcement"},
          "--method reinforcement: the field in my.field was learned with --method prec"},
         {{"--method", "default"}, "--method default: the field in my.field was learned with --method precomputed"},

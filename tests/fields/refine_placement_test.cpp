@@ -164,6 +164,7 @@ TEST_CASE("No more volumes than asked for, and none beyond the budget") {
     for (const std::size_t most : {0u, 1u, 7u, 30u}) CHECK(field.refine(most).parents.size() == most);
 
     FieldSettings settings;
+    settings.refine_share = 0.0f;
     CHECK(most_refined_volumes(settings, 1000) == 1000);
     settings.refine_share = 0.25f;
     CHECK(most_refined_volumes(settings, 1000) == 1250);
@@ -173,6 +174,13 @@ TEST_CASE("No more volumes than asked for, and none beyond the budget") {
     CHECK(most_refined_volumes(settings, 1000) == 1500);
     CHECK(most_refined_volumes(settings, 1600) == 1600);
     settings.volumes = 1000;  // a number that is given goes before the budget
+    CHECK(most_refined_volumes(settings, 1000) == 2000);
+
+    settings.refine_share = kRefineByRecords;
+    CHECK(most_refined_volumes(settings, 1000) == 1000);
+    settings.volumes = 0;
+    CHECK(most_refined_volumes(settings, 1000) == 1500);
+    settings.budget_megabytes *= 2.0;
     CHECK(most_refined_volumes(settings, 1000) == 2000);
 }
 

@@ -43,7 +43,7 @@ std::vector<Wrong> wrong_settings() {
         {"precomputed samples: expected a square number",
          [](F& f, V&) { f.settings.precompute_samples = std::numeric_limits<int>::max(); }},
         {"lookup: expected 0 to 2, got 7", [](F& f, V&) { f.settings.lookup = static_cast<Lookup>(7); }},
-        {"share of added volumes: expected 0 to 1, got nan", [](F& f, V&) { f.settings.refine_share = kNan; }},
+        {"share of added volumes: expected 0 to 1, or -1, got nan", [](F& f, V&) { f.settings.refine_share = kNan; }},
         {"added volumes: expected at most 3, got 4", [](F& f, V&) { f.refinement.added = 4; }},
         {"cells to a side: expected the root of 4 bins, got 3", [](F& f, V&) { f.shape.cells.side = 3; }},
         {"cells to a side: expected the root of 4 bins, got -2", [](F& f, V&) { f.shape.cells.side = -2; }},

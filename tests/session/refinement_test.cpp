@@ -96,6 +96,41 @@ TEST_CASE("Nothing changes before the first volumes are added, nor if none may b
     CHECK(full.field_status()->bytes <= static_cast<std::size_t>(1e6 * settings.field.budget_megabytes));
 }
 
+TEST_CASE("Without being asked volumes are added where the budget decides, and as many as there are records for") {
+    constexpr std::uint64_t kRecordsPerVolume = 32 * 4;
+    RenderSettings settings = settings_for(door(), kLearning, 61, 47);
+    settings.field.bins = 4;
+    Session session = make_session(door(), settings, 2);
+    render_passes(session, kFirst - 1);
+    const auto placed = static_cast<std::uint64_t>(session.field_status()->volumes);
+    CHECK(session.field_status()->added_volumes == 0);
+    render_passes(session, 1);
+    const FieldStatus few = *session.field_status();
+    REQUIRE(few.records / kRecordsPerVolume > placed);
+    REQUIRE(few.records / kRecordsPerVolume < placed + placed / 2);
+    CHECK(static_cast<std::uint64_t>(few.volumes) <= few.records / kRecordsPerVolume);
+    CHECK(static_cast<std::uint64_t>(few.volumes) >= few.records / kRecordsPerVolume - 2);
+    render_passes(session, kLast - kFirst);
+    const FieldStatus enough = *session.field_status();
+    REQUIRE(enough.records / kRecordsPerVolume > 2 * placed);
+    CHECK(static_cast<std::uint64_t>(enough.volumes) <= 2 * placed);
+    CHECK(static_cast<std::uint64_t>(enough.volumes) >= 2 * placed - 20);
+}
+
+TEST_CASE("Without being asked no volume is added in small pictures, nor where their number was asked for") {
+    RenderSettings settings = settings_for(door(), kLearning, 30, 20);
+    settings.field.bins = 4;
+    Session small = make_session(door(), settings, 2);
+    render_passes(small, kLast);
+    CHECK((small.refinement() == Refinement{.rounds = 2}));
+    Session numbered = make_session(door(), refining(kRefineByRecords), 2);
+    Session off = make_session(door(), refining(0.0f), 2);
+    render_passes(numbered, kLast + 1);
+    render_passes(off, kLast + 1);
+    CHECK(numbered.field_status()->records > 60 * 64 * 32);
+    CHECK(same_state(state_of(off), state_of(numbered)));
+}
+
 TEST_CASE("Neither threads nor lookups nor interruptions change a bit of what refinement makes") {
     Session expected = make_session(door(), refining(), 1);
     render_passes(expected, kLast + 2);

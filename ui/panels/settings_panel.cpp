@@ -109,6 +109,23 @@ void draw_run_buttons(ViewerModel& model) {
     tooltip("R: clears the picture, keeps what was learned.");
 }
 
+/// How many volumes may come to those that were placed. Every change starts over.
+void draw_refinement(ViewerModel& model, FieldSettings settings) {
+    bool is_auto = settings.refine_share == kRefineByRecords;
+    if (toggle_row(
+            "Refine",
+            "Reinforcement splits volumes that many paths ask and whose neighbours have learned something else: "
+            "up to twice as many, where the picture is large enough.",
+            &is_auto)) {
+        settings.refine_share = is_auto ? kRefineByRecords : 0.0f;
+        model.set_field(settings);
+    }
+    if (!is_auto &&
+        slider_row("Added share", "How many more volumes reinforcement may add, as a share of those placed.",
+                   &settings.refine_share, 0.0f, 1.0f, 0.0f, "%.2f"))
+        model.set_field(settings);
+}
+
 /// What is recorded, and how far a record moves what is learned. Every change starts over.
 void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
     constexpr std::array kRates{LearningRate::SampleMean, LearningRate::Forgetful, LearningRate::Power,
@@ -167,12 +184,7 @@ void draw_learning(ViewerModel& model) {
         settings.volumes = std::clamp(volumes, 0, 1000000);
         model.set_field(settings);
     }
-    if (slider_row(
-            "Refine",
-            "How many more volumes reinforcement may add, as a share of those placed: it splits those that many "
-            "paths ask and whose neighbours have learned something else.",
-            &settings.refine_share, 0.0f, 1.0f, FieldSettings{}.refine_share, "%.2f"))
-        model.set_field(settings);
+    draw_refinement(model, settings);
     int side = static_cast<int>(std::lround(std::sqrt(settings.bins))) - 2;
     if (choice_row("Directions", "Cells of the hemisphere per volume.", &side,
                    "4\0009\00016\00025\00036\00049\00064\00081\000100\000121\000144\000169\000196\000225\0002"
