@@ -153,7 +153,7 @@ void parse_bsdf_fraction(Options& options, const std::string& text) {
         options.render.mixture = {};
         return;
     }
-    const float share = static_cast<float>(parse_real(text, 0.1, 1.0));
+    const float share = static_cast<float>(parse_real(text, 0.1, 1.0, ", or learned"));
     options.render.mixture = {.learned = 0, .bsdf_fraction = std::max(share, kMinBsdfFraction)};
 }
 
@@ -187,7 +187,7 @@ void parse_field_budget(Options& options, const std::string& text) {
 
 void parse_refine(Options& options, const std::string& text) {
     options.render.field.refine_share =
-        text == "auto" ? kRefineByRecords : static_cast<float>(parse_real(text, 0.0, 1.0));
+        text == "auto" ? kRefineByRecords : static_cast<float>(parse_real(text, 0.0, 1.0, ", or auto"));
 }
 
 std::string print_refine(float share) { return share == kRefineByRecords ? "auto" : print_float(share); }

@@ -55,10 +55,10 @@ std::uint64_t parse_whole(std::string_view text, std::uint64_t low, std::uint64_
     fail_value(fmt::format("a whole number from {} to {}", low, high), text);
 }
 
-double parse_real(std::string_view text, double low, double high) {
+double parse_real(std::string_view text, double low, double high, std::string_view instead) {
     const auto value = read<double>(text);
     if (!value || !(*value >= low && *value <= high))
-        fail_value(fmt::format("a number from {} to {}", low, high), text);
+        fail_value(fmt::format("a number from {} to {}{}", low, high, instead), text);
     return *value;
 }
 

@@ -15,8 +15,8 @@ namespace pl {
 
 /// Whole number within [low, high].
 std::uint64_t parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high);
-/// Finite decimal number within [low, high].
-double parse_real(std::string_view text, double low, double high);
+/// Finite decimal number within [low, high]. `instead` ends what an error says was expected, such as ", or auto".
+double parse_real(std::string_view text, double low, double high, std::string_view instead = {});
 /// Finite number that fits a float.
 float parse_float(std::string_view text);
 /// Numbers between commas; `counts` are the lengths that are right.
