@@ -32,7 +32,6 @@ void Session::ensure_volumes() {
     const Stopwatch watch;
     shape_ = make_field_shape(*packed_, settings_.field);
     volumes_ = with_lookup(place_volumes(*packed_, settings_.field), shape_.lookup);
-    refinement_ = {};
     backend_->upload_volumes(volumes_, shape_);
     place_seconds_ = watch.seconds();
 }

@@ -79,7 +79,7 @@ public:
     std::uint32_t passes() const { return film().passes; }
     std::optional<FieldStatus> field_status() const;
     /// Of the placement that all methods share; nothing before the volumes are placed.
-    Refinement refinement() const { return volumes_ ? refinement_ : Refinement{}; }
+    Refinement refinement() const { return refinement_; }
     /// Of the current film and method; cheap, unlike a snapshot.
     Clocks clocks() const;
     /// Of the current film. A picture that is resumed keeps its origin; one that was emptied gets another.
@@ -147,7 +147,7 @@ private:
     std::optional<Enclosure> enclosure_;  ///< of the scene, once a path has escaped
     std::optional<bool> is_closed_;       ///< it contains the camera; unknown before a path has escaped
     std::shared_ptr<const HostVolumes> volumes_;
-    Refinement refinement_;  ///< of volumes_
+    Refinement refinement_;  ///< of volumes_; forgotten with what was learned
     FieldShape shape_;
     FilmStates films_{};
     std::array<FieldProgress, kMethodCount> fields_{};

@@ -21,10 +21,15 @@ PassRequest pass_of(const Room& room, FilmSlot slot) {
     return {.slot = slot, .features = needed_effects(*room.scene), .path = {.seed = 3}, .camera = room.camera};
 }
 
+std::unique_ptr<RenderBackend> with_empty_film(const Room& room, FilmSlot slot) {
+    auto backend = make_backend(room, {.threads = 2});
+    backend->reset_film(slot, kWidth, kHeight);
+    return backend;
+}
+
 /// What one pass makes of an empty film.
 std::vector<Vec3f> whole_pass(const Room& room, FilmSlot slot) {
-    const auto backend = make_backend(room, {.threads = 2});
-    backend->reset_film(slot, kWidth, kHeight);
+    const auto backend = with_empty_film(room, slot);
     backend->run_pass(pass_of(room, slot));
     return backend->read_film(slot).mean;
 }
@@ -79,8 +84,7 @@ TEST_CASE("Views in parallel equal views pixel by pixel") {
 TEST_CASE("A pass of a heat map replaces the one before") {
     const Room room;
     const FilmSlot slot{MethodId::Reinforcement, View::Visits};
-    const auto backend = make_backend(room, {.threads = 2});
-    backend->reset_film(slot, kWidth, kHeight);
+    const auto backend = with_empty_film(room, slot);
     CHECK_THROWS_WITH(backend->run_pass(pass_of(room, slot)), contains("tables of 'reinforcement'"));
     const auto cells = static_cast<float>(room.shape.cells.count());
     for (const std::uint32_t visits : {3u, 8u}) {
@@ -99,8 +103,7 @@ TEST_CASE("The halves of a film are its passes of even and of odd number") {
     const Room room;
     const FilmSlot slot{MethodId::Default, View::Beauty};
     const auto render = [&](std::initializer_list<std::uint32_t> passes) {
-        const auto backend = make_backend(room, {.threads = 2});
-        backend->reset_film(slot, kWidth, kHeight);
+        const auto backend = with_empty_film(room, slot);
         for (const std::uint32_t sample : passes) {
             PassRequest request = pass_of(room, slot);
             request.sample = sample;
@@ -131,8 +134,7 @@ TEST_CASE("A stopped pass has done a prefix of the pixels, and can be resumed") 
         INFO(info_of(view).name);
         const FilmSlot slot{MethodId::Default, view};
         const std::vector<Vec3f> whole = whole_pass(room, slot);
-        const auto parts = make_backend(room, {.threads = 2});
-        parts->reset_film(slot, kWidth, kHeight);
+        const auto parts = with_empty_film(room, slot);
         PassRequest request = pass_of(room, slot);
         const StopFlag stop{true};
         request.stop = &stop;
@@ -157,8 +159,7 @@ TEST_CASE("A pass in parts is the whole pass, and each part keeps to its pixels"
         INFO(info_of(view).name);
         const FilmSlot slot{MethodId::Default, view};
         const std::vector<Vec3f> whole = whole_pass(room, slot);
-        const auto parts = make_backend(room, {.threads = 2});
-        parts->reset_film(slot, kWidth, kHeight);
+        const auto parts = with_empty_film(room, slot);
         PassRequest request = pass_of(room, slot);
         request.end_pixel = 700;
         CHECK(parts->run_pass(request).paths == 700);
