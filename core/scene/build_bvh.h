@@ -1,16 +1,15 @@
 // Builds the bounding volume hierarchy that core/kernel/geometry/bvh_view.h traverses.
 #pragma once
 
-#include <vector>
-
+#include "core/base/host_array.h"
 #include "core/kernel/geometry/bvh_view.h"
 #include "core/kernel/scene/scene_view.h"
 
 namespace pl {
 
 struct Bvh {
-    std::vector<BvhNode> nodes;
-    std::vector<std::uint32_t> primitives;
+    HostArray<BvhNode> nodes;
+    HostArray<std::uint32_t> primitives;
 };
 
 /// Binned surface-area heuristic, falling back to median splits where it finds none or would grow too deep.

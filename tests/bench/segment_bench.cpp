@@ -1,7 +1,7 @@
 // What a segment of a guided path costs, compared with one of default path tracing.
-// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS]]]]; the scene "ball" has a million triangles. Processor time, of
-// one thread unless told otherwise. The methods take turns, one pass each, so that other work on the machine meets all of
-// them; a checksum tells whether two builds make the same pictures.
+// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER]]]]]; the scene "ball" has a million triangles, the tracer is
+// auto, dense, bvh or embree. Processor time, of one thread unless told otherwise. The methods take turns, one pass each,
+// so that other work on the machine meets all of them; a checksum tells whether two builds make the same pictures.
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -31,8 +31,8 @@ constexpr int kPrecompute = 4;  ///< paths per cell: what is in the tables hardl
 /// One method under way, and the time of its passes.
 class Run {
 public:
-    Run(std::shared_ptr<const SceneDescription> scene, MethodId method, int volumes, int threads)
-        : session_(make_cpu_backend({.threads = threads}), scene, settings_of(*scene, method, volumes)) {}
+    Run(std::shared_ptr<const SceneDescription> scene, MethodId method, int volumes, const CpuSettings& cpu)
+        : session_(make_cpu_backend(cpu), scene, settings_of(*scene, method, volumes)) {}
 
     void render_pass() {
         std::clock_t start = std::clock();
@@ -83,11 +83,19 @@ SceneDescription open_scene(const std::string& name) {
     return load_scene(test::write_bumpy_ball(folder.path(), kRows).string(), assets);
 }
 
-void measure(const std::string& name, int volumes, int rounds, int threads) {
+IntersectorChoice tracer_of(const std::string& name) {
+    if (name == "auto") return IntersectorChoice::Auto;
+    if (name == "dense") return IntersectorChoice::Dense;
+    if (name == "bvh") return IntersectorChoice::Bvh;
+    if (name == "embree") return IntersectorChoice::Embree;
+    throw Error(ErrorKind::Usage, "tracer: expected auto, dense, bvh or embree, got " + name);
+}
+
+void measure(const std::string& name, int volumes, int rounds, const CpuSettings& cpu) {
     const auto scene = std::make_shared<const SceneDescription>(open_scene(name));
     std::vector<std::unique_ptr<Run>> runs;
     for (const MethodInfo& method : all_methods())
-        runs.push_back(std::make_unique<Run>(scene, method.id, volumes, threads));
+        runs.push_back(std::make_unique<Run>(scene, method.id, volumes, cpu));
     for (const auto& run : runs) {
         for (int pass = 0; pass < kWarmUp; ++pass) run->render_pass();
         run->forget_times();
@@ -115,13 +123,15 @@ int main(int count, char** arguments) try {
     const int volumes = count > 2 ? std::atoi(arguments[2]) : 0;
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 15;
     const int threads = count > 4 ? std::max(1, std::atoi(arguments[4])) : 1;
+    const std::string tracer = count > 5 ? arguments[5] : "auto";
     const pl::bench::MachineLoad load;
-    std::printf("%s, %d volumes (0: the default), %d threads: ns per segment, as a multiple of the first row, and "
-                "for learning\n",
-                scene.c_str(), volumes, threads);
+    std::printf(
+        "%s, %d volumes (0: the default), %d threads, tracer %s: ns per segment, as a multiple of the first row, "
+        "and for learning\n",
+        scene.c_str(), volumes, threads, tracer.c_str());
     std::printf("%-14s %8s %8s %8s %13s %8s   picture\n", "method", "median", "least", "ratio", "[quartiles]",
                 "learning");
-    pl::bench::measure(scene, volumes, rounds, threads);
+    pl::bench::measure(scene, volumes, rounds, {.threads = threads, .intersector = pl::bench::tracer_of(tracer)});
     const pl::bench::MachineLoad::Shares shares = load.shares();
     std::printf("processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
                 shares.stolen);
