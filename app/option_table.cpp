@@ -287,7 +287,8 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "refine", .flags = "--refine", .value = "SHARE|auto", .group = kField,
      .help = "How many more volumes reinforcement may add, 0 to 1 of those placed: after 8 and 16 passes it splits "
              "those that many paths ask and whose neighbours have learned something else; within the budget, unless "
-             "--volumes is given. auto (default): up to 1 where pictures are large enough, 0 with --volumes",
+             "--volumes is given. auto (default): up to 1, also after 48, 96 and so on, as far as paths have recorded "
+             "enough for them; 0 with --volumes",
      .commands = kPaths, .in_scene_files = true, .parse = parse_refine,
      .print = [](const Options& o) { return print_refine(o.render.field.refine_share); }},
     {.name = "bins", .flags = "--bins", .value = "N", .group = kField,

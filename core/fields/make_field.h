@@ -10,7 +10,7 @@
 
 namespace pl {
 
-/// A share of volumes that splitting may add: up to 1, as far as there are records for them, where the budget decides about
+/// A share of volumes that splitting may add: up to 1, as soon as there are records for them, where the budget decides about
 /// the number of volumes; none where that is given.
 inline constexpr float kRefineByRecords = -1.0f;
 

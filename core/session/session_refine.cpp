@@ -1,6 +1,5 @@
 // The part of Session that refines the placement of volumes while a method learns.
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 
@@ -9,18 +8,27 @@
 namespace pl {
 namespace {
 
-/// After how many passes that were learned from the placement is refined, each time by its part of the share: tables have
-/// to know something first, and the new ones have to have something left to learn from. docs/learning.md has what was tried.
-constexpr std::array<std::uint64_t, 2> kRefinedAfter{8, 16};
+/// Rounds that add the share, each its part. Where nobody asked for it, more of them follow, as records come.
+constexpr std::uint32_t kRounds = 2;
+constexpr std::uint32_t kMostRounds = 32;
+
+/// After how many passes that were learned from the placement is refined: 8, 16, 48, 96, 192 and so on. Tables have to know
+/// something first, and the new ones have to have something left to learn from. The later rounds keep away from powers of
+/// two, where many pictures end: no pass would be left that uses what they cost. docs/learning.md has what was tried.
+constexpr std::uint64_t passes_before_round(std::uint32_t round) {
+    return round < kRounds ? std::uint64_t{8} << round : std::uint64_t{12} << round;
+}
 
 /// Records that a cell has on the mean when volumes are added without being asked for: fewer cells that know more, and
-/// pictures that are ready before splitting has paid, are better off as they are.
+/// pictures that are ready before splitting has paid, are better off as they are. A cell that splits late has to know more.
 constexpr std::uint64_t kRecordsPerCell = 32;
+constexpr std::uint64_t kRecordsPerCellLate = 96;
 
-/// Volumes that `records` are enough for.
-std::size_t worth_having(const FieldSettings& settings, std::uint64_t records) {
+/// Volumes that `records` are enough for in a round.
+std::size_t worth_having(const FieldSettings& settings, std::uint32_t round, std::uint64_t records) {
     if (settings.refine_share != kRefineByRecords) return std::numeric_limits<std::size_t>::max();
-    return records / (kRecordsPerCell * static_cast<std::uint64_t>(settings.bins));
+    const std::uint64_t wanted = round < kRounds ? kRecordsPerCell : kRecordsPerCellLate;
+    return records / (wanted * static_cast<std::uint64_t>(settings.bins));
 }
 
 /// Volumes that may be added in the round after `so_far.rounds` others.
@@ -28,8 +36,8 @@ std::size_t most_added(const FieldSettings& settings, std::size_t volumes, const
                        std::uint64_t records) {
     const std::size_t placed = volumes - so_far.added;
     const std::size_t most = most_refined_volumes(settings, placed) - placed;
-    const std::size_t due =
-        std::min(placed + most * (so_far.rounds + 1) / kRefinedAfter.size(), worth_having(settings, records));
+    const std::size_t parts = std::min(so_far.rounds + 1, kRounds);
+    const std::size_t due = std::min(placed + most * parts / kRounds, worth_having(settings, so_far.rounds, records));
     return due > volumes ? due - volumes : 0;
 }
 
@@ -38,8 +46,9 @@ std::size_t most_added(const FieldSettings& settings, std::size_t volumes, const
 /// Right after a publication, when no record waits. Counts passes that were learned from, as fields keep them, so that one
 /// that was saved in between is refined at the same moment; at most one round per publication.
 void Session::refine_if_due() {
-    if (settings_.field.refine_share == 0.0f || refinement_.rounds >= kRefinedAfter.size()) return;
-    if (field().passes < kRefinedAfter[refinement_.rounds]) return;
+    const float share = settings_.field.refine_share;
+    if (share == 0.0f || refinement_.rounds >= (share == kRefineByRecords ? kMostRounds : kRounds)) return;
+    if (field().passes < passes_before_round(refinement_.rounds)) return;
     const std::size_t most = most_added(settings_.field, volumes_->normals.size(), refinement_, field().records);
     if (most > 0) split_volumes(most);
     ++refinement_.rounds;

@@ -131,6 +131,33 @@ TEST_CASE("Without being asked no volume is added in small pictures, nor where t
     CHECK(same_state(state_of(off), state_of(numbered)));
 }
 
+TEST_CASE("Without being asked volumes are added later, too, when there are records for them") {
+    constexpr std::uint64_t kRecordsPerVolume = 96 * 4;
+    constexpr std::uint32_t kRounds = 4;  // after 8, 16, 48 and 96 passes
+    RenderSettings settings = settings_for(door(), kLearning, 30, 20);
+    settings.field.bins = 4;
+    Session session = make_session(door(), settings, 2);
+    render_passes(session, 191);
+    CHECK((session.refinement() == Refinement{.rounds = kRounds}));
+    render_passes(session, 1);
+    const FieldStatus after = *session.field_status();
+    INFO(after.records << " records, " << after.volumes << " volumes, of which " << after.added_volumes
+                       << " were added");
+    CHECK(after.added_volumes > 0);
+    CHECK(after.added_volumes < after.volumes / 2);
+    CHECK(static_cast<std::uint64_t>(after.volumes) <= after.records / kRecordsPerVolume);
+    CHECK(session.refinement().rounds == kRounds + 1);
+}
+
+TEST_CASE("A share that was asked for is added in two rounds") {
+    Session session = make_session(door(), refining(), 2);
+    render_passes(session, kLast);
+    const Refinement added = session.refinement();
+    CHECK(added.rounds == 2);
+    render_passes(session, 3 * kLast);
+    CHECK((session.refinement() == added));
+}
+
 TEST_CASE("Neither threads nor lookups nor interruptions change a bit of what refinement makes") {
     Session expected = make_session(door(), refining(), 1);
     render_passes(expected, kLast + 2);

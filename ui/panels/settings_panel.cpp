@@ -115,7 +115,7 @@ void draw_refinement(ViewerModel& model, FieldSettings settings) {
     if (toggle_row(
             "Refine",
             "Reinforcement splits volumes that many paths ask and whose neighbours have learned something else: "
-            "up to twice as many, in large pictures, unless their number is given.",
+            "up to twice as many, once enough is known for them, unless their number is given.",
             &is_auto)) {
         settings.refine_share = is_auto ? kRefineByRecords : 0.0f;
         model.set_field(settings);
