@@ -155,6 +155,15 @@ TEST_CASE("Headline: says what to do while there is nothing to compare") {
     CHECK_THAT(make_headlines(Runs{make_run({})}, kThisPicture)[0].text, contains("Only default"));
     const Runs alone{make_run({.method = MethodId::Reinforcement})};
     CHECK_THAT(make_headlines(alone, kThisPicture)[0].text, contains("nothing to be compared with yet"));
+    // A run that has just begun is there, but does not take the place of one that was measured.
+    const auto begun = std::make_shared<LiveRun>(*make_run({.number = 3, .method = MethodId::Reinforcement}));
+    begun->points.clear();
+    CHECK_THAT(make_headlines(Runs{make_run({}), begun}, kThisPicture)[0].text, contains("too few samples"));
+    Runs runs = two_runs();
+    runs.push_back(begun);
+    const std::vector<Headline> lines = make_headlines(runs, kThisPicture);
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].text == make_headlines(two_runs(), kThisPicture)[0].text);
     // A default run of another picture is no measure.
     const Runs other{make_run({.picture = 8}), make_run({.number = 2, .method = MethodId::Reinforcement})};
     CHECK_THAT(make_headlines(other, kThisPicture)[0].text, contains("nothing to be compared with yet"));

@@ -116,8 +116,11 @@ Headline headline_of(RunList runs, const LiveRun& run) {
 std::vector<Headline> make_headlines(RunList runs, std::uint64_t picture) {
     std::vector<const LiveRun*> newest;
     for (const auto& run : runs) {
-        if (run->label.picture != picture || run->label.method == MethodId::Default || run->points.empty()) continue;
-        std::erase_if(newest, [&](const LiveRun* other) { return same_kind(other->label, run->label); });
+        if (run->label.picture != picture || run->label.method == MethodId::Default) continue;
+        const auto is_older = [&](const LiveRun* other) { return same_kind(other->label, run->label); };
+        // One that has just begun says less than an older one.
+        if (run->points.empty() && std::ranges::any_of(newest, is_older)) continue;
+        std::erase_if(newest, is_older);
         newest.push_back(run.get());
     }
     std::vector<Headline> headlines;
