@@ -124,6 +124,7 @@ int main(int count, char** arguments) try {
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 15;
     const int threads = count > 4 ? std::max(1, std::atoi(arguments[4])) : 1;
     const std::string tracer = count > 5 ? arguments[5] : "auto";
+    const pl::CpuSettings cpu{.threads = threads, .intersector = pl::bench::tracer_of(tracer)};
     const pl::bench::MachineLoad load;
     std::printf(
         "%s, %d volumes (0: the default), %d threads, tracer %s: ns per segment, as a multiple of the first row, "
@@ -131,7 +132,7 @@ int main(int count, char** arguments) try {
         scene.c_str(), volumes, threads, tracer.c_str());
     std::printf("%-14s %8s %8s %8s %13s %8s   picture\n", "method", "median", "least", "ratio", "[quartiles]",
                 "learning");
-    pl::bench::measure(scene, volumes, rounds, {.threads = threads, .intersector = pl::bench::tracer_of(tracer)});
+    pl::bench::measure(scene, volumes, rounds, cpu);
     const pl::bench::MachineLoad::Shares shares = load.shares();
     std::printf("processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
                 shares.stolen);
