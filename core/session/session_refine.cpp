@@ -8,9 +8,15 @@
 namespace pl {
 namespace {
 
-/// Rounds that add the share, each its part. Where nobody asked for it, more of them follow, as records come.
+/// Rounds that add the share, each its part. Where nobody asked for it, more of them follow, as records come: fewer than
+/// would overflow passes_before_round().
 constexpr std::uint32_t kRounds = 2;
 constexpr std::uint32_t kMostRounds = 32;
+
+std::uint32_t most_rounds(const FieldSettings& settings) {
+    if (settings.refine_share == 0.0f) return 0;
+    return settings.refine_share == kRefineByRecords ? kMostRounds : kRounds;
+}
 
 /// After how many passes that were learned from the placement is refined: 8, 16, 48, 96, 192 and so on. Tables have to know
 /// something first, and the new ones have to have something left to learn from. The later rounds keep away from powers of
@@ -46,8 +52,7 @@ std::size_t most_added(const FieldSettings& settings, std::size_t volumes, const
 /// Right after a publication, when no record waits. Counts passes that were learned from, as fields keep them, so that one
 /// that was saved in between is refined at the same moment; at most one round per publication.
 void Session::refine_if_due() {
-    const float share = settings_.field.refine_share;
-    if (share == 0.0f || refinement_.rounds >= (share == kRefineByRecords ? kMostRounds : kRounds)) return;
+    if (refinement_.rounds >= most_rounds(settings_.field)) return;
     if (field().passes < passes_before_round(refinement_.rounds)) return;
     const std::size_t most = most_added(settings_.field, volumes_->normals.size(), refinement_, field().records);
     if (most > 0) split_volumes(most);
