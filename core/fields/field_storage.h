@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/host_array.h"
+#include "core/base/large_array.h"
 #include "core/kernel/fields/field_view.h"
 #include "core/kernel/fields/publish_volume.h"
 
@@ -61,7 +62,7 @@ struct TableStorage {
 
 using HostVolumeGrid = VolumeGridStorage<HostArray>;
 using HostVolumes = VolumeStorage<HostArray>;
-using HostTables = TableStorage<HostArray>;
+using HostTables = TableStorage<LargeArray>;
 
 /// `to` is const where nothing is written.
 template <template <class> class From, class To, class Fn>
@@ -117,9 +118,9 @@ VolumeGridView grid_view(const VolumeGridStorage<Array>& grid) {
 }
 
 /// What kernels read and record into during a pass.
-template <template <class> class Array>
-FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes, TableStorage<Array>& tables) {
-    const TableStorage<Array>& frozen = tables;
+template <template <class> class Array, template <class> class TableArray>
+FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes, TableStorage<TableArray>& tables) {
+    const TableStorage<TableArray>& frozen = tables;
     return {.cells = shape.cells,
             .tree = {.nodes = view_of(volumes.kd_nodes), .lookup = shape.lookup},
             .grid = grid_view(volumes.grid),

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "core/fields/field_storage.h"
 
@@ -11,11 +12,11 @@ namespace pl {
 
 /// Places of some sides; grids, cells and lists are numbered from 0.
 struct GridPieces {
-    HostArray<VolumePlace> sides;
-    HostArray<SideGrid> grids;
-    HostArray<VolumeCell> cells;       ///< of grids
-    HostArray<VolumeCell> side_cells;  ///< of whole sides: those that `sides` number
-    HostArray<std::uint32_t> lists;
+    std::vector<VolumePlace> sides;
+    std::vector<SideGrid> grids;
+    std::vector<VolumeCell> cells;       ///< of grids
+    std::vector<VolumeCell> side_cells;  ///< of whole sides: those that `sides` number
+    std::vector<std::uint32_t> lists;
 };
 
 /// Joins pieces in order. Neighbors often have the same list, or the same cell for the whole side: these are kept once.
@@ -46,7 +47,7 @@ public:
     }
 
 private:
-    using Lists = HostArray<std::uint32_t>;
+    using Lists = std::vector<std::uint32_t>;
     struct Hash {
         const Lists* lists;
         std::size_t operator()(std::uint32_t first) const {

@@ -9,7 +9,7 @@ namespace {
 
 bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-using NodeIterator = HostArray<KdNode>::iterator;
+using NodeIterator = std::vector<KdNode>::iterator;
 
 std::uint32_t longest_axis(NodeIterator begin, NodeIterator end) {
     Vec3f low{kInfinity};
@@ -41,8 +41,8 @@ void arrange(NodeIterator begin, NodeIterator end) {
 
 }  // namespace
 
-HostArray<KdNode> build_kd_tree(Span<const SurfacePoint> sites) {
-    HostArray<KdNode> nodes;
+std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites) {
+    std::vector<KdNode> nodes;
     nodes.reserve(sites.count);
     for (std::uint32_t i = 0; i < sites.count; ++i)
         if (is_finite(sites[i].position)) nodes.push_back({sites[i].position, i, sites[i].geometric_normal, 0});

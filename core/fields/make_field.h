@@ -61,7 +61,7 @@ void for_each_site(const HostScene& scene, const FieldSettings& settings, std::u
                    const std::function<void(const SurfacePoint&)>& visit);
 
 /// Balanced tree over the sites, in the layout of KdTreeView. Sites with positions that are not finite are left out.
-HostArray<KdNode> build_kd_tree(Span<const SurfacePoint> sites);
+std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites);
 
 /// Tables of volumes that have learned nothing: uniform.
 HostTables make_tables(const FieldShape& shape, std::size_t volumes);

@@ -76,10 +76,10 @@ void divide_cell(HostTables& tables, std::size_t parent, std::size_t child, bool
 
 /// Divides what the BSDF share and the reach rest on.
 void divide_volume(HostTables& tables, std::size_t parent, std::size_t child) {
-    for (HostArray<float>* sums :
+    for (LargeArray<float>* sums :
          {&tables.mixture_target, &tables.mixture_weight, &tables.reach_distance, &tables.reach_weight})
         (*sums)[parent] = (*sums)[child] = 0.5f * (*sums)[parent];
-    for (HostArray<std::int64_t>* pending :
+    for (LargeArray<std::int64_t>* pending :
          {&tables.pending_slope, &tables.pending_curvature, &tables.pending_distance, &tables.pending_light})
         (*pending)[child] = 0;
 }

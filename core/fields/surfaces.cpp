@@ -18,8 +18,8 @@ struct Corners {
 };
 
 /// Vertices at equal positions get the same number. +0 and -0 are equal.
-std::vector<std::uint32_t> number_positions(Span<const Vec3f> positions, std::uint32_t& points) {
-    std::vector<std::uint32_t> order(positions.count);
+std::vector<std::uint32_t> number_positions(const std::vector<Vec3f>& positions, std::uint32_t& points) {
+    std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto less = [&](std::uint32_t a, std::uint32_t b) {
         const Vec3f p = positions[a];
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> number_positions(Span<const Vec3f> positions, std::ui
         return p.y != q.y ? p.y < q.y : p.z < q.z;
     };
     std::sort(order.begin(), order.end(), less);
-    std::vector<std::uint32_t> number(positions.count);
+    std::vector<std::uint32_t> number(positions.size());
     points = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (i > 0 && less(order[i - 1], order[i])) ++points;
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> number_positions(Span<const Vec3f> positions, std::ui
 Corners collect_corners(const HostScene& scene) {
     Corners corners;
     std::uint32_t points = 0;
-    corners.point_of = number_positions(view_of(scene.positions), points);
+    corners.point_of = number_positions(scene.positions, points);
     corners.start.assign(points + 1, 0);
     for (const Triangle& t : scene.triangles)
         for (const std::uint32_t v : {t.v0, t.v1, t.v2}) ++corners.start[corners.point_of[v] + 1];

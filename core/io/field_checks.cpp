@@ -174,7 +174,7 @@ private:
             if (t.pending_sum[i] < 0 || static_cast<double>(t.pending_sum[i]) > most)
                 fail(fmt::format("sum of cell {}", i), fmt::format("0 to {}", most), t.pending_sum[i]);
         }
-        const auto amounts = [this](const char* what, const HostArray<float>& values) {
+        const auto amounts = [this](const char* what, const LargeArray<float>& values) {
             for (std::size_t i = 0; i < values.size(); ++i)
                 if (!is_amount(values[i])) fail(fmt::format("{} of volume {}", what, i), "0 or more", values[i]);
         };
@@ -211,7 +211,7 @@ private:
     }
 
     /// Each row of cumulative probabilities rises from 0 or more to exactly 1.
-    void distributions(const char* what, const HostArray<float>& cdf) const {
+    void distributions(const char* what, const LargeArray<float>& cdf) const {
         const auto side = static_cast<std::size_t>(field_.shape.cells.side);
         for (std::size_t i = 0; i < cdf.size(); ++i) {
             const float before = i % side == 0 ? 0.0f : cdf[i - 1];

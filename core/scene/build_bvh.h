@@ -1,15 +1,16 @@
 // Builds the bounding volume hierarchy that core/kernel/geometry/bvh_view.h traverses.
 #pragma once
 
-#include "core/base/host_array.h"
+#include <vector>
+
 #include "core/kernel/geometry/bvh_view.h"
 #include "core/kernel/scene/scene_view.h"
 
 namespace pl {
 
 struct Bvh {
-    HostArray<BvhNode> nodes;
-    HostArray<std::uint32_t> primitives;
+    std::vector<BvhNode> nodes;
+    std::vector<std::uint32_t> primitives;
 };
 
 /// Binned surface-area heuristic, falling back to median splits where it finds none or would grow too deep.

@@ -22,7 +22,7 @@ float share_of(double first, double second) {
 
 /// Appends cumulative probabilities. Random numbers are multiples of 2^-24: so are these, then what the table says is
 /// exactly how often an entry is drawn. Weights without a sum become uniform.
-void append_cdf(const std::vector<double>& weights, double sum, HostArray<float>& cdf) {
+void append_cdf(const std::vector<double>& weights, double sum, std::vector<float>& cdf) {
     double running = 0.0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         running += sum > 0.0 ? weights[i] / sum : 1.0 / static_cast<double>(weights.size());
@@ -52,7 +52,7 @@ double pack_map(const EnvironmentMapDescription& map, HostScene& packed) {
         return 0.0;
     }
     append_cdf(rows, total, packed.map_row_cdf);
-    packed.map_texels.assign(map.texels.begin(), map.texels.end());
+    packed.map_texels = map.texels;
     packed.far_lights.map.width = map.width;
     packed.far_lights.map.height = map.height;
     packed.far_lights.map.turn = static_cast<float>(std::fmod(static_cast<double>(map.rotation_deg) / 360.0, 1.0));

@@ -28,7 +28,7 @@ Vec3f unit_or_zero(Vec3d v) {
 }
 
 void pack_triangles(const SceneDescription& scene, HostScene& packed) {
-    packed.positions.assign(scene.positions.begin(), scene.positions.end());
+    packed.positions = scene.positions;
     packed.triangles.reserve(scene.triangles.size());
     for (const TriangleDescription& t : scene.triangles)
         packed.triangles.push_back({t.vertex.x, t.vertex.y, t.vertex.z, t.material});
@@ -74,7 +74,7 @@ void pack_materials(const SceneDescription& scene, HostScene& packed) {
 /// Puts tables of directional albedos into a scene, each once.
 class AlbedoTables {
 public:
-    explicit AlbedoTables(HostArray<float>& values) : values_(values) {}
+    explicit AlbedoTables(std::vector<float>& values) : values_(values) {}
 
     std::uint32_t first_for(SurfaceKind kind, float ior) {
         const auto [place, is_new] = first_.try_emplace({kind, ior}, static_cast<std::uint32_t>(values_.size()));
@@ -95,7 +95,7 @@ public:
 private:
     void add(const std::vector<float>& table) { values_.insert(values_.end(), table.begin(), table.end()); }
 
-    HostArray<float>& values_;
+    std::vector<float>& values_;
     std::map<std::pair<SurfaceKind, float>, std::uint32_t> first_;
 };
 

@@ -77,7 +77,7 @@ bool has_uvs(const TriangleDescription& t) {
 }
 
 void pack_uvs(const SceneDescription& scene, HostScene& packed) {
-    packed.uvs.assign(scene.uvs.begin(), scene.uvs.end());
+    packed.uvs = scene.uvs;
     const auto origin = static_cast<std::uint32_t>(packed.uvs.size());
     packed.uvs.emplace_back(0.0f);
     packed.triangle_uvs.reserve(scene.triangles.size());
@@ -94,7 +94,7 @@ void pack_textures(const SceneDescription& scene, HostScene& packed) {
     std::vector<bool> used(scene.materials.size(), false);
     for (const TriangleDescription& t : scene.triangles) used[t.material] = true;
     ImagePacker packer(scene, packed);
-    HostArray<MaterialImages> of_material(scene.materials.size());
+    std::vector<MaterialImages> of_material(scene.materials.size());
     for (std::size_t m = 0; m < scene.materials.size(); ++m)
         if (used[m] && scene.materials[m].textures.any())
             of_material[m] = packer.pack(scene.materials[m], packed.materials[m]);

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "core/base/host_array.h"
 #include "core/kernel/scene/scene_view.h"
 
 namespace pl {
@@ -63,11 +63,11 @@ inline TrianglePlane make_triangle_plane(const TriangleCorners& corners, double 
             static_cast<float>(std::min(kEdgeMarginFactor * margin / smallest_height, kMaxEdgeMargin))};
 }
 
-inline HostArray<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions, Span<const Triangle> triangles) {
+inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions, Span<const Triangle> triangles) {
     double scene_edge = 0.0;
     for (const Triangle& t : triangles)
         scene_edge = std::max(scene_edge, TriangleCorners(positions, t).longest_edge());
-    HostArray<TrianglePlane> planes;
+    std::vector<TrianglePlane> planes;
     planes.reserve(triangles.count);
     for (const Triangle& t : triangles) planes.push_back(make_triangle_plane({positions, t}, scene_edge));
     return planes;

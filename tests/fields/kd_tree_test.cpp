@@ -26,9 +26,9 @@ Sites make_sites(int count, const std::function<Vec3f(int)>& position) {
     return sites;
 }
 
-HostArray<KdNode> tree_of(const Sites& sites) { return build_kd_tree(view_of(sites)); }
+std::vector<KdNode> tree_of(const Sites& sites) { return build_kd_tree(view_of(sites)); }
 
-KdTreeView view(const HostArray<KdNode>& nodes) { return {view_of(nodes)}; }
+KdTreeView view(const std::vector<KdNode>& nodes) { return {view_of(nodes)}; }
 
 /// Linear search over the sites themselves: knows nothing of the tree, not even its order.
 Nearest search_sites(const Sites& sites, Vec3f position, Vec3f normal) {
@@ -58,7 +58,7 @@ KdTreeView linear(KdTreeView tree) {
 }
 
 void check_searches(const Sites& sites, int queries, const std::function<Vec3f(Uniforms&)>& normal) {
-    const HostArray<KdNode> nodes = tree_of(sites);
+    const std::vector<KdNode> nodes = tree_of(sites);
     const std::unique_ptr<NanoflannIndex> index = sites.empty() ? nullptr : std::make_unique<NanoflannIndex>(sites);
     Uniforms random(41);
     for (int i = 0; i < queries; ++i) {
@@ -86,7 +86,7 @@ int depth_of(std::size_t nodes) {
 }
 
 /// KdTreeView's promise: along a node's axis nothing before it is larger, nothing behind it smaller.
-bool ordered(const HostArray<KdNode>& nodes, std::size_t low, std::size_t high) {
+bool ordered(const std::vector<KdNode>& nodes, std::size_t low, std::size_t high) {
     if (low >= high) return true;
     const std::size_t middle = low + (high - low) / 2;
     const int axis = static_cast<int>(nodes[middle].axis);
@@ -141,7 +141,7 @@ TEST_CASE("Grids full of ties give the lowest number") {
 TEST_CASE("The order of equal points in the tree does not matter") {
     Uniforms random(3);
     const Sites sites = make_sites(300, [&](int) { return 0.5f * glm::floor(random.cube(-2, 3)); });
-    HostArray<KdNode> nodes = tree_of(sites);
+    std::vector<KdNode> nodes = tree_of(sites);
     for (int i = 0; i < 5000; ++i) {
         const Vec3f query = 0.25f * glm::floor(random.cube(-4, 5));
         REQUIRE(find_volume(view(nodes), query, {0, 0, 1}) == search_sites(sites, query, {0, 0, 1}).volume);
@@ -156,7 +156,7 @@ TEST_CASE("Normals filter the search") {
     // One that agrees, far away behind a thousand that do not; and none that does.
     for (SurfacePoint& s : sites) s.geometric_normal = {0, 1, 0};
     sites.push_back(site({9, 9, 9}));
-    const HostArray<KdNode> nodes = tree_of(sites);
+    const std::vector<KdNode> nodes = tree_of(sites);
     CHECK(find_volume(view(nodes), {0, 0, 0}, {0, 0, 1}) == 1000);
     CHECK(find_volume(view(nodes), {0, 0, 0}, {0, 0, -1}) == kNoVolume);
     // The limit is exclusive: 0.8 does not agree, the next float does.
@@ -168,7 +168,7 @@ TEST_CASE("Queries on and beside every splitting plane are exact") {
     for (int tree = 0; tree < 50; ++tree) {
         Uniforms random(static_cast<std::uint64_t>(100 + tree));
         const Sites sites = make_sites(60, [&](int) { return random.cube(-1, 1); });
-        const HostArray<KdNode> nodes = tree_of(sites);
+        const std::vector<KdNode> nodes = tree_of(sites);
         for (const KdNode& node : nodes)
             for (int side = -1; side <= 1; ++side) {
                 Vec3f query = random.cube(-1, 1);
@@ -185,7 +185,7 @@ TEST_CASE("Points and queries that are not finite find nothing") {
     Sites sites = make_sites(10, [](int i) { return Vec3f{static_cast<float>(i)}; });
     sites[3].position.y = nan;
     sites[7].position.x = kInfinity;
-    const HostArray<KdNode> nodes = tree_of(sites);
+    const std::vector<KdNode> nodes = tree_of(sites);
     CHECK(nodes.size() == 8);
     CHECK(find_volume(view(nodes), Vec3f{3.1f}, {0, 0, 1}) != 3);
     for (const float bad : {nan, kInfinity, -kInfinity})
@@ -201,7 +201,7 @@ TEST_CASE("Points and queries that are not finite find nothing") {
 TEST_CASE("The several nearest are those of a sorted list") {
     Uniforms random(5);
     const Sites sites = make_sites(400, [&](int) { return 0.25f * glm::floor(random.cube(-4, 5)); });
-    const HostArray<KdNode> nodes = tree_of(sites);
+    const std::vector<KdNode> nodes = tree_of(sites);
     for (int i = 0; i < 2000; ++i) {
         const Vec3f query = 0.125f * glm::floor(random.cube(-8, 9));
         std::vector<std::pair<float, std::int32_t>> all;
@@ -225,7 +225,7 @@ TEST_CASE("The several nearest are those of a sorted list") {
 namespace {
 
 void check_tree(const Sites& sites) {
-    const HostArray<KdNode> nodes = tree_of(sites);
+    const std::vector<KdNode> nodes = tree_of(sites);
     CHECK(nodes.size() == sites.size());
     CHECK(ordered(nodes, 0, nodes.size()));
 }

@@ -107,7 +107,7 @@ TEST_CASE("Empty tables sample uniformly and end in exactly 1") {
                     REQUIRE(std::fabs(table.cell_probability(column, row) * static_cast<float>(bins) - 1.0f) < 1e-5f);
             }
         }
-        CHECK(tables.mean_radiance == HostArray<float>(3, 0.0f));
-        CHECK(tables.pending_sum == HostArray<std::int64_t>(static_cast<std::size_t>(3 * bins), 0));
+        CHECK(tables.mean_radiance == LargeArray<float>(3, 0.0f));
+        CHECK(tables.pending_sum == LargeArray<std::int64_t>(static_cast<std::size_t>(3 * bins), 0));
     }
 }

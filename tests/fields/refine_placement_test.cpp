@@ -210,8 +210,8 @@ TEST_CASE("A child begins with its parent's table, and no record is lost or coun
     Learned field(lit_room(), 30, 5);
     for (std::size_t i = 0; i < field.count(); i += 2) field.teach(i, 1 + static_cast<std::uint32_t>(i), true);
     Uniforms random(3);
-    for (HostArray<float>* sums : {&field.tables.mixture_target, &field.tables.mixture_weight,
-                                   &field.tables.reach_distance, &field.tables.reach_weight})
+    for (LargeArray<float>* sums : {&field.tables.mixture_target, &field.tables.mixture_weight,
+                                    &field.tables.reach_distance, &field.tables.reach_weight})
         for (float& value : *sums) value = random.next();
     for (float& share : field.tables.bsdf_fraction) share = random.between(0.1f, 0.9f);
     for (std::uint32_t& count : field.tables.pending_count) count = random.below(3);

@@ -49,10 +49,10 @@ Placed with_grid(const SceneDescription& description, int volumes, int threads =
 }
 
 /// Volumes at points of the scene's own triangles, or wherever `sites` says.
-Placed with_sites(const SceneDescription& description, const std::vector<SurfacePoint>& sites) {
+Placed with_sites(const SceneDescription& description, std::vector<SurfacePoint> sites) {
     Placed placed{pack_scene(description), {}};
     for (const SurfacePoint& site : sites) placed.volumes.normals.push_back(site.geometric_normal);
-    placed.volumes.sites.assign(sites.begin(), sites.end());
+    placed.volumes.sites = std::move(sites);
     placed.volumes.kd_nodes = build_kd_tree(view_of(std::as_const(placed.volumes.sites)));
     placed.volumes.grid = build_volume_grid(placed.scene, placed.volumes, 2);
     return placed;

@@ -60,7 +60,7 @@ namespace {
 /// Fills what a session has learned with one number, as damaged memory or another program might.
 void poison(Session& session, MethodId method, float value) {
     HostTables tables = session.backend_access().download_tables(method);
-    for (HostArray<float>* list :
+    for (LargeArray<float>* list :
          {&tables.radiance, &tables.mean_radiance, &tables.reach_weight, &tables.inverse_reach})
         for (float& entry : *list) entry = value;
     session.backend_access().upload_tables(method, std::move(tables));

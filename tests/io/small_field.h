@@ -64,10 +64,10 @@ inline LearnedField small_field() {
     for (std::uint32_t& visits : field.tables.visits) visits = static_cast<std::uint32_t>(random());
     for (std::uint32_t& count : field.tables.pending_count) count = 1 + static_cast<std::uint32_t>(random()) % 9;
     for (std::int64_t& sum : field.tables.pending_sum) sum = static_cast<std::int64_t>(random()) << 8;
-    for (HostArray<float>* reach : {&field.tables.reach_weight, &field.tables.inverse_reach})
+    for (LargeArray<float>* reach : {&field.tables.reach_weight, &field.tables.inverse_reach})
         for (float& value : *reach) value = uniform();
     for (std::int64_t& light : field.tables.pending_light) light = static_cast<std::int64_t>(random());
-    for (HostArray<float>* cdf : {&field.tables.row_cdf, &field.tables.column_cdf})
+    for (LargeArray<float>* cdf : {&field.tables.row_cdf, &field.tables.column_cdf})
         for (std::size_t i = 0; i < cdf->size(); i += 2) (*cdf)[i] = uniform();
     return field;
 }

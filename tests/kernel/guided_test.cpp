@@ -193,5 +193,5 @@ TEST_CASE("The precomputed method learns nothing") {
     auto memory = method.remember({0}, {Vec3f{0, 0, 1}, 1.0f, 1.0f});
     method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}}, {0}, counters));
     CHECK(counters.records == 0);
-    CHECK(field.tables.pending_count == HostArray<std::uint32_t>(16, 0));
+    CHECK(field.tables.pending_count == LargeArray<std::uint32_t>(16, 0));
 }

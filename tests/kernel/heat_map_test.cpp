@@ -96,7 +96,7 @@ TEST_CASE("Heat maps: what was learned by publication") {
 TEST_CASE("Heat maps: finite and not negative whatever memory holds") {
     for (const float bad : {kNan, kInfinity, -kInfinity, -1.0f, 0.0f, 1e-45f, 3e38f}) {
         TwoVolumes field;
-        for (HostArray<float>* values :
+        for (LargeArray<float>* values :
              {&field.tables.mean_radiance, &field.tables.change, &field.tables.bsdf_fraction, &field.tables.row_cdf,
               &field.tables.column_cdf}) {
             field.tables.change = {1.0f, 1.0f};

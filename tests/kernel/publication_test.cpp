@@ -86,8 +86,8 @@ TEST_CASE("The order of records does not matter") {
     backwards.publish();
     CHECK(forwards.tables.radiance == backwards.tables.radiance);
     CHECK(forwards.tables.column_cdf == backwards.tables.column_cdf);
-    CHECK(forwards.tables.pending_sum == HostArray<std::int64_t>(16, 0));
-    CHECK(forwards.tables.pending_count == HostArray<std::uint32_t>(16, 0));
+    CHECK(forwards.tables.pending_sum == LargeArray<std::int64_t>(16, 0));
+    CHECK(forwards.tables.pending_count == LargeArray<std::uint32_t>(16, 0));
 }
 
 TEST_CASE("Learning rates are exact from the first visit to the last") {

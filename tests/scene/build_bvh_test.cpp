@@ -77,7 +77,7 @@ void check_sound(const Mesh& mesh) {
     CHECK(shape.depth <= kMaxBvhDepth);
     CHECK(shape.visited == bvh.nodes.size());
     CHECK(shape.largest_leaf <= 4);
-    HostArray<std::uint32_t> sorted = bvh.primitives;
+    std::vector<std::uint32_t> sorted = bvh.primitives;
     std::sort(sorted.begin(), sorted.end());
     REQUIRE(sorted.size() == mesh.triangles.size());
     bool permutation = true;

@@ -71,7 +71,7 @@ private:
     std::size_t volumes_;
     std::size_t cells_;
     std::vector<double> error_;
-    HostArray<std::uint32_t> visits_;
+    LargeArray<std::uint32_t> visits_;
     double worst_mean_ = 1.0;
 };
 

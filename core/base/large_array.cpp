@@ -1,4 +1,4 @@
-#include "core/base/host_array.h"
+#include "core/base/large_array.h"
 
 #include <new>
 
