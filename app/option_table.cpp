@@ -81,10 +81,10 @@ const auto kTable = std::to_array<OptionSpec>({
     {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
      .help = "Write counts and timings as JSON",
      .commands = kFiles, .parse = parse_text<&Options::stats_file>},
-    {.name = "trouble", .flags = "--trouble", .value = "FILE", .group = kOutput,
+    {.name = "diagnostics", .flags = "--diagnostics", .value = "FILE", .group = kOutput,
      .help = "Trace the paths again, and write where samples were invalid, paths escaped, lookups missed, records were "
              "clamped: .png marks them in the picture, .exr and .pfm hold counts; --stats has both as numbers",
-     .commands = CommandSet(Render), .parse = parse_text<&Options::trouble_file>},
+     .commands = CommandSet(Render), .parse = parse_text<&Options::diagnostics_file>},
 
     {.name = "at", .flags = "--at", .value = "X,Y,Z[,NX,NY,NZ]", .group = kPlace,
      .help = "The volume nearest to this point whose normal agrees; without a normal, the point is moved to the "

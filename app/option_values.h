@@ -80,7 +80,7 @@ struct Options {
     std::optional<glm::ivec2> pixel;
 
     std::string stats_file;
-    std::string trouble_file;  ///< render: picture of where something went wrong
+    std::string diagnostics_file;  ///< render: picture of where something went wrong
     std::string log_file;
     bool json = false;
     bool quiet = false;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/diagnostics_file.h"
 #include "app/field_files.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
@@ -11,7 +12,6 @@
 #include "app/progress.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
-#include "app/trouble_file.h"
 #include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/measure/picture_identity.h"
@@ -25,16 +25,17 @@ void require_outputs(const Options& options) {
     require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
-    if (options.trouble_file.empty()) return;
-    image_kind(options.trouble_file);
-    require_writable(options.trouble_file);
+    if (options.diagnostics_file.empty()) return;
+    image_kind(options.diagnostics_file);
+    require_writable(options.diagnostics_file);
 }
 
-/// Throws Error(Usage) if trouble is looked for where there are no paths.
+/// Throws Error(Usage) if diagnostics is looked for where there are no paths.
 void require_paths(const Options& options) {
-    if (!options.trouble_file.empty() && options.render.view != View::Beauty)
-        throw Error(ErrorKind::Usage, fmt::format("--trouble: expected --view beauty, got '{}', which has no paths",
-                                                  info_of(options.render.view).name));
+    if (!options.diagnostics_file.empty() && options.render.view != View::Beauty)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--diagnostics: expected --view beauty, got '{}', which has no paths",
+                                info_of(options.render.view).name));
 }
 
 /// Empty without --target-error. Throws Error(Input) if a reference is asked for that is not there.
@@ -96,15 +97,16 @@ void require_target(ErrorTarget* target, const RunOutcome& outcome) {
 
 /// Writes where something went wrong, and puts it into the statistics. False if an interruption came first: then it is what
 /// was found by then.
-bool look_for_trouble(const TroubleSource& source, const Snapshot& snapshot, const Options& options,
-                      const ImageMetadata& metadata, const InterruptGuard& interrupt, Console& console, Json& stats) {
+bool look_for_diagnostics(const DiagnosticsInput& source, const Snapshot& snapshot, const Options& options,
+                          const ImageMetadata& metadata, const InterruptGuard& interrupt, Console& console,
+                          Json& stats) {
     ProgressDisplay progress(console, !options.no_progress && !options.quiet);
-    const TroubleMap found = find_trouble(source, options.threads, interrupt.flag(), [&](double share) {
+    const DiagnosticsMap found = find_diagnostics(source, options.threads, interrupt.flag(), [&](double share) {
         progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
     });
-    save_trouble(options.trouble_file, snapshot, options.display, found, metadata);
-    stats["trouble"] = trouble_json(snapshot, &found);
-    console.remark(fmt::format("{}: {}\n", options.trouble_file, summary_of(found)));
+    save_diagnostics(options.diagnostics_file, snapshot, options.display, found, metadata);
+    stats["diagnostics"] = diagnostics_json(snapshot, &found);
+    console.remark(fmt::format("{}: {}\n", options.diagnostics_file, summary_of(found)));
     return found.is_complete;
 }
 
@@ -158,8 +160,8 @@ int run_render(const CommandLine& line, Console& console) {
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
     save_picture(options.output, snapshot, options.display, metadata);
     const bool has_looked =
-        options.trouble_file.empty() ||
-        look_for_trouble(session.trouble_source(), snapshot, options, metadata, interrupt, console, stats);
+        options.diagnostics_file.empty() ||
+        look_for_diagnostics(session.diagnostics_input(), snapshot, options, metadata, interrupt, console, stats);
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, console);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/trouble_file.h"
+#include "app/diagnostics_file.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/scene_hash.h"
 
@@ -95,7 +95,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
                {"ended_by", name_of(outcome.ended_by)},
                {"target_error", target_json(target)}};
     add_counters(stats, snapshot.counters);
-    stats["trouble"] = trouble_json(snapshot, nullptr);
+    stats["diagnostics"] = diagnostics_json(snapshot, nullptr);
     stats["mean_radiance"] = mean_radiance(snapshot);
     stats["field"] = field_json(snapshot.field);
     stats["effects_needed"] = effect_names(needed);

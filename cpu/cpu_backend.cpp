@@ -88,7 +88,7 @@ public:
         const PassSetup setup = make_setup(request.path, {request.first_pixel, request.end_pixel}, request.stop);
         if (request.slot.view != View::Beauty) return run_view(setup, request);
         const MethodId method = request.slot.method;
-        const FieldView field = info_of(method).uses_field ? learned_field(method) : FieldView{};
+        const TableField field = info_of(method).uses_field ? learned_field(method) : TableField{};
         return launch(picture_kernels(request), request.features,
                       PicturePass{.setup = setup,
                                   .tracer = *tracer_,
@@ -109,9 +109,9 @@ public:
                                 .strata_side = request.strata_side});
     }
 
-    void publish(MethodId method) override {
-        const FieldPublicationView field = publication_view(shape_, existing_tables(method));
-        for_each_volume(field, [&](std::uint32_t volume) { publish_volume(field, volume); });
+    void update_field(MethodId method) override {
+        const TableUpdateView field = table_update_view(shape_, existing_tables(method));
+        for_each_volume(field, [&](std::uint32_t volume) { update_volume(field, volume); });
     }
 
 private:
@@ -134,14 +134,14 @@ private:
                         fmt::format("CPU back end: expected tables of '{}', got none", info_of(method).name));
         return *tables;
     }
-    FieldView learned_field(MethodId method) {
-        FieldView field = field_view(shape_, *volumes_, existing_tables(method));
+    TableField learned_field(MethodId method) {
+        TableField field = table_field(shape_, *volumes_, existing_tables(method));
         field.writers = settings_.threads == 1 ? Writers::One : Writers::Many;
         return field;
     }
 
     template <class Fn>
-    void for_each_volume(const FieldPublicationView& field, Fn&& fn) const {
+    void for_each_volume(const TableUpdateView& field, Fn&& fn) const {
         constexpr std::uint32_t kVolumeChunk = 16;
         ChunkQueue queue(0, field.mean_radiance.count, kVolumeChunk);
         parallel_for(settings_.threads, queue, [&](IndexRange range) {
@@ -150,19 +150,19 @@ private:
     }
 
     /// What the views of a field show. Default path tracing learns nothing: it shows what Reinforcement learned.
-    FieldView shown_field(const FilmSlot& slot) {
+    TableField shown_field(const FilmSlot& slot) {
         const ViewInfo& view = info_of(slot.view);
         if (view.needs_tables) return learned_field(table_owner(slot.method));
         if (!view.needs_volumes) return {};
         if (!volumes_) throw Error(ErrorKind::Runtime, "CPU back end: expected volumes, got none");
         HostTables none;
-        return field_view(shape_, *volumes_, none);
+        return table_field(shape_, *volumes_, none);
     }
 
     /// The number of every volume that a heat map shows; nothing for other views.
     Span<const float> volume_values(const FilmSlot& slot) {
         if (!is_heat_map(slot.view)) return {};
-        const FieldPublicationView field = publication_view(shape_, existing_tables(table_owner(slot.method)));
+        const TableUpdateView field = table_update_view(shape_, existing_tables(table_owner(slot.method)));
         volume_values_.resize(field.mean_radiance.count);
         for_each_volume(
             field, [&](std::uint32_t volume) { volume_values_[volume] = volume_value(field, volume, slot.view); });

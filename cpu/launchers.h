@@ -19,7 +19,7 @@ namespace pl {
 struct PicturePass {
     PassSetup setup;
     const BatchTracer& tracer;
-    FieldView field;
+    TableField field;
     MixtureSettings mixture{};
     LearningSettings learning{};
     Camera camera;
@@ -31,7 +31,7 @@ struct PicturePass {
 struct ProbePass {
     PassSetup setup;
     const BatchTracer& tracer;
-    FieldView field;
+    TableField field;
     std::uint32_t sample = 0;
     std::uint32_t strata_side = 1;
 };

@@ -5,7 +5,7 @@
 namespace pl {
 namespace {
 
-void ask_for_nodes(const FieldView& field, VolumePlace place) {
+void ask_for_nodes(const TableField& field, VolumePlace place) {
     if (place.kind() == VolumePlace::Kind::Node) __builtin_prefetch(field.tree.nodes.data + place.number());
     if (place.kind() != VolumePlace::Kind::Cell) return;
     const VolumeCell cell = field.grid.cells[place.number()];
@@ -17,7 +17,7 @@ void ask_for_nodes(const FieldView& field, VolumePlace place) {
 
 }  // namespace
 
-void LookupsAhead::begin(const SceneView& scene, const FieldView& field, const RayBatch& rays, std::uint32_t first,
+void LookupsAhead::begin(const SceneView& scene, const TableField& field, const RayBatch& rays, std::uint32_t first,
                          std::uint32_t end) {
     first_ = first;
     count_ = 0;
@@ -37,7 +37,7 @@ void LookupsAhead::begin(const SceneView& scene, const FieldView& field, const R
     }
 }
 
-void LookupsAhead::finish(const FieldView& field) {
+void LookupsAhead::finish(const TableField& field) {
     for (std::uint32_t k = 0; k < count_; ++k) ask_for_nodes(field, pending_[k].place);
     for (std::uint32_t k = 0; k < count_; ++k) {
         const Pending& at = pending_[k];

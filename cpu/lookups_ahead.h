@@ -27,10 +27,10 @@ struct LookedUpAhead : M {
 class LookupsAhead {
 public:
     /// Rays from `first` to `end`: asks for the cells. Rays that hit nothing, or nothing that reflects, are left out.
-    void begin(const SceneView& scene, const FieldView& field, const RayBatch& rays, std::uint32_t first,
+    void begin(const SceneView& scene, const TableField& field, const RayBatch& rays, std::uint32_t first,
                std::uint32_t end);
     /// Finds the volumes. Best called after other work, when the cells have come.
-    void finish(const FieldView& field);
+    void finish(const TableField& field);
     /// Where a ray ends that hits something.
     template <FeatureSet F>
     decltype(auto) surface(const SceneView& scene, const Hit& hit, std::uint32_t ray) const {

@@ -32,7 +32,7 @@ template <FeatureSet F>
 struct ProbeWork {
     static constexpr Purpose kStartPurpose = Purpose::Probe;
 
-    FieldView field;
+    TableField field;
     std::uint32_t sample = 0;
     std::uint32_t strata_side = 1;
 

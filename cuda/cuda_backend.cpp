@@ -78,7 +78,7 @@ public:
 
     PassCounters run_pass(const PassRequest& request) override;
     PassCounters precompute(const PrecomputeRequest& request) override;
-    void publish(MethodId method) override;
+    void update_field(MethodId method) override;
 
 private:
     static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }
@@ -94,8 +94,8 @@ private:
                         fmt::format("CUDA back end: expected tables of '{}', got none", info_of(method).name));
         return *tables;
     }
-    FieldView learned_field(MethodId method) { return field_view(shape_, volumes_, existing_tables(method)); }
-    FieldView shown_field(const FilmSlot& slot);
+    TableField learned_field(MethodId method) { return table_field(shape_, volumes_, existing_tables(method)); }
+    TableField shown_field(const FilmSlot& slot);
     Span<const float> volume_values(const FilmSlot& slot);
 
     /// Runs launch_range(first, end) over first..end until all is done or `stop` is seen between two launches.
@@ -222,7 +222,7 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
 }
 
 PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
-    const FieldView field = learned_field(request.method);
+    const TableField field = learned_field(request.method);
     const std::uint32_t probes = field.normals.count * static_cast<std::uint32_t>(field.cells.count());
     const ProbePaths paths{.field = field, .sample = request.sample, .strata_side = request.strata_side};
     return run_launches(probe_size_, request.first_probe, probes, request.stop, [&](PathRange range) {
@@ -230,32 +230,32 @@ PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
     });
 }
 
-void CudaBackend::publish(MethodId method) {
-    const FieldPublicationView field = publication_view(shape_, existing_tables(method));
+void CudaBackend::update_field(MethodId method) {
+    const TableUpdateView field = table_update_view(shape_, existing_tables(method));
     const std::uint32_t volumes = field.mean_radiance.count;
-    for (const PublicationStep& step : kPublicationSteps) {
+    for (const UpdateStep& step : kUpdateSteps) {
         std::uint32_t count = volumes;
-        if (step.item == PublicationItem::Cell) count *= static_cast<std::uint32_t>(field.cells.count());
-        if (step.item == PublicationItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
+        if (step.item == UpdateItem::Cell) count *= static_cast<std::uint32_t>(field.cells.count());
+        if (step.item == UpdateItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
         launch(step.kernel, blocks_for(count), stream_, step.name, field, count);
     }
     stream_.wait("publishing what was learned");
 }
 
 /// What the views of a field show.
-FieldView CudaBackend::shown_field(const FilmSlot& slot) {
+TableField CudaBackend::shown_field(const FilmSlot& slot) {
     const ViewInfo& view = info_of(slot.view);
     if (view.needs_tables) return learned_field(table_owner(slot.method));
     if (!view.needs_volumes) return {};
     if (volumes_.normals.size() == 0) throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes, got none");
     DeviceTables none;
-    return field_view(shape_, volumes_, none);
+    return table_field(shape_, volumes_, none);
 }
 
 /// The number of every volume that a heat map shows; nothing for other views. Ready when later launches run.
 Span<const float> CudaBackend::volume_values(const FilmSlot& slot) {
     if (!is_heat_map(slot.view)) return {};
-    const FieldPublicationView field = publication_view(shape_, existing_tables(table_owner(slot.method)));
+    const TableUpdateView field = table_update_view(shape_, existing_tables(table_owner(slot.method)));
     const std::uint32_t volumes = field.mean_radiance.count;
     if (volume_values_.size() != volumes) volume_values_ = DeviceArray<float>(volumes);
     launch(kVolumeValues, blocks_for(volumes), stream_, "volume_values", field, slot.view,

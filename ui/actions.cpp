@@ -64,7 +64,7 @@ constexpr std::array kActions{
     Action{CellsFainter, ActionGroup::Overlay, ";", "fainter tint", {at(SDL_SCANCODE_SEMICOLON)}},
     Action{CellsStronger, ActionGroup::Overlay, "'", "stronger tint", {at(SDL_SCANCODE_APOSTROPHE)}},
     Action{Hemisphere, ActionGroup::Overlay, "H", "hemisphere of the selected volume", {sign(SDLK_h)}},
-    Action{ShowTrouble, ActionGroup::Overlay, "T", "where samples were invalid, paths lost, ...", {sign(SDLK_t)}},
+    Action{ShowDiagnostics, ActionGroup::Overlay, "T", "where samples were invalid, paths lost, ...", {sign(SDLK_t)}},
 
     Action{Accuracy, ActionGroup::Compare, "P", "accuracy panel: error against time", {sign(SDLK_p)}},
     Action{CompareNext, ActionGroup::Compare, "C", "compare two pictures: next mode", {sign(SDLK_c)}},

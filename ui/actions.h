@@ -39,7 +39,7 @@ enum class ActionId {
     CellsFainter,
     CellsStronger,
     Hemisphere,
-    ShowTrouble,
+    ShowDiagnostics,
     Accuracy,
     CompareNext,
     CompareBack,

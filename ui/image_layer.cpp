@@ -20,7 +20,7 @@ void ImageLayer::fill(const ViewerModel& model, const Key& key) {
     if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_.view());
     texture_.fill([&](std::uint32_t* out, std::size_t pitch) {
         write_picture(frame.picture, overlay, out, pitch);
-        if (key.trouble) mark_trouble(*key.trouble, out, pitch);
+        if (key.diagnostics) mark_diagnostics(*key.diagnostics, out, pitch);
     });
 }
 
@@ -29,7 +29,7 @@ void ImageLayer::draw(const ViewerModel& model, const Rect& image) {
     const Snapshot& snapshot = model.frame()->snapshot;
     if (texture_.resize(snapshot.width, snapshot.height)) key_ = {};
     const Key key{model.frame()->serial, model.window().cells ? model.window().cells_opacity : 0.0f,
-                  model.selected_volume(), model.trouble()};
+                  model.selected_volume(), model.diagnostics()};
     if (!(key == key_)) {
         fill(model, key);
         key_ = key;

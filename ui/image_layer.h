@@ -26,7 +26,7 @@ private:
         std::uint64_t serial = 0;  ///< of the frame
         float opacity = 0.0f;
         std::int32_t selected = kNoVolume;
-        std::shared_ptr<const TroubleMap> trouble{};
+        std::shared_ptr<const DiagnosticsMap> diagnostics{};
 
         friend bool operator==(const Key&, const Key&) = default;
     };

@@ -61,7 +61,7 @@ void perform(ViewerModel& model, ActionId action) {
     case ActionId::CellsFainter: step_opacity(model, -kOpacityStep); break;
     case ActionId::CellsStronger: step_opacity(model, kOpacityStep); break;
     case ActionId::Hemisphere: window.hemisphere = !window.hemisphere; break;
-    case ActionId::ShowTrouble: model.toggle_trouble(); break;
+    case ActionId::ShowDiagnostics: model.toggle_diagnostics(); break;
     case ActionId::Accuracy: window.accuracy = !window.accuracy; break;
     case ActionId::CompareNext: model.step_compare(1); break;
     case ActionId::CompareBack: model.step_compare(-1); break;

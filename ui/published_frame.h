@@ -10,8 +10,8 @@
 
 #include "core/measure/paired_cost.h"
 #include "core/scene/pack_scene.h"
+#include "core/session/diagnostics.h"
 #include "core/session/shown_range.h"
-#include "core/session/trouble.h"
 #include "ui/viewer.h"
 
 namespace pl {
@@ -93,11 +93,11 @@ struct LearnedAnswer {
     std::string reason;                         ///< why there is none
 };
 
-/// Answer to RenderWorker::request_trouble.
-struct TroubleAnswer {
-    std::optional<TroubleSource> source{};  ///< none if the picture has nothing to look at
-    std::string reason{};                   ///< why not
-    std::uint64_t generation = 0;           ///< of the newest edit that the picture shows
+/// Answer to RenderWorker::request_diagnostics.
+struct DiagnosticsAnswer {
+    std::optional<DiagnosticsInput> source{};  ///< none if the picture has nothing to look at
+    std::string reason{};                      ///< why not
+    std::uint64_t generation = 0;              ///< of the newest edit that the picture shows
 };
 
 /// Answer to RenderWorker::request_pick.

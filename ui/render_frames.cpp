@@ -87,17 +87,17 @@ void RenderWorker::answer_learned() {
     now_.learned = false;
 }
 
-void RenderWorker::answer_trouble() {
-    TroubleAnswer answer{.generation = now_.generation};
+void RenderWorker::answer_diagnostics() {
+    DiagnosticsAnswer answer{.generation = now_.generation};
     try {
         if (divider_ != 1) throw Error(ErrorKind::Usage, "the camera moves: let the picture come to rest first");
-        answer.source = session_->trouble_source();
+        answer.source = session_->diagnostics_input();
     } catch (const std::exception& error) {  // a lost device is found out by the next pass, too
         answer.reason = error.what();
     }
     const std::lock_guard lock(mutex_);
-    trouble_answer_ = std::move(answer);
-    now_.trouble = false;
+    diagnostics_answer_ = std::move(answer);
+    now_.diagnostics = false;
 }
 
 void RenderWorker::refresh_inspection() {

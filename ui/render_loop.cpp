@@ -65,7 +65,7 @@ bool RenderWorker::take_wishes() {
         edits = edits_.take();
         wishes_.pick.reset();
         wishes_.learned = false;
-        wishes_.trouble = false;
+        wishes_.diagnostics = false;
         wishes_.steps = 0;
         stop_ = false;
     }
@@ -87,7 +87,7 @@ bool RenderWorker::take_wishes() {
 bool RenderWorker::has_work() const {
     const bool other_turns = now_.turns.has_value() != turns_.has_value();
     const bool other_trial = now_.trial != (trial_ ? std::optional(trial_->forced) : std::nullopt);
-    if (now_.pick || now_.learned || now_.trouble || other_turns || other_trial || now_.reference != reference_ ||
+    if (now_.pick || now_.learned || now_.diagnostics || other_turns || other_trial || now_.reference != reference_ ||
         now_.backend != backends_.current())
         return true;
     if (frame_is_stale()) return true;
@@ -203,7 +203,7 @@ void RenderWorker::work() {
     }
     if (now_.pick) answer_pick(*now_.pick);
     if (now_.learned) answer_learned();
-    if (now_.trouble) answer_trouble();
+    if (now_.diagnostics) answer_diagnostics();
     if (turns_) take_turn();
     if (wants_pass()) render();
     if (stop_) return;

@@ -141,9 +141,9 @@ void RenderWorker::request_learned() {
     wake_.notify_all();
 }
 
-void RenderWorker::request_trouble() {
+void RenderWorker::request_diagnostics() {
     const std::lock_guard lock(mutex_);
-    wishes_.trouble = true;
+    wishes_.diagnostics = true;
     wake_.notify_all();
 }
 
@@ -184,9 +184,9 @@ std::optional<LearnedAnswer> RenderWorker::take_learned() {
     return std::exchange(learned_answer_, std::nullopt);
 }
 
-std::optional<TroubleAnswer> RenderWorker::take_trouble() {
+std::optional<DiagnosticsAnswer> RenderWorker::take_diagnostics() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(trouble_answer_, std::nullopt);
+    return std::exchange(diagnostics_answer_, std::nullopt);
 }
 
 std::exception_ptr RenderWorker::failure() const {

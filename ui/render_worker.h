@@ -92,8 +92,8 @@ public:
     void request_pick(Vec2f image_point);
     /// Asks for what the method has learned, after the pass under way.
     void request_learned();
-    /// Asks for what it takes to look for trouble in the picture, after the pass under way.
-    void request_trouble();
+    /// Asks for what it takes to look for diagnostics in the picture, after the pass under way.
+    void request_diagnostics();
     /// The volume whose inspection frames carry; kNoVolume for none.
     void select_volume(std::int32_t volume);
 
@@ -106,7 +106,7 @@ public:
     std::vector<WorkerMessage> take_messages();
     std::optional<PickAnswer> take_pick();
     std::optional<LearnedAnswer> take_learned();
-    std::optional<TroubleAnswer> take_trouble();
+    std::optional<DiagnosticsAnswer> take_diagnostics();
     /// What ended the thread, or null. Only a session that cannot be made ends it.
     std::exception_ptr failure() const;
 
@@ -125,7 +125,7 @@ private:
         std::int32_t volume = kNoVolume;
         std::optional<Vec2f> pick;
         bool learned = false;
-        bool trouble = false;
+        bool diagnostics = false;
         std::optional<TurnMethods> turns;
         std::optional<FeatureSet> trial;  ///< effects that are measured
         std::shared_ptr<const LiveReference> reference;
@@ -166,7 +166,7 @@ private:
     bool cells_are_current() const { return cells_pose_ == pose_ && cells_refinement_ == session_->refinement(); }
     void answer_pick(Vec2f image_point);
     void answer_learned();
-    void answer_trouble();
+    void answer_diagnostics();
     void refresh_inspection();
     void publish();
     bool publish_is_due() const;
@@ -190,7 +190,7 @@ private:
     std::vector<WorkerMessage> messages_;
     std::optional<PickAnswer> pick_answer_;
     std::optional<LearnedAnswer> learned_answer_;
-    std::optional<TroubleAnswer> trouble_answer_;
+    std::optional<DiagnosticsAnswer> diagnostics_answer_;
     std::shared_ptr<const LiveRunSet> run_set_;
     std::shared_ptr<const PublishedFrame> frame_;
     bool frame_taken_ = true;

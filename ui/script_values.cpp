@@ -62,8 +62,8 @@ std::string measured_pairs(const ViewerModel& model) {
 }
 
 /// What is marked in the picture.
-std::string trouble_found(const ViewerModel& model) {
-    const auto map = model.trouble();
+std::string diagnostics_found(const ViewerModel& model) {
+    const auto map = model.diagnostics();
     return map ? summary_of(*map) : "not looked for";
 }
 
@@ -173,8 +173,8 @@ constexpr std::array kValues{
           }},
     Value{"kernel",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
-    Value{"trouble", trouble_found},
-    Value{"searching", [](const ViewerModel& m) { return word(m.trouble_share().has_value()); }},
+    Value{"diagnostics", diagnostics_found},
+    Value{"searching", [](const ViewerModel& m) { return word(m.diagnostics_share().has_value()); }},
     Value{"selftest", [](const ViewerModel& m) { return std::string(name_of(m.self_test().outcome())); }},
     Value{"checks", [](const ViewerModel& m) { return fmt::format("{}", m.self_test().checks().size()); }},
     Value{"invalid",

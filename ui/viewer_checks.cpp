@@ -1,38 +1,40 @@
-// The part of ViewerModel that looks for trouble: where in the picture, and whether this machine computes right.
+// The part of ViewerModel that looks for diagnostics: where in the picture, and whether this machine computes right.
 #include "ui/viewer_model.h"
 
 namespace pl {
 
-std::shared_ptr<const TroubleMap> ViewerModel::trouble() const { return frame_ ? trouble_.map_of(*frame_) : nullptr; }
-
-void ViewerModel::toggle_trouble() {
-    if (trouble_.is_searching())
-        trouble_.stop();
-    else if (trouble())
-        trouble_.drop();
-    else
-        find_trouble();
+std::shared_ptr<const DiagnosticsMap> ViewerModel::diagnostics() const {
+    return frame_ ? diagnostics_.map_of(*frame_) : nullptr;
 }
 
-void ViewerModel::find_trouble() {
-    if (trouble_.is_searching()) return;
+void ViewerModel::toggle_diagnostics() {
+    if (diagnostics_.is_searching())
+        diagnostics_.stop();
+    else if (diagnostics())
+        diagnostics_.drop();
+    else
+        find_diagnostics();
+}
+
+void ViewerModel::find_diagnostics() {
+    if (diagnostics_.is_searching()) return;
     set_turns(false);
-    trouble_.expect_answer();
-    worker_.request_trouble();
+    diagnostics_.expect_answer();
+    worker_.request_diagnostics();
     hold_rendering();
 }
 
-void ViewerModel::take_trouble() {
-    if (auto answer = worker_.take_trouble()) {
+void ViewerModel::take_diagnostics() {
+    if (auto answer = worker_.take_diagnostics()) {
         if (!answer->source) say(LogLevel::Info, answer->reason);
-        trouble_.begin(std::move(*answer));
+        diagnostics_.begin(std::move(*answer));
         hold_rendering();
     }
-    const auto result = trouble_.update(status_.generation);
+    const auto result = diagnostics_.update(status_.generation);
     if (!result) return;
     hold_rendering();
     if (!result->failure.empty())
-        say(LogLevel::Error, "the search for trouble failed: " + result->failure);
+        say(LogLevel::Error, "the search for diagnostics failed: " + result->failure);
     else if (result->value)
         say(LogLevel::Info, summary_of(*result->value));
 }

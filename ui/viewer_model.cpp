@@ -47,7 +47,7 @@ void ViewerModel::update(double seconds) {
     take_effects();
     take_pick();
     take_learned();
-    take_trouble();
+    take_diagnostics();
     take_self_test();
     for (const JobThread::Report& report : jobs_.take_reports())
         if (report) report();
@@ -245,8 +245,8 @@ void ViewerModel::cancel() {
         cancel_precomputation();
     else if (reference_job_)
         stop_reference();
-    else if (trouble_.is_searching() || trouble())
-        toggle_trouble();
+    else if (diagnostics_.is_searching() || diagnostics())
+        toggle_diagnostics();
     else if (selected_volume_ != kNoVolume || window_.compare.mode == CompareMode::Off)
         deselect();
     else

@@ -10,6 +10,7 @@
 #include "ui/background_job.h"
 #include "ui/camera_controls.h"
 #include "ui/compare/compare_plan.h"
+#include "ui/diagnostics_finder.h"
 #include "ui/edited_materials.h"
 #include "ui/effects_model.h"
 #include "ui/job_thread.h"
@@ -18,7 +19,6 @@
 #include "ui/plot/plot_drag.h"
 #include "ui/render_worker.h"
 #include "ui/self_test_run.h"
-#include "ui/trouble_finder.h"
 #include "ui/viewer.h"
 
 namespace pl {
@@ -97,7 +97,7 @@ public:
     bool paused() const { return paused_; }
     bool moving() const { return moving_; }
     bool busy() const {
-        return jobs_.pending() > 0 || !unsaved_.empty() || reference_job_ != nullptr || trouble_.is_searching() ||
+        return jobs_.pending() > 0 || !unsaved_.empty() || reference_job_ != nullptr || diagnostics_.is_searching() ||
                self_test_.is_running();
     }
     double now() const { return now_; }
@@ -175,13 +175,13 @@ public:
     void set_turns(bool on);
 
     /// Where something went wrong in the picture; null until that was looked for, and when the picture is another one.
-    std::shared_ptr<const TroubleMap> trouble() const;
+    std::shared_ptr<const DiagnosticsMap> diagnostics() const;
     /// The share of the search that is done; empty if there is none.
-    std::optional<double> trouble_share() const {
-        return trouble_.is_searching() ? std::optional(trouble_.share()) : std::nullopt;
+    std::optional<double> diagnostics_share() const {
+        return diagnostics_.is_searching() ? std::optional(diagnostics_.share()) : std::nullopt;
     }
-    void find_trouble();    ///< rendering rests meanwhile
-    void toggle_trouble();  ///< shows where it was, or ends that
+    void find_diagnostics();    ///< rendering rests meanwhile
+    void toggle_diagnostics();  ///< shows where it was, or ends that
     const SelfTestRun& self_test() const { return self_test_; }
     void start_self_test();  ///< rendering rests meanwhile
     void stop_self_test();
@@ -246,7 +246,7 @@ private:
     void look_for_reference();
     void adopt_reference(const std::shared_ptr<const StoredReference>& found);
     void take_reference();
-    void take_trouble();
+    void take_diagnostics();
     void take_self_test();
     void hold_rendering();
     CompareInput compare_input() const;
@@ -295,7 +295,7 @@ private:
 
     RenderWorker worker_;
     std::unique_ptr<ReferenceJob> reference_job_;
-    TroubleFinder trouble_;
+    DiagnosticsFinder diagnostics_;
     SelfTestRun self_test_;
     JobThread jobs_;  ///< last: its reports use what is above
 };

@@ -77,7 +77,8 @@ void ViewerModel::take_reference() {
 
 /// Work in the background would slow down what is measured: rendering rests meanwhile, and its clocks too.
 void ViewerModel::hold_rendering() {
-    worker_.set_paused(paused_ || reference_job_ != nullptr || trouble_.is_searching() || self_test_.is_running());
+    worker_.set_paused(paused_ || reference_job_ != nullptr || diagnostics_.is_searching() ||
+                       self_test_.is_running());
 }
 
 }  // namespace pl

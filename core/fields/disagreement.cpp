@@ -33,7 +33,7 @@ struct ComparedTable {
     std::vector<Cell> cells;
     double total = 0.0;  ///< of the probabilities
 
-    ComparedTable(const FieldView& field, std::int32_t volume)
+    ComparedTable(const TableField& field, std::int32_t volume)
         : position(field.sites[static_cast<std::uint32_t>(volume)].position),
           normal(field.normals[static_cast<std::uint32_t>(volume)]) {
         const DirectionTable table(field, volume);
@@ -50,7 +50,7 @@ struct ComparedTable {
     }
 };
 
-double hellinger2(const FieldView& field, const ComparedTable& own, std::int32_t other) {
+double hellinger2(const TableField& field, const ComparedTable& own, std::int32_t other) {
     const GuidedSampling sampling{.field = field};
     const GuidedMixture tables = sampling.mixture_view();
     const DirectionTable table(field, other);
@@ -71,7 +71,7 @@ double hellinger2(const FieldView& field, const ComparedTable& own, std::int32_t
 }
 
 /// Records of a volume, all its cells together.
-double visits_of(const FieldView& field, std::uint32_t volume) {
+double visits_of(const TableField& field, std::uint32_t volume) {
     const std::uint32_t first = field.cell_index(static_cast<std::int32_t>(volume), 0);
     double visits = 0.0;
     for (int cell = 0; cell < field.cells.count(); ++cell)
@@ -80,7 +80,7 @@ double visits_of(const FieldView& field, std::uint32_t volume) {
 }
 
 /// Mean squared distance to the neighbours, weighted by what they know; 0 if there are none.
-double disagreement(const FieldView& field, std::uint32_t volume, const std::vector<double>& visits) {
+double disagreement(const TableField& field, std::uint32_t volume, const std::vector<double>& visits) {
     // One more than is compared, since the nearest is the volume itself, or one at the same place.
     NearestSeveral<kComparedNeighbours + 1> nearest;
     search_kd_tree(field.tree, field.sites[volume].position, field.normals[volume], nearest);
@@ -97,7 +97,7 @@ double disagreement(const FieldView& field, std::uint32_t volume, const std::vec
 }
 
 /// Those that could be worth anything, by how much that is at most.
-std::vector<Candidate> candidates_of(const FieldView& field, const std::vector<double>& visits) {
+std::vector<Candidate> candidates_of(const TableField& field, const std::vector<double>& visits) {
     std::vector<Candidate> candidates;
     for (std::uint32_t i = 0; i < visits.size(); ++i) {
         const double mean = field.mean_radiance[i];
@@ -115,12 +115,12 @@ bool is_worse(const Candidate& a, const Candidate& b) {
 
 }  // namespace
 
-double hellinger2(const FieldView& field, std::int32_t volume, std::int32_t other) {
+double hellinger2(const TableField& field, std::int32_t volume, std::int32_t other) {
     return hellinger2(field, ComparedTable(field, volume), other);
 }
 
 /// Comparing takes long, so it ends where none of the rest could be among the worst, whatever its neighbours say.
-std::vector<std::uint32_t> worst_volumes(const FieldView& field, std::size_t most, int threads) {
+std::vector<std::uint32_t> worst_volumes(const TableField& field, std::size_t most, int threads) {
     std::vector<double> visits(field.normals.count);
     for (std::uint32_t i = 0; i < visits.size(); ++i) visits[i] = visits_of(field, i);
     std::vector<Candidate> candidates = candidates_of(field, visits);

@@ -16,7 +16,7 @@ inline constexpr int kComparedNeighbours = 4;
 /// guided paths carry it (Parallax), so that what differs by the place alone counts as little as it does to them. Both
 /// are taken in every second cell, a checkerboard: publication smooths those between with these. 1 if the other one
 /// knows nothing of that hemisphere. `field` has placement and tables.   [Hellinger 1909]
-double hellinger2(const FieldView& field, std::int32_t volume, std::int32_t other);
+double hellinger2(const TableField& field, std::int32_t volume, std::int32_t other);
 
 /// Up to `most` volumes whose splitting promises most, best first, ties to the lower number: those with the largest
 /// n H^2 V^2, with n a volume's records, V its mean radiance, and H^2 its mean squared Hellinger distance to its nearest
@@ -27,6 +27,6 @@ double hellinger2(const FieldView& field, std::int32_t volume, std::int32_t othe
 /// * V^2: what a volume's directions leave of squared noise in the picture grows so, and rooms in the dark have none to
 ///   lose. Tried without it, and with V; see docs/learning.md.
 /// None where this is 0: where nothing was learned, or all say the same. Does not depend on the number of threads.
-std::vector<std::uint32_t> worst_volumes(const FieldView& field, std::size_t most, int threads);
+std::vector<std::uint32_t> worst_volumes(const TableField& field, std::size_t most, int threads);
 
 }  // namespace pl

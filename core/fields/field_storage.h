@@ -4,8 +4,8 @@
 
 #include "core/base/host_array.h"
 #include "core/base/large_array.h"
-#include "core/kernel/fields/field_view.h"
-#include "core/kernel/fields/publish_volume.h"
+#include "core/kernel/fields/table_field.h"
+#include "core/kernel/fields/update_volume.h"
 
 namespace pl {
 
@@ -37,7 +37,7 @@ struct VolumeStorage {
     VolumeGridStorage<Array> grid;
 };
 
-/// What one method learned. Layouts as in FieldView and FieldPublicationView.
+/// What one method learned. Layouts as in TableField and TableUpdateView.
 template <template <class> class Array>
 struct TableStorage {
     Array<float> radiance;
@@ -119,7 +119,8 @@ VolumeGridView grid_view(const VolumeGridStorage<Array>& grid) {
 
 /// What kernels read and record into during a pass.
 template <template <class> class Array, template <class> class TableArray>
-FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes, TableStorage<TableArray>& tables) {
+TableField table_field(const FieldShape& shape, const VolumeStorage<Array>& volumes,
+                       TableStorage<TableArray>& tables) {
     const TableStorage<TableArray>& frozen = tables;
     return {.cells = shape.cells,
             .tree = {.nodes = view_of(volumes.kd_nodes), .lookup = shape.lookup},
@@ -145,7 +146,7 @@ FieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volume
 
 /// What publication writes between passes.
 template <template <class> class Array>
-FieldPublicationView publication_view(const FieldShape& shape, TableStorage<Array>& tables) {
+TableUpdateView table_update_view(const FieldShape& shape, TableStorage<Array>& tables) {
     return {.cells = shape.cells,
             .radiance_unit = shape.radiance_unit,
             .extent = shape.extent,

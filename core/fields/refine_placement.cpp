@@ -19,7 +19,7 @@ constexpr std::uint32_t kNotSplit = 0xffffffffu;
 
 /// For each of `split`, points of the surfaces that it serves, evenly by area.
 std::vector<std::vector<SurfacePoint>> cells_of(const HostScene& scene, const FieldSettings& settings,
-                                                const FieldView& field, std::span<const std::uint32_t> split) {
+                                                const TableField& field, std::span<const std::uint32_t> split) {
     std::vector<std::uint32_t> entry(field.sites.count, kNotSplit);
     for (std::uint32_t i = 0; i < split.size(); ++i) entry[split[i]] = i;
     std::vector<std::vector<SurfacePoint>> cells(split.size());
@@ -86,7 +86,7 @@ void divide_volume(HostTables& tables, std::size_t parent, std::size_t child) {
 
 }  // namespace
 
-RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const FieldView& field,
+RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const TableField& field,
                                   std::size_t most, int threads) {
     const std::vector<std::uint32_t> split = worst_volumes(field, most, threads);
     const std::vector<std::vector<SurfacePoint>> cells = cells_of(scene, settings, field, split);

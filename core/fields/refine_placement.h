@@ -29,7 +29,7 @@ struct RefinedPlacement {
 /// reflecting side that light reaches. Volumes whose cell has no such point stay alone. Deterministic; scaling the scene by a
 /// power of two scales the result.   [Lloyd 1982]
 /// `field` has placement and published tables, `settings` are those of the placement.
-RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const FieldView& field,
+RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const TableField& field,
                                   std::size_t most, int threads);
 
 /// Tables of a refined placement: a new volume begins with the published table of its parent, with its BSDF share and

@@ -88,7 +88,7 @@ private:
         found_.list.push_back(std::move(surface));
     }
 
-    /// Each surface looks around each point once, so a fan of a million triangles is no trouble.
+    /// Each surface looks around each point once, so a fan of a million triangles is no diagnostics.
     void add_around(std::uint32_t point, std::uint32_t seed, std::uint32_t number, Surface& surface) {
         if (last_visitor_[point] == number) return;
         last_visitor_[point] = number;

@@ -128,7 +128,7 @@ public:
     virtual PassCounters run_pass(const PassRequest& request) = 0;
     virtual PassCounters precompute(const PrecomputeRequest& request) = 0;
     /// Publishes what a method's tables recorded since the last time.
-    virtual void publish(MethodId method) = 0;
+    virtual void update_field(MethodId method) = 0;
 };
 
 /// Pixels of a film of this size. Throws Error(Usage) if there are none, or more than kernels can number.

@@ -158,7 +158,7 @@ VolumeInspection Session::inspect_volume(std::int32_t volume) const {
                                           " does not exist: expected 0 to " +
                                           std::to_string(volumes_->normals.size()) + " (exclusive)");
     HostTables tables = backend_->download_tables(owner);
-    const FieldView field = field_view(shape_, *volumes_, tables);
+    const TableField field = table_field(shape_, *volumes_, tables);
     const auto index = static_cast<std::size_t>(volume);
     const auto cells = static_cast<std::size_t>(shape_.cells.count());
     const auto first = static_cast<std::ptrdiff_t>(index * cells);

@@ -61,7 +61,7 @@ void Session::refine_if_due() {
 
 void Session::split_volumes(std::size_t most) {
     HostTables learned = backend_->download_tables(settings_.method);
-    RefinedPlacement refined = refine_placement(*packed_, settings_.field, field_view(shape_, *volumes_, learned),
+    RefinedPlacement refined = refine_placement(*packed_, settings_.field, table_field(shape_, *volumes_, learned),
                                                 most, backend_->info().threads);
     if (!refined.parents.empty()) replace_volumes(std::move(refined), std::move(learned));
 }

@@ -3,8 +3,8 @@
 
 #include "core/base/timer.h"
 #include "core/scene/pack_scene.h"
-#include "core/session/publication_times.h"
 #include "core/session/session.h"
+#include "core/session/update_schedule.h"
 
 namespace pl {
 namespace {
@@ -75,7 +75,7 @@ Progress Session::precompute_slice(const StopFlag* stop) {
     if (complete) {
         state.next_probe = 0;
         if (++state.precomputed_slices == slices) {
-            backend_->publish(settings_.method);
+            backend_->update_field(settings_.method);
             ++state.passes;
         }
     }
@@ -151,18 +151,18 @@ void Session::render_part(FilmSlot target, FilmState& state, std::uint32_t end, 
 
 void Session::finish_learning_part(FilmState& state) {
     const Stopwatch watch;
-    backend_->publish(settings_.method);
+    backend_->update_field(settings_.method);
     field().has_part = true;
     state.learn_seconds += watch.seconds();
 }
 
 void Session::finish_learning_pass(FilmState& state) {
     const Stopwatch watch;
-    const bool is_published = is_published_after(state.passes);
-    if (is_published) backend_->publish(settings_.method);
+    const bool is_updated = is_updated_after(state.passes);
+    if (is_updated) backend_->update_field(settings_.method);
     ++field().passes;
     field().has_part = false;
-    if (is_published) refine_if_due();
+    if (is_updated) refine_if_due();
     state.learn_seconds += watch.seconds();
 }
 

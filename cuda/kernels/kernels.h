@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/kernel_row.h"
-#include "core/kernel/fields/publish_volume.h"
+#include "core/kernel/fields/update_volume.h"
 #include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/kernel/integrator/probe.h"
@@ -40,7 +40,7 @@ struct PixelPaths {
 
 /// Paths from the volumes, one per cell; what they bring goes into the field's sums.
 struct ProbePaths {
-    FieldView field;
+    TableField field;
     std::uint32_t sample = 0;
     std::uint32_t strata_side = 1;
 };
@@ -69,7 +69,7 @@ extern const KernelRow<ProbeKernel> kProbeKernels;
 extern const KernelRow<ViewKernel> kViewKernels;
 
 /// One thread per volume: volume_value().
-using VolumeValueKernel = void (*)(FieldPublicationView field, View view, Span<float> values);
+using VolumeValueKernel = void (*)(TableUpdateView field, View view, Span<float> values);
 extern const VolumeValueKernel kVolumeValues;
 
 /// Valid samples and invalid ones of a whole film.
@@ -103,18 +103,18 @@ using LargestValueKernel = void (*)(FilmView film, std::uint32_t* bits);
 extern const LargestValueKernel kLargestValue;
 
 /// One step of publication for `count` cells, rows or volumes: one thread each.
-using PublicationKernel = void (*)(FieldPublicationView field, std::uint32_t count);
+using UpdateKernel = void (*)(TableUpdateView field, std::uint32_t count);
 
-/// What the steps of publish_volume() count through.
-enum class PublicationItem { Cell, Row, Volume };
+/// What the steps of update_volume() count through.
+enum class UpdateItem { Cell, Row, Volume };
 
-struct PublicationStep {
-    PublicationKernel kernel;
-    PublicationItem item;
+struct UpdateStep {
+    UpdateKernel kernel;
+    UpdateItem item;
     const char* name;
 };
-inline constexpr int kPublicationStepCount = 7;
-/// The steps of publish_volume(), in their order.
-extern const std::array<PublicationStep, kPublicationStepCount> kPublicationSteps;
+inline constexpr int kUpdateStepCount = 7;
+/// The steps of update_volume(), in their order.
+extern const std::array<UpdateStep, kUpdateStepCount> kUpdateSteps;
 
 }  // namespace pl::cuda

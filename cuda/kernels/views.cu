@@ -24,7 +24,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(ViewSetup setup) {
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock)
-    volume_values(FieldPublicationView field, View view, Span<float> values) {
+    volume_values(TableUpdateView field, View view, Span<float> values) {
     const std::uint32_t volume = thread_number();
     if (volume < values.count) values[volume] = volume_value(field, volume, view);
 }

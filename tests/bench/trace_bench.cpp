@@ -89,7 +89,7 @@ private:
     Slice run_learning(RenderBackend& backend, std::uint32_t& sample) {
         return time_passes(sample, [&](std::uint32_t s) {
             const PassCounters counters = pass(backend, kLearningFilm, s);
-            backend.publish(MethodId::Reinforcement);
+            backend.update_field(MethodId::Reinforcement);
             return counters;
         });
     }

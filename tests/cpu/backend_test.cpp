@@ -53,7 +53,7 @@ TEST_CASE("Views in parallel equal views pixel by pixel") {
     const auto side = static_cast<std::size_t>(room.shape.cells.side);
     for (std::size_t i = 0; i < tables.row_cdf.size(); ++i)
         if (i % side + 1 < side) tables.row_cdf[i] *= 1.0f / static_cast<float>(1 + i % 3);
-    const FieldView field = field_view(room.shape, *room.volumes, tables);
+    const TableField field = table_field(room.shape, *room.volumes, tables);
     const SceneView scene = room.scene->view();
     for (const ViewInfo& info : all_views()) {
         const View view = info.id;
@@ -61,7 +61,7 @@ TEST_CASE("Views in parallel equal views pixel by pixel") {
         INFO(info.name);
         std::vector<float> values;
         for (std::uint32_t volume = 0; volume < tables.mean_radiance.size(); ++volume)
-            values.push_back(volume_value(publication_view(room.shape, tables), volume, view));
+            values.push_back(volume_value(table_update_view(room.shape, tables), volume, view));
         if (is_heat_map(view)) CHECK(std::set<float>(values.begin(), values.end()).size() > 2);
         const ShownField shown{field, view_of(std::as_const(values))};
         std::vector<Vec3f> expected;
@@ -182,9 +182,9 @@ TEST_CASE("Publication in parallel equals publication volume by volume") {
     const auto backend = make_backend(room, {.threads = 7});
     backend->upload_tables(MethodId::Precomputed, expected);
     CHECK(same_bits(expected.pending_sum, backend->download_tables(MethodId::Precomputed).pending_sum));
-    backend->publish(MethodId::Precomputed);
+    backend->update_field(MethodId::Precomputed);
     for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)
-        publish_volume(publication_view(room.shape, expected), volume);
+        update_volume(table_update_view(room.shape, expected), volume);
     const HostTables tables = backend->download_tables(MethodId::Precomputed);
     CHECK(same_bits(expected.radiance, tables.radiance));
     CHECK(same_bits(expected.visits, tables.visits));
@@ -263,7 +263,7 @@ TEST_CASE("What is missing is named, not read") {
     CHECK_THROWS_WITH(backend->read_film(guided), contains("expected a film"));
     backend->reset_film(guided, kWidth, kHeight);
     CHECK_THROWS_WITH(backend->run_pass(pass_of(room, guided)), contains("tables of 'reinforcement'"));
-    CHECK_THROWS_WITH(backend->publish(MethodId::Precomputed), contains("tables of 'precomputed'"));
+    CHECK_THROWS_WITH(backend->update_field(MethodId::Precomputed), contains("tables of 'precomputed'"));
     CHECK_THROWS_WITH(backend->precompute({}), contains("tables of 'precomputed'"));
     CHECK_THROWS_AS(backend->reset_film(guided, 0, 4), Error);
     CHECK_THROWS_AS(backend->reset_film(guided, 4, -1), Error);

@@ -57,7 +57,7 @@ Outcome loop_over_paths(const Room& room) {
     const PathSettings settings = path_settings(F.has(Feature::NextEventEstimation));
     M method;
     if constexpr (std::is_base_of_v<GuidedSampling, M>)
-        method.field = field_view(room.shape, *room.volumes, outcome.tables);
+        method.field = table_field(room.shape, *room.volumes, outcome.tables);
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
         for (std::uint32_t pixel = 0; pixel < pixels.size(); ++pixel) {
             auto state = begin_path<F, M>(room.camera, settings, kWidth, kHeight, pixel, sample);
@@ -66,7 +66,7 @@ Outcome loop_over_paths(const Room& room) {
         }
         if constexpr (std::is_same_v<M, ReinforcementMethod>)
             for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)
-                publish_volume(publication_view(room.shape, outcome.tables), volume);
+                update_volume(table_update_view(room.shape, outcome.tables), volume);
     }
     for (const FilmPixel& pixel : pixels) outcome.film.push_back(mean_radiance(pixel));
     return outcome;
@@ -85,7 +85,7 @@ Outcome batches(const Room& room, MethodId method, bool next_event, const CpuSet
                                                .camera = room.camera,
                                                .mixture = GuidedSampling{}.mixture,
                                                .sample = sample});
-        if (method == MethodId::Reinforcement) backend->publish(method);
+        if (method == MethodId::Reinforcement) backend->update_field(method);
     }
     outcome.film = backend->read_film(slot).mean;
     outcome.tables = backend->download_tables(method);
@@ -132,7 +132,7 @@ TEST_CASE("Batches of reinforcement paths equal single paths") {
 TEST_CASE("Batches of probes equal single probes") {
     const Room room;
     HostTables expected = room.empty_tables();
-    const FieldView field = field_view(room.shape, *room.volumes, expected);
+    const TableField field = table_field(room.shape, *room.volumes, expected);
     const SceneView scene = room.scene->view();
     PathSettings settings = path_settings(true);
     settings.stream = Stream::Precompute;

@@ -22,11 +22,11 @@ compile() {
         2>"$work/$1.log" || { cat "$work/$1.log"; exit 1; }
 }
 case $mode in
-quick) pictures=(default) learners=() others=(film publish) ;;
+quick) pictures=(default) learners=() others=(film update) ;;
 all | --write)
     pictures=(default precomputed reinforcement)
     learners=(sarsa monte_carlo probes)
-    others=(views film publish)
+    others=(views film update)
     ;;
 *) echo "mode: expected quick, all or --write, got '$mode'" >&2; exit 2 ;;
 esac
@@ -105,7 +105,7 @@ registers() {
             name = part("trace_paths|show_view|volume_values|add_samples|set_samples|read_film|read_halves|show_film|largest_value|run_step")
             set = part("ILj[0-9]+E")
             gsub(/[^0-9-]/, "", set)
-            if (name == "run_step") set = part("absorb_records|publish_means|weigh_row|build_row_choice|move_mixture|move_reach|build_row")
+            if (name == "run_step") set = part("absorb_samples|update_means|weigh_row|build_row_choice|move_mixture|move_reach|build_row")
         }
         /bytes stack frame/ { stack = $1; spills = $5 + $9 }
         /Used [0-9]+ registers/ {

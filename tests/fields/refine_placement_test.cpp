@@ -34,7 +34,7 @@ struct Learned {
         for (std::size_t i = 0; i < volumes.normals.size(); ++i) teach(i, visits, false);
     }
 
-    FieldView view() { return field_view(shape, volumes, tables); }
+    TableField view() { return table_field(shape, volumes, tables); }
     std::size_t count() const { return volumes.normals.size(); }
 
     /// Light from the first rows, or from the last ones.
@@ -43,7 +43,7 @@ struct Learned {
             tables.radiance[volume * kCells + cell] = (cell < kCells / 2) != other_way ? 1.0f : 0.0f;
             tables.visits[volume * kCells + cell] = visits;
         }
-        publish_volume(publication_view(shape, tables), static_cast<std::uint32_t>(volume));
+        update_volume(table_update_view(shape, tables), static_cast<std::uint32_t>(volume));
         tables.inverse_reach[volume] = 0.0f;  // as if all light came from far away
     }
 
@@ -66,7 +66,7 @@ double sum(const Array& values) {
 TEST_CASE("Tables that say the same do not disagree, and the distance grows to 1 with what they differ in") {
     Learned field(lit_room(), 100);
     // A volume and its neighbour on one plane, and with one frame: around other axes, frames tell 0 from -0.
-    const FieldView view = field.view();
+    const TableField view = field.view();
     const auto along_z = std::ranges::find_if(field.volumes.normals, [](Vec3f n) { return n.z == 1.0f; });
     const auto one = static_cast<std::int32_t>(along_z - field.volumes.normals.begin());
     NearestSeveral<2> pair;

@@ -64,7 +64,7 @@ void poison(Session& session, MethodId method, float value) {
          {&tables.radiance, &tables.mean_radiance, &tables.reach_weight, &tables.inverse_reach})
         for (float& entry : *list) entry = value;
     session.backend_access().upload_tables(method, std::move(tables));
-    session.backend_access().publish(method);
+    session.backend_access().update_field(method);
 }
 
 }  // namespace

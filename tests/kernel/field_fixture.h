@@ -27,8 +27,8 @@ struct TestField {
         tables = make_tables(shape, normals.size());
     }
 
-    FieldView view() { return field_view(shape, volumes, tables); }
-    FieldPublicationView publication() { return publication_view(shape, tables); }
+    TableField view() { return table_field(shape, volumes, tables); }
+    TableUpdateView publication() { return table_update_view(shape, tables); }
     DirectionTable table(std::int32_t volume = 0) { return DirectionTable(view(), volume); }
 
     /// Sampling tables of a volume made of weights, [row][column], without what publication adds.
@@ -42,8 +42,8 @@ struct TestField {
         accumulate_cdf(rows, shape.cells.side);
     }
 
-    void publish() {
-        for (std::uint32_t volume = 0; volume < volumes.sites.size(); ++volume) publish_volume(publication(), volume);
+    void update() {
+        for (std::uint32_t volume = 0; volume < volumes.sites.size(); ++volume) update_volume(publication(), volume);
     }
 };
 

@@ -81,7 +81,7 @@ TEST_CASE("Heat maps: what was learned by publication") {
     TwoVolumes field;
     for (int i = 0; i < 3; ++i) record(field.view(), 1, 2, 0.5f);
     record(field.view(), 1, 0, 0.25f);
-    field.publish();
+    field.update();
     CHECK(field.value(View::Visits) == 4.0f);
     CHECK(field.value(View::Unvisited) == 0.5f);
     CHECK(field.value(View::Irradiance) == kPi * 0.375f);

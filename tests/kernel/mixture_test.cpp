@@ -12,7 +12,7 @@ using namespace pl::test;
 namespace {
 
 void record_light(TestField& field, float bsdf_ratio, float radiance) {
-    const FieldView view = field.view();
+    const TableField view = field.view();
     record_mixture(view, 0, bsdf_ratio, light_weight(view, 0, bsdf_ratio, radiance));
 }
 
@@ -59,10 +59,10 @@ void learn(TestField& field, const TwoHalves& halves, int passes, int records, U
 TEST_CASE("A volume that knows nothing leaves half to the BSDF") {
     TestField field(4);
     CHECK(field.tables.bsdf_fraction[0] == kInitialBsdfFraction);
-    field.publish();
+    field.update();
     CHECK(field.tables.bsdf_fraction[0] == kInitialBsdfFraction);
     record_light(field, 0.1f, 1.0f);  // but nothing is expected there: no scale
-    field.publish();
+    field.update();
     CHECK(field.tables.bsdf_fraction[0] == kInitialBsdfFraction);
 }
 

@@ -13,7 +13,7 @@ struct WalkResult {
     std::uint64_t leaks = 0;    ///< segments that hit a surface from behind
 };
 
-/// How hard a walk looks for trouble.
+/// How hard a walk looks for diagnostics.
 enum class WalkStyle {
     Diffuse,      ///< as paths go
     Adversarial,  ///< every second vertex is moved next to an edge or a corner, every fourth direction grazes

@@ -15,7 +15,7 @@ namespace pl::test {
 enum class Sees { WallX0, Others, Both };
 
 /// Written without the direction map of core/kernel/fields, which may be the mutant.
-inline Sees seen_by_cell(const FieldView& field, std::int32_t volume, int cell, Vec3f origin) {
+inline Sees seen_by_cell(const TableField& field, std::int32_t volume, int cell, Vec3f origin) {
     constexpr int kSteps = 16;
     // Covers what lies between two directions, and that paths do not all start in one point.
     constexpr float kMargin = 1.03f;
@@ -43,7 +43,7 @@ inline Sees seen_by_cell(const FieldView& field, std::int32_t volume, int cell, 
 /// What a volume on the floor learned is exactly 1 in cells that see only the bright wall, exactly 0 in those that see
 /// none of it; there have to be eight of each kind at least.
 inline Decision judge_cells(SmallField& field, std::int32_t volume, Vec3f origin) {
-    const FieldView view = field.view();
+    const TableField view = field.view();
     int bright = 0;
     int dark = 0;
     int wrong = 0;
@@ -75,7 +75,7 @@ inline Decision check_learned_cells() {
     trace_many<FeatureSet{}>(scene, camera_at_center(kFloor, kCubeLow, kCubeHigh),
                              ReinforcementMethod{{.field = field.view()}}, {.seed = 1}, {0, 20'000},
                              [](const auto&, const auto&) {});
-    field.publish();
+    field.update();
     const Vec3f middle = wall_center(kFloor, kCubeLow, kCubeHigh);
     return judge_cells(field, field.volume_at(middle, {0.0f, 1.0f, 0.0f}), middle);
 }
@@ -85,7 +85,7 @@ inline Decision check_probed_cells() {
     const HostScene scene = box_with_bright_wall();
     const SceneView view = scene.view();
     SmallField field(scene, 30, 12);
-    const FieldView tables = field.view();
+    const TableField tables = field.view();
     const std::int32_t volume = field.volume_at(wall_center(kFloor, kCubeLow, kCubeHigh), {0.0f, 1.0f, 0.0f});
     const PathSettings settings{.seed = 1, .stream = Stream::Precompute};
     for (int cell = 0; cell < tables.cells.count(); ++cell)
@@ -95,7 +95,7 @@ inline Decision check_probed_cells() {
             trace_path<FeatureSet{}>(view, BvhIntersector{view}, ProbeMethod{}, settings, state, counters);
             finish_probe(tables, state, counters.method);
         }
-    field.publish();
+    field.update();
     return judge_cells(field, volume, field.site(volume).position);
 }
 
@@ -109,7 +109,7 @@ inline Decision check_furnace_cells() {
         trace_many<FeatureSet{}>(scene, CameraDescription{.eye = Vec3f{0.0f}, .target = Vec3f{1.0f}},
                                  ReinforcementMethod{{.field = field.view()}}, {.seed = 1}, {1000 * pass, 1000},
                                  [](const auto&, const auto&) {});
-        field.publish();
+        field.update();
     }
     float worst = 0.0f;
     int cells = 0;
@@ -133,7 +133,7 @@ inline Decision check_mixture_density() {
         field.tables().radiance[i] = radiances.next() < 0.5f ? 0.0f : radiances.next();
         field.tables().visits[i] = 1000;
     }
-    field.publish();
+    field.update();
     const ReinforcementMethod method{{.field = field.view(), .mixture = {.learned = 0, .bsdf_fraction = 0.3f}}};
     const std::int32_t volume = field.volume_at({0.5f, 0.0f, 0.5f}, {0.0f, 1.0f, 0.0f});
     const SurfacePoint& surface = field.site(volume);
@@ -168,7 +168,7 @@ inline Decision check_floor() {
         field.tables().radiance[i] = i % 64 == 10 ? 1.0f : 0.0f;
         field.tables().visits[i] = 1'000'000;
     }
-    field.publish();
+    field.update();
     const DirectionTable table(field.view(), 0);
     float least = 1.0f;
     for (int cell = 0; cell < 64; ++cell) least = min_of(least, table.cell_probability(cell % 8, cell / 8));

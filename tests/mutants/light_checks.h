@@ -55,7 +55,7 @@ inline Decision check_cube_guided() {
     for (std::uint32_t pass = 0; pass < 32; ++pass) {
         trace_many<FeatureSet{}>(scene, camera_at_center(kWallX0, kCubeLow, kCubeHigh), method, {.seed = 1},
                                  {1000 * pass, 1000}, [](const auto&, const auto&) {});
-        field.publish();
+        field.update();
     }
     return check_cube_wall<FeatureSet{}>(reference, scene, kWallX0, method, {1'000'000, 1'200'000}, 0.02);
 }

@@ -15,10 +15,10 @@ public:
         tables_ = make_tables(shape_, volumes_.sites.size());
     }
 
-    FieldView view() { return field_view(shape_, volumes_, tables_); }
-    void publish() {
-        const FieldPublicationView view = publication_view(shape_, tables_);
-        for (std::uint32_t volume = 0; volume < volumes_.sites.size(); ++volume) publish_volume(view, volume);
+    TableField view() { return table_field(shape_, volumes_, tables_); }
+    void update() {
+        const TableUpdateView view = table_update_view(shape_, tables_);
+        for (std::uint32_t volume = 0; volume < volumes_.sites.size(); ++volume) update_volume(view, volume);
     }
 
     std::int32_t volume_at(Vec3f position, Vec3f normal) { return find_volume(view().tree, position, normal); }

@@ -132,7 +132,7 @@ TEST_CASE("Publication of the same records is equal to the bit") {
         backend.upload_scene(scene);
         backend.upload_volumes(volumes, shape);
         backend.upload_tables(MethodId::Reinforcement, records);
-        backend.publish(MethodId::Reinforcement);
+        backend.update_field(MethodId::Reinforcement);
         return backend.download_tables(MethodId::Reinforcement);
     };
     const HostTables cpu = published(*make_cpu_backend({.threads = 1}));

@@ -42,7 +42,7 @@ public:
         return inner_->run_pass(request);
     }
     PassCounters precompute(const PrecomputeRequest& request) override { return inner_->precompute(request); }
-    void publish(MethodId method) override { inner_->publish(method); }
+    void update_field(MethodId method) override { inner_->update_field(method); }
 
 private:
     void check(Failure asked) const {

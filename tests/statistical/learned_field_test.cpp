@@ -102,8 +102,8 @@ LearnedField map_of_one_cell(const SceneDescription& scene) {
         field.tables.radiance[i] = i % cells == 5 ? 1.0f : 0.0f;
         field.tables.visits[i] = 1000000;
     }
-    const FieldPublicationView view = publication_view(field.shape, field.tables);
-    for (std::uint32_t volume = 0; volume < view.mean_radiance.count; ++volume) publish_volume(view, volume);
+    const TableUpdateView view = table_update_view(field.shape, field.tables);
+    for (std::uint32_t volume = 0; volume < view.mean_radiance.count; ++volume) update_volume(view, volume);
     return field;
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("After training every table's density integrates to one") {
         Session session = make_session(scene, settings);
         render_passes(session, 16);
         LearnedField field = session.export_field();
-        const FieldView view = field_view(field.shape, *field.volumes, field.tables);
+        const TableField view = table_field(field.shape, *field.volumes, field.tables);
         INFO(learner);
         REQUIRE(view.volume_count() >= 300);
         for (std::int32_t volume = 0; volume < view.volume_count(); ++volume)

@@ -1,4 +1,4 @@
-// What the window tells of trouble: counted, looked for in the background, shown while the picture stands; the self test.
+// What the window tells of diagnostics: counted, looked for in the background, shown while the picture stands; the self test.
 #include <algorithm>
 #include <condition_variable>
 
@@ -21,8 +21,8 @@ bool told(const ViewerModel& model, const std::string& part) {
 }
 
 /// A viewer of a picture in which one pixel has only invalid samples.
-struct TroubleBench : ModelBench {
-    TroubleBench() : ModelBench(kSide) {
+struct DiagnosticsBench : ModelBench {
+    DiagnosticsBench() : ModelBench(kSide) {
         devices.cpu->bad_pixel = kBad;
         options.limits.spp = 4;
     }
@@ -67,79 +67,79 @@ struct CheckQueue {
 
 TEST_CASE(
     "Window: invalid samples are counted in the frame, found where they were, and marked until the picture changes") {
-    TroubleBench bench;
+    DiagnosticsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.is_done(model));
-    CHECK(counted_trouble(model.frame()->snapshot) == TroubleCounts{4, 0, 0, 0});
-    CHECK(script_value(model, "trouble") == "not looked for");
+    CHECK(counted_diagnostics(model.frame()->snapshot) == DiagnosticCounts{4, 0, 0, 0});
+    CHECK(script_value(model, "diagnostics") == "not looked for");
 
-    model.toggle_trouble();
+    model.toggle_diagnostics();
     CHECK(model.busy());
-    REQUIRE(bench.run_until(model, [&] { return model.trouble() != nullptr; }));
-    const auto map = model.trouble();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() != nullptr; }));
+    const auto map = model.diagnostics();
     CHECK(map->is_complete);
-    CHECK(map->pixels[kBad] == TroubleMap::Pixel{4, 0, 0, 0});
-    CHECK(map->pixel_count(Trouble::Invalid) == 1);
-    CHECK(script_value(model, "trouble") == "4 invalid in 1 pixel");
+    CHECK(map->pixels[kBad] == DiagnosticsMap::Pixel{4, 0, 0, 0});
+    CHECK(map->pixel_count(Diagnostic::Invalid) == 1);
+    CHECK(script_value(model, "diagnostics") == "4 invalid in 1 pixel");
     CHECK(told(model, "4 invalid in 1 pixel"));
     CHECK_FALSE(model.busy());
 
-    model.toggle_trouble();
-    CHECK(model.trouble() == nullptr);
-    model.toggle_trouble();
-    REQUIRE(bench.run_until(model, [&] { return model.trouble() != nullptr; }));
+    model.toggle_diagnostics();
+    CHECK(model.diagnostics() == nullptr);
+    model.toggle_diagnostics();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() != nullptr; }));
     model.set_seed(2);
-    REQUIRE(bench.run_until(model, [&] { return model.trouble() == nullptr; }));
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() == nullptr; }));
     REQUIRE(bench.is_done(model));
-    CHECK(model.trouble() == nullptr);
+    CHECK(model.diagnostics() == nullptr);
 }
 
 TEST_CASE("Window: Esc ends the marks, and a picture that goes on does not") {
-    TroubleBench bench;
+    DiagnosticsBench bench;
     bench.options.limits.spp = 0;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
-    model.toggle_trouble();
-    REQUIRE(bench.run_until(model, [&] { return model.trouble() != nullptr; }));
+    model.toggle_diagnostics();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() != nullptr; }));
     const std::uint32_t passes = model.frame()->snapshot.passes;
     REQUIRE(bench.run_until(model, [&] { return model.frame()->snapshot.passes > passes + 2; }));
-    CHECK(model.trouble() != nullptr);
+    CHECK(model.diagnostics() != nullptr);
     model.cancel();
-    CHECK(model.trouble() == nullptr);
+    CHECK(model.diagnostics() == nullptr);
 }
 
 TEST_CASE("Window: a view without paths says so, and rendering goes on") {
-    TroubleBench bench;
+    DiagnosticsBench bench;
     bench.options.limits.spp = 0;
     bench.options.settings.view = View::Normal;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
-    model.toggle_trouble();
+    model.toggle_diagnostics();
     REQUIRE(bench.run_until(model, [&] { return told(model, "view 'normal' has no paths"); }));
     CHECK_FALSE(model.busy());
-    CHECK(model.trouble() == nullptr);
+    CHECK(model.diagnostics() == nullptr);
     REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Rendering; }));
 }
 
-TEST_CASE("Window: a device that is lost while trouble is looked for is told, and holds nothing up") {
-    TroubleBench bench;
+TEST_CASE("Window: a device that is lost while diagnostics is looked for is told, and holds nothing up") {
+    DiagnosticsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.is_done(model));
     bench.devices.cpu->lost = true;
-    model.toggle_trouble();
+    model.toggle_diagnostics();
     REQUIRE(bench.run_until(model, [&] { return told(model, "the device is lost"); }));
     CHECK_FALSE(model.busy());
-    CHECK(model.trouble() == nullptr);
+    CHECK(model.diagnostics() == nullptr);
 }
 
 TEST_CASE("Window: nothing is found where nothing went wrong") {
-    TroubleBench bench;
+    DiagnosticsBench bench;
     bench.devices.cpu->bad_pixel = -1;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.is_done(model));
-    model.toggle_trouble();
-    REQUIRE(bench.run_until(model, [&] { return model.trouble() != nullptr; }));
-    CHECK(script_value(model, "trouble") == "no trouble found");
+    model.toggle_diagnostics();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() != nullptr; }));
+    CHECK(script_value(model, "diagnostics") == "no diagnostics found");
 }
 
 TEST_CASE("Window: the self test tells check by check, and rendering rests meanwhile") {
@@ -201,7 +201,7 @@ TEST_CASE("Window: closing it ends a self test and a search") {
     {
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
         model.start_self_test();
-        model.toggle_trouble();
+        model.toggle_diagnostics();
         model.update(0.0);
     }
     CHECK(queue.allowed == 0);

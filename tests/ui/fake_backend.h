@@ -163,7 +163,7 @@ public:
         return counters;
     }
     /// Makes every table depend on all records so far.
-    void publish(MethodId method) override {
+    void update_field(MethodId method) override {
         require_device();
         HostTables& tables = tables_.at(method);
         for (std::size_t i = 0; i < tables.radiance.size(); ++i) {

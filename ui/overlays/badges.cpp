@@ -113,22 +113,23 @@ void add_reference_badge(BadgeRow& row, const ViewerModel& model) {
                 colors::kWarning);
 }
 
-ImU32 color_of(const TroubleInfo& trouble) {
-    return IM_COL32(trouble.color >> 16 & 255, trouble.color >> 8 & 255, trouble.color & 255, 255);
+ImU32 color_of(const DiagnosticInfo& diagnostics) {
+    return IM_COL32(diagnostics.color >> 16 & 255, diagnostics.color >> 8 & 255, diagnostics.color & 255, 255);
 }
 
 /// What the marks in the picture stand for, and how far the search has come.
-void add_trouble_badges(BadgeRow& row, const ViewerModel& model) {
-    if (const auto share = model.trouble_share())
-        row.add(fmt::format("looking for trouble, {:.0f} %", 100.0 * *share), colors::kWarning);
-    const auto map = model.trouble();
+void add_diagnostics_badges(BadgeRow& row, const ViewerModel& model) {
+    if (const auto share = model.diagnostics_share())
+        row.add(fmt::format("looking for diagnostics, {:.0f} %", 100.0 * *share), colors::kWarning);
+    const auto map = model.diagnostics();
     if (!map) return;
-    for (const TroubleInfo& trouble : all_troubles()) {
-        const std::uint64_t count = map->found[static_cast<std::size_t>(trouble.id)];
+    for (const DiagnosticInfo& diagnostics : all_diagnostics()) {
+        const std::uint64_t count = map->found[static_cast<std::size_t>(diagnostics.id)];
         if (count > 0)
-            row.add(fmt::format("{} {}", short_number(static_cast<double>(count)), trouble.label), color_of(trouble));
+            row.add(fmt::format("{} {}", short_number(static_cast<double>(count)), diagnostics.label),
+                    color_of(diagnostics));
     }
-    if (map->found == TroubleCounts{}) row.add("no trouble found", colors::kGood);
+    if (map->found == DiagnosticCounts{}) row.add("no diagnostics found", colors::kGood);
     row.add(fmt::format("after {} spp", map->samples), colors::kText);
     if (!map->is_complete)
         row.add(fmt::format("looked at the last {}", map->traced), colors::kWarning);
@@ -160,11 +161,11 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     const WorkerStatus& status = model.status();
     add_turns_badge(row, status);
     add_reference_badge(row, model);
-    if (plan.tiles.empty()) add_trouble_badges(row, model);
+    if (plan.tiles.empty()) add_diagnostics_badges(row, model);
     add_state_badges(row, model);
     if (model.window().cells)
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.window().cells_opacity), colors::kText);
-    if (model.busy() && !model.reference_progress() && !model.trouble_share()) row.add("working", colors::kFaint);
+    if (model.busy() && !model.reference_progress() && !model.diagnostics_share()) row.add("working", colors::kFaint);
     if (status.state == WorkerState::Precomputing && status.field)
         draw_precompute_progress(model, layout, status.field->precomputed_share);
 }

@@ -37,29 +37,29 @@ void draw_counts(StatusLine& line, const ViewerModel& model) {
 }
 
 /// What went wrong, each kind alone; a click shows where.
-void draw_trouble(StatusLine& line, ViewerModel& model) {
+void draw_diagnostics(StatusLine& line, ViewerModel& model) {
     if (model.frame() == nullptr) return;
-    const TroubleCounts counts = counted_trouble(model.frame()->snapshot);
+    const DiagnosticCounts counts = counted_diagnostics(model.frame()->snapshot);
     bool is_clicked = false;
     bool is_sound = true;
-    for (const TroubleInfo& trouble : all_troubles()) {
-        const std::uint64_t count = counts[static_cast<std::size_t>(trouble.id)];
+    for (const DiagnosticInfo& diagnostics : all_diagnostics()) {
+        const std::uint64_t count = counts[static_cast<std::size_t>(diagnostics.id)];
         if (count == 0) continue;
         is_sound = false;
-        const std::string tip = fmt::format("{}\nA click shows where (T).", trouble.meaning);
-        is_clicked |= line.add(fmt::format("{} {}", short_number(static_cast<double>(count)), trouble.label),
+        const std::string tip = fmt::format("{}\nA click shows where (T).", diagnostics.meaning);
+        is_clicked |= line.add(fmt::format("{} {}", short_number(static_cast<double>(count)), diagnostics.label),
                                tip.c_str(), colors::kWarning);
-        note_place(std::string(trouble.label).c_str());
+        note_place(std::string(diagnostics.label).c_str());
     }
     if (is_sound) {
         is_clicked |=
-            line.add("no trouble",
+            line.add("no diagnostics",
                      "No sample was invalid, no path left a closed scene, every surface point found its radiance "
                      "volume, no record was too bright.",
                      colors::kFaint);
-        note_place("no trouble");
+        note_place("no diagnostics");
     }
-    if (is_clicked) model.toggle_trouble();
+    if (is_clicked) model.toggle_diagnostics();
 }
 
 std::string samples_text(const ViewerModel& model) {
@@ -82,7 +82,7 @@ void draw_status_bar(ViewerModel& model, const Layout& layout) {
     line.add(name_of(state), "What the render thread does.",
              state == WorkerState::Failed ? colors::kError
                                           : (state == WorkerState::Rendering ? colors::kGood : colors::kWarning));
-    draw_trouble(line, model);
+    draw_diagnostics(line, model);
     line.add(std::string(info_of(model.settings().method).label), "The method; keys 1, 2, 3.");
     if (model.frame() != nullptr)
         line.add(back_end_label(model.status().backend), model.frame()->backend.device.c_str());

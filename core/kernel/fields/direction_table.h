@@ -1,7 +1,7 @@
 // Sampling a volume's directions: a row, a column, then a tent-shaped jitter, with the density that belongs to it.
 #pragma once
 
-#include "core/kernel/fields/field_view.h"
+#include "core/kernel/fields/table_field.h"
 
 namespace pl {
 
@@ -68,7 +68,7 @@ private:
 
 /// The table of one volume.
 struct DirectionTable : DirectionTables<One> {
-    /// Of a FieldView or a FieldPublicationView.
+    /// Of a TableField or a TableUpdateView.
     template <class Field>
     PL_HD DirectionTable(const Field& field, std::int32_t number)
         : DirectionTables<One>{field.cells, field.row_cdf.data, field.column_cdf.data, number} {}

@@ -4,7 +4,7 @@
 // instead of Adam: the sums of a pass are integers, so every order of the records gives the same bits.
 #pragma once
 
-#include "core/kernel/fields/publication.h"
+#include "core/kernel/fields/table_update.h"
 
 namespace pl {
 
@@ -29,7 +29,7 @@ inline constexpr float kMaxMixtureWeight = 64.0f;
 
 /// How much light a direction brought, as a share of what the volume expects, over the density that sampled it.
 /// `bsdf_ratio` = p_bsdf / q of the direction; `radiance` what arrived. 0 where nothing is expected, or nothing came.
-PL_HD inline float light_weight(const FieldView& field, std::int32_t volume, float bsdf_ratio, float radiance) {
+PL_HD inline float light_weight(const TableField& field, std::int32_t volume, float bsdf_ratio, float radiance) {
     const float expected = field.mean_radiance[static_cast<std::uint32_t>(volume)];
     if (!(expected > 0.0f) || !(radiance > 0.0f)) return 0.0f;
     return min_of(radiance / expected, kMaxMixtureWeight) * bsdf_ratio;
@@ -39,7 +39,7 @@ PL_HD inline float light_weight(const FieldView& field, std::int32_t volume, flo
 /// With y = (p_bsdf - p_table) / q = (bsdf_ratio - 1) / (1 - a) and w = f L cos / q relative to its mean, the
 /// derivatives of the divergence by a are -E[w y] and E[w y^2]; the factors of 1-a, the same for all records of a pass,
 /// are left to move_mixture(). `weight` is light_weight().
-PL_HD inline void record_mixture(const FieldView& field, std::int32_t volume, float bsdf_ratio, float weight) {
+PL_HD inline void record_mixture(const TableField& field, std::int32_t volume, float bsdf_ratio, float weight) {
     const auto index = static_cast<std::uint32_t>(volume);
     if (!(weight > 0.0f)) return;
     const float excess = bsdf_ratio - 1.0f;
@@ -51,7 +51,7 @@ PL_HD inline void record_mixture(const FieldView& field, std::int32_t volume, fl
 
 /// Moves a volume's share to the mean of the Newton steps so far, each weighted by its curvature and by how recent it
 /// is: early tables were worse.
-PL_HD inline void move_mixture(const FieldPublicationView& field, std::uint32_t volume) {
+PL_HD inline void move_mixture(const TableUpdateView& field, std::uint32_t volume) {
     constexpr float kKept = 0.9f;             // of the older steps, per publication that brought new ones
     constexpr float kPriorCurvature = 32.0f;  // of the initial share: as much as about thirty records
     const float old = field.bsdf_fraction[volume];

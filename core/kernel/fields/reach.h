@@ -2,7 +2,7 @@
 // the points that the volume serves. Learned by each volume from what its paths met.
 #pragma once
 
-#include "core/kernel/fields/publication.h"
+#include "core/kernel/fields/table_update.h"
 
 namespace pl {
 
@@ -27,7 +27,7 @@ PL_HD inline float inverse_reach_of(float extent, float mean_distance) {
 
 /// Adds the distance to what a direction met, by `weight`: how much light came from there, relative to other records of
 /// the same volume.
-PL_HD inline void record_reach(const FieldView& field, std::int32_t volume, float weight, float distance) {
+PL_HD inline void record_reach(const TableField& field, std::int32_t volume, float weight, float distance) {
     if (!(weight > 0.0f) || !(distance > 0.0f) || !(field.extent > 0.0f)) return;
     const auto index = static_cast<std::uint32_t>(volume);
     const float steps = min_of(weight, kMaxReachWeight) * kReachStepsPerUnit;
@@ -37,7 +37,7 @@ PL_HD inline void record_reach(const FieldView& field, std::int32_t volume, floa
 }
 
 /// Moves a volume's reach to the mean of all records so far.
-PL_HD inline void move_reach(const FieldPublicationView& field, std::uint32_t volume) {
+PL_HD inline void move_reach(const TableUpdateView& field, std::uint32_t volume) {
     field.reach_distance[volume] += static_cast<float>(field.pending_distance[volume]) / kReachStepsPerUnit;
     field.reach_weight[volume] += static_cast<float>(field.pending_light[volume]) / kReachStepsPerUnit;
     field.pending_distance[volume] = 0;

@@ -1,7 +1,7 @@
 // Views of the first surface that a pixel sees: what the picture is made of, and what was learned there.
 #pragma once
 
-#include "core/kernel/fields/field_view.h"
+#include "core/kernel/fields/table_field.h"
 #include "core/kernel/integrator/holes.h"
 #include "core/kernel/integrator/steps.h"
 #include "core/kernel/methods/default.h"
@@ -40,7 +40,7 @@ PL_HD inline Vec3f color_of_id(std::uint32_t id) {
 
 /// What the views of a field look up.
 struct ShownField {
-    FieldView field;
+    TableField field;
     Span<const float> volume_values;  ///< of heat maps, else empty: volume_value(). [volume]
 };
 
@@ -85,7 +85,7 @@ PL_HD inline Vec3f background(const SceneView& scene, Vec3f direction) {
 
 /// Learned mean radiance around a point: the nearest volumes, blended with weights that fall to zero at the
 /// distance of the last one, so that the result has no steps. Biased: a preview, not a picture.
-PL_HD inline float interpolated_mean_radiance(const FieldView& field, const SurfacePoint& surface) {
+PL_HD inline float interpolated_mean_radiance(const TableField& field, const SurfacePoint& surface) {
     NearestSeveral<8> nearest;
     search_kd_tree(field.tree, surface.position, surface.geometric_normal, nearest);
     if (nearest.found == 0) return 0.0f;

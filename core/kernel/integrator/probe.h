@@ -36,7 +36,7 @@ struct ProbeTarget {
     int cell;
 };
 
-PL_HD inline ProbeTarget probe_target(const FieldView& field, std::uint32_t probe) {
+PL_HD inline ProbeTarget probe_target(const TableField& field, std::uint32_t probe) {
     const auto cells = static_cast<std::uint32_t>(field.cells.count());
     return {static_cast<std::int32_t>(probe / cells), static_cast<int>(probe % cells)};
 }
@@ -44,7 +44,7 @@ PL_HD inline ProbeTarget probe_target(const FieldView& field, std::uint32_t prob
 /// Starts a path that measures the radiance arriving through one cell. Directions are stratified: sample s of S
 /// (a square number) takes one of S sub-cells. `u` is drawn for vertex 0 and Purpose::Probe.
 template <FeatureSet F>
-PL_HD inline PathState<F, ProbeMethod> begin_probe(const FieldView& field, std::uint32_t probe, std::uint32_t sample,
+PL_HD inline PathState<F, ProbeMethod> begin_probe(const TableField& field, std::uint32_t probe, std::uint32_t sample,
                                                    std::uint32_t strata_side, Vec4f u) {
     const ProbeTarget target = probe_target(field, probe);
     const Vec2f stratum{static_cast<float>(sample % strata_side), static_cast<float>(sample / strata_side)};
@@ -59,7 +59,7 @@ PL_HD inline PathState<F, ProbeMethod> begin_probe(const FieldView& field, std::
 }
 
 template <FeatureSet F>
-PL_HD inline PathState<F, ProbeMethod> begin_probe(const FieldView& field, const PathSettings& settings,
+PL_HD inline PathState<F, ProbeMethod> begin_probe(const TableField& field, const PathSettings& settings,
                                                    std::uint32_t probe, std::uint32_t sample,
                                                    std::uint32_t strata_side) {
     const Vec4f u = path_rng(settings, probe, sample).draw(0, Purpose::Probe);
@@ -68,7 +68,7 @@ PL_HD inline PathState<F, ProbeMethod> begin_probe(const FieldView& field, const
 
 /// Stores what a finished probe path brought.
 template <FeatureSet F>
-PL_HD inline void finish_probe(const FieldView& field, const PathState<F, ProbeMethod>& state,
+PL_HD inline void finish_probe(const TableField& field, const PathState<F, ProbeMethod>& state,
                                MethodCounters& counters) {
     constexpr float kWeightPerUnit = 256.0f;  // before anything is published nobody knows what is much
     const ProbeTarget target = probe_target(field, state.pixel);

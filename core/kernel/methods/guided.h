@@ -142,7 +142,7 @@ struct TableEntry {
 struct GuidedSampling {
     static constexpr bool kSplitsPaths = true;
 
-    FieldView field;
+    TableField field;
     MixtureSettings mixture{};
 
     PL_HD GuidedMixture mixture_view() const {

@@ -16,7 +16,7 @@ inline constexpr float kMaxRecordedUnits = 65536.0f;
 /// the largest value in one pass and cell.
 inline constexpr float kStepsPerUnit = 16777216.0f;
 
-struct FieldView {
+struct TableField {
     DirectionCells cells;
     KdTreeView tree;
     VolumeGridView grid;
@@ -83,7 +83,7 @@ PL_HD inline float from_fixed_point(std::int64_t sum, std::uint32_t count, float
 }
 
 /// Adds one observation of the radiance that arrives at a volume through a cell. Any thread, any order.
-PL_HD inline void record(const FieldView& field, std::int32_t volume, int cell, float radiance) {
+PL_HD inline void record(const TableField& field, std::int32_t volume, int cell, float radiance) {
     const std::uint32_t index = field.cell_index(volume, cell);
     atomic_add_counted(field.pending_sum[index], to_fixed_point(radiance, field.radiance_unit),
                        field.pending_count[index], field.writers);

@@ -1,11 +1,11 @@
-// `render --trouble` from outside: pictures and numbers of where something went wrong.
+// `render --diagnostics` from outside: pictures and numbers of where something went wrong.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"
 #include "core/kernel/film/frame_pixel.h"
-#include "core/session/trouble.h"
+#include "core/session/diagnostics.h"
 #include "tests/cli/refusal.h"
 
 namespace pl::test {
@@ -22,10 +22,10 @@ std::string write_bright_room(const TempDir& folder) {
     return folder / "room.obj";
 }
 
-json render_with_trouble(const TempDir& folder, const std::string& scene, const std::string& picture,
-                         const Arguments& more) {
-    Arguments arguments{"render",    scene, "-o",        folder / "a.pfm", "--size",  "20x12",
-                        "--backend", "cpu", "--trouble", picture,          "--stats", folder / "s.json"};
+json render_with_diagnostics(const TempDir& folder, const std::string& scene, const std::string& picture,
+                             const Arguments& more) {
+    Arguments arguments{"render", scene,           "-o",    folder / "a.pfm", "--size",         "20x12", "--backend",
+                        "cpu",    "--diagnostics", picture, "--stats",        folder / "s.json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramResult result = run_program(arguments);
     CAPTURE(result.err);
@@ -37,18 +37,18 @@ const Arguments kInside{"--eye", "0,0,0.5", "--target", "0,0,-1", "--max-depth",
 
 }  // namespace
 
-TEST_CASE("trouble: invalid samples are counted where they are, in numbers and in pictures") {
+TEST_CASE("diagnostics: invalid samples are counted where they are, in numbers and in pictures") {
     const TempDir folder;
     const std::string scene = write_bright_room(folder);
     for (const char* method : {"default", "precomputed", "reinforcement"}) {
         Arguments more = kInside;
         more.insert(more.end(), {"--method", method, "--spp", "3", "--volumes", "20", "--bins", "16"});
-        const json stats = render_with_trouble(folder, scene, folder / "t.exr", more);
-        INFO(method << stats["trouble"].dump());
+        const json stats = render_with_diagnostics(folder, scene, folder / "t.exr", more);
+        INFO(method << stats["diagnostics"].dump());
         const std::uint64_t invalid = stats["invalid_samples"];
         CHECK(invalid > 100);
-        const json& found = stats["trouble"]["found"];
-        CHECK(stats["trouble"]["invalid_samples"] == invalid);
+        const json& found = stats["diagnostics"]["found"];
+        CHECK(stats["diagnostics"]["invalid_samples"] == invalid);
         CHECK(found["invalid_samples"]["count"] == invalid);
         CHECK(found["complete"] == true);
         double red = 0.0;
@@ -62,27 +62,28 @@ TEST_CASE("trouble: invalid samples are counted where they are, in numbers and i
     }
 }
 
-TEST_CASE("trouble: a PNG is dark but for the marks, and tells what they are") {
+TEST_CASE("diagnostics: a PNG is dark but for the marks, and tells what they are") {
     const TempDir folder;
     Arguments more = kInside;
     more.insert(more.end(), {"--spp", "1"});
-    const json stats = render_with_trouble(folder, write_bright_room(folder), folder / "t.png", more);
+    const json stats = render_with_diagnostics(folder, write_bright_room(folder), folder / "t.png", more);
     ImageMetadata metadata;
     const ByteImage image = read_png8(folder / "t.png", &metadata);
     std::uint64_t marked = 0;
     for (std::size_t i = 0; i < image.rgb.size(); i += 3)
-        marked += pack_pixel(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]) == info_of(Trouble::Invalid).color;
-    CHECK(marked >= stats["trouble"]["found"]["invalid_samples"]["pixels"]);
+        marked += pack_pixel(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]) == info_of(Diagnostic::Invalid).color;
+    CHECK(marked >= stats["diagnostics"]["found"]["invalid_samples"]["pixels"]);
     CHECK(std::any_of(metadata.begin(), metadata.end(), [](const auto& entry) {
-        return entry.first == "trouble" && entry.second.find(" invalid in ") != std::string::npos;
+        return entry.first == "diagnostics" && entry.second.find(" invalid in ") != std::string::npos;
     }));
 }
 
-TEST_CASE("trouble: misses are found, paths may leave an open scene, and clamped records are told by who learns") {
+TEST_CASE(
+    "diagnostics: misses are found, paths may leave an open scene, and clamped records are told by who learns") {
     const TempDir folder;
-    const json misses =
-        render_with_trouble(folder, "cornell", folder / "t.pfm",
-                            {"--method", "precomputed", "--volumes", "1", "--bins", "16", "--spp", "2"})["trouble"];
+    const json misses = render_with_diagnostics(
+        folder, "cornell", folder / "t.pfm",
+        {"--method", "precomputed", "--volumes", "1", "--bins", "16", "--spp", "2"})["diagnostics"];
     CHECK(misses["lookup_misses"] > 100);
     CHECK(misses["found"]["lookup_misses"]["count"] == misses["lookup_misses"]);
     CHECK(misses["closed"] == false);
@@ -90,32 +91,33 @@ TEST_CASE("trouble: misses are found, paths may leave an open scene, and clamped
     CHECK(misses["clamped_records"] == 0);
     CHECK(misses["found"]["clamped_records"].is_null());
     const json learning =
-        render_with_trouble(folder, "cornell", folder / "t.pfm", {"--method", "reinforcement", "--spp", "2"});
+        render_with_diagnostics(folder, "cornell", folder / "t.pfm", {"--method", "reinforcement", "--spp", "2"});
     CHECK(learning["escaped_paths"] > 100);
-    CHECK(learning["trouble"]["clamped_records"] == 0);
-    CHECK(learning["trouble"]["found"]["traced"] == 0);  // nothing was counted
-    CHECK(learning["trouble"]["found"]["moving_tables"] == true);
+    CHECK(learning["diagnostics"]["clamped_records"] == 0);
+    CHECK(learning["diagnostics"]["found"]["traced"] == 0);  // nothing was counted
+    CHECK(learning["diagnostics"]["found"]["moving_tables"] == true);
 }
 
-TEST_CASE("trouble: statistics have what was counted without looking, too") {
+TEST_CASE("diagnostics: statistics have what was counted without looking, too") {
     const TempDir folder;
     REQUIRE(run_program({"render", "furnace", "-o", folder / "a.pfm", "--size", "8x8", "--spp", "1", "--stats",
                          folder / "s.json"})
                 .code == 0);
-    const json trouble = json::parse(read_all(folder / "s.json"))["trouble"];
-    CHECK(trouble["invalid_samples"] == 0);
-    CHECK(trouble["lookup_misses"] == 0);
-    CHECK(trouble["found"].is_null());
-    CHECK(trouble["closed"].is_null());
+    const json diagnostics = json::parse(read_all(folder / "s.json"))["diagnostics"];
+    CHECK(diagnostics["invalid_samples"] == 0);
+    CHECK(diagnostics["lookup_misses"] == 0);
+    CHECK(diagnostics["found"].is_null());
+    CHECK(diagnostics["closed"].is_null());
 }
 
-TEST_CASE("2: trouble is looked for in paths, and written to pictures") {
+TEST_CASE("2: diagnostics is looked for in paths, and written to pictures") {
     const TempDir folder;
-    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--view", "normal", "--trouble", folder / "t.png"},
-                  "--trouble: expected --view beauty, got 'normal'");
-    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--trouble", folder / "t.json"}, "t.json");
-    check_refused(2, {"info", "cornell", "--trouble", folder / "t.png"}, "--trouble");
-    check_refused(1, {"render", "cornell", "-o", folder / "a.png", "--trouble", folder / "missing/t.png"},
+    check_refused(
+        2, {"render", "cornell", "-o", folder / "a.png", "--view", "normal", "--diagnostics", folder / "t.png"},
+        "--diagnostics: expected --view beauty, got 'normal'");
+    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--diagnostics", folder / "t.json"}, "t.json");
+    check_refused(2, {"info", "cornell", "--diagnostics", folder / "t.png"}, "--diagnostics");
+    check_refused(1, {"render", "cornell", "-o", folder / "a.png", "--diagnostics", folder / "missing/t.png"},
                   "cannot be written");
     CHECK(folder.names().empty());
 }

@@ -19,21 +19,21 @@ void Session::note_escapes(const PassCounters& counters) {
     is_closed_ = enclosure_->contains(settings_.camera.eye);
 }
 
-TroubleSource Session::trouble_source() const {
+DiagnosticsInput Session::diagnostics_input() const {
     if (settings_.view != View::Beauty)
         throw Error(ErrorKind::Usage, "view '" + std::string(info_of(settings_.view).name) +
                                           "' has no paths in which something could go wrong: show 'beauty'");
     const FilmState& state = film();
     const MethodInfo& method = info_of(settings_.method);
-    TroubleSource source{.width = settings_.width,
-                         .height = settings_.height,
-                         .counted = counted_trouble(summary()),
-                         .samples = state.passes,
-                         .next_pixel = state.next_pixel,
-                         .scene = packed_,
-                         .path = path_settings(),
-                         .camera = make_camera(settings_.camera, settings_.width, settings_.height),
-                         .is_closed = is_closed_.value_or(false)};
+    DiagnosticsInput source{.width = settings_.width,
+                            .height = settings_.height,
+                            .counted = counted_diagnostics(summary()),
+                            .samples = state.passes,
+                            .next_pixel = state.next_pixel,
+                            .scene = packed_,
+                            .path = path_settings(),
+                            .camera = make_camera(settings_.camera, settings_.width, settings_.height),
+                            .is_closed = is_closed_.value_or(false)};
     if (state.counters.invalid_samples > 0) source.invalid = backend_->invalid_samples(slot());
     if (!method.uses_field) return source;
     if (!volumes_ || !backend_->has_tables(settings_.method)) return source;  // nothing was rendered yet

@@ -2,7 +2,7 @@
 // of the others, plain arithmetic in a fixed order: the same bits on every back end.
 #pragma once
 
-#include "core/kernel/fields/field_view.h"
+#include "core/kernel/fields/table_field.h"
 
 namespace pl {
 
@@ -25,7 +25,7 @@ inline constexpr float kPowerRate = 0.7f;
 inline constexpr float kUniformShare = 0.1f;
 
 /// Everything publication writes, one row per volume.
-struct FieldPublicationView {
+struct TableUpdateView {
     DirectionCells cells;
     float radiance_unit = 1.0f;
     float extent = 0.0f;
@@ -67,7 +67,7 @@ PL_HD inline float learning_step(std::uint32_t visits, std::uint32_t fresh, Lear
 }
 
 /// What a cell has learned, or 0 where memory holds what no record could have put there: NaN, infinite, negative.
-/// `field` is a FieldView or a FieldPublicationView.
+/// `field` is a TableField or a TableUpdateView.
 template <class Field>
 PL_HD inline float learned_radiance(const Field& field, std::uint32_t cell) {
     const float radiance = field.radiance[cell];
@@ -83,12 +83,12 @@ PL_HD inline float sum_of(const float* values, int count) {
 
 inline constexpr float kLargestFloat = std::numeric_limits<float>::max();
 
-/// Mark of a cell that had no record, where absorb_records() leaves how much the others have changed.
+/// Mark of a cell that had no record, where absorb_samples() leaves how much the others have changed.
 inline constexpr float kNoChange = -1.0f;
 
 /// Moves the learned radiance of one cell towards the mean of its new records and empties the sums. Leaves in
 /// `column_cdf`, which the later steps write anew, how much the cell has changed.
-PL_HD inline void absorb_records(const FieldPublicationView& field, std::uint32_t cell) {
+PL_HD inline void absorb_samples(const TableUpdateView& field, std::uint32_t cell) {
     const std::uint32_t fresh = field.pending_count[cell];
     field.column_cdf[cell] = kNoChange;
     if (fresh == 0) return;
@@ -105,7 +105,7 @@ PL_HD inline void absorb_records(const FieldPublicationView& field, std::uint32_
 
 /// Means over a volume, once its cells have absorbed the pass's records: what it has learned, where cells never visited
 /// count as the mean of the others, and how much the cells with records have changed.
-PL_HD inline void publish_means(const FieldPublicationView& field, std::uint32_t volume) {
+PL_HD inline void update_means(const TableUpdateView& field, std::uint32_t volume) {
     const auto side = static_cast<std::uint32_t>(field.cells.side);
     float sum = 0.0f;
     float visited = 0.0f;
@@ -136,14 +136,14 @@ PL_HD inline void publish_means(const FieldPublicationView& field, std::uint32_t
 }
 
 /// Visits as weights of a mean; beyond a million one record more changes nothing.
-PL_HD inline float visit_weight(const FieldPublicationView& field, std::uint32_t cell) {
+PL_HD inline float visit_weight(const TableUpdateView& field, std::uint32_t cell) {
     return static_cast<float>(static_cast<std::int32_t>(min_of(field.visits[cell], 1000000u)));
 }
 
 /// Weights of one row of cells before anything is normalized, and their sum: what each cell is thought to receive.
 /// With few visits a cell leans on the visit-weighted mean of its 3 x 3 neighbours, and that mean on the volume's.
 /// Never fed back into what is learned, so it can cost noise but not bias. Rows are numbered through all volumes.
-PL_HD inline void weigh_row(const FieldPublicationView& field, std::uint32_t row) {
+PL_HD inline void weigh_row(const TableUpdateView& field, std::uint32_t row) {
     constexpr float kPriorVisits = 2.0f;
     const int side = field.cells.side;
     const int row_in_volume = static_cast<int>(row) % side;
@@ -193,8 +193,7 @@ PL_HD inline float accumulate_cdf(float* weights, int count) {
 
 /// Mixes weights that are parts of `total` with equal shares of it, `count` in all, for accumulate_cdf() to normalize. A
 /// total that is unusable, or too small to be divided, gives equal shares alone.
-PL_HD inline void add_uniform_share(const FieldPublicationView& field, float* weights, int n, float total,
-                                    int count) {
+PL_HD inline void add_uniform_share(const TableUpdateView& field, float* weights, int n, float total, int count) {
     constexpr float kMinTotal = 0x1p-100f;
     const bool known = total > kMinTotal && total < kInfinity;
     const float own = 1.0f - field.uniform_floor;
@@ -203,7 +202,7 @@ PL_HD inline void add_uniform_share(const FieldPublicationView& field, float* we
 }
 
 /// Weights of one row become its cumulative probabilities, with their uniform share.
-PL_HD inline void build_row(const FieldPublicationView& field, std::uint32_t row) {
+PL_HD inline void build_row(const TableUpdateView& field, std::uint32_t row) {
     const auto side = static_cast<std::uint32_t>(field.cells.side);
     const float total = sum_of(field.row_cdf.data + row / side * side, field.cells.side);
     float* weights = field.column_cdf.data + row * side;
@@ -212,7 +211,7 @@ PL_HD inline void build_row(const FieldPublicationView& field, std::uint32_t row
 }
 
 /// Weights of a volume's rows become its cumulative probabilities.
-PL_HD inline void build_row_choice(const FieldPublicationView& field, std::uint32_t volume) {
+PL_HD inline void build_row_choice(const TableUpdateView& field, std::uint32_t volume) {
     const int side = field.cells.side;
     float* rows = field.row_cdf.data + volume * static_cast<std::uint32_t>(side);
     const float total = sum_of(rows, side);

@@ -1,4 +1,4 @@
-// The search for trouble in the picture of the window, in the background, and what it found for as long as that picture stands.
+// The search for diagnostics in the picture of the window, in the background, and what it found for as long as that picture stands.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,14 @@
 
 namespace pl {
 
-class TroubleFinder {
+class DiagnosticsFinder {
 public:
-    using Found = std::shared_ptr<const TroubleMap>;
+    using Found = std::shared_ptr<const DiagnosticsMap>;
 
     /// The render thread was asked for what it takes to search.
     void expect_answer() { is_asked_ = true; }
     /// It has answered: the search begins, if there is anything to look at.
-    void begin(TroubleAnswer answer);
+    void begin(DiagnosticsAnswer answer);
     /// Ends the search; what it has found by then comes as its result.
     void stop();
     /// Forgets what was found.

@@ -1,22 +1,22 @@
-#include "ui/trouble_finder.h"
+#include "ui/diagnostics_finder.h"
 
 namespace pl {
 
-void TroubleFinder::begin(TroubleAnswer answer) {
+void DiagnosticsFinder::begin(DiagnosticsAnswer answer) {
     is_asked_ = false;
     if (!answer.source) return;
     generation_ = answer.generation;
     job_ = std::make_unique<BackgroundJob<Found>>([source = std::move(*answer.source)](const JobMonitor& monitor) {
-        return std::make_shared<const TroubleMap>(
-            find_trouble(source, 0, monitor.stop, [&](double share) { monitor.progress(share, ""); }));
+        return std::make_shared<const DiagnosticsMap>(
+            find_diagnostics(source, 0, monitor.stop, [&](double share) { monitor.progress(share, ""); }));
     });
 }
 
-void TroubleFinder::stop() {
+void DiagnosticsFinder::stop() {
     if (job_) job_->stop();
 }
 
-std::optional<BackgroundJob<TroubleFinder::Found>::Result> TroubleFinder::update(std::uint64_t generation) {
+std::optional<BackgroundJob<DiagnosticsFinder::Found>::Result> DiagnosticsFinder::update(std::uint64_t generation) {
     const bool is_other = generation > generation_;  // what is told of the render thread may be behind its answer
     if (is_other) {
         stop();
@@ -31,7 +31,7 @@ std::optional<BackgroundJob<TroubleFinder::Found>::Result> TroubleFinder::update
     return result;
 }
 
-TroubleFinder::Found TroubleFinder::map_of(const PublishedFrame& frame) const {
+DiagnosticsFinder::Found DiagnosticsFinder::map_of(const PublishedFrame& frame) const {
     const bool fits = map_ && frame.generation == generation_ && frame.snapshot.width == map_->width &&
                       frame.snapshot.height == map_->height;
     return fits ? map_ : nullptr;

@@ -1,5 +1,5 @@
 // From records to tables: exact sums, exact rates, tables that are probabilities whatever memory holds.
-#include "core/kernel/fields/publication.h"
+#include "core/kernel/fields/table_update.h"
 
 #include <algorithm>
 
@@ -82,8 +82,8 @@ TEST_CASE("The order of records does not matter") {
     std::reverse(records.begin(), records.end());
     for (const auto& [cell, radiance] : records) record(backwards.view(), 0, cell, radiance);
     CHECK(forwards.tables.pending_sum == backwards.tables.pending_sum);
-    forwards.publish();
-    backwards.publish();
+    forwards.update();
+    backwards.update();
     CHECK(forwards.tables.radiance == backwards.tables.radiance);
     CHECK(forwards.tables.column_cdf == backwards.tables.column_cdf);
     CHECK(forwards.tables.pending_sum == LargeArray<std::int64_t>(16, 0));
@@ -114,7 +114,7 @@ TEST_CASE("Rates differ in how they follow what changes") {
         field.shape.rate = rate;
         for (int pass = 0; pass < 240; ++pass) {
             add_records(field, 3, 2, pass < 200 ? 1.0f : 2.0f);
-            field.publish();
+            field.update();
         }
         return 2.0f - field.tables.radiance[3];
     };
@@ -135,7 +135,7 @@ TEST_CASE("Ten updates give the rational mean") {
         add_records(field, 5, pass, radiance);
         sum += pass * static_cast<double>(radiance);
         count += pass;
-        field.publish();
+        field.update();
         REQUIRE(field.tables.visits[5] == count);
         const double mean = sum / count;
         REQUIRE(std::fabs(static_cast<double>(field.tables.radiance[5]) / mean - 1.0) <= 4.0 * 0x1p-24 * pass);
@@ -148,7 +148,7 @@ TEST_CASE("Ten updates give the rational mean") {
 TEST_CASE("Ten million visits keep the mean") {
     TestField field(4);
     field.shape.rate = LearningRate::SampleMean;
-    FieldPublicationView view = field.publication();
+    TableUpdateView view = field.publication();
     Uniforms random(2);
     double sum = 0.0;
     for (std::uint32_t visit = 0; visit < 10000000; ++visit) {
@@ -156,7 +156,7 @@ TEST_CASE("Ten million visits keep the mean") {
         sum += static_cast<double>(steps) / kSteps;
         view.pending_sum[0] = steps;
         view.pending_count[0] = 1;
-        absorb_records(view, 0);
+        absorb_samples(view, 0);
     }
     CHECK(view.visits[0] == 10000000);
     CHECK(std::fabs(static_cast<double>(view.radiance[0]) / (sum / 1e7) - 1.0) <= 2e-5);
@@ -166,14 +166,14 @@ TEST_CASE("Learned radiance stays between the least and the greatest target") {
     for (const LearningRate rate : {LearningRate::SampleMean, LearningRate::Forgetful}) {
         TestField field(4);
         field.shape.rate = rate;
-        FieldPublicationView view = field.publication();
+        TableUpdateView view = field.publication();
         Uniforms random(3);
         const float low = 0.3f;
         const float high = 0.300001f;
         for (int pass = 0; pass < 1000000; ++pass) {
             view.pending_count[0] = 1 + random.below(3);
             view.pending_sum[0] = to_fixed_point(random.below(2) == 0 ? low : high, 1.0f) * view.pending_count[0];
-            absorb_records(view, 0);
+            absorb_samples(view, 0);
             // Fixed point cuts off a step; the update rounds twice.
             if (!(view.radiance[0] >= low - 3.0f * 0x1p-24f && view.radiance[0] <= high + 0x1p-24f))
                 FAIL("radiance " << view.radiance[0] << " after " << pass << " passes");
@@ -187,7 +187,7 @@ TEST_CASE("Visits saturate and do not wrap") {
     field.tables.visits[3] = 0xfffffff0u;
     field.tables.radiance[3] = 1.0f;
     add_records(field, 3, 100, 1.0f);
-    field.publish();
+    field.update();
     CHECK(field.tables.visits[3] == 0xffffffffu);
     CHECK(field.tables.radiance[3] == 1.0f);
 }
@@ -197,7 +197,7 @@ TEST_CASE("Cells without new records keep every bit") {
     for (float& q : field.tables.radiance) q = 0.1f;
     field.tables.visits.assign(16, 7);
     add_records(field, 2, 3, 5.0f);
-    field.publish();
+    field.update();
     for (std::size_t cell = 0; cell < 16; ++cell)
         if (cell != 2) CHECK(field.tables.radiance[cell] == 0.1f);
     CHECK(field.tables.radiance[2] > 0.1f);
@@ -212,12 +212,12 @@ TEST_CASE("Bad numbers in memory are taken for nothing learned") {
                 field.tables.radiance[i] = cell == 256 || cell == i ? bad : 0.5f;
                 field.tables.visits[i] = 10;
             }
-            field.publish();
+            field.update();
             if (!is_probability(field, field.table())) FAIL("value " << bad << " in cell " << cell);
             // ... and the next record heals the cell.
             const std::uint32_t healed = static_cast<std::uint32_t>(cell % 256);
             add_records(field, healed, 1, 0.5f);
-            field.publish();
+            field.update();
             if (!(field.tables.radiance[healed] >= 0.0f && field.tables.radiance[healed] < kInfinity))
                 FAIL("value " << bad << " stays in cell " << cell);
         }
@@ -231,7 +231,7 @@ TEST_CASE("Every table that can be learned is a probability with its floor") {
             field.shape.uniform_floor = floor;
             for (std::size_t i = 0; i < 256; ++i)
                 for (int k = 0; k < 3; ++k) record(field.view(), 0, static_cast<int>(i), hard.weights[i]);
-            field.publish();
+            field.update();
             INFO(hard.name << ", floor " << floor);
             CHECK(is_probability(field, field.table()));
         }
@@ -243,7 +243,7 @@ TEST_CASE("Dim cells next to a bright one stay possible") {
     field.shape.radiance_unit = 0x1p27f;
     for (int cell = 0; cell < 256; ++cell)
         for (int k = 0; k < 100; ++k) record(field.view(), 0, cell, cell == 100 ? 1e8f : 1e-8f);
-    field.publish();
+    field.update();
     CHECK(is_probability(field, field.table()));
     const float least = field.table().cell_probability(15, 15);
     CHECK(least >= 0.05f / 256.0f * 0.999f);
@@ -255,12 +255,12 @@ TEST_CASE("With many visits the table follows what was learned and with none it 
     field.shape.uniform_floor = 0.0f;
     for (int cell = 0; cell < 16; ++cell)
         for (int k = 0; k < 100000; ++k) record(field.view(), 0, cell, static_cast<float>(cell + 1));
-    field.publish();
+    field.update();
     for (int cell = 0; cell < 16; ++cell)  // the prior of 2 visits has a share of 2e-5
         CHECK(field.table().cell_probability(cell % 4, cell / 4) ==
               Approx(static_cast<float>(cell + 1) / 136.0f).epsilon(1e-3));
     TestField empty(4);
-    empty.publish();
+    empty.update();
     for (int cell = 0; cell < 16; ++cell)
         CHECK(empty.table().cell_probability(cell % 4, cell / 4) == Approx(1.0f / 16.0f));
     CHECK(empty.tables.mean_radiance[0] == 0.0f);
@@ -279,7 +279,7 @@ TEST_CASE("The mean radiance is that of the visited cells") {
         sum += static_cast<double>(field.tables.radiance[cell]);
         ++visited;
     }
-    field.publish();
+    field.update();
     CHECK(std::fabs(static_cast<double>(field.tables.mean_radiance[0]) / (sum / visited) - 1.0) <= 200.0 * 0x1p-24);
 }
 
@@ -291,8 +291,8 @@ TEST_CASE("Volumes are published independently") {
         record(together.view(), 1, cell, static_cast<float>(cell));
         record(alone.view(), 0, cell, static_cast<float>(cell));
     }
-    together.publish();
-    alone.publish();
+    together.update();
+    alone.update();
     CHECK(std::equal(alone.tables.column_cdf.begin(), alone.tables.column_cdf.end(),
                      together.tables.column_cdf.begin() + 16));
     CHECK(together.tables.mean_radiance[1] == alone.tables.mean_radiance[0]);

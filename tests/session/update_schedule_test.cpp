@@ -1,5 +1,5 @@
 // When what passes recorded becomes the tables of the next ones, and what becomes of records that wait.
-#include "core/session/publication_times.h"
+#include "core/session/update_schedule.h"
 
 #include <algorithm>
 #include <numeric>
@@ -48,17 +48,17 @@ TEST_CASE(
     "Tables are published after the first sixteen passes, then after every eighth of all, at last every sixteenth") {
     std::uint32_t last = 0;
     for (std::uint32_t passes = 1; passes <= 4096; ++passes) {
-        if (!is_published_after(passes)) continue;
+        if (!is_updated_after(passes)) continue;
         const std::uint32_t since = passes - last;
         INFO(passes << " passes, " << since << " since the last publication");
         CHECK((passes > 16 || since == 1));
         CHECK(since <= std::max(1u, passes / 8));
-        CHECK(since <= kMostPassesUnpublished);
-        CHECK((since >= passes / 16 || since == kMostPassesUnpublished));
+        CHECK(since <= kMostPassesWithoutUpdate);
+        CHECK((since >= passes / 16 || since == kMostPassesWithoutUpdate));
         last = passes;
     }
     CHECK(last == 4096);
-    CHECK(is_published_after(0xfffffff0u));
+    CHECK(is_updated_after(0xfffffff0u));
 }
 
 TEST_CASE("The first pass is parted after as many paths as there are volumes, then wherever they have doubled") {
@@ -69,7 +69,7 @@ TEST_CASE("The first pass is parted after as many paths as there are volumes, th
     CHECK(end_of_first_part(8192, 16384, 1000) == 16384);
     CHECK(end_of_first_part(8192, 10000, 1000) == 10000);
     CHECK(end_of_first_part(0, 1000, 1) == 1000);  // too few paths to tell anything
-    CHECK(end_of_first_part(0, 100000, 1) == kFewestPathsPublished);
+    CHECK(end_of_first_part(0, 100000, 1) == kFewestPathsBeforeUpdate);
     CHECK(end_of_first_part(0, 100000, 20000) == 32768);
     CHECK(end_of_first_part(0, 100000, 1024) == 1024);
     CHECK(end_of_first_part(0, 0xffffffffu, 0x80000001u) == 0xffffffffu);
@@ -118,7 +118,7 @@ TEST_CASE("Records wait in their sums until tables are published, and none is lo
         render_passes(session, 1);
         INFO("after pass " << pass);
         const std::uint64_t waiting = waiting_records(session);
-        CHECK((waiting == 0) == is_published_after(pass));
+        CHECK((waiting == 0) == is_updated_after(pass));
         CHECK(sum(session.export_field().tables.visits) + waiting == session.field_status()->records);
     }
 }

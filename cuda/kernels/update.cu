@@ -1,0 +1,27 @@
+#include "cuda/kernels/kernels.h"
+#include "cuda/kernels/lane.cuh"
+#include "cuda/runtime/launch.h"
+
+namespace pl::cuda {
+namespace {
+
+/// One launch per step: a step reads what the one before it wrote for other cells of the same volume.
+template <auto kStep>
+__global__ void __launch_bounds__(kThreadsPerBlock) run_step(TableUpdateView field, std::uint32_t count) {
+    const std::uint32_t i = thread_number();
+    if (i < count) kStep(field, i);
+}
+
+}  // namespace
+
+constinit const std::array<UpdateStep, kUpdateStepCount> kUpdateSteps = {{
+    {run_step<absorb_samples>, UpdateItem::Cell, "absorb_samples"},
+    {run_step<update_means>, UpdateItem::Volume, "update_means"},
+    {run_step<weigh_row>, UpdateItem::Row, "weigh_row"},
+    {run_step<build_row>, UpdateItem::Row, "build_row"},
+    {run_step<build_row_choice>, UpdateItem::Volume, "build_row_choice"},
+    {run_step<move_mixture>, UpdateItem::Volume, "move_mixture"},
+    {run_step<move_reach>, UpdateItem::Volume, "move_reach"},
+}};
+
+}  // namespace pl::cuda
