@@ -7,12 +7,33 @@ namespace pl {
 namespace {
 
 constexpr std::array kMethods{
-    MethodInfo{MethodId::Default, "default", "Default", "Directions from the surface's reflectance alone.", false,
-               false},
-    MethodInfo{MethodId::Precomputed, "precomputed", "Precomputed",
-               "Directions guided by a radiance map that is computed first and then frozen.", true, false},
-    MethodInfo{MethodId::Reinforcement, "reinforcement", "Reinforcement",
-               "Directions guided by what the same paths have learned so far (Expected Sarsa).", true, true},
+    MethodInfo{.id = MethodId::Default,
+               .name = "default",
+               .label = "Default",
+               .summary = "Directions from the surface's reflectance alone.",
+               .key = '1',
+               .color = 0xff56b4e9u,
+               .uses_field = false,
+               .precomputes = false,
+               .learns = false},
+    MethodInfo{.id = MethodId::Precomputed,
+               .name = "precomputed",
+               .label = "Precomputed",
+               .summary = "Directions guided by a radiance map that is computed first and then frozen.",
+               .key = '2',
+               .color = 0xffe69f00u,
+               .uses_field = true,
+               .precomputes = true,
+               .learns = false},
+    MethodInfo{.id = MethodId::Reinforcement,
+               .name = "reinforcement",
+               .label = "Reinforcement",
+               .summary = "Directions guided by what the same paths have learned so far (Expected Sarsa).",
+               .key = '3',
+               .color = 0xff26c48fu,
+               .uses_field = true,
+               .precomputes = false,
+               .learns = true},
 };
 
 constexpr std::array<ViewInfo, kViewCount> kViews{
@@ -42,7 +63,9 @@ std::span<const MethodInfo> all_methods() { return kMethods; }
 std::span<const ViewInfo> all_views() { return kViews; }
 
 const MethodInfo& info_of(MethodId id) { return kMethods[static_cast<std::size_t>(id)]; }
-MethodId table_owner(MethodId method) { return info_of(method).uses_field ? method : MethodId::Reinforcement; }
+MethodId baseline_method() { return std::ranges::find(kMethods, false, &MethodInfo::uses_field)->id; }
+MethodId learning_method() { return std::ranges::find(kMethods, true, &MethodInfo::learns)->id; }
+MethodId table_owner(MethodId method) { return info_of(method).uses_field ? method : learning_method(); }
 const ViewInfo& info_of(View id) { return kViews[static_cast<std::size_t>(id)]; }
 
 std::optional<MethodId> method_by_name(std::string_view name) {

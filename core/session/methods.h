@@ -17,8 +17,11 @@ struct MethodInfo {
     std::string_view name;     ///< on the command line
     std::string_view label;    ///< on screen
     std::string_view summary;  ///< one sentence
-    bool uses_field;           ///< samples directions from learned tables
-    bool learns;               ///< records while it renders
+    char key;                  ///< in the window
+    std::uint32_t color;       ///< opaque ARGB, of its curves
+    bool uses_field;           ///< samples directions from a guiding field
+    bool precomputes;          ///< fills its field by probes before it renders
+    bool learns;               ///< makes training samples while it renders
 };
 
 struct ViewInfo {
@@ -33,6 +36,10 @@ struct ViewInfo {
 std::span<const MethodInfo> all_methods();
 std::span<const ViewInfo> all_views();
 const MethodInfo& info_of(MethodId id);
+/// The method without a field, against which others are compared.
+MethodId baseline_method();
+/// The first method that learns while it renders.
+MethodId learning_method();
 /// The method whose tables the views of a field show: default path tracing learns nothing, it shows Reinforcement's.
 MethodId table_owner(MethodId method);
 const ViewInfo& info_of(View id);
