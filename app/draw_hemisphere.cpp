@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/kernel/base/frame.h"
-#include "core/kernel/fields/direction_cells.h"
+#include "core/kernel/guiding/direction_cells.h"
 
 namespace pl {
 namespace {

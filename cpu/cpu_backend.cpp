@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/scene/pack_scene.h"
 #include "cpu/batch_tracer.h"
@@ -18,22 +19,12 @@
 namespace pl {
 namespace {
 
-const PassKernels<PicturePass>& learning_kernels(LearningKernel kernel) {
-    switch (kernel) {
-    case LearningKernel::Immediate: break;
-    case LearningKernel::Late: return kSarsaKernels;
-    case LearningKernel::WholePath: return kMonteCarloKernels;
-    }
-    return kReinforcementKernels;
-}
-
-const PassKernels<PicturePass>& picture_kernels(const PassRequest& request) {
-    switch (request.slot.method) {
-    case MethodId::Default: return kDefaultKernels;
-    case MethodId::Precomputed: return kPrecomputedKernels;
-    case MethodId::Reinforcement: return learning_kernels(kernel_for(request.learning, request.path.next_event != 0));
-    }
-    throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
+const PassKernels<PicturePass>& kernels_for(const PassRequest& request) {
+    const PassKernels<PicturePass>* kernels = nullptr;
+    with_method_kernel(request.slot.method, request.learning, request.path.next_event != 0,
+                       [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); });
+    if (kernels == nullptr) throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
+    return *kernels;
 }
 
 class CpuBackend final : public RenderBackend {
@@ -47,7 +38,7 @@ public:
                 .threads = settings_.threads};
     }
 
-    /// What rays need to find triangles is kept where only materials are others.
+    /// The acceleration structure is kept if only materials differ.
     void upload_scene(std::shared_ptr<const HostScene> scene) override {
         const bool is_built = tracer_ && same_triangles(*scene_, *scene);
         if (!is_built) tracer_.reset();
@@ -61,17 +52,17 @@ public:
     void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
         volumes_ = std::move(volumes);
         shape_ = shape;
-        tables_.fill(std::nullopt);
+        fields_.fill(std::nullopt);
     }
 
-    void upload_tables(MethodId method, HostTables tables) override {
+    void upload_field(MethodId method, HostField field) override {
         if (!volumes_) throw Error(ErrorKind::Runtime, "CPU back end: expected volumes before tables, got none");
-        tables_[index_of(method)] = std::move(tables);
+        fields_[index_of(method)] = std::move(field);
     }
-    HostTables download_tables(MethodId method) const override {
-        return tables_[index_of(method)].value_or(HostTables{});
+    HostField download_field(MethodId method) const override {
+        return fields_[index_of(method)].value_or(HostField{});
     }
-    bool has_tables(MethodId method) const override { return tables_[index_of(method)].has_value(); }
+    bool has_field(MethodId method) const override { return fields_[index_of(method)].has_value(); }
 
     void reset_film(FilmSlot slot, int width, int height) override {
         films_.reset(slot, width, height, settings_.threads);
@@ -88,8 +79,8 @@ public:
         const PassSetup setup = make_setup(request.path, {request.first_pixel, request.end_pixel}, request.stop);
         if (request.slot.view != View::Beauty) return run_view(setup, request);
         const MethodId method = request.slot.method;
-        const TableField field = info_of(method).uses_field ? learned_field(method) : TableField{};
-        return launch(picture_kernels(request), request.features,
+        const AnyFieldView field = info_of(method).uses_field ? learned_field(method) : AnyFieldView{};
+        return launch(kernels_for(request), request.features,
                       PicturePass{.setup = setup,
                                   .tracer = *tracer_,
                                   .field = field,
@@ -104,14 +95,17 @@ public:
         return launch(kProbeKernels, request.features,
                       ProbePass{.setup = make_setup(request.path, {request.first_probe, kToTheLast}, request.stop),
                                 .tracer = *tracer_,
-                                .field = learned_field(request.method),
-                                .sample = request.sample,
-                                .strata_side = request.strata_side});
+                                .field = std::get<TableField>(learned_field(request.method)),
+                                .stratum = {request.sample, request.strata_side}});
     }
 
     void update_field(MethodId method) override {
-        const TableUpdateView field = table_update_view(shape_, existing_tables(method));
-        for_each_volume(field, [&](std::uint32_t volume) { update_volume(field, volume); });
+        std::visit(
+            [&](auto& arrays) {
+                const auto field = update_view(shape_, arrays);
+                for_each_volume(volume_count(arrays), [&](std::uint32_t volume) { update_volume(field, volume); });
+            },
+            existing_field(method));
     }
 
 private:
@@ -127,45 +121,50 @@ private:
                 .batch_paths = settings_.batch_paths};
     }
 
-    HostTables& existing_tables(MethodId method) {
-        std::optional<HostTables>& tables = tables_[index_of(method)];
-        if (!tables)
+    HostField& existing_field(MethodId method) {
+        std::optional<HostField>& field = fields_[index_of(method)];
+        if (!field)
             throw Error(ErrorKind::Runtime,
                         fmt::format("CPU back end: expected tables of '{}', got none", info_of(method).name));
-        return *tables;
+        return *field;
     }
-    TableField learned_field(MethodId method) {
-        TableField field = table_field(shape_, *volumes_, existing_tables(method));
-        field.writers = settings_.threads == 1 ? Writers::One : Writers::Many;
+    AnyFieldView learned_field(MethodId method) {
+        AnyFieldView field = field_view(shape_, *volumes_, existing_field(method));
+        visit_field(field, [&](auto& view) {
+            view.writers = settings_.threads == 1 ? Writers::One : Writers::Many;
+        });
         return field;
     }
 
     template <class Fn>
-    void for_each_volume(const TableUpdateView& field, Fn&& fn) const {
+    void for_each_volume(std::size_t volumes, Fn&& fn) const {
         constexpr std::uint32_t kVolumeChunk = 16;
-        ChunkQueue queue(0, field.mean_radiance.count, kVolumeChunk);
+        ChunkQueue queue(0, static_cast<std::uint32_t>(volumes), kVolumeChunk);
         parallel_for(settings_.threads, queue, [&](IndexRange range) {
             for (std::uint32_t volume = range.begin; volume < range.end; ++volume) fn(volume);
         });
     }
 
-    /// What the views of a field show. Default path tracing learns nothing: it shows what Reinforcement learned.
-    TableField shown_field(const FilmSlot& slot) {
+    /// The placement and the number of every volume that a view shows; nothing for other views.
+    ShownField shown_field(const FilmSlot& slot) {
         const ViewInfo& view = info_of(slot.view);
-        if (view.needs_tables) return learned_field(table_owner(slot.method));
-        if (!view.needs_volumes) return {};
+        if (!view.needs_volumes && !view.needs_tables) return {};
         if (!volumes_) throw Error(ErrorKind::Runtime, "CPU back end: expected volumes, got none");
-        HostTables none;
-        return table_field(shape_, *volumes_, none);
+        ShownField shown{placement_view(*volumes_, shape_.lookup, shape_.extent), {}};
+        if (needs_volume_values(slot.view)) shown.volume_values = volume_values(slot);
+        return shown;
     }
 
-    /// The number of every volume that a heat map shows; nothing for other views.
     Span<const float> volume_values(const FilmSlot& slot) {
-        if (!is_heat_map(slot.view)) return {};
-        const TableUpdateView field = table_update_view(shape_, existing_tables(table_owner(slot.method)));
-        volume_values_.resize(field.mean_radiance.count);
-        for_each_volume(
-            field, [&](std::uint32_t volume) { volume_values_[volume] = volume_value(field, volume, slot.view); });
+        std::visit(
+            [&](auto& arrays) {
+                const VolumeSummary auto summary = summary_of(update_view(shape_, arrays));
+                volume_values_.resize(volume_count(arrays));
+                for_each_volume(volume_values_.size(), [&](std::uint32_t volume) {
+                    volume_values_[volume] = volume_value(summary, volume, slot.view);
+                });
+            },
+            existing_field(field_owner(slot.method)));
         return view_of(std::as_const(volume_values_));
     }
 
@@ -173,19 +172,19 @@ private:
         return launch(kViewKernels, request.features,
                       ViewPass{.setup = setup,
                                .view = request.slot.view,
-                               .shown = {shown_field(request.slot), volume_values(request.slot)},
+                               .shown = shown_field(request.slot),
                                .camera = request.camera,
                                .sample = request.sample,
                                .film = films_.view(request.slot)});
     }
 
     CpuSettings settings_;
-    std::string device_ = cpu_name();  ///< read once: info() is asked for after every pass
+    std::string device_ = cpu_name();  ///< read once, since info() is called after every pass
     std::shared_ptr<const HostScene> scene_;
     std::optional<BatchTracer> tracer_;
     std::shared_ptr<const HostVolumes> volumes_;
     FieldShape shape_;
-    std::array<std::optional<HostTables>, kMethodCount> tables_;
+    std::array<std::optional<HostField>, kMethodCount> fields_;
     HostArray<float> volume_values_;  ///< of the last heat map
     FilmStore films_;
 };

@@ -1,39 +1,38 @@
-// Paths of a guided method on their way from one segment to the next: what they have to leave where they stand, and the
-// directions that are chosen for all of them at once.
+// Blocks of paths guided by tables: the volumes at their vertices are looked up ahead, and the directions of all paths that
+// scatter at Lambert reflectors are sampled in lanes.
 #pragma once
 
 #include "core/kernel/integrator/steps.h"
-#include "cpu/guided_records.h"
 #include "cpu/lane_kernels.h"
 #include "cpu/lookups_ahead.h"
+#include "cpu/training_queue.h"
 
 namespace pl {
 
 inline constexpr std::uint32_t kGuidedGroups = group_count(kGuidedBlock);
 
-/// At most kGuidedBlock paths. Gives every path what M::sample_direction would alone.
-template <FeatureSet F, GuidedMethod M>
-class GuidedDepartures {
+/// The paths of a block that wait for their directions, at most kGuidedBlock. Each gets that of M::sample_direction().
+template <FeatureSet F, TableGuided M>
+class ScatterBlock {
 public:
-    GuidedDepartures(const M& method, const PathSettings& settings) : method_(method), settings_(settings) {}
+    ScatterBlock(const M& method, const PathSettings& settings) : method_(method), settings_(settings) {}
 
     std::uint32_t count() const { return count_; }
     void clear() { count_ = 0; }
 
-    /// Where the next path may put down its departure; add() makes it count.
-    Departure<F, M>& next() { return departures_[count_]; }
+    /// The place of the next path's vertex; add() makes it count.
+    ScatterPoint<F, M>& next() { return points_[count_]; }
     void add(std::uint32_t path, const PathState<F, M>& state, Vec4f u) {
-        const Departure<F, M>& departure = departures_[count_];
-        const GuidedVertex& vertex = departure.vertex;
+        const ScatterPoint<F, M>& from = points_[count_];
         GuidedGroup& group = groups_[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
         group.volume[lane] = kNoVolume;
-        if (vertex.volume != kNoVolume) {
-            __builtin_prefetch(method_.field.row_cdf.data + vertex.volume * method_.field.cells.side);
-            group.set_volume(lane, serving_volume(vertex));
+        if (from.vertex.is_served()) {
+            __builtin_prefetch(method_.field.row_cdf.data + from.vertex.volume * method_.field.cells.side);
+            group.set_volume(lane, served_point(from), method_.bsdf_fraction(from.vertex));
         }
-        group.position.set(lane, departure.surface.position);
-        group.shading_normal.set(lane, departure.surface.shading_normal);
+        group.position.set(lane, from.surface.position);
+        group.shading_normal.set(lane, from.surface.shading_normal);
         group.choice[lane] = u.x;
         group.u_x[lane] = u.y;
         group.u_y[lane] = u.z;
@@ -41,73 +40,76 @@ public:
         group.counters.sample[lane] = state.sample;
         group.counters.vertex[lane] = state.draw_index();
         paths_[count_++] = path;
-        if (lane + 1 == kGroupSize) choose_rows();
+        if (lane + 1 == kGroupSize) sample_rows();
     }
 
-    void choose_directions() {
-        if (count_ % kGroupSize != 0) choose_rows();
-        kernels_.sample_guided(mixture(), {settings_.seed, settings_.stream, Purpose::CellJitter}, groups_, chosen_,
+    void sample_directions() {
+        if (count_ % kGroupSize != 0) sample_rows();
+        kernels_.sample_guided(sampler(), {settings_.seed, settings_.stream, Purpose::CellJitter}, groups_, sampled_,
                                directions_, group_count(count_));
     }
 
     std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
-    const Departure<F, M>& departure(std::uint32_t i) const { return departures_[i]; }
+    const ScatterPoint<F, M>& point(std::uint32_t i) const { return points_[i]; }
     DirectionSample direction(std::uint32_t i) const { return directions_[i / kGroupSize].get(i % kGroupSize); }
 
 private:
-    /// By the node that the lookup has just read, if it is known.
-    ServingVolume<One> serving_volume(const GuidedVertex& vertex) const {
-        if (vertex.node == FoundVolume::kUnknown) return method_.serving_volume(vertex.volume);
-        const KdNode& node = method_.field.tree.nodes[vertex.node];
-        return method_.serving_volume(vertex.volume, node.position, node.normal);
+    /// Position and normal of the volume come from the tree node of the lookup, which is in the cache, if it is known.
+    ServedPoint<One> served_point(const ScatterPoint<F, M>& from) const {
+        ServedPoint<One> point = method_.field.served_point(from.vertex, from.surface);
+        if (from.vertex.node == FoundVolume::kUnknown) return point;
+        const KdNode& node = method_.field.tree.nodes[from.vertex.node];
+        point.site = unpack(node.position);
+        point.normal = unpack(node.normal);
+        return point;
     }
     /// Of the last group.
-    void choose_rows() {
+    void sample_rows() {
         const std::uint32_t group = (count_ - 1) / kGroupSize;
-        kernels_.choose_rows(mixture(), groups_[group], chosen_[group]);
+        kernels_.sample_rows(sampler(), groups_[group], sampled_[group]);
     }
-    GuidedMixture mixture() const { return method_.field.normals.empty() ? kNoTables : method_.mixture_view(); }
+    TableSampler sampler() const { return method_.field.normals.empty() ? kNoTables : method_.field.sampler(); }
 
-    /// Something to load for paths that no volume serves, where there is none at all.
+    /// Memory to load from for paths that no volume serves, if there is no volume at all.
     static constexpr float kOneCell[] = {1.0f};
-    static constexpr GuidedMixture kNoTables{.cells = {1}, .row_cdf = kOneCell, .column_cdf = kOneCell};
+    static constexpr TableSampler kNoTables{.cells = {1}, .row_cdf = kOneCell, .column_cdf = kOneCell};
 
     const M& method_;
     const PathSettings& settings_;
     LaneKernels kernels_ = best_lane_kernels();
     std::uint32_t count_ = 0;
     std::uint32_t paths_[kGuidedBlock];
-    Departure<F, M> departures_[kGuidedBlock];
+    ScatterPoint<F, M> points_[kGuidedBlock];
     GuidedGroup groups_[kGuidedGroups];
-    ChosenGroup chosen_[kGuidedGroups];
+    SampledGroup sampled_[kGuidedGroups];
     DirectionGroup directions_[kGuidedGroups];
 };
 
-/// What the threads of a pass share besides scene and tables, and what each needs to extend blocks of paths; nothing for
-/// methods that are not guided.
+/// State that the threads of a pass share; none for methods that are not guided by tables.
 template <class M>
 struct SharedByThreads {
     explicit SharedByThreads(const M&) {}
 };
-template <GuidedMethod M>
+template <TableGuided M>
 struct SharedByThreads<M> {
     VolumeLocks locks;
 
     explicit SharedByThreads(const M& method) : locks(method.field.normals.count) {}
 };
 
+/// State of a thread that extends blocks of paths.
 template <FeatureSet F, class M>
 struct BlockMemory {
     BlockMemory(const M&, const PathSettings&, SharedByThreads<M>&) {}
 };
-template <FeatureSet F, GuidedMethod M>
+template <FeatureSet F, TableGuided M>
 struct BlockMemory<F, M> {
     LookupsAhead lookups[2];  ///< of this block and of the next one
-    GuidedDepartures<F, M> departures;
-    GuidedRecords<M> records;
+    ScatterBlock<F, M> scattered;
+    TrainingQueue<M> training;
 
     BlockMemory(const M& method, const PathSettings& settings, SharedByThreads<M>& shared)
-        : departures(method, settings), records(method, shared.locks) {}
+        : scattered(method, settings), training(method, shared.locks) {}
 };
 
 }  // namespace pl

@@ -1,4 +1,6 @@
-// Directions of the guided methods for a vector of paths. Included by one file per instruction set; see lanes.h.
+// The one-sample mixture of table and Lambert BSDF for a vector of paths. Included by one file per instruction set; see lanes.h.
+// The same bits as Guided::sample_direction(), but both strategies share one frame and one map from the square, so that lanes
+// of either strategy cost the same.
 #pragma once
 
 #include "cpu/lane_kernels.h"
@@ -8,63 +10,84 @@
 namespace pl {
 namespace {
 
-/// Some lanes of a group of paths, step by step: each step asks for the memory of the next one, which has come when all
-/// other paths have taken theirs. Tables are larger than the caches.
+/// Some lanes of a group of paths, step by step: each step prefetches the memory of the next one, which arrives while all
+/// other paths take theirs. Tables are larger than the caches.
 class GuidedLanes {
 public:
-    PL_INLINE GuidedLanes(const GuidedMixture& mixture, const GuidedGroup& paths, std::uint32_t first)
-        : mixture_(mixture), first_(first),
-          paths_(paths), place_{{load_lanes<LaneInt>(paths.volume + first), vector(paths.site),
-                                 vector(paths.volume_normal), row(paths.inverse_reach), row(paths.bsdf_fraction)},
-                                vector(paths.position),
-                                vector(paths.shading_normal)} {}
+    PL_INLINE GuidedLanes(const TableSampler& tables, const GuidedGroup& paths, std::uint32_t first)
+        : tables_(tables), first_(first),
+          paths_(paths), point_{{load_lanes<LaneInt>(paths.volume + first), vector(paths.site),
+                                 vector(paths.volume_normal), row(paths.inverse_reach), vector(paths.position)},
+                                vector(paths.shading_normal),
+                                row(paths.bsdf_fraction)} {}
 
-    PL_INLINE void choose_row(ChosenGroup& chosen) const {
-        const LaneInt guided = mixture_.is_guided(place_, row(paths_.choice));
-        const DirectionTables<Lanes> tables = mixture_.tables_of(place_, guided);
+    PL_INLINE void sample_rows(SampledGroup& sampled) const {
+        const LaneInt guided = is_guided();
+        const DirectionTables<Lanes> tables = tables_of(guided);
         const LaneInt table_row = select(guided, sample_row(tables, row(paths_.u_y)), LaneInt{});
-        store_lanes(table_row, chosen.row + first_);
-        for (int column = 0; column < mixture_.cells.side; column += kFloatsPerLine)
-            Lanes::prefetch(mixture_.column_cdf, tables.first_of_row(table_row) + column);
+        store_lanes(table_row, sampled.row + first_);
+        for (int column = 0; column < tables_.cells.side; column += kFloatsPerLine)
+            Lanes::prefetch(tables_.column_cdf, tables.first_of_row(table_row) + column);
     }
 
-    PL_INLINE void choose_direction(const DrawKey& jitter_key, ChosenGroup& chosen) const {
-        const auto draw_jitter = [&] {
-            const PhiloxWords<LaneFloat> jitter = draw_lanes(jitter_key, paths_.counters, first_);
-            return Real2<Lanes>{jitter.v[0], jitter.v[1]};
-        };
-        const Real3<Lanes> wi = mixture_.choose(place_, load_lanes<LaneInt>(chosen.row + first_), row(paths_.choice),
-                                                {row(paths_.u_x), row(paths_.u_y)}, draw_jitter);
-        const SeenDirection<Lanes> seen = mixture_.look(place_, wi);
-        store(wi.x, chosen.direction.x);
-        store(wi.y, chosen.direction.y);
-        store(wi.z, chosen.direction.z);
-        store(seen.table.square.x, chosen.square_x);
-        store(seen.table.square.y, chosen.square_y);
-        store(seen.table.cosine, chosen.cosine);
-        store(seen.steradians, chosen.steradians);
-        const DirectionTables<Lanes> tables = mixture_.tables_of(place_, place_.volume.number >= 0);
-        const CellPair<Lanes> columns(mixture_.cells, seen.table.square.x);
-        const CellPair<Lanes> rows(mixture_.cells, seen.table.square.y);
-        Lanes::prefetch(mixture_.column_cdf, tables.first_of_row(rows.first) + columns.first);
-        Lanes::prefetch(mixture_.column_cdf, tables.first_of_row(rows.second) + columns.first);
+    PL_INLINE void sample_direction(const DrawKey& jitter_key, SampledGroup& sampled) const {
+        const Real3<Lanes> wi = mixture_direction(jitter_key, load_lanes<LaneInt>(sampled.row + first_));
+        const TableDirection<Lanes> direction = tables_.locate(point_.served, wi);
+        store(wi.x, sampled.direction.x);
+        store(wi.y, sampled.direction.y);
+        store(wi.z, sampled.direction.z);
+        store(direction.square.x, sampled.square_x);
+        store(direction.square.y, sampled.square_y);
+        store(direction.cosine, sampled.cosine);
+        store(direction.jacobian, sampled.jacobian);
+        const DirectionTables<Lanes> tables = tables_of(point_.served.volume >= 0);
+        const CellPair<Lanes> columns(tables_.cells, direction.square.x);
+        const CellPair<Lanes> rows(tables_.cells, direction.square.y);
+        Lanes::prefetch(tables_.column_cdf, tables.first_of_row(rows.first) + columns.first);
+        Lanes::prefetch(tables_.column_cdf, tables.first_of_row(rows.second) + columns.first);
     }
 
-    PL_INLINE void weigh(const ChosenGroup& chosen, DirectionGroup& directions) const {
-        const GuidedDirection<Lanes> direction = mixture_.weigh(
-            place_, vector(chosen.direction),
-            SeenDirection<Lanes>{{Real2<Lanes>{row(chosen.square_x), row(chosen.square_y)}, row(chosen.cosine)},
-                                 row(chosen.steradians)});
-        store(direction.wi.x, directions.x);
-        store(direction.wi.y, directions.y);
-        store(direction.wi.z, directions.z);
-        store(direction.pdf_sa, directions.pdf_sa);
-        store(direction.bsdf_pdf_sa, directions.bsdf_pdf_sa);
-        store_lanes(direction.cell, directions.cell + first_);
+    PL_INLINE void weigh(const SampledGroup& sampled, DirectionGroup& directions) const {
+        const Real3<Lanes> wi = vector(sampled.direction);
+        const TableDirection<Lanes> direction{
+            {row(sampled.square_x), row(sampled.square_y)}, row(sampled.cosine), row(sampled.jacobian)};
+        const LaneInt served = point_.served.volume >= 0;
+        const TableDensity<Lanes> table =
+            tables_.density<Lanes>(select(served, point_.served.volume, LaneInt{}), direction);
+        const LaneFloat bsdf_pdf_sa = cosine_pdf_sa<Lanes>(dot(wi, point_.shading_normal));
+        const LaneFloat a = point_.bsdf_fraction;
+        const LaneFloat mixed = a * bsdf_pdf_sa + (1.0f - a) * table.pdf_sa;
+        store(wi.x, directions.x);
+        store(wi.y, directions.y);
+        store(wi.z, directions.z);
+        store(select(served, mixed, bsdf_pdf_sa), directions.pdf_sa);
+        store(bsdf_pdf_sa, directions.bsdf_pdf_sa);
+        store_lanes(select(served, table.cell, Lanes::constant(-1)), directions.bin + first_);
     }
 
 private:
     static constexpr int kFloatsPerLine = 16;
+
+    /// Lanes that sample the table.
+    PL_INLINE LaneInt is_guided() const {
+        return (point_.served.volume >= 0) & (row(paths_.choice) >= point_.bsdf_fraction);
+    }
+    /// The table of each lane's volume, of volume 0 in lanes that do not need one.
+    PL_INLINE DirectionTables<Lanes> tables_of(const LaneInt& wanted) const {
+        return tables_.tables_of<Lanes>(select(wanted, point_.served.volume, LaneInt{}));
+    }
+    PL_INLINE Real3<Lanes> mixture_direction(const DrawKey& jitter_key, const LaneInt& table_row) const {
+        const LaneInt guided = is_guided();
+        const Real2<Lanes> u{row(paths_.u_x), row(paths_.u_y)};
+        Real2<Lanes> square = u;
+        if (Lanes::any(guided)) {
+            const PhiloxWords<LaneFloat> jitter = draw_lanes(jitter_key, paths_.counters, first_);
+            square = select(guided, sample_square(tables_of(guided), table_row, u, {jitter.v[0], jitter.v[1]}), u);
+        }
+        const FrameOf<Lanes> frame = make_frame(select(guided, point_.served.normal, point_.shading_normal));
+        const Real3<Lanes> direction = frame.to_world(square_to_cosine_hemisphere(square));
+        return select(guided, TableSampler::parallax_of(point_.served).to_point(direction), direction);
+    }
 
     PL_INLINE LaneFloat row(const float* values) const { return load_lanes<LaneFloat>(values + first_); }
     PL_INLINE Real3<Lanes> vector(const VectorGroup& group) const {
@@ -72,25 +95,25 @@ private:
     }
     PL_INLINE void store(const LaneFloat& lanes, float* values) const { store_lanes(lanes, values + first_); }
 
-    const GuidedMixture& mixture_;
+    const TableSampler& tables_;
     std::uint32_t first_;
     const GuidedGroup& paths_;
-    GuidedPlace<Lanes> place_;
+    MixturePoint<Lanes> point_;
 };
 
-PL_INLINE void choose_rows_of_group(const GuidedMixture& mixture, const GuidedGroup& paths, ChosenGroup& chosen) {
+PL_INLINE void sample_rows_of_group(const TableSampler& tables, const GuidedGroup& paths, SampledGroup& sampled) {
     for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-        GuidedLanes(mixture, paths, first).choose_row(chosen);
+        GuidedLanes(tables, paths, first).sample_rows(sampled);
 }
 
-PL_INLINE void sample_guided_groups(const GuidedMixture& mixture, const DrawKey& jitter_key, const GuidedGroup* paths,
-                                    ChosenGroup* chosen, DirectionGroup* directions, std::uint32_t groups) {
+PL_INLINE void sample_guided_groups(const TableSampler& tables, const DrawKey& jitter_key, const GuidedGroup* paths,
+                                    SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            GuidedLanes(mixture, paths[group], first).choose_direction(jitter_key, chosen[group]);
+            GuidedLanes(tables, paths[group], first).sample_direction(jitter_key, sampled[group]);
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            GuidedLanes(mixture, paths[group], first).weigh(chosen[group], directions[group]);
+            GuidedLanes(tables, paths[group], first).weigh(sampled[group], directions[group]);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The loops that work on several rays or paths at once, compiled once per instruction set; all give the same bits.
+// The loops over lanes of rays or paths, compiled once per instruction set; all give the same bits.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "core/kernel/base/math.h"
 #include "core/kernel/base/rng.h"
-#include "core/kernel/methods/guided.h"
+#include "core/kernel/guiding/table_field.h"
 #include "cpu/ray_batch.h"
 
 namespace pl {
@@ -21,8 +21,8 @@ struct DenseTriangle {
     std::uint32_t primitive;  ///< number in the scene
 };
 
-/// A small scene as plain pointers: the files that are compiled for wide vectors must not share the inline functions
-/// of a container.
+/// A small scene as plain pointers: files compiled for one instruction set must not share inline functions of containers
+/// with others.
 struct DenseView {
     const Vec3f* positions;  ///< each once, however many triangles share it
     std::uint32_t position_count;
@@ -30,26 +30,26 @@ struct DenseView {
     std::uint32_t triangle_count;
 };
 
-/// What the random numbers of a batch have in common.
+/// The common part of the random numbers of a batch.
 struct DrawKey {
     std::uint64_t seed = 0;
     Stream stream = Stream::Picture;
     Purpose purpose = Purpose::Scatter;
 };
 
-/// What tells them apart: the other arguments of Rng::draw.
+/// The remaining arguments of Rng::draw, per lane.
 struct alignas(64) CounterGroup {
     std::uint32_t pixel[kGroupSize] = {}, sample[kGroupSize] = {}, vertex[kGroupSize] = {};
 };
 
-/// Four uniform numbers for each.
+/// Four uniform numbers per lane.
 struct alignas(64) NumberGroup {
     float rows[4][kGroupSize] = {};
 
     Vec4f get(std::uint32_t lane) const { return {rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]}; }
 };
 
-/// Rows of the components of 16 vectors.
+/// Components of 16 vectors.
 struct alignas(64) VectorGroup {
     float x[kGroupSize] = {}, y[kGroupSize] = {}, z[kGroupSize] = {};
 
@@ -61,41 +61,41 @@ struct alignas(64) VectorGroup {
     Vec3f get(std::uint32_t lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 
-/// 16 paths that a guided method sends on. Lanes that were never set are served by no volume.
+/// 16 paths to be scattered by a guided method. Lanes that were never set are served by no volume.
 struct alignas(64) GuidedGroup {
     std::int32_t volume[kGroupSize];
     VectorGroup site, volume_normal;
     float inverse_reach[kGroupSize] = {}, bsdf_fraction[kGroupSize] = {};
     VectorGroup position, shading_normal;
-    float choice[kGroupSize] = {}, u_x[kGroupSize] = {}, u_y[kGroupSize] = {};
-    CounterGroup counters;  ///< of the numbers for the jitter
+    float choice[kGroupSize] = {}, u_x[kGroupSize] = {}, u_y[kGroupSize] = {};  ///< x, y, z of ScatterNumbers::u
+    CounterGroup counters;                                                      ///< of the jitter's numbers
 
     GuidedGroup() { std::fill_n(volume, kGroupSize, kNoVolume); }
 
-    void set_volume(std::uint32_t lane, const ServingVolume<One>& serving) {
-        volume[lane] = serving.number;
-        site.set(lane, pack(serving.site));
-        volume_normal.set(lane, pack(serving.normal));
-        inverse_reach[lane] = serving.inverse_reach;
-        bsdf_fraction[lane] = serving.bsdf_fraction;
+    void set_volume(std::uint32_t lane, const ServedPoint<One>& point, float fraction) {
+        volume[lane] = point.volume;
+        site.set(lane, pack(point.site));
+        volume_normal.set(lane, pack(point.normal));
+        inverse_reach[lane] = point.inverse_reach;
+        bsdf_fraction[lane] = fraction;
     }
 };
 
-/// What is known of their directions before they are weighed.
-struct alignas(64) ChosenGroup {
+/// Their directions between sampling and the evaluation of densities.
+struct alignas(64) SampledGroup {
     std::int32_t row[kGroupSize];  ///< of the table
     VectorGroup direction;
-    float square_x[kGroupSize], square_y[kGroupSize], cosine[kGroupSize], steradians[kGroupSize];  ///< SeenDirection
+    float square_x[kGroupSize], square_y[kGroupSize], cosine[kGroupSize], jacobian[kGroupSize];  ///< TableDirection
 };
 
-/// Their directions; as DirectionSample.
+/// Their directions, as DirectionSample.
 struct alignas(64) DirectionGroup {
     float x[kGroupSize] = {}, y[kGroupSize] = {}, z[kGroupSize] = {};
     float pdf_sa[kGroupSize] = {}, bsdf_pdf_sa[kGroupSize] = {};
-    std::int32_t cell[kGroupSize] = {};
+    std::int32_t bin[kGroupSize] = {};
 
     DirectionSample get(std::uint32_t lane) const {
-        return {{x[lane], y[lane], z[lane]}, pdf_sa[lane], bsdf_pdf_sa[lane], cell[lane]};
+        return {{x[lane], y[lane], z[lane]}, pdf_sa[lane], bsdf_pdf_sa[lane], bin[lane]};
     }
 };
 
@@ -104,14 +104,13 @@ struct LaneKernels {
     /// All rays of `groups` groups against all triangles.
     void (*find_closest)(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups);
     void (*find_occluded)(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t groups);
-    /// What Rng::draw gives for every counter.
+    /// Rng::draw() of every counter.
     void (*draw)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups);
-    /// The rows of tables that sample_guided() needs, which may be called at once, or better later: the memory that it
-    /// needs then is asked for.
-    void (*choose_rows)(const GuidedMixture& mixture, const GuidedGroup& paths, ChosenGroup& chosen);
-    /// What GuidedMixture::sample gives for every path, the jitter drawn as for Purpose::CellJitter.
-    void (*sample_guided)(const GuidedMixture& mixture, const DrawKey& jitter_key, const GuidedGroup* paths,
-                          ChosenGroup* chosen, DirectionGroup* directions, std::uint32_t groups);
+    /// Samples the rows of tables for sample_guided(), and prefetches the memory that it needs.
+    void (*sample_rows)(const TableSampler& tables, const GuidedGroup& paths, SampledGroup& sampled);
+    /// Guided::sample_direction() of every path, for Lambert reflectors; the jitter is drawn with Purpose::CellJitter.
+    void (*sample_guided)(const TableSampler& tables, const DrawKey& jitter_key, const GuidedGroup* paths,
+                          SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups);
 };
 
 extern const LaneKernels kLaneKernelsBaseline;

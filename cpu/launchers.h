@@ -1,25 +1,21 @@
-// What kernels are called with, and the tables of compiled ones, filled in methods/*.cpp so that builds run in parallel.
+// The kernels of the CPU: their arguments, and tables of those compiled. picture_kernels.inc is compiled once per entry of
+// MethodList, so that builds run in parallel.
 #pragma once
 
-#include <type_traits>
-
 #include "core/base/kernel_row.h"
-#include "core/kernel/methods/default.h"
-#include "core/kernel/methods/monte_carlo.h"
-#include "core/kernel/methods/precomputed.h"
-#include "core/kernel/methods/reinforcement.h"
-#include "core/kernel/methods/sarsa.h"
+#include "core/fields/field_model.h"
+#include "core/kernel/methods/method_list.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/path_work.h"
 #include "cpu/run_paths.h"
 
 namespace pl {
 
-/// What a kernel that makes pictures is called with. `field` is empty for methods without one.
+/// Arguments of a picture kernel. `field` holds nothing for methods without one.
 struct PicturePass {
     PassSetup setup;
     const BatchTracer& tracer;
-    TableField field;
+    AnyFieldView field;
     MixtureSettings mixture{};
     LearningSettings learning{};
     Camera camera;
@@ -27,33 +23,29 @@ struct PicturePass {
     FilmView film;
 };
 
-/// What a kernel that fills radiance maps is called with.
+/// Arguments of a probe kernel.
 struct ProbePass {
     PassSetup setup;
     const BatchTracer& tracer;
-    TableField field;
-    std::uint32_t sample = 0;
-    std::uint32_t strata_side = 1;
+    TableView field;
+    ProbeStratum stratum;
 };
 
-/// One kernel per compiled set of effects.
+/// One kernel per compiled set of features.
 template <class Pass>
 using PassKernels = KernelRow<PassCounters (*)(const Pass&)>;
 
-extern const PassKernels<PicturePass> kDefaultKernels;
-extern const PassKernels<PicturePass> kPrecomputedKernels;
-extern const PassKernels<PicturePass> kReinforcementKernels;
-extern const PassKernels<PicturePass> kSarsaKernels;
-extern const PassKernels<PicturePass> kMonteCarloKernels;
+/// Those of an entry of MethodList.
+template <int kEntry>
+const PassKernels<PicturePass>& picture_kernels();
 extern const PassKernels<ProbePass> kProbeKernels;
 
-/// A method as run_paths() wants it.
+/// A method as run_paths() takes it.
 template <Method M>
 struct RunMethod {
     using Type = M;
 };
-template <Method M>
-requires std::derived_from<M, GuidedSampling>
+template <TableGuided M>
 struct RunMethod<M> {
     using Type = LookedUpAhead<M>;
 };
@@ -61,22 +53,18 @@ struct RunMethod<M> {
 template <FeatureSet F, Method M>
 PassCounters run_picture_pass(const PicturePass& pass) {
     typename RunMethod<M>::Type method;
-    if constexpr (std::is_base_of_v<GuidedSampling, M>) {
-        method.field = pass.field;
-        method.mixture = pass.mixture;
-    }
-    if constexpr (FollowingMethod<M>) method.learning = pass.learning;
+    configure_method(method, pass.field, pass.mixture, pass.learning);
     const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film};
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }
 
-template <Method M, KernelRange range = KernelRange::Full>
+template <Method M>
 constexpr PassKernels<PicturePass> make_picture_kernels() {
-    return make_kernel_row<PassCounters (*)(const PicturePass&), range>(
+    return make_kernel_row<PassCounters (*)(const PicturePass&), M::kKernelRange>(
         []<FeatureSet F>() { return run_picture_pass<F, M>; });
 }
 
-/// The kernel that serves the needed effects.
+/// Runs the kernel that serves the needed features.
 template <class Pass>
 PassCounters launch(const PassKernels<Pass>& row, FeatureSet needed, const Pass& pass) {
     return row[covering_set(needed)](pass);

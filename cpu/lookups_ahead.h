@@ -1,6 +1,6 @@
-// Where the rays of a block of paths end, and the volumes that serve them there, found before the paths arrive: one after
-// the other in a loop of their own lookups overlap, and each step asks for the memory of the next one. Cells are larger than
-// the innermost caches. The loops are the same for every set of effects, and compiled once.
+// Surface points and volumes at the ends of a block of rays, looked up ahead of the paths' steps: in loops of their own lookups
+// overlap, and each step prefetches the memory of the next one, since grids are larger than the innermost caches. The loops are
+// the same for every set of features and compiled once.
 #pragma once
 
 #include <concepts>
@@ -10,28 +10,30 @@
 
 namespace pl {
 
-/// Paths that are extended together: few enough for the innermost cache.
+/// Paths per block: few enough for the innermost cache.
 inline constexpr std::uint32_t kGuidedBlock = 64;
 
-/// A guided method that is told what serves the surface where arrive() is called next, or nullptr: then it looks itself.
-template <std::derived_from<GuidedSampling> M>
+/// A method guided by tables that is given the volume of the next surface point, or nullptr: then locate() looks it up.
+template <class M>
 struct LookedUpAhead : M {
     const FoundVolume* found = nullptr;
 
-    GuidedVertex arrive(const SurfacePoint& surface, MethodCounters& counters) const {
-        return found != nullptr ? GuidedSampling::vertex_of(*found, counters) : M::arrive(surface, counters);
+    typename M::Vertex locate(const SurfacePoint& surface, MethodCounters& counters) const {
+        return found != nullptr ? M::count_lookup({found->volume, found->node}, counters)
+                                : M::locate(surface, counters);
     }
 };
 
-/// What serves the ends of at most kGuidedBlock rays.
+/// The volumes at the ends of at most kGuidedBlock rays.
 class LookupsAhead {
 public:
-    /// Rays from `first` to `end`: asks for the cells. Rays that hit nothing, or nothing that reflects, are left out.
-    void begin(const SceneView& scene, const TableField& field, const RayBatch& rays, std::uint32_t first,
+    /// Prefetches the grid cells of rays first to end, exclusive. Rays that miss, or hit a surface that does not reflect, are
+    /// left out.
+    void begin(const SceneView& scene, const PlacementView& placement, const RayBatch& rays, std::uint32_t first,
                std::uint32_t end);
-    /// Finds the volumes. Best called after other work, when the cells have come.
-    void finish(const TableField& field);
-    /// Where a ray ends that hits something.
+    /// Finds the volumes. Best called after other work, when the prefetched cells have arrived.
+    void finish(const PlacementView& placement);
+    /// The surface point at the end of a ray that hits something.
     template <FeatureSet F>
     decltype(auto) surface(const SceneView& scene, const Hit& hit, std::uint32_t ray) const {
         if constexpr (F.has(Feature::SmoothNormals))

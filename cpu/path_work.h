@@ -1,4 +1,4 @@
-// The two kinds of paths: those of a picture, and those that fill a radiance map before rendering.
+// The two kinds of paths: those of a picture, and the probes that fill a radiance map before rendering.
 #pragma once
 
 #include "core/kernel/film/film_view.h"
@@ -19,8 +19,8 @@ struct PictureWork {
     std::uint32_t count() const { return film.pixels.count; }
     std::uint32_t start_sample() const { return sequence_of(sample); }
     PathState<F, M> begin(std::uint32_t pixel, Vec4f start) const {
-        __builtin_prefetch(&film.pixels[pixel], 1);  // the film does not stay in the cache, the batch does
-        return begin_path<F, M>(camera, film.width, film.height, pixel, sample, start);
+        __builtin_prefetch(&film.pixels[pixel], 1);  // the batch stays in the cache, the film does not
+        return begin_path<F, M>(camera, {film.width, film.height, sample}, pixel, start);
     }
     bool finish(const PathState<F, M>& state, MethodCounters&) const {
         return accumulate(film, state.pixel, state.radiance, sample);
@@ -32,14 +32,13 @@ template <FeatureSet F>
 struct ProbeWork {
     static constexpr Purpose kStartPurpose = Purpose::Probe;
 
-    TableField field;
-    std::uint32_t sample = 0;
-    std::uint32_t strata_side = 1;
+    TableView field;
+    ProbeStratum stratum;
 
-    std::uint32_t count() const { return field.normals.count * static_cast<std::uint32_t>(field.cells.count()); }
-    std::uint32_t start_sample() const { return sample; }
+    std::uint32_t count() const { return probe_count(field); }
+    std::uint32_t start_sample() const { return stratum.index; }
     PathState<F, ProbeMethod> begin(std::uint32_t probe, Vec4f u) const {
-        return begin_probe<F>(field, probe, sample, strata_side, u);
+        return begin_probe<F>(field, probe, stratum, u);
     }
     bool finish(const PathState<F, ProbeMethod>& state, MethodCounters& counters) const {
         finish_probe(field, state, counters);

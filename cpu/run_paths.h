@@ -1,6 +1,6 @@
-// The main loop of this back end: each thread keeps a batch of paths under way and takes one step with all of them at
-// a time, so that the intersector always has full vectors. What a path brings depends on nothing but its number;
-// batch size, threads and chunks decide speed only.
+// The main loop on the CPU: each thread keeps a batch of paths and takes each step with all of them, so that the intersector
+// always has full vectors. The radiance of a path depends on nothing but its number; batch size, threads and chunks decide
+// speed only.
 #pragma once
 
 #include <algorithm>
@@ -18,23 +18,23 @@
 
 namespace pl {
 
-/// What every pass has in common.
+/// The common part of all passes.
 struct PassSetup {
     SceneView scene;
     PathSettings path;
-    IndexRange paths{0, kToTheLast};  ///< those to trace, as far as there are any
+    IndexRange paths{0, kToTheLast};  ///< numbers of the paths to trace, clamped to those there are
     const StopFlag* stop = nullptr;
     int threads = 1;
     std::uint32_t batch_paths = 1024;
 
-    /// The paths to trace of `count` in all.
+    /// Chunks of the paths to trace, of `count` in all.
     ChunkQueue chunks(std::uint32_t count) const {
         return ChunkQueue(paths.begin, std::min(paths.end, count), kPathChunk, stop);
     }
 };
 
-/// Where paths start and end. Paths are numbered from 0; start_sample() is whose random numbers they start with; finish() says
-/// whether the sample was valid.
+/// A set of paths, numbered from 0: how each begins and ends. start_sample() is the sample number of their first random
+/// numbers; finish() returns whether the sample is valid.
 template <class W, FeatureSet F, class M>
 concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<F, M>& state,
                             MethodCounters& counters) {
@@ -44,8 +44,8 @@ concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const 
     { work.finish(state, counters) } -> std::same_as<bool>;
 };
 
-/// The paths of one thread, the live ones first. Its stages are functions of their own, inlined to the last call: what the
-/// compiler makes of them hangs on nothing else that is compiled beside them, so that sets of effects cost each other nothing.
+/// The batch of one thread, live paths first. Each stage is one function with all calls inlined, so that its machine code does
+/// not depend on the other sets of features compiled beside it.
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 class PathBatch {
 public:
@@ -57,7 +57,7 @@ public:
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())),
           solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method_, setup.path, shared) {}
 
-    /// Traces paths until the source has no more, and finishes those under way.
+    /// The main loop: traces paths until the source is empty and all are finished.
     PassCounters run(PathSource& source) {
         fill(source);
         while (active_ > 0) {
@@ -67,7 +67,7 @@ public:
             if constexpr (kSamplesLights) connect();
             retire(source);
         }
-        if constexpr (GuidedMethod<M>) block_.records.commit();
+        if constexpr (TableGuided<M>) block_.training.flush();
         return counters_;
     }
 
@@ -78,18 +78,18 @@ private:
         while (active_ < setup_.batch_paths && start(source, active_)) ++active_;
     }
 
-    /// Puts the next path of the source into place i. Returns false if there is none.
+    /// Starts the next path of the source in slot i. Returns false if there is none.
     PL_INLINE bool start(PathSource& source, std::uint32_t i) {
         std::uint32_t number = 0;
         Vec4f u;
         if (!source.next(number, u)) return false;
-        // Made in its place: copying what was just written in smaller pieces would wait for the writes.
+        // Constructed in place: a copy would read in larger pieces than were just written, and wait for the stores.
         ::new (static_cast<void*>(&states_[i])) PathState<F, M>(work_.begin(number, u));
         prepare(i);
         return true;
     }
 
-    /// Lays out path i for the loops over all paths.
+    /// Copies ray and random-number key of path i into the batch's arrays.
     void prepare(std::uint32_t i) {
         rays_.set_ray(i, states_[i].ray);
         numbers_.set_path(i, states_[i]);
@@ -97,7 +97,7 @@ private:
 
     void extend() {
         shadow_count_ = 0;
-        if constexpr (GuidedMethod<M>)
+        if constexpr (TableGuided<M>)
             extend_blocks();
         else
             extend_each();
@@ -116,55 +116,57 @@ private:
         }
     }
 
-    /// Half of the time of a small scene is spent here.
+    /// Shades and scatters path by path: half of the time of a small scene.
     [[gnu::flatten, gnu::noinline]] void extend_each() {
         for (std::uint32_t i = 0; i < active_; ++i) {
             ShadowRequest shadow;
-            statuses_[i] = extend_path<F>(setup_.scene, method_, setup_.path, rays_.hit(i), numbers_.numbers(i),
-                                          states_[i], shadow, counters_.path);
+            statuses_[i] =
+                extend_path<F>(context_, rays_.hit(i), numbers_.numbers(i), states_[i], shadow, counters_.path);
             push(shadow, i);
         }
     }
 
-    /// Paths from `first` to `end`, in the parts of extend_path, so that directions are chosen for many at once.
+    /// The same for paths first to end in two loops, so that directions are sampled for many paths at once.
     [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end,
                                                       const LookupsAhead& lookups) {
-        block_.departures.clear();
-        for (std::uint32_t i = first; i < end; ++i) {
-            ShadowRequest shadow;
-            typename M::Record record{};
-            const VertexNumbers numbers = numbers_.numbers(i);
-            const Hit hit = rays_.hit(i);
-            method_.found = lookups.found(i);
-            const auto surface_of = [&]() -> decltype(auto) {
-                return lookups.template surface<F>(setup_.scene, hit, i);
-            };
-            statuses_[i] = arrive<F>(setup_.scene, method_, setup_.path, hit, surface_of, numbers, states_[i],
-                                     block_.departures.next(), record, shadow, counters_.path);
-            if (statuses_[i] == PathStatus::Continues) send(i, numbers.scatter, record);
-            block_.records.push(record);
-            push(shadow, i);
-        }
-        block_.departures.choose_directions();
-        for (std::uint32_t i = 0; i < block_.departures.count(); ++i) {
-            const std::uint32_t path = block_.departures.path(i);
-            typename M::Record none{};
-            statuses_[path] = leave(method_, block_.departures.departure(i), block_.departures.direction(i),
-                                    states_[path], none, counters_.path);
+        block_.scattered.clear();
+        for (std::uint32_t i = first; i < end; ++i) shade_ahead(i, lookups);
+        block_.scattered.sample_directions();
+        for (std::uint32_t i = 0; i < block_.scattered.count(); ++i) {
+            const std::uint32_t path = block_.scattered.path(i);
+            typename M::Sample none{};
+            statuses_[path] = scatter_lambert(method_, block_.scattered.point(i), block_.scattered.direction(i),
+                                              states_[path], StepOutput<M>{none, counters_.path});
         }
     }
 
-    /// Lets path i wait for its direction, which many Lambert reflectors get at once; at other surfaces it goes on alone.
-    void send(std::uint32_t i, Vec4f u, typename M::Record& record) {
+    /// Shades path i, whose surface point and volume have been looked up.
+    void shade_ahead(std::uint32_t i, const LookupsAhead& lookups) {
+        ShadowRequest shadow;
+        typename M::Sample sample{};
+        const StepOutput<M> out{sample, counters_.path};
+        const VertexNumbers numbers = numbers_.numbers(i);
+        const Hit hit = rays_.hit(i);
+        method_.found = lookups.found(i);
+        const auto surface_of = [&]() -> decltype(auto) { return lookups.template surface<F>(setup_.scene, hit, i); };
+        statuses_[i] =
+            shade_hit<F, M>(context_, hit, surface_of, numbers, states_[i], {out, block_.scattered.next(), shadow});
+        if (statuses_[i] == PathStatus::Continues) scatter_later(i, numbers.scatter, out);
+        block_.training.push(sample);
+        push(shadow, i);
+    }
+
+    /// Path i waits for its direction at a Lambert reflector; at any other surface it is scattered at once.
+    void scatter_later(std::uint32_t i, Vec4f u, const StepOutput<M>& out) {
         if constexpr (F.has_any(kLobeFeatures)) {
-            const Departure<F, M>& departure = block_.departures.next();
-            if (!departure.bsdf.is_lambert()) {
-                const Rng rng = path_rng(setup_.path, states_[i].pixel, states_[i].sample);
-                statuses_[i] = leave_by_lobe(method_, departure, rng, u, states_[i], record, counters_.path);
+            const ScatterPoint<F, M>& from = block_.scattered.next();
+            if (!from.bsdf.is_lambert()) {
+                statuses_[i] =
+                    scatter_layered(method_, from, scatter_numbers(setup_.path, states_[i], u), states_[i], out);
                 return;
             }
         }
-        block_.departures.add(i, states_[i], u);
+        block_.scattered.add(i, states_[i], u);
     }
 
     void push(const ShadowRequest& shadow, std::uint32_t path) {
@@ -184,18 +186,18 @@ private:
         counters_.path.shadow_rays += shadow_count_;
     }
 
-    /// Which shadow rays something solid is in the way of.
+    /// Marks the shadow rays that are occluded.
     void find_blocked() {
         if (!solid_hits_.wanted(setup_.scene)) return intersector_.find_occluded(shadow_rays_, shadow_count_);
         solid_hits_.find_closest(shadow_rays_, shadow_count_);
         for (std::uint32_t i = 0; i < shadow_count_; ++i) shadow_rays_.set_occluded(i, shadow_rays_.hit(i).found());
     }
 
-    /// Hands in the finished paths and puts new ones, or the last ones, into their places.
+    /// Finishes paths and fills their slots with new ones, or with the last ones of the batch.
     [[gnu::flatten, gnu::noinline]] void retire(PathSource& source) {
         for (std::uint32_t i = 0; i < active_;) {
             if (statuses_[i] == PathStatus::Finished)
-                statuses_[i] = end_branch(setup_.scene, method_, setup_.path, states_[i], counters_.path);
+                statuses_[i] = finish_branch(context_, states_[i], counters_.path);
             if (statuses_[i] == PathStatus::Continues) {
                 prepare(i++);
                 continue;
@@ -218,6 +220,7 @@ private:
     const PassSetup& setup_;
     const I& intersector_;
     M method_;
+    const PathContext<M> context_{setup_.scene, method_, setup_.path};
     const W& work_;
     std::vector<PathState<F, M>> states_;
     std::vector<PathStatus> statuses_;

@@ -6,7 +6,7 @@
 
 namespace pl {
 
-/// What a kernel that shows a view is called with. `shown` may be empty where the view does not need it.
+/// Arguments of a view kernel. `shown` is empty for views that need no field.
 struct ViewPass {
     PassSetup setup;
     View view = View::Normal;

@@ -16,7 +16,7 @@ namespace {
 
 using DeviceScene = SceneStorage<DeviceArray>;
 using DeviceVolumes = VolumeStorage<DeviceArray>;
-using DeviceTables = TableStorage<DeviceArray>;
+using DeviceField = FieldArrays<DeviceArray>;
 
 int processors_of_device() {
     int count = 0;
@@ -41,29 +41,30 @@ public:
     }
 
     void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
-        tables_ = {};
+        fields_ = {};
         volumes_ = {};
         zip(*volumes, volumes_, [&](const auto& from, auto& to) { to.upload(from, stream_); });
         stream_.wait("uploading radiance volumes");
         shape_ = shape;
     }
 
-    void upload_tables(MethodId method, HostTables tables) override {
+    void upload_field(MethodId method, HostField field) override {
         if (volumes_.normals.size() == 0)
             throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
-        DeviceTables uploaded;
-        zip(tables, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });
-        stream_.wait("uploading tables");
-        tables_[index_of(method)] = std::move(uploaded);
+        DeviceField uploaded;
+        zip_fields(field, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });
+        stream_.wait("uploading a field");
+        fields_[index_of(method)] = std::move(uploaded);
     }
-    HostTables download_tables(MethodId method) const override {
-        HostTables tables;
-        if (!has_tables(method)) return tables;
-        zip(*tables_[index_of(method)], tables, [&](const auto& from, auto& to) { from.download(to, stream_); });
-        stream_.wait("downloading tables");
-        return tables;
+    HostField download_field(MethodId method) const override {
+        HostField field;
+        if (!has_field(method)) return field;
+        zip_fields(*fields_[index_of(method)], field,
+                   [&](const auto& from, auto& to) { from.download(to, stream_); });
+        stream_.wait("downloading a field");
+        return field;
     }
-    bool has_tables(MethodId method) const override { return tables_[index_of(method)].has_value(); }
+    bool has_field(MethodId method) const override { return fields_[index_of(method)].has_value(); }
 
     void reset_film(FilmSlot slot, int width, int height) override { films_.reset(slot, width, height, stream_); }
     FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, stream_); }
@@ -87,15 +88,15 @@ private:
         if (!scene_) throw Error(ErrorKind::Runtime, "CUDA back end: expected a scene, got none");
         return *scene_;
     }
-    DeviceTables& existing_tables(MethodId method) {
-        std::optional<DeviceTables>& tables = tables_[index_of(method)];
-        if (!tables)
+    DeviceField& existing_field(MethodId method) {
+        std::optional<DeviceField>& field = fields_[index_of(method)];
+        if (!field)
             throw Error(ErrorKind::Runtime,
                         fmt::format("CUDA back end: expected tables of '{}', got none", info_of(method).name));
-        return *tables;
+        return *field;
     }
-    TableField learned_field(MethodId method) { return table_field(shape_, volumes_, existing_tables(method)); }
-    TableField shown_field(const FilmSlot& slot);
+    AnyFieldView learned_field(MethodId method) { return field_view(shape_, volumes_, existing_field(method)); }
+    ShownField shown_field(const FilmSlot& slot);
     Span<const float> volume_values(const FilmSlot& slot);
 
     /// Runs launch_range(first, end) over first..end until all is done or `stop` is seen between two launches.
@@ -104,10 +105,10 @@ private:
                               LaunchRange&& launch_range);
 
     template <class M, class Paths>
-    void launch_paths(const KernelRow<void (*)(TraceSetup, M, Paths)>& row, FeatureSet needed,
-                      const PathSettings& path, PathRange range, const M& method, const Paths& paths);
+    void launch_paths(void (*kernel)(TraceSetup, M, Paths), const PathSettings& path, PathRange range,
+                      const M& method, const Paths& paths);
     void launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels);
-    void launch_view(const PassRequest& request, const ShownField& shown, const PixelPaths& pixels);
+    void launch_view(const PassRequest& request, const ViewContext& context, const PixelPaths& pixels);
 
     CudaDevice device_;
     int processors_ = 1;
@@ -117,7 +118,7 @@ private:
     std::optional<DeviceScene> scene_;
     DeviceVolumes volumes_;
     FieldShape shape_;
-    std::array<std::optional<DeviceTables>, kMethodCount> tables_;
+    std::array<std::optional<DeviceField>, kMethodCount> fields_;
     DeviceFilms films_;
     DeviceArray<float> volume_values_;  ///< of the last heat map
     DeviceArray<Vec3f> samples_;        ///< what the paths of one launch bring
@@ -148,9 +149,8 @@ PassCounters CudaBackend::run_launches(LaunchSize& size, std::uint32_t first, st
 }
 
 template <class M, class Paths>
-void CudaBackend::launch_paths(const KernelRow<void (*)(TraceSetup, M, Paths)>& row, FeatureSet needed,
-                               const PathSettings& path, PathRange range, const M& method, const Paths& paths) {
-    const auto kernel = row[covering_set(needed)];
+void CudaBackend::launch_paths(void (*kernel)(TraceSetup, M, Paths), const PathSettings& path, PathRange range,
+                               const M& method, const Paths& paths) {
     claimed_.clear(stream_);
     const TraceSetup setup{.scene = existing_scene().view(),
                            .path = path,
@@ -162,45 +162,33 @@ void CudaBackend::launch_paths(const KernelRow<void (*)(TraceSetup, M, Paths)>& 
 }
 
 void CudaBackend::launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels) {
-    const auto guided = [&](const auto& row, auto method) {
-        method.field = learned_field(request.slot.method);
-        method.mixture = request.mixture;
-        launch_paths(row, request.features, request.path, range, method, pixels);
-    };
-    const auto following = [&](const auto& row, auto method) {
-        method.learning = request.learning;
-        guided(row, method);
-    };
-    switch (request.slot.method) {
-    case MethodId::Default:
-        launch_paths(kDefaultKernels, request.features, request.path, range, DefaultMethod{}, pixels);
-        break;
-    case MethodId::Precomputed: guided(kPrecomputedKernels, PrecomputedMethod{}); break;
-    case MethodId::Reinforcement:
-        switch (kernel_for(request.learning, request.path.next_event != 0)) {
-        case LearningKernel::Immediate: guided(kReinforcementKernels, ReinforcementMethod{}); break;
-        case LearningKernel::Late: following(kSarsaKernels, SarsaMethod{}); break;
-        case LearningKernel::WholePath: following(kMonteCarloKernels, MonteCarloMethod{}); break;
-        }
-        break;
-    }
+    const MethodId id = request.slot.method;
+    const AnyFieldView field = info_of(id).uses_field ? learned_field(id) : AnyFieldView{};
+    with_method_kernel(id, request.learning, request.path.next_event != 0, [&]<int kEntry>() {
+        IntegratorAt<kEntry> method;
+        configure_method(method, field, request.mixture, request.learning);
+        launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, range, method, pixels);
+    });
 }
 
-void CudaBackend::launch_view(const PassRequest& request, const ShownField& shown, const PixelPaths& pixels) {
+void CudaBackend::launch_view(const PassRequest& request, const ViewContext& context, const PixelPaths& pixels) {
     launch(kViewKernels[covering_set(request.features)], blocks_for(pixels.radiance.count), stream_, "show_view",
            ViewSetup{.scene = existing_scene().view(),
-                     .path = request.path,
-                     .shown = shown,
-                     .view = request.slot.view,
-                     .pixels = pixels,
+                     .context = context,
+                     .first = pixels.first,
+                     .radiance = pixels.radiance,
                      .counters = counters_.data()});
 }
 
 PassCounters CudaBackend::run_pass(const PassRequest& request) {
     const FilmView film = films_.view(request.slot);
     const bool is_picture = request.slot.view == View::Beauty;
-    const ShownField shown =
-        is_picture ? ShownField{} : ShownField{shown_field(request.slot), volume_values(request.slot)};
+    const PixelGrid grid{film.width, film.height, request.sample};
+    const ViewContext context{.view = request.slot.view,
+                              .shown = is_picture ? ShownField{} : shown_field(request.slot),
+                              .camera = request.camera,
+                              .settings = request.path,
+                              .grid = grid};
     const AddSamplesKernel add = is_heat_map(request.slot.view) ? kSetSamples : kAddSamples;
     LaunchSize& size = picture_sizes_[static_cast<std::size_t>(request.slot.index())];
     const std::uint32_t end = std::min(request.end_pixel, film.pixels.count);
@@ -208,30 +196,27 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
         const std::uint32_t count = range.end - range.first;
         if (samples_.size() < count) samples_ = DeviceArray<Vec3f>(count);
         const PixelPaths pixels{.camera = request.camera,
-                                .width = film.width,
-                                .height = film.height,
-                                .sample = request.sample,
+                                .grid = grid,
                                 .first = range.first,
                                 .radiance = {samples_.data(), count}};
         if (is_picture)
             launch_picture(request, range, pixels);
         else
-            launch_view(request, shown, pixels);
+            launch_view(request, context, pixels);
         launch(add, blocks_for(count), stream_, "add_samples", film, pixels.radiance, range.first, request.sample);
     });
 }
 
 PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
-    const TableField field = learned_field(request.method);
-    const std::uint32_t probes = field.normals.count * static_cast<std::uint32_t>(field.cells.count());
-    const ProbePaths paths{.field = field, .sample = request.sample, .strata_side = request.strata_side};
-    return run_launches(probe_size_, request.first_probe, probes, request.stop, [&](PathRange range) {
-        launch_paths(kProbeKernels, request.features, request.path, range, ProbeMethod{}, paths);
-    });
+    const ProbePaths paths{.field = std::get<TableField>(learned_field(request.method)),
+                           .stratum = {request.sample, request.strata_side}};
+    const auto kernel = kProbeKernels[covering_set(request.features)];
+    return run_launches(probe_size_, request.first_probe, probe_count(paths.field), request.stop,
+                        [&](PathRange range) { launch_paths(kernel, request.path, range, ProbeMethod{}, paths); });
 }
 
 void CudaBackend::update_field(MethodId method) {
-    const TableUpdateView field = table_update_view(shape_, existing_tables(method));
+    const TableUpdateView field = update_view(shape_, std::get<TableStorage<DeviceArray>>(existing_field(method)));
     const std::uint32_t volumes = field.mean_radiance.count;
     for (const UpdateStep& step : kUpdateSteps) {
         std::uint32_t count = volumes;
@@ -239,23 +224,23 @@ void CudaBackend::update_field(MethodId method) {
         if (step.item == UpdateItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
         launch(step.kernel, blocks_for(count), stream_, step.name, field, count);
     }
-    stream_.wait("publishing what was learned");
+    stream_.wait("updating a field");
 }
 
-/// What the views of a field show.
-TableField CudaBackend::shown_field(const FilmSlot& slot) {
+/// The placement and the number of every volume that a view shows; nothing for other views.
+ShownField CudaBackend::shown_field(const FilmSlot& slot) {
     const ViewInfo& view = info_of(slot.view);
-    if (view.needs_tables) return learned_field(table_owner(slot.method));
-    if (!view.needs_volumes) return {};
+    if (!view.needs_volumes && !view.needs_tables) return {};
     if (volumes_.normals.size() == 0) throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes, got none");
-    DeviceTables none;
-    return table_field(shape_, volumes_, none);
+    ShownField shown{placement_view(volumes_, shape_.lookup, shape_.extent), {}};
+    if (needs_volume_values(slot.view)) shown.volume_values = volume_values(slot);
+    return shown;
 }
 
-/// The number of every volume that a heat map shows; nothing for other views. Ready when later launches run.
+/// Ready when later launches of the stream run.
 Span<const float> CudaBackend::volume_values(const FilmSlot& slot) {
-    if (!is_heat_map(slot.view)) return {};
-    const TableUpdateView field = table_update_view(shape_, existing_tables(table_owner(slot.method)));
+    const TableUpdateView field =
+        update_view(shape_, std::get<TableStorage<DeviceArray>>(existing_field(field_owner(slot.method))));
     const std::uint32_t volumes = field.mean_radiance.count;
     if (volume_values_.size() != volumes) volume_values_ = DeviceArray<float>(volumes);
     launch(kVolumeValues, blocks_for(volumes), stream_, "volume_values", field, slot.view,

@@ -13,7 +13,7 @@ namespace {
 bool has_learned(Session& session) {
     const auto methods = all_methods();
     return std::any_of(methods.begin(), methods.end(),
-                       [&](const MethodInfo& method) { return session.backend_access().has_tables(method.id); });
+                       [&](const MethodInfo& method) { return session.backend_access().has_field(method.id); });
 }
 
 /// Moves the session, if need be without what the old back end holds. True if nothing was lost.

@@ -4,28 +4,27 @@
 #include <cmath>
 
 #include "core/base/work_queue.h"
-#include "core/kernel/methods/guided.h"
 
 namespace pl {
 namespace {
 
-/// Volumes that a thread takes at a time.
+/// Volumes per chunk of work.
 constexpr std::uint32_t kChunk = 16;
-/// Least volumes that are looked at before it is asked whether the rest can matter.
+/// Volumes compared at least before the bound on the rest is tested.
 constexpr std::size_t kLeastBatch = 256;
 
-/// A volume, and what it could be worth to split it. [n H^2 V^2]
+/// A volume and its score n H^2 V^2.
 struct Candidate {
     std::uint32_t volume;
-    double most;         ///< with H^2 = 1
-    double worth = 0.0;  ///< once it was compared
+    double bound;        ///< of the score: with H^2 = 1
+    double score = 0.0;  ///< after comparison
 };
 
-/// A table as it is compared: what it gives the directions of some of its cells.
+/// The probabilities of a checkerboard of a table's cells.
 struct ComparedTable {
     struct Cell {
         Vec3f direction;       ///< unit, of the cell's center in the world
-        float inverse_cosine;  ///< cells are even shares of the cosine density: a density times this goes with p
+        float inverse_cosine;  ///< cells have equal projected solid angle: density times this is proportional to p
         double probability;
     };
     Vec3f position;
@@ -51,18 +50,13 @@ struct ComparedTable {
 };
 
 double hellinger2(const TableField& field, const ComparedTable& own, std::int32_t other) {
-    const GuidedSampling sampling{.field = field};
-    const GuidedMixture tables = sampling.mixture_view();
-    const DirectionTable table(field, other);
-    const GuidedPlace<One> place{.volume = sampling.serving_volume(other),
-                                 .position = unpack(own.position),
-                                 .shading_normal = unpack(own.normal)};
+    SurfacePoint site;
+    site.position = own.position;
     double common = 0.0;
     double total = 0.0;
     for (const ComparedTable::Cell& cell : own.cells) {
-        const SeenDirection<One> seen = tables.look(place, unpack(cell.direction));
-        const float pdf_sa = table_density(table, seen.table).pdf_sa * seen.steradians;
-        const double q = static_cast<double>(pdf_sa) * cell.inverse_cosine;
+        const FieldDensity density = field.density({.volume = other}, site, cell.direction);
+        const double q = static_cast<double>(density.pdf_sa) * cell.inverse_cosine;
         common += std::sqrt(cell.probability * q);
         total += q;
     }
@@ -70,7 +64,7 @@ double hellinger2(const TableField& field, const ComparedTable& own, std::int32_
     return norm > 0.0 ? std::clamp(1.0 - common / norm, 0.0, 1.0) : 1.0;
 }
 
-/// Records of a volume, all its cells together.
+/// Training samples of a volume.
 double visits_of(const TableField& field, std::uint32_t volume) {
     const std::uint32_t first = field.cell_index(static_cast<std::int32_t>(volume), 0);
     double visits = 0.0;
@@ -79,38 +73,38 @@ double visits_of(const TableField& field, std::uint32_t volume) {
     return visits;
 }
 
-/// Mean squared distance to the neighbours, weighted by what they know; 0 if there are none.
+/// Mean squared Hellinger distance to the neighbors, weighted by their training samples; 0 if there are none.
 double disagreement(const TableField& field, std::uint32_t volume, const std::vector<double>& visits) {
-    // One more than is compared, since the nearest is the volume itself, or one at the same place.
-    NearestSeveral<kComparedNeighbours + 1> nearest;
+    // One more, since the nearest is the volume itself, or one at the same position.
+    NearestSeveral<kComparedNeighbors + 1> nearest;
     search_kd_tree(field.tree, field.sites[volume].position, field.normals[volume], nearest);
     const ComparedTable own(field, static_cast<std::int32_t>(volume));
     double sum = 0.0;
     double weights = 0.0;
     for (int i = 0; i < nearest.found; ++i) {
-        const auto neighbour = static_cast<std::uint32_t>(nearest.volume[i]);
-        if (neighbour == volume || !(visits[neighbour] > 0.0)) continue;
-        sum += visits[neighbour] * hellinger2(field, own, nearest.volume[i]);
-        weights += visits[neighbour];
+        const auto neighbor = static_cast<std::uint32_t>(nearest.volume[i]);
+        if (neighbor == volume || !(visits[neighbor] > 0.0)) continue;
+        sum += visits[neighbor] * hellinger2(field, own, nearest.volume[i]);
+        weights += visits[neighbor];
     }
     return weights > 0.0 ? sum / weights : 0.0;
 }
 
-/// Those that could be worth anything, by how much that is at most.
+/// Volumes with a positive bound, in descending order.
 std::vector<Candidate> candidates_of(const TableField& field, const std::vector<double>& visits) {
     std::vector<Candidate> candidates;
     for (std::uint32_t i = 0; i < visits.size(); ++i) {
         const double mean = field.mean_radiance[i];
-        if (const double most = visits[i] * mean * mean; most > 0.0) candidates.push_back({i, most});
+        if (const double bound = visits[i] * mean * mean; bound > 0.0) candidates.push_back({i, bound});
     }
     std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
-        return a.most != b.most ? a.most > b.most : a.volume < b.volume;
+        return a.bound != b.bound ? a.bound > b.bound : a.volume < b.volume;
     });
     return candidates;
 }
 
-bool is_worse(const Candidate& a, const Candidate& b) {
-    return a.worth != b.worth ? a.worth > b.worth : a.volume < b.volume;
+bool is_better_to_split(const Candidate& a, const Candidate& b) {
+    return a.score != b.score ? a.score > b.score : a.volume < b.volume;
 }
 
 }  // namespace
@@ -119,28 +113,28 @@ double hellinger2(const TableField& field, std::int32_t volume, std::int32_t oth
     return hellinger2(field, ComparedTable(field, volume), other);
 }
 
-/// Comparing takes long, so it ends where none of the rest could be among the worst, whatever its neighbours say.
-std::vector<std::uint32_t> worst_volumes(const TableField& field, std::size_t most, int threads) {
+/// Comparing is expensive, so it ends when the bound of the rest is below the score of all that were found.
+std::vector<std::uint32_t> volumes_to_split(const TableField& field, std::size_t most, int threads) {
     std::vector<double> visits(field.normals.count);
     for (std::uint32_t i = 0; i < visits.size(); ++i) visits[i] = visits_of(field, i);
     std::vector<Candidate> candidates = candidates_of(field, visits);
-    std::vector<Candidate> worst;  // so far
+    std::vector<Candidate> best;  // so far
     for (std::size_t done = 0; most > 0 && done < candidates.size();) {
-        if (worst.size() == most && candidates[done].most < worst.back().worth) break;
+        if (best.size() == most && candidates[done].bound < best.back().score) break;
         const std::size_t end = std::min(done + std::max(most, kLeastBatch), candidates.size());
         ChunkQueue queue(static_cast<std::uint32_t>(done), static_cast<std::uint32_t>(end), kChunk);
         run_on_plain_threads(std::max(threads, 1), [&](int) {
             for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
                 for (std::uint32_t i = range.begin; i < range.end; ++i)
-                    candidates[i].worth = candidates[i].most * disagreement(field, candidates[i].volume, visits);
+                    candidates[i].score = candidates[i].bound * disagreement(field, candidates[i].volume, visits);
         });
         for (; done < end; ++done)
-            if (candidates[done].worth > 0.0) worst.push_back(candidates[done]);
-        std::ranges::sort(worst, is_worse);
-        worst.resize(std::min(most, worst.size()));
+            if (candidates[done].score > 0.0) best.push_back(candidates[done]);
+        std::ranges::sort(best, is_better_to_split);
+        best.resize(std::min(most, best.size()));
     }
     std::vector<std::uint32_t> numbers;
-    for (const Candidate& candidate : worst) numbers.push_back(candidate.volume);
+    for (const Candidate& candidate : best) numbers.push_back(candidate.volume);
     return numbers;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/fields/field_storage.h"
+#include "core/fields/placement_storage.h"
 
 namespace pl {
 

@@ -1,8 +1,8 @@
-// Building the balanced tree that core/kernel/fields/volume_lookup.h searches.
+// Building the balanced tree that core/kernel/guiding/volume_lookup.h searches.
 #include <algorithm>
 #include <cmath>
 
-#include "core/fields/make_field.h"
+#include "core/fields/place_volumes.h"
 
 namespace pl {
 namespace {

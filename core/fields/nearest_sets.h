@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/fields/polygon.h"
-#include "core/kernel/fields/volume_lookup.h"
+#include "core/kernel/guiding/volume_lookup.h"
 
 namespace pl {
 

@@ -1,9 +1,10 @@
+#include "core/fields/place_volumes.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
-#include "core/fields/make_field.h"
 #include "core/fields/surfaces.h"
 
 namespace pl {

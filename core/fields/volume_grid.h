@@ -1,7 +1,7 @@
-// Building the grids of core/kernel/fields/volume_grid.h.
+// Building the grids of core/kernel/guiding/volume_grid.h.
 #pragma once
 
-#include "core/fields/field_storage.h"
+#include "core/fields/placement_storage.h"
 #include "core/scene/scene_storage.h"
 
 namespace pl {

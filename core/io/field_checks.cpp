@@ -13,13 +13,15 @@ namespace {
 
 bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// A frame around a longer vector would give directions beyond the cells.
+/// A frame around a longer vector would map directions beyond the cells.
 bool is_unit(const Vec3f& v) { return std::fabs(glm::dot(v, v) - 1.0f) < 1.0e-4f; }
 
 bool is_square(int n) {
     const std::int64_t side = std::lround(std::sqrt(static_cast<double>(n)));
     return side * side == n;
 }
+
+bool is_bsdf_fraction(float x) { return x >= kMinBsdfFraction && x <= kMaxBsdfFraction; }
 
 /// Finite and not negative.
 bool is_amount(double x) { return x >= 0.0 && std::isfinite(x); }
@@ -38,9 +40,7 @@ public:
         progress();
         placement();
         tree();
-        tables();
-        distributions("row table", field_.tables.row_cdf);
-        distributions("column table", field_.tables.column_cdf);
+        std::visit([this](const auto& arrays) { arrays_of(arrays); }, field_.field);
     }
 
 private:
@@ -88,15 +88,13 @@ private:
                 "learning rate, uniform share and lookup of the tables", "those of the settings", "others");
     }
 
-    /// All arrays are as long as the number of volumes says.
+    /// All arrays have the length that the number of volumes asks for.
     void sizes() const {
         const std::size_t volumes = volumes_.normals.size();
         const auto side = static_cast<std::size_t>(field_.shape.cells.side);
         constexpr auto kMostCells = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
         const std::size_t most = kMostCells / (side * side);
         require(volumes <= most, "volumes", fmt::format("at most {}", most), volumes);
-        const HostTables& t = field_.tables;
-        const std::size_t cells = volumes * side * side;
         const auto size = [&](const char* what, const auto& array, std::size_t expected) {
             require(array.size() == expected, what, fmt::format("{} values", expected), array.size());
         };
@@ -105,30 +103,22 @@ private:
                 field_.refinement.added);
         require(volumes_.kd_nodes.size() <= volumes, "search tree", fmt::format("at most {} values", volumes),
                 volumes_.kd_nodes.size());
-        size("radiance", t.radiance, cells);
-        size("visits", t.visits, cells);
-        size("sums", t.pending_sum, cells);
-        size("counts", t.pending_count, cells);
-        size("row table", t.row_cdf, volumes * side);
-        size("column table", t.column_cdf, cells);
-        size("mean radiance", t.mean_radiance, volumes);
-        size("changes", t.change, volumes);
-        size("slopes of the mixture", t.pending_slope, volumes);
-        size("curvatures of the mixture", t.pending_curvature, volumes);
-        size("targets of the mixture", t.mixture_target, volumes);
-        size("weights of the mixture", t.mixture_weight, volumes);
-        size("BSDF shares", t.bsdf_fraction, volumes);
-        size("sums of distances", t.pending_distance, volumes);
-        size("sums of light", t.pending_light, volumes);
-        size("distances of the reach", t.reach_distance, volumes);
-        size("weights of the reach", t.reach_weight, volumes);
-        size("inverse reaches", t.inverse_reach, volumes);
+        std::visit([&](const auto& arrays) { lengths_of(arrays, size); }, field_.field);
+    }
+
+    template <class Size>
+    void lengths_of(const HostTables& tables, const Size& size) const {
+        const std::size_t volumes = volumes_.normals.size();
+        for_each_table_array([&](const auto& spec) {
+            size(spec.name, spec.get(tables), extent_of(spec.extent, field_.shape, volumes));
+        });
     }
 
     void progress() const {
         const FieldProgress& p = field_.progress;
         const auto slices = static_cast<std::uint32_t>(field_.settings.precompute_samples);
-        const std::size_t probes = p.precomputed_slices < slices ? field_.tables.radiance.size() : 0;
+        const std::size_t all = volumes_.normals.size() * static_cast<std::size_t>(field_.shape.cells.count());
+        const std::size_t probes = p.precomputed_slices < slices ? all : 0;
         require(p.precomputed_slices <= slices, "precomputed slices", fmt::format("at most {}", slices),
                 p.precomputed_slices);
         require(p.next_probe == 0 || p.next_probe < probes, "next probe", fmt::format("0, or below {}", probes),
@@ -136,7 +126,7 @@ private:
         require(is_amount(p.precompute_seconds), "seconds of precomputation", "a time", p.precompute_seconds);
     }
 
-    /// The triangle of a place is only ever compared, and its material not used: neither is an index here.
+    /// Triangle and material of a site are never used as indices.
     void placement() const {
         for (std::size_t i = 0; i < volumes_.sites.size(); ++i) {
             const SurfacePoint& site = volumes_.sites[i];
@@ -165,58 +155,61 @@ private:
         }
     }
 
-    void tables() const {
-        const HostTables& t = field_.tables;
-        constexpr double kMostPerRecord = static_cast<double>(kMaxRecordedUnits) * kStepsPerUnit;
-        for (std::size_t i = 0; i < t.radiance.size(); ++i) {
-            if (!is_amount(t.radiance[i])) fail(fmt::format("radiance of cell {}", i), "0 or more", t.radiance[i]);
-            const double most = t.pending_count[i] * kMostPerRecord;
-            if (t.pending_sum[i] < 0 || static_cast<double>(t.pending_sum[i]) > most)
-                fail(fmt::format("sum of cell {}", i), fmt::format("0 to {}", most), t.pending_sum[i]);
-        }
-        const auto amounts = [this](const char* what, const LargeArray<float>& values) {
+    /// The values of each array by its valid range, and those that are valid only together.
+    void arrays_of(const HostTables& tables) const {
+        for_each_table_array([&](const auto& spec) { values_of(spec, spec.get(tables)); });
+        pending_targets(tables);
+        pending_distances(tables);
+    }
+
+    template <class Spec, class Array>
+    void values_of(const Spec& spec, const Array& values) const {
+        const char* where = spec.extent == ArrayExtent::Cell ? "cell" : "volume";
+        const auto all = [&](std::string_view expected, const auto& is_valid) {
             for (std::size_t i = 0; i < values.size(); ++i)
-                if (!is_amount(values[i])) fail(fmt::format("{} of volume {}", what, i), "0 or more", values[i]);
+                if (!is_valid(values[i])) fail(fmt::format("{} of {} {}", spec.single, where, i), expected, values[i]);
         };
-        amounts("mean radiance", t.mean_radiance);
-        amounts("change", t.change);
-        amounts("weight of the mixture", t.mixture_weight);
-        amounts("distance of the reach", t.reach_distance);
-        amounts("weight of the reach", t.reach_weight);
-        amounts("inverse reach", t.inverse_reach);
-        for (std::size_t i = 0; i < t.bsdf_fraction.size(); ++i) mixture(i);
-        for (std::size_t i = 0; i < t.inverse_reach.size(); ++i) reach(i);
+        switch (spec.valid) {
+        case ValidRange::Any: break;
+        case ValidRange::Amount: all("0 or more", [](auto x) { return is_amount(static_cast<double>(x)); }); break;
+        case ValidRange::Finite:
+            all("a finite number", [](auto x) { return std::isfinite(static_cast<double>(x)); });
+            break;
+        case ValidRange::NotNegative: all("0 or more", [](auto x) { return x >= 0; }); break;
+        case ValidRange::BsdfFraction:
+            all(fmt::format("{} to {}", kMinBsdfFraction, kMaxBsdfFraction),
+                [](auto x) { return is_bsdf_fraction(static_cast<float>(x)); });
+            break;
+        case ValidRange::Cumulative: distributions(spec.name, values); break;
+        }
     }
 
-    void mixture(std::size_t volume) const {
-        const HostTables& t = field_.tables;
-        const float share = t.bsdf_fraction[volume];
-        if (!(share >= kMinBsdfFraction && share <= kMaxBsdfFraction))
-            fail(fmt::format("BSDF share of volume {}", volume),
-                 fmt::format("{} to {}", kMinBsdfFraction, kMaxBsdfFraction), share);
-        if (!std::isfinite(t.mixture_target[volume]))
-            fail(fmt::format("target of the mixture of volume {}", volume), "a finite number",
-                 t.mixture_target[volume]);
-        if (t.pending_curvature[volume] < 0)
-            fail(fmt::format("curvature of the mixture of volume {}", volume), "0 or more",
-                 t.pending_curvature[volume]);
+    void pending_targets(const HostTables& tables) const {
+        constexpr double kMostPerSample = static_cast<double>(kMaxRecordedUnits) * kStepsPerUnit;
+        for (std::size_t i = 0; i < tables.pending_sum.size(); ++i) {
+            const double most = tables.pending_count[i] * kMostPerSample;
+            if (tables.pending_sum[i] < 0 || static_cast<double>(tables.pending_sum[i]) > most)
+                fail(fmt::format("sum of cell {}", i), fmt::format("0 to {}", most), tables.pending_sum[i]);
+        }
     }
 
-    void reach(std::size_t volume) const {
-        const HostTables& t = field_.tables;
-        const std::int64_t light = t.pending_light[volume];
-        if (light < 0 || t.pending_distance[volume] < 0 || t.pending_distance[volume] > light)
-            fail(fmt::format("distance of volume {}", volume), fmt::format("0 to {}", light),
-                 t.pending_distance[volume]);
+    void pending_distances(const HostTables& tables) const {
+        for (std::size_t i = 0; i < tables.pending_light.size(); ++i) {
+            const std::int64_t light = tables.pending_light[i];
+            if (light < 0 || tables.pending_distance[i] < 0 || tables.pending_distance[i] > light)
+                fail(fmt::format("distance of volume {}", i), fmt::format("0 to {}", light),
+                     tables.pending_distance[i]);
+        }
     }
 
-    /// Each row of cumulative probabilities rises from 0 or more to exactly 1.
-    void distributions(const char* what, const LargeArray<float>& cdf) const {
+    /// Each row of cumulative probabilities rises from at least 0 to exactly 1.
+    template <class Array>
+    void distributions(const char* what, const Array& cdf) const {
         const auto side = static_cast<std::size_t>(field_.shape.cells.side);
         for (std::size_t i = 0; i < cdf.size(); ++i) {
-            const float before = i % side == 0 ? 0.0f : cdf[i - 1];
+            const auto before = i % side == 0 ? typename Array::value_type{} : cdf[i - 1];
             const bool last = i % side == side - 1;
-            if (!(cdf[i] >= before && cdf[i] <= 1.0f) || (last && cdf[i] != 1.0f))
+            if (!(cdf[i] >= before && cdf[i] <= 1) || (last && cdf[i] != 1))
                 fail(fmt::format("entry {} of the {}", i, what),
                      last ? "1" : fmt::format("a probability from {} to 1", before), cdf[i]);
         }

@@ -1,4 +1,4 @@
-// What a learned field from outside must fulfill before kernels may use its numbers as indices and probabilities.
+// Checks of a field from a file, before kernels use its numbers as indices and probabilities.
 #pragma once
 
 #include <filesystem>

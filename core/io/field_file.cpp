@@ -27,7 +27,7 @@ constexpr std::size_t kPrefixBytes = kMagic.size() + sizeof kVersion + sizeof(st
     throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
 }
 
-/// The bytes of a number in the order of the file, or the other way round.
+/// Converts the bytes of a number between the orders of file and machine.
 template <class T>
 std::array<char, sizeof(T)> little_endian(std::array<char, sizeof(T)> bytes) {
     if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
@@ -40,7 +40,7 @@ std::uint64_t checksum_of(std::string_view bytes) {
     return hash.value();
 }
 
-/// Puts values behind each other.
+/// Appends values to the bytes of a file.
 class Writer {
 public:
     template <class T>
@@ -57,7 +57,7 @@ public:
         number(std::uint64_t{array.size()});
     }
     void raw(std::string_view bytes) { bytes_ += bytes; }
-    /// Replaces a number that was written before.
+    /// Overwrites a number at an offset.
     void patch(std::size_t offset, std::uint64_t value) {
         Writer other;
         other.number(value);
@@ -69,7 +69,7 @@ private:
     std::string bytes_;
 };
 
-/// Takes values off the front; never past the end, and never makes room for more than there is.
+/// Reads values in order; never past the end, and never allocates more than the rest of the file can fill.
 class Reader {
 public:
     Reader(std::string_view bytes, const std::filesystem::path& path) : rest_(bytes), path_(path) {}
@@ -113,7 +113,7 @@ private:
     const std::filesystem::path& path_;
 };
 
-/// One value, written or read by `stream`: one text for both, so that they cannot drift apart. No padding.
+/// Writes or reads one value: one code for both directions. No padding.
 template <class Stream, class T>
 void transfer(Stream& stream, T& value) {
     using Value = std::remove_const_t<T>;
@@ -162,7 +162,7 @@ void transfer_header(Stream& stream, Field& field) {
         progress.precomputed_slices, progress.next_probe, progress.precompute_seconds);
 }
 
-/// What lies between prefix and checksum, once both have been found right.
+/// The field between prefix and checksum, which are known to be right.
 LearnedField read_content(std::string_view content, const std::filesystem::path& path) {
     Reader reader(content, path);
     LearnedField field;
@@ -176,14 +176,14 @@ LearnedField read_content(std::string_view content, const std::filesystem::path&
     HostVolumes volumes;
     const auto read = [&](const auto&, auto& array) { transfer_array(reader, array); };
     zip_placement(volumes, volumes, read);
-    zip(field.tables, field.tables, read);
+    std::visit([&](auto& arrays) { zip(arrays, arrays, read); }, field.field);
     if (reader.left() != 0)
         fail(path, fmt::format("damaged field: expected its end, got {} more bytes", reader.left()));
     field.volumes = std::make_shared<const HostVolumes>(std::move(volumes));
     return field;
 }
 
-/// The part of a file that holds the field. Throws unless the file is one, of this version, and as it was written.
+/// The bytes between prefix and checksum. Throws unless the file is a field of this version and undamaged.
 std::string_view checked_content(std::string_view bytes, const std::filesystem::path& path) {
     if (!bytes.starts_with(kMagic))
         fail(path, fmt::format("not a learned field: expected a file that begins with PLFIELD, got {:02x}",
@@ -219,7 +219,7 @@ void write_field(const std::filesystem::path& path, const LearnedField& field) {
     transfer_header(writer, field);
     const auto write = [&](const auto& array, const auto&) { transfer_array(writer, array); };
     zip_placement(*field.volumes, *field.volumes, write);
-    zip(field.tables, field.tables, write);
+    std::visit([&](const auto& arrays) { zip(arrays, arrays, write); }, field.field);
     writer.patch(kMagic.size() + sizeof kVersion, writer.bytes().size() + kChecksumBytes);
     writer.number(checksum_of(writer.bytes()));
     write_file_atomic(path, writer.bytes());

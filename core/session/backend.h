@@ -1,4 +1,4 @@
-// The only virtual interface between a session and what runs its kernels; called a few times per pass.
+// The only virtual interface between a session and the drivers of its kernels; called a few times per pass.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/fields/field_storage.h"
+#include "core/fields/field_model.h"
 #include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/integrator/path.h"
 #include "core/kernel/methods/learning_target.h"
@@ -19,7 +19,7 @@
 
 namespace pl {
 
-/// Films are parked by method and view, so that switching back resumes instead of starting over.
+/// Films are kept by method and view, so that switching back resumes a picture.
 struct FilmSlot {
     MethodId method = MethodId::Default;
     View view = View::Beauty;
@@ -31,23 +31,23 @@ struct FilmSlot {
 
 struct BackendInfo {
     std::string name;         ///< "cpu"
-    std::string device;       ///< what it runs on
-    std::string intersector;  ///< how rays find triangles in the uploaded scene
+    std::string device;       ///< name of the processor
+    std::string intersector;  ///< acceleration structure of the uploaded scene
     int threads = 0;
 };
 
-/// Asks a running pass to start no further paths. Those under way are finished, because dropping them would drop
-/// the long ones more often than the short ones. Paths are started in ascending order, so what was done is always a
-/// prefix, PassCounters::paths long, and the pass can be resumed behind it without changing a bit of the result.
+/// Asks a running pass to start no further paths. Paths under way are finished: dropping them would drop long ones more often,
+/// a bias. Paths start in ascending order, so the finished ones are a prefix of PassCounters::paths paths, and the pass can be
+/// resumed behind it without changing a bit of the result.
 using StopFlag = std::atomic<bool>;
 
-/// End of a range that has as much as there is.
+/// End of a range without bound.
 inline constexpr std::uint32_t kToTheLast = 0xffffffffu;
 
 /// One sample for every pixel of a film from `first_pixel` up to, but not including, `end_pixel`.
 struct PassRequest {
     FilmSlot slot;
-    FeatureSet features;  ///< needed ones; the back end runs the smallest compiled superset
+    FeatureSet features;  ///< needed; the back end runs the smallest compiled superset
     PathSettings path;
     Camera camera;
     MixtureSettings mixture{};
@@ -58,7 +58,7 @@ struct PassRequest {
     const StopFlag* stop = nullptr;
 };
 
-/// One stratified path for every cell of every volume from `first_probe` on, recorded into a method's tables.
+/// One stratified probe for every cell of every volume from `first_probe` on, recorded into a method's field.
 struct PrecomputeRequest {
     MethodId method = MethodId::Precomputed;
     FeatureSet features;
@@ -74,7 +74,7 @@ struct FilmHalves {
     std::array<std::vector<Vec3f>, 2> mean;  ///< [row][column]; NaN where a half has no valid sample
     std::array<std::uint64_t, 2> samples{};  ///< valid ones
 
-    /// Whether both halves hold anything: not before the second sample, and never where samples replace one another.
+    /// Whether both halves have samples: not before the second pass, and never if passes replace one another.
     bool are_both_there() const { return samples[0] > 0 && samples[1] > 0; }
 };
 
@@ -87,12 +87,12 @@ struct FilmReading {
     FilmHalves halves{};  ///< only of read_halves()
 };
 
-/// A film as a window shows it, possibly still on its way from a device while the next pass runs.
+/// A film as a window shows it; may be in transfer from a device while the next pass runs.
 struct DisplayFrame {
     int width = 0;
     int height = 0;
-    /// The pixels of frame_pixel(), [row][column]; they stay as long as this function does. Waits until they are there;
-    /// throws if they will never be. Not for two threads at once.
+    /// The pixels of frame_pixel(), [row][column], valid as long as this function object. Waits for the transfer and throws if
+    /// it fails. Not for two threads at once.
     std::function<const std::uint32_t*()> pixels;
 };
 
@@ -105,29 +105,29 @@ public:
     /// Replaces the scene. The storage stays alive and unchanged as long as the back end holds it.
     virtual void upload_scene(std::shared_ptr<const HostScene> scene) = 0;
 
-    /// Replaces the placement and forgets all tables.
+    /// Replaces the placement and forgets all fields.
     virtual void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) = 0;
-    virtual void upload_tables(MethodId method, HostTables tables) = 0;
-    /// Copy of what a method has learned; empty arrays if it has no tables.
-    virtual HostTables download_tables(MethodId method) const = 0;
-    virtual bool has_tables(MethodId method) const = 0;
+    virtual void upload_field(MethodId method, HostField field) = 0;
+    /// Copy of a method's field; empty arrays if it has none.
+    virtual HostField download_field(MethodId method) const = 0;
+    virtual bool has_field(MethodId method) const = 0;
 
-    /// Makes the film exist with this size and empties it.
+    /// Allocates the film in this size and empties it.
     virtual void reset_film(FilmSlot slot, int width, int height) = 0;
     virtual FilmReading read_film(FilmSlot slot) const = 0;
-    /// The same with the film's halves, all of one moment.
+    /// The same with the film's halves, a consistent snapshot.
     virtual FilmReading read_halves(FilmSlot slot) const = 0;
-    /// How many samples of each pixel were invalid. [row][column]
+    /// Number of invalid samples of each pixel. [row][column]
     virtual std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const = 0;
-    /// Starts to make the 8-bit frame of a film as it is now; later passes may begin at once.
+    /// Starts the 8-bit frame of a film as it is now; later passes may begin at once.
     virtual DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) = 0;
-    /// Largest range_value() of a film: where the colors of some views end.
+    /// Largest range_value() of a film: the upper end of some views' color range.
     virtual float largest_value(FilmSlot slot) = 0;
 
-    /// View::Beauty: paths of the slot's method; records if the method learns. Other views: first surfaces.
+    /// View::Beauty: paths of the slot's method, which train its field if it learns. Other views: first surfaces.
     virtual PassCounters run_pass(const PassRequest& request) = 0;
     virtual PassCounters precompute(const PrecomputeRequest& request) = 0;
-    /// Publishes what a method's tables recorded since the last time.
+    /// Updates a method's field by the training samples since the last update.
     virtual void update_field(MethodId method) = 0;
 };
 

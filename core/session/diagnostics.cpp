@@ -10,7 +10,7 @@
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/integrator/trace_path.h"
 #include "core/kernel/methods/default.h"
-#include "core/kernel/methods/reinforcement.h"
+#include "core/kernel/methods/targets/expected_sarsa.h"
 
 namespace pl {
 namespace {
@@ -34,13 +34,14 @@ constexpr std::uint32_t kPassesForRecords = 16;
 
 constexpr std::size_t index_of(Diagnostic diagnostics) { return static_cast<std::size_t>(diagnostics); }
 
-/// Chooses directions as all guided methods do, and writes nothing but how many records would be clamped.
-struct NotingMethod : ReinforcementMethod {
-    std::uint32_t* clamped = nullptr;  ///< null for methods whose records are others
+/// Samples directions as all guided methods do, but trains nothing: it counts the training samples that would be clamped.
+template <GuidingField Field>
+struct CountingMethod : Guided<Field, ExpectedSarsa> {
+    std::uint32_t* clamped = nullptr;  ///< null for methods whose training samples differ
 
-    void commit(const Record& learned) const {
-        if (clamped == nullptr || learned.volume == kNoVolume) return;
-        *clamped += is_clamped(learned.target, field.radiance_unit) ? 1u : 0u;
+    void record(const TrainingSample<Field>& sample) const {
+        if (clamped == nullptr || !sample.entry.is_trained()) return;
+        *clamped += this->field.is_clamped(sample.target) ? 1u : 0u;
     }
 };
 
@@ -49,10 +50,10 @@ template <class M>
 void trace_again(const DiagnosticsInput& source, const M& method, std::uint32_t pixel, std::uint32_t sample,
                  DiagnosticsMap::Pixel& found) {
     const SceneView scene = source.scene->view();
-    auto state = begin_path<kEveryFeature, M>(source.camera, source.path, static_cast<std::uint32_t>(source.width),
-                                              static_cast<std::uint32_t>(source.height), pixel, sample);
+    const PixelGrid grid{static_cast<std::uint32_t>(source.width), static_cast<std::uint32_t>(source.height), sample};
+    auto state = begin_path<kEveryFeature, M>(source.camera, source.path, grid, pixel);
     PathCounters counters;
-    trace_path<kEveryFeature>(scene, BvhIntersector{scene}, method, source.path, state, counters);
+    trace_path<kEveryFeature>(PathContext<M>{scene, method, source.path}, BvhIntersector{scene}, state, counters);
     const auto add = [&](Diagnostic diagnostics, std::uint64_t count) {
         found[index_of(diagnostics)] += static_cast<std::uint32_t>(count);
     };
@@ -76,7 +77,7 @@ public:
                                                              static_cast<std::size_t>(source_.height))};
         for (std::size_t i = 0; i < source_.invalid.size(); ++i)
             map_.pixels[i][index_of(Diagnostic::Invalid)] = source_.invalid[i];
-        if (source_.volumes) field_ = table_field(source_.shape, *source_.volumes, source_.tables);
+        if (source_.volumes) field_ = field_view(source_.shape, *source_.volumes, source_.field);
     }
 
     DiagnosticsMap run(const std::function<void(double)>& told) {
@@ -122,17 +123,19 @@ private:
     void trace_pixel(std::uint32_t pixel, std::uint32_t sample) {
         DiagnosticsMap::Pixel& found = map_.pixels[pixel];
         if (!source_.volumes) return trace_again(source_, DefaultMethod{}, pixel, sample, found);
-        NotingMethod method;
-        method.field = field_;
-        method.mixture = source_.mixture;
-        if (source_.has_clamped_records) method.clamped = &found[index_of(Diagnostic::ClampedRecord)];
-        trace_again(source_, method, pixel, sample, found);
+        visit_field(field_, [&](const auto& field) {
+            CountingMethod<std::remove_cvref_t<decltype(field)>> method;
+            method.field = field;
+            method.mixture = source_.mixture;
+            if (source_.has_clamped_records) method.clamped = &found[index_of(Diagnostic::ClampedRecord)];
+            trace_again(source_, method, pixel, sample, found);
+        });
     }
 
     DiagnosticsInput source_;
     int threads_;
     const StopFlag* stop_;
-    TableField field_;  ///< of the source's tables
+    AnyFieldView field_;  ///< of the source
     DiagnosticsMap map_;
 };
 

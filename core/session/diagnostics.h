@@ -55,7 +55,7 @@ struct DiagnosticsInput {
     std::shared_ptr<const HostVolumes>
         volumes{};  ///< null for methods without tables, which have no more of what follows
     FieldShape shape{};
-    HostTables tables{};
+    HostField field{};
     MixtureSettings mixture{};
     PathSettings path{};
     Camera camera{};

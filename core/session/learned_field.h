@@ -1,4 +1,4 @@
-// What one method has learned, taken out of a session: what files hold and what moves between back ends.
+// The learned field of one method, taken out of a session: the content of files.
 #pragma once
 
 #include <memory>
@@ -10,19 +10,19 @@
 
 namespace pl {
 
-/// How far a method's learning has come. Exact: work that was interrupted goes on where it ended.
+/// Progress of a method's learning. Exact: interrupted work continues where it stopped.
 struct FieldProgress {
-    std::uint64_t passes = 0;  ///< that were learned from
-    std::uint64_t records = 0;
+    std::uint64_t passes = 0;           ///< that trained the field
+    std::uint64_t records = 0;          ///< training samples
     std::uint64_t clamped_records = 0;  ///< of them
     std::uint64_t lookup_misses = 0;
     std::uint32_t precomputed_slices = 0;  ///< complete ones
-    std::uint32_t next_probe = 0;          ///< where the running slice goes on
+    std::uint32_t next_probe = 0;          ///< of the running slice
     double precompute_seconds = 0.0;
-    bool has_part = false;  ///< tables hold a part of a pass that is not complete, and its random numbers are used up
+    bool has_part = false;  ///< the field was updated within a pass that is not complete
 
-    /// As it is for a picture that does not go on with that pass: numbers that tables were learned from are not drawn again,
-    /// because paths would meet what they taught, and weigh it too low.
+    /// The progress for a picture that does not continue that pass: its random numbers are not drawn again, because paths would
+    /// meet the densities that they trained themselves, a bias.
     FieldProgress without_part() const {
         FieldProgress progress = *this;
         progress.passes += has_part ? 1u : 0u;
@@ -40,7 +40,7 @@ struct LearnedField {
     FieldShape shape;
     std::shared_ptr<const HostVolumes> volumes;
     Refinement refinement{};  ///< of the volumes
-    HostTables tables;
+    HostField field;
     FieldProgress progress;
 };
 

@@ -6,35 +6,19 @@
 namespace pl {
 namespace {
 
-constexpr std::array kMethods{
-    MethodInfo{.id = MethodId::Default,
-               .name = "default",
-               .label = "Default",
-               .summary = "Directions from the surface's reflectance alone.",
-               .key = '1',
-               .color = 0xff56b4e9u,
-               .uses_field = false,
-               .precomputes = false,
-               .learns = false},
-    MethodInfo{.id = MethodId::Precomputed,
-               .name = "precomputed",
-               .label = "Precomputed",
-               .summary = "Directions guided by a radiance map that is computed first and then frozen.",
-               .key = '2',
-               .color = 0xffe69f00u,
-               .uses_field = true,
-               .precomputes = true,
-               .learns = false},
-    MethodInfo{.id = MethodId::Reinforcement,
-               .name = "reinforcement",
-               .label = "Reinforcement",
-               .summary = "Directions guided by what the same paths have learned so far (Expected Sarsa).",
-               .key = '3',
-               .color = 0xff26c48fu,
-               .uses_field = true,
-               .precomputes = false,
-               .learns = true},
-};
+constexpr std::array<MethodInfo, kMethodCount> kMethods = [] {
+    std::array<MethodInfo, kMethodCount> infos;
+    any_method_kernel([&]<int kEntry>() {
+        constexpr MethodId kId{method_index<kEntry>()};
+        infos[kId.index] = TypeAt<kEntry, MethodList>::Info::kInfo;
+        infos[kId.index].id = kId;
+        return false;
+    });
+    return infos;
+}();
+static_assert(kMethods[MethodId::Default.index].name == "default");
+static_assert(kMethods[MethodId::Precomputed.index].name == "precomputed");
+static_assert(kMethods[MethodId::Reinforcement.index].name == "reinforcement");
 
 constexpr std::array<ViewInfo, kViewCount> kViews{
     ViewInfo{View::Beauty, "beauty", "Beauty", "The full picture.", false, false},
@@ -65,7 +49,7 @@ std::span<const ViewInfo> all_views() { return kViews; }
 const MethodInfo& info_of(MethodId id) { return kMethods[static_cast<std::size_t>(id)]; }
 MethodId baseline_method() { return std::ranges::find(kMethods, false, &MethodInfo::uses_field)->id; }
 MethodId learning_method() { return std::ranges::find(kMethods, true, &MethodInfo::learns)->id; }
-MethodId table_owner(MethodId method) { return info_of(method).uses_field ? method : learning_method(); }
+MethodId field_owner(MethodId method) { return info_of(method).uses_field ? method : learning_method(); }
 const ViewInfo& info_of(View id) { return kViews[static_cast<std::size_t>(id)]; }
 
 std::optional<MethodId> method_by_name(std::string_view name) {

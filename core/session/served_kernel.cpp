@@ -11,8 +11,10 @@ namespace {
 
 KernelRange range_of(const RenderSettings& settings) {
     if (settings.view != View::Beauty) return kViewRange;
-    if (!info_of(settings.method).learns) return KernelRange::Full;
-    return range_of(kernel_for(settings.field.learning, settings.next_event));
+    KernelRange range = KernelRange::Full;
+    with_method_kernel(settings.method, settings.field.learning, settings.next_event,
+                       [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::Integrator::kKernelRange; });
+    return range;
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "core/base/error.h"
 #include "core/base/timer.h"
 #include "core/fields/volume_grid.h"
-#include "core/kernel/fields/direction_table.h"
 #include "core/kernel/integrator/holes.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
@@ -45,8 +44,8 @@ std::shared_ptr<const HostVolumes> Session::with_lookup(HostVolumes volumes, Loo
 
 void Session::ensure_tables() {
     ensure_volumes();
-    const MethodId owner = table_owner(settings_.method);
-    if (!backend_->has_tables(owner)) backend_->upload_tables(owner, make_tables(shape_, volumes_->normals.size()));
+    const MethodId owner = field_owner(settings_.method);
+    if (!backend_->has_field(owner)) backend_->upload_field(owner, make_field(shape_, volumes_->normals.size()));
 }
 
 void Session::ensure_film(FilmSlot slot) {
@@ -149,15 +148,15 @@ ShownFilm Session::show_film(const DisplaySettings& display) {
 }
 
 VolumeInspection Session::inspect_volume(std::int32_t volume) const {
-    const MethodId owner = table_owner(settings_.method);
-    if (!volumes_ || !backend_->has_tables(owner))
+    const MethodId owner = field_owner(settings_.method);
+    if (!volumes_ || !backend_->has_field(owner))
         throw Error(ErrorKind::Usage, "nothing has been learned yet: render with a method that uses radiance volumes "
                                       "(precomputed, reinforcement) first");
     if (volume < 0 || static_cast<std::size_t>(volume) >= volumes_->normals.size())
         throw Error(ErrorKind::Usage, "radiance volume " + std::to_string(volume) +
                                           " does not exist: expected 0 to " +
                                           std::to_string(volumes_->normals.size()) + " (exclusive)");
-    HostTables tables = backend_->download_tables(owner);
+    HostTables tables = tables_of(backend_->download_field(owner));
     const TableField field = table_field(shape_, *volumes_, tables);
     const auto index = static_cast<std::size_t>(volume);
     const auto cells = static_cast<std::size_t>(shape_.cells.count());
@@ -181,7 +180,7 @@ VolumeInspection Session::inspect_volume(std::int32_t volume) const {
 
 LearnedField Session::export_field() const {
     const MethodId method = settings_.method;
-    if (!volumes_ || !backend_->has_tables(method))
+    if (!volumes_ || !backend_->has_field(method))
         throw Error(ErrorKind::Usage, "method '" + std::string(info_of(method).name) + "' has learned nothing yet");
     return {.method = method,
             .scene_hash = scene_hash(*scene_),
@@ -189,7 +188,7 @@ LearnedField Session::export_field() const {
             .shape = shape_,
             .volumes = volumes_,
             .refinement = refinement_,
-            .tables = backend_->download_tables(method),
+            .field = backend_->download_field(method),
             .progress = field().without_part()};
 }
 

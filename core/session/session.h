@@ -133,7 +133,7 @@ private:
     void finish_learning_pass(FilmState& state);
     void refine_if_due();
     void split_volumes(std::size_t most);
-    void replace_volumes(RefinedPlacement refined, HostTables learned);
+    void replace_volumes(RefinedPlacement refined, HostField learned);
     void clear_cell_films();
     void note_escapes(const PassCounters& counters);
     PathSettings path_settings() const;

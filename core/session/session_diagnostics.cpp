@@ -36,18 +36,18 @@ DiagnosticsInput Session::diagnostics_input() const {
                             .is_closed = is_closed_.value_or(false)};
     if (state.counters.invalid_samples > 0) source.invalid = backend_->invalid_samples(slot());
     if (!method.uses_field) return source;
-    if (!volumes_ || !backend_->has_tables(settings_.method)) return source;  // nothing was rendered yet
+    if (!volumes_ || !backend_->has_field(settings_.method)) return source;  // nothing was rendered yet
     if (method.learns) {
         // Its samples were the last publications, unless another back end had some of them.
         source.first_sample =
             static_cast<std::uint32_t>(std::max(field().passes, std::uint64_t{state.passes}) - state.passes);
         source.has_moving_tables = true;
         source.has_clamped_records =
-            kernel_for(settings_.field.learning, settings_.next_event) == LearningKernel::Immediate;
+            is_complete_at_next_vertex(settings_.field.learning, settings_.next_event);
     }
     source.volumes = volumes_;
     source.shape = shape_;
-    source.tables = backend_->download_tables(settings_.method);
+    source.field = backend_->download_field(settings_.method);
     source.mixture = mixture_of(settings_.method);
     return source;
 }

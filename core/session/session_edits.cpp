@@ -41,12 +41,8 @@ struct Assign {
 bool fits_together(const LearnedField& field) {
     if (field.volumes == nullptr || field.shape.cells.side < 1) return false;
     const std::size_t volumes = field.volumes->normals.size();
-    const HostTables expected = make_tables(field.shape, volumes);
-    bool fits = field.volumes->sites.size() == volumes && field.volumes->kd_nodes.size() <= volumes &&
-                field.refinement.added <= volumes;
-    zip(expected, field.tables,
-        [&](const auto& want, const auto& have) { fits = fits && want.size() == have.size(); });
-    return fits;
+    return field.volumes->sites.size() == volumes && field.volumes->kd_nodes.size() <= volumes &&
+           field.refinement.added <= volumes && fits(field.shape, field.field, volumes);
 }
 
 }  // namespace
@@ -92,16 +88,16 @@ void Session::clear_films() {
 /// knows what it still holds.
 void Session::switch_backend(const EditBackend& edit) {
     if (edit.backend == backend_) return;
-    std::vector<std::pair<MethodId, HostTables>> learned;
+    std::vector<std::pair<MethodId, HostField>> learned;
     if (!edit.abandon_old && volumes_)  // without volumes, tables are left over from others
         for (const MethodInfo& method : all_methods())
-            if (backend_->has_tables(method.id))
-                learned.emplace_back(method.id, backend_->download_tables(method.id));
+            if (backend_->has_field(method.id))
+                learned.emplace_back(method.id, backend_->download_field(method.id));
     ParkedBackend next = unpark(edit.backend);
     const Stopwatch upload;
     if (next.scene != packed_) next.backend->upload_scene(packed_);
     if (volumes_) next.backend->upload_volumes(volumes_, shape_);
-    for (auto& [method, tables] : learned) next.backend->upload_tables(method, std::move(tables));
+    for (auto& [method, tables] : learned) next.backend->upload_field(method, std::move(tables));
     upload_seconds_ = upload.seconds();
     if (!edit.abandon_old && !edit.forget_old) parked_.push_back({backend_, films_, packed_});
     backend_ = std::move(next.backend);
@@ -130,7 +126,7 @@ void Session::import_field(LearnedField learned) {
         throw Error(ErrorKind::Input, "the field's volumes and tables do not fit together");
     const std::shared_ptr<const HostVolumes> volumes = with_lookup(*learned.volumes, learned.shape.lookup);
     backend_->upload_volumes(volumes, learned.shape);
-    backend_->upload_tables(learned.method, std::move(learned.tables));
+    backend_->upload_field(learned.method, std::move(learned.field));
     settings_.field = learned.settings;
     shape_ = learned.shape;
     volumes_ = volumes;

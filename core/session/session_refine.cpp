@@ -60,22 +60,24 @@ void Session::refine_if_due() {
 }
 
 void Session::split_volumes(std::size_t most) {
-    HostTables learned = backend_->download_tables(settings_.method);
-    RefinedPlacement refined = refine_placement(*packed_, settings_.field, table_field(shape_, *volumes_, learned),
-                                                most, backend_->info().threads);
+    HostField learned = backend_->download_field(settings_.method);
+    const std::vector<std::uint32_t> split =
+        volumes_to_split(field_view(shape_, *volumes_, learned), most, backend_->info().threads);
+    RefinedPlacement refined = refine_placement(
+        *packed_, settings_.field, placement_view(*volumes_, shape_.lookup, shape_.extent), split);
     if (!refined.parents.empty()) replace_volumes(std::move(refined), std::move(learned));
 }
 
 /// The pictures stay: tables only decide which directions are tried. A radiance map that is complete goes on with the tables
 /// of the parents, as measured; one that is not begins anew, since its slices are counted for all volumes at once.
-void Session::replace_volumes(RefinedPlacement refined, HostTables learned) {
-    std::vector<std::pair<MethodId, HostTables>> tables;
-    tables.emplace_back(settings_.method, split_tables(shape_, std::move(learned), refined.parents));
+void Session::replace_volumes(RefinedPlacement refined, HostField learned) {
+    std::vector<std::pair<MethodId, HostField>> tables;
+    tables.emplace_back(settings_.method, split_field(shape_, std::move(learned), refined.parents));
     for (const MethodInfo& other : all_methods()) {
-        if (other.id == settings_.method || !backend_->has_tables(other.id)) continue;
+        if (other.id == settings_.method || !backend_->has_field(other.id)) continue;
         FieldProgress& progress = fields_[static_cast<std::size_t>(other.id)];
         if (progress.passes > 0)
-            tables.emplace_back(other.id, split_tables(shape_, backend_->download_tables(other.id), refined.parents));
+            tables.emplace_back(other.id, split_field(shape_, backend_->download_field(other.id), refined.parents));
         else
             progress = {.precompute_seconds = progress.precompute_seconds};
     }
@@ -83,7 +85,7 @@ void Session::replace_volumes(RefinedPlacement refined, HostTables learned) {
     refinement_.added += static_cast<std::uint32_t>(refined.parents.size());
     try {
         backend_->upload_volumes(volumes_, shape_);
-        for (auto& [method, table] : tables) backend_->upload_tables(method, std::move(table));
+        for (auto& [method, table] : tables) backend_->upload_field(method, std::move(table));
     } catch (...) {  // nobody knows what the back end holds now
         volumes_.reset();
         clear_tables();

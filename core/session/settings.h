@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/fields/make_field.h"
+#include "core/fields/field_settings.h"
 #include "core/kernel/base/features.h"
 #include "core/kernel/film/tonemap.h"
 #include "core/kernel/inspect/views.h"

@@ -1,15 +1,14 @@
-// What kernels are called with, and the tables of compiled ones. Host code that launches sees nothing else of them.
+// Arguments of the kernels, and tables of those compiled: all that host code sees of them.
 #pragma once
 
+#include <array>
+
 #include "core/base/kernel_row.h"
-#include "core/kernel/fields/update_volume.h"
+#include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/kernel/integrator/probe.h"
-#include "core/kernel/methods/monte_carlo.h"
-#include "core/kernel/methods/precomputed.h"
-#include "core/kernel/methods/reinforcement.h"
-#include "core/kernel/methods/sarsa.h"
+#include "core/kernel/methods/method_list.h"
 
 namespace pl::cuda {
 
@@ -19,7 +18,7 @@ struct PathRange {
     std::uint32_t end = 0;
 };
 
-/// What every kernel that traces paths needs. Threads take paths from the range until none is left.
+/// Common arguments of the kernels that trace paths. Threads take paths from the range until none is left.
 struct TraceSetup {
     SceneView scene;
     PathSettings path;
@@ -28,30 +27,26 @@ struct TraceSetup {
     PassCounters* counters = nullptr;  ///< added to
 };
 
-/// Paths from the camera, one per pixel; what they bring goes into `radiance`, from the first pixel of the launch on.
+/// Paths from the camera, one per pixel. Their radiance goes to `radiance`, from the first pixel of the launch on.
 struct PixelPaths {
     Camera camera;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    std::uint32_t sample = 0;
+    PixelGrid grid;
     std::uint32_t first = 0;
     Span<Vec3f> radiance;
 };
 
-/// Paths from the volumes, one per cell; what they bring goes into the field's sums.
+/// Paths from the volumes, one per cell. Their radiance goes to the field's pending sums.
 struct ProbePaths {
-    TableField field;
-    std::uint32_t sample = 0;
-    std::uint32_t strata_side = 1;
+    TableView field;
+    ProbeStratum stratum;
 };
 
-/// A view of the first surface; the pixels as in PixelPaths.
+/// A view of the first surface; `first` and `radiance` as in PixelPaths.
 struct ViewSetup {
     SceneView scene;
-    PathSettings path;
-    ShownField shown;  ///< may be empty where the view does not need it
-    View view = View::Normal;
-    PixelPaths pixels;
+    ViewContext context;
+    std::uint32_t first = 0;
+    Span<Vec3f> radiance;
     PassCounters* counters = nullptr;
 };
 
@@ -60,11 +55,13 @@ using PictureKernel = void (*)(TraceSetup, M, PixelPaths);
 using ProbeKernel = void (*)(TraceSetup, ProbeMethod, ProbePaths);
 using ViewKernel = void (*)(ViewSetup);
 
-extern const KernelRow<PictureKernel<DefaultMethod>> kDefaultKernels;
-extern const KernelRow<PictureKernel<PrecomputedMethod>> kPrecomputedKernels;
-extern const KernelRow<PictureKernel<ReinforcementMethod>> kReinforcementKernels;
-extern const KernelRow<PictureKernel<SarsaMethod>> kSarsaKernels;
-extern const KernelRow<PictureKernel<MonteCarloMethod>> kMonteCarloKernels;
+/// Those of an entry of MethodList.
+template <int kEntry>
+using IntegratorAt = typename TypeAt<kEntry, MethodList>::Integrator;
+template <int kEntry>
+using PictureKernels = KernelRow<PictureKernel<IntegratorAt<kEntry>>>;
+template <int kEntry>
+const PictureKernels<kEntry>& picture_kernels();
 extern const KernelRow<ProbeKernel> kProbeKernels;
 extern const KernelRow<ViewKernel> kViewKernels;
 
@@ -72,7 +69,7 @@ extern const KernelRow<ViewKernel> kViewKernels;
 using VolumeValueKernel = void (*)(TableUpdateView field, View view, Span<float> values);
 extern const VolumeValueKernel kVolumeValues;
 
-/// Valid samples and invalid ones of a whole film.
+/// Numbers of valid and invalid samples of a film.
 struct FilmTotals {
     std::uint64_t samples = 0;
     std::uint64_t invalid = 0;
@@ -102,10 +99,10 @@ extern const ShowFilmKernel kShowFilm;
 using LargestValueKernel = void (*)(FilmView film, std::uint32_t* bits);
 extern const LargestValueKernel kLargestValue;
 
-/// One step of publication for `count` cells, rows or volumes: one thread each.
+/// One step of an update for `count` cells, rows or volumes: one thread each.
 using UpdateKernel = void (*)(TableUpdateView field, std::uint32_t count);
 
-/// What the steps of update_volume() count through.
+/// The items of a step of update_volume().
 enum class UpdateItem { Cell, Row, Volume };
 
 struct UpdateStep {

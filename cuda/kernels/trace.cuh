@@ -1,5 +1,5 @@
-// Paths on a device. Threads stay until the range is used up: one that finishes a path takes the next while its
-// neighbours go on with theirs, so that long paths do not leave a warp idle ("regeneration").
+// The main loop on a device. Threads are persistent: one that finishes a path takes the next of the range while its neighbors
+// continue theirs, so that long paths do not leave a warp idle ("regeneration").
 // [Novak et al. 2010, "Path Regeneration for Interactive Path Tracing"]
 #pragma once
 
@@ -13,11 +13,11 @@ namespace pl::cuda {
 
 template <FeatureSet F, class M>
 __device__ inline PathState<F, M> begin(const PixelPaths& paths, const PathSettings& settings, std::uint32_t pixel) {
-    return begin_path<F, M>(paths.camera, settings, paths.width, paths.height, pixel, paths.sample);
+    return begin_path<F, M>(paths.camera, settings, paths.grid, pixel);
 }
 template <FeatureSet F, class M>
 __device__ inline PathState<F, M> begin(const ProbePaths& paths, const PathSettings& settings, std::uint32_t probe) {
-    return begin_probe<F>(paths.field, settings, probe, paths.sample, paths.strata_side);
+    return begin_probe<F>(paths.field, settings, probe, paths.stratum);
 }
 
 template <FeatureSet F, class M>
@@ -43,12 +43,13 @@ __device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathSt
 template <std::uint32_t kFeatureBits, Method M, class Paths>
 __global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup, M method, Paths paths) {
     const BvhIntersector intersector{setup.scene};
+    const PathContext<M> context{setup.scene, method, setup.path};
     PassCounters counters;
     PathState<FeatureSet{kFeatureBits}, M> state;
     bool active = start(setup, paths, state);
     while (active) {
-        const PathStatus status = trace_segment<FeatureSet{kFeatureBits}>(setup.scene, intersector, method,
-                                                                          setup.path, state, counters.path);
+        const PathStatus status =
+            trace_segment<FeatureSet{kFeatureBits}>(context, intersector, state, counters.path);
         if (status == PathStatus::Continues) continue;
         count_path(counters, state.radiance, is_valid_radiance(state.radiance));
         finish(paths, state, counters.path.method);
@@ -57,9 +58,9 @@ __global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup
     add_up(*setup.counters, counters);
 }
 
-template <Method M, KernelRange range = KernelRange::Full>
+template <Method M>
 constexpr KernelRow<PictureKernel<M>> make_picture_kernels() {
-    return make_kernel_row<PictureKernel<M>, range>(
+    return make_kernel_row<PictureKernel<M>, M::kKernelRange>(
         []<FeatureSet F>() { return trace_paths<F.bits, M, PixelPaths>; });
 }
 

@@ -8,14 +8,12 @@ namespace {
 template <std::uint32_t kFeatureBits>
 __global__ void __launch_bounds__(kThreadsPerBlock) show_view(ViewSetup setup) {
     const BvhIntersector intersector{setup.scene};
-    const PixelPaths& pixels = setup.pixels;
     const std::uint32_t i = thread_number();
     PassCounters counters;
-    if (i < pixels.radiance.count) {
-        const Vec3f value = sample_view<FeatureSet{kFeatureBits}>(setup.view, setup.scene, intersector, setup.shown,
-                                                                  pixels.camera, setup.path, pixels.width,
-                                                                  pixels.height, pixels.first + i, pixels.sample);
-        pixels.radiance[i] = value;
+    if (i < setup.radiance.count) {
+        const Vec3f value =
+            sample_view<FeatureSet{kFeatureBits}>(setup.context, setup.scene, intersector, setup.first + i);
+        setup.radiance[i] = value;
         counters.paths = 1;
         counters.path.segments = 1;
         counters.invalid_samples = is_valid_radiance(value) ? 0 : 1;
@@ -26,7 +24,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(ViewSetup setup) {
 __global__ void __launch_bounds__(kThreadsPerBlock)
     volume_values(TableUpdateView field, View view, Span<float> values) {
     const std::uint32_t volume = thread_number();
-    if (volume < values.count) values[volume] = volume_value(field, volume, view);
+    if (volume < values.count) values[volume] = volume_value(TableVolumeSummary{field}, volume, view);
 }
 
 }  // namespace

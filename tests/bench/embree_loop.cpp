@@ -65,8 +65,8 @@ void trace_pixels(const SceneView& scene, const SingleRayQueries& queries, const
                   const PathSettings& settings, std::uint32_t sample, const FilmView& film, IndexRange range,
                   PassCounters& counters) {
     for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) {
-        auto state = begin_path<F, DefaultMethod>(camera, settings, film.width, film.height, pixel, sample);
-        trace_path<F>(scene, queries, DefaultMethod{}, settings, state, counters.path);
+        auto state = begin_path<F, DefaultMethod>(camera, settings, {film.width, film.height, sample}, pixel);
+        trace_path<F>(PathContext<DefaultMethod>{scene, DefaultMethod{}, settings}, queries, state, counters.path);
         accumulate(film, pixel, state.radiance, sample);
         ++counters.paths;
     }

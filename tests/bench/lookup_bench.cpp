@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
-#include "core/fields/make_field.h"
+#include "core/fields/place_volumes.h"
 #include "core/fields/volume_grid.h"
 #include "core/io/load_scene.h"
 #include "core/kernel/base/rng.h"

@@ -9,7 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
-#include "core/fields/make_field.h"
+#include "core/fields/place_volumes.h"
+#include "core/fields/table_model.h"
 #include "core/fields/volume_grid.h"
 #include "core/io/load_scene.h"
 #include "core/scene/needed_effects.h"
@@ -82,7 +83,7 @@ private:
         const FieldShape shape = make_field_shape(*scene_, {.lookup = lookup});
         backend.upload_scene(scene_);
         backend.upload_volumes(std::make_shared<const HostVolumes>(volumes), shape);
-        backend.upload_tables(MethodId::Reinforcement, make_tables(shape, volumes.normals.size()));
+        backend.upload_field(MethodId::Reinforcement, make_tables(shape, volumes.normals.size()));
         backend.reset_film(kDefaultFilm, kSize, kSize);
         backend.reset_film(kLearningFilm, kSize, kSize);
     }

@@ -14,8 +14,9 @@ struct UniformMethod : DefaultMethod {
     using DefaultMethod::pdf_sa;
     using DefaultMethod::sample_direction;
 
-    DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const Rng&, std::uint32_t,
-                                     Vec4f u) const {
+    DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface,
+                                     const ScatterNumbers& numbers) const {
+        const Vec4f u = numbers.u;
         const float sine = std::sqrt(max_of(0.0f, 1.0f - u.y * u.y));
         const float angle = 2.0f * kPi * u.z;
         const Vec3f local{sine * std::cos(angle), sine * std::sin(angle), u.y};
@@ -46,8 +47,8 @@ std::vector<Vec3f> render_with(const HostScene& scene, const RenderSettings& set
             for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) {
                 Vec3d sum{0.0};
                 for (std::uint32_t sample = 0; sample < samples; ++sample) {
-                    auto state = begin_path<F, UniformMethod>(camera, path, width, height, pixel, sample);
-                    trace_path<F>(view, intersector, UniformMethod{}, path, state, counters);
+                    auto state = begin_path<F, UniformMethod>(camera, path, {width, height, sample}, pixel);
+                    trace_path<F>(PathContext<UniformMethod>{view, UniformMethod{}, path}, intersector, state, counters);
                     sum += Vec3d{state.radiance};
                 }
                 pixels[pixel] = Vec3f{sum / static_cast<double>(samples)};

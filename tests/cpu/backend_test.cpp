@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "tests/catch.hpp"
 #include "tests/cpu/small_room.h"
@@ -61,16 +62,20 @@ TEST_CASE("Views in parallel equal views pixel by pixel") {
         INFO(info.name);
         std::vector<float> values;
         for (std::uint32_t volume = 0; volume < tables.mean_radiance.size(); ++volume)
-            values.push_back(volume_value(table_update_view(room.shape, tables), volume, view));
+            values.push_back(volume_value(TableVolumeSummary{table_update_view(room.shape, tables)}, volume, view));
         if (is_heat_map(view)) CHECK(std::set<float>(values.begin(), values.end()).size() > 2);
         const ShownField shown{field, view_of(std::as_const(values))};
+        const ViewContext context{.view = view,
+                                  .shown = shown,
+                                  .camera = room.camera,
+                                  .settings = {.seed = 3},
+                                  .grid = {kWidth, kHeight, 0}};
         std::vector<Vec3f> expected;
         for (std::uint32_t pixel = 0; pixel < kWidth * kHeight; ++pixel)
-            expected.push_back(sample_view<FeatureSet{}>(view, scene, BvhIntersector{scene}, shown, room.camera,
-                                                         {.seed = 3}, kWidth, kHeight, pixel, 0));
+            expected.push_back(sample_view<FeatureSet{}>(context, scene, BvhIntersector{scene}, pixel));
         for (const int threads : {1, 7}) {
             const auto backend = make_backend(room, {.threads = threads});
-            backend->upload_tables(MethodId::Reinforcement, tables);
+            backend->upload_field(MethodId::Reinforcement, tables);
             const FilmSlot slot{MethodId::Default, view};
             backend->reset_film(slot, kWidth, kHeight);
             const PassCounters counters = backend->run_pass(pass_of(room, slot));
@@ -90,7 +95,7 @@ TEST_CASE("A pass of a heat map replaces the one before") {
     for (const std::uint32_t visits : {3u, 8u}) {
         HostTables tables = room.empty_tables();
         std::fill(tables.visits.begin(), tables.visits.end(), visits);
-        backend->upload_tables(MethodId::Reinforcement, tables);
+        backend->upload_field(MethodId::Reinforcement, tables);
         backend->run_pass(pass_of(room, slot));
         const FilmReading film = backend->read_film(slot);
         CHECK(film.samples == kWidth * kHeight);
@@ -180,12 +185,12 @@ TEST_CASE("Publication in parallel equals publication volume by volume") {
         expected.pending_sum[i] = static_cast<std::int64_t>(random.bits()) * expected.pending_count[i];
     }
     const auto backend = make_backend(room, {.threads = 7});
-    backend->upload_tables(MethodId::Precomputed, expected);
-    CHECK(same_bits(expected.pending_sum, backend->download_tables(MethodId::Precomputed).pending_sum));
+    backend->upload_field(MethodId::Precomputed, expected);
+    CHECK(same_bits(expected.pending_sum, tables_of(backend->download_field(MethodId::Precomputed)).pending_sum));
     backend->update_field(MethodId::Precomputed);
     for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)
         update_volume(table_update_view(room.shape, expected), volume);
-    const HostTables tables = backend->download_tables(MethodId::Precomputed);
+    const HostTables tables = tables_of(backend->download_field(MethodId::Precomputed));
     CHECK(same_bits(expected.radiance, tables.radiance));
     CHECK(same_bits(expected.visits, tables.visits));
     CHECK(same_bits(expected.pending_sum, tables.pending_sum));
@@ -233,15 +238,15 @@ TEST_CASE("Films are kept apart by method and view, and emptied when reset") {
 TEST_CASE("New volumes forget what was learned, a new scene does not") {
     const Room room;
     const auto backend = make_backend(room, {.threads = 1});
-    CHECK_FALSE(backend->has_tables(MethodId::Reinforcement));
-    CHECK(backend->download_tables(MethodId::Reinforcement).radiance.empty());
-    backend->upload_tables(MethodId::Reinforcement, room.empty_tables());
-    CHECK(backend->has_tables(MethodId::Reinforcement));
-    CHECK_FALSE(backend->has_tables(MethodId::Precomputed));
+    CHECK_FALSE(backend->has_field(MethodId::Reinforcement));
+    CHECK(tables_of(backend->download_field(MethodId::Reinforcement)).radiance.empty());
+    backend->upload_field(MethodId::Reinforcement, room.empty_tables());
+    CHECK(backend->has_field(MethodId::Reinforcement));
+    CHECK_FALSE(backend->has_field(MethodId::Precomputed));
     backend->upload_scene(room.scene);
-    CHECK(backend->has_tables(MethodId::Reinforcement));
+    CHECK(backend->has_field(MethodId::Reinforcement));
     backend->upload_volumes(room.volumes, room.shape);
-    CHECK_FALSE(backend->has_tables(MethodId::Reinforcement));
+    CHECK_FALSE(backend->has_field(MethodId::Reinforcement));
 }
 
 TEST_CASE("What is missing is named, not read") {
@@ -249,7 +254,7 @@ TEST_CASE("What is missing is named, not read") {
     const auto bare = make_cpu_backend({.threads = 1});
     bare->reset_film(kBeauty, kWidth, kHeight);
     CHECK_THROWS_WITH(bare->run_pass(pass_of(room, kBeauty)), contains("expected a scene"));
-    CHECK_THROWS_WITH(bare->upload_tables(MethodId::Precomputed, {}), contains("expected volumes"));
+    CHECK_THROWS_WITH(bare->upload_field(MethodId::Precomputed, {}), contains("expected volumes"));
     bare->upload_scene(room.scene);
     for (const FilmSlot slot :
          {FilmSlot{MethodId::Default, View::Voronoi}, FilmSlot{MethodId::Default, View::Normal}})

@@ -2,12 +2,12 @@
 // kernel's own trace_path with the scalar hierarchy, so this also says that intersectors and random numbers agree.
 #include <cstring>
 
+#include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/integrator/trace_path.h"
-#include "core/kernel/methods/precomputed.h"
-#include "core/kernel/methods/reinforcement.h"
 #include "tests/catch.hpp"
 #include "tests/cpu/small_room.h"
+#include "tests/kernel/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -56,12 +56,12 @@ Outcome loop_over_paths(const Room& room) {
     const SceneView scene = room.scene->view();
     const PathSettings settings = path_settings(F.has(Feature::NextEventEstimation));
     M method;
-    if constexpr (std::is_base_of_v<GuidedSampling, M>)
-        method.field = table_field(room.shape, *room.volumes, outcome.tables);
+    if constexpr (GuidedMethod<M>) method.field = table_field(room.shape, *room.volumes, outcome.tables);
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
         for (std::uint32_t pixel = 0; pixel < pixels.size(); ++pixel) {
-            auto state = begin_path<F, M>(room.camera, settings, kWidth, kHeight, pixel, sample);
-            trace_path<F>(scene, BvhIntersector{scene}, method, settings, state, outcome.counters.path);
+            auto state = begin_path<F, M>(room.camera, settings, {kWidth, kHeight, sample}, pixel);
+            trace_path<F>(PathContext<M>{scene, method, settings}, BvhIntersector{scene}, state,
+                          outcome.counters.path);
             count_path(outcome.counters, state.radiance, accumulate(film, pixel, state.radiance, sample));
         }
         if constexpr (std::is_same_v<M, ReinforcementMethod>)
@@ -76,19 +76,19 @@ Outcome batches(const Room& room, MethodId method, bool next_event, const CpuSet
     const auto backend = make_backend(room, settings);
     const FilmSlot slot{method, View::Beauty};
     backend->reset_film(slot, kWidth, kHeight);
-    backend->upload_tables(method, room.empty_tables());
+    backend->upload_field(method, room.empty_tables());
     Outcome outcome;
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
         outcome.counters += backend->run_pass({.slot = slot,
                                                .features = next_event ? kLights : FeatureSet{},
                                                .path = path_settings(next_event),
                                                .camera = room.camera,
-                                               .mixture = GuidedSampling{}.mixture,
+                                               .mixture = {},
                                                .sample = sample});
         if (method == MethodId::Reinforcement) backend->update_field(method);
     }
     outcome.film = backend->read_film(slot).mean;
-    outcome.tables = backend->download_tables(method);
+    outcome.tables = tables_of(backend->download_field(method));
     return outcome;
 }
 
@@ -138,18 +138,19 @@ TEST_CASE("Batches of probes equal single probes") {
     settings.stream = Stream::Precompute;
     PassCounters counters;
     for (std::uint32_t probe = 0; probe < field.normals.count * 16; ++probe) {
-        auto state = begin_probe<kLights>(field, settings, probe, 2, 4);
-        trace_path<kLights>(scene, BvhIntersector{scene}, ProbeMethod{}, settings, state, counters.path);
+        auto state = begin_probe<kLights>(field, settings, probe, {.index = 2, .strata_side = 4});
+        trace_path<kLights>(PathContext<ProbeMethod>{scene, ProbeMethod{}, settings}, BvhIntersector{scene}, state,
+                            counters.path);
         finish_probe(field, state, counters.path.method);
         count_path(counters, state.radiance, true);
     }
     for (const std::uint32_t batch : {1u, 16u, 1024u})
         for (const int threads : {1, 2, 7}) {
             const auto backend = make_backend(room, {.threads = threads, .batch_paths = batch});
-            backend->upload_tables(MethodId::Precomputed, room.empty_tables());
+            backend->upload_field(MethodId::Precomputed, room.empty_tables());
             const PassCounters result =
                 backend->precompute({.features = kLights, .path = settings, .sample = 2, .strata_side = 4});
-            const HostTables tables = backend->download_tables(MethodId::Precomputed);
+            const HostTables tables = tables_of(backend->download_field(MethodId::Precomputed));
             CHECK(same_counters(counters, result));
             CHECK(same_bits(expected.pending_sum, tables.pending_sum));
             CHECK(same_bits(expected.pending_count, tables.pending_count));

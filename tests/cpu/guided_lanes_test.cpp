@@ -1,10 +1,10 @@
 // Directions that are chosen for many paths at once are those that are chosen for each alone.
 #include <cstring>
 
-#include "core/kernel/methods/precomputed.h"
 #include "cpu/guided_block.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/field_fixture.h"
+#include "tests/kernel/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -33,16 +33,17 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
     const DrawKey jitter_key{(std::uint64_t{random.bits()} << 32) | random.bits(), Stream::Picture,
                              Purpose::CellJitter};
     GuidedGroup groups[kGroups];
-    ChosenGroup chosen[kGroups];
+    SampledGroup sampled[kGroups];
     DirectionGroup directions[kGroups];
     for (std::uint32_t i = 0; i < kGroups * kGroupSize; ++i) {
         GuidedGroup& group = groups[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
         const auto volumes = static_cast<std::uint32_t>(normals.size());
         const auto volume = static_cast<std::int32_t>(random.below(volumes + 1)) - 1;
-        if (volume >= 0) group.set_volume(lane, method.serving_volume(volume));
         const Vec3f normal = normals[random.below(volumes)];
         const Vec3f position = random.between(0.0f, 2.0f) * random.direction();
+        if (volume >= 0)
+            group.set_volume(lane, method.field.served_point({volume}, SurfacePoint{}), method.bsdf_fraction({volume}));
         group.position.set(lane, position);
         group.shading_normal.set(lane, normal);
         group.choice[lane] = any_number(random);
@@ -52,8 +53,8 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
         group.counters.sample[lane] = random.bits();
         group.counters.vertex[lane] = random.below(64);
     }
-    for (std::uint32_t i = 0; i < kGroups; ++i) kernels.choose_rows(method.mixture_view(), groups[i], chosen[i]);
-    kernels.sample_guided(method.mixture_view(), jitter_key, groups, chosen, directions, kGroups);
+    for (std::uint32_t i = 0; i < kGroups; ++i) kernels.sample_rows(method.field.sampler(), groups[i], sampled[i]);
+    kernels.sample_guided(method.field.sampler(), jitter_key, groups, sampled, directions, kGroups);
     for (std::uint32_t i = 0; i < kGroups * kGroupSize; ++i) {
         const GuidedGroup& group = groups[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
@@ -62,8 +63,10 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
         surface.shading_normal = group.shading_normal.get(lane);
         const Rng rng{jitter_key.seed, jitter_key.stream, group.counters.pixel[lane], group.counters.sample[lane]};
         const DirectionSample alone =
-            method.sample_direction({group.volume[lane]}, surface, rng, group.counters.vertex[lane],
-                                    {group.choice[lane], group.u_x[lane], group.u_y[lane], 0.0f});
+            method.sample_direction({group.volume[lane]}, surface,
+                                    {.rng = rng,
+                                     .index = group.counters.vertex[lane],
+                                     .u = {group.choice[lane], group.u_x[lane], group.u_y[lane], 0.0f}});
         REQUIRE(same_bits(directions[i / kGroupSize].get(lane), alone));
     }
 }
@@ -96,14 +99,14 @@ TEST_CASE("Every instruction set chooses the guided directions of one path alone
 TEST_CASE("Where there is no volume at all a block of paths is sent on by the BSDF") {
     PrecomputedMethod method;
     const PathSettings settings;
-    GuidedDepartures<FeatureSet{}, PrecomputedMethod> departures(method, settings);
-    departures.next() = {.surface = SurfacePoint{}, .bsdf = {Vec3f{0.5f}}};
-    departures.add(7, PathState<FeatureSet{}, PrecomputedMethod>{}, {0.25f, 0.75f, 0.125f, 0.0f});
-    departures.choose_directions();
-    REQUIRE(departures.count() == 1);
-    CHECK(departures.path(0) == 7);
-    const DirectionSample direction = departures.direction(0);
+    ScatterBlock<FeatureSet{}, PrecomputedMethod> block(method, settings);
+    block.next() = {.surface = SurfacePoint{}, .bsdf = {Vec3f{0.5f}}};
+    block.add(7, PathState<FeatureSet{}, PrecomputedMethod>{}, {0.25f, 0.75f, 0.125f, 0.0f});
+    block.sample_directions();
+    REQUIRE(block.count() == 1);
+    CHECK(block.path(0) == 7);
+    const DirectionSample direction = block.direction(0);
     CHECK(direction.wi == lambert_sample(SurfacePoint{}, {0.75f, 0.125f}));
     CHECK(direction.pdf_sa == direction.bsdf_pdf_sa);
-    CHECK(direction.cell == -1);
+    CHECK(direction.bin == -1);
 }

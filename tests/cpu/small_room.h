@@ -1,7 +1,8 @@
 // A small room with a lamp and a block, guided by a few volumes, and the back end that holds it.
 #pragma once
 
-#include "core/fields/make_field.h"
+#include "core/fields/place_volumes.h"
+#include "core/fields/table_model.h"
 #include "core/fields/volume_grid.h"
 #include "core/scene/needed_effects.h"
 #include "cpu/cpu_backend.h"

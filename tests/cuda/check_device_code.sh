@@ -16,16 +16,31 @@ table=$root/tests/cuda/kernels.sm_90.txt
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+# Entries of core/kernel/methods/method_list.h, in its order.
+entries=(default precomputed reinforcement sarsa monte_carlo)
+
+# source NAME: the file of a kernel; pictures have one per entry
+source_of() {
+    local entry
+    for entry in "${!entries[@]}"; do
+        [[ ${entries[entry]} == "$1" ]] || continue
+        printf '#define PL_METHOD_ENTRY %d\n#include "cuda/kernels/picture_kernels.cuh"\n' "$entry" >"$work/$1.cu"
+        echo "$work/$1.cu"
+        return
+    done
+    echo "$root/cuda/kernels/$1.cu"
+}
+
 compile() {
     "$nvcc" -std=c++20 -O3 -DNDEBUG -fmad=false --expt-relaxed-constexpr -diag-suppress=20012,445 -I"$root" \
-        -arch=sm_90 -cubin -Xptxas -v --keep --keep-dir "$work" -o "$work/$1.cubin" "$root/cuda/kernels/$1.cu" \
+        -arch=sm_90 -cubin -Xptxas -v --keep --keep-dir "$work" -o "$work/$1.cubin" "$(source_of "$1")" \
         2>"$work/$1.log" || { cat "$work/$1.log"; exit 1; }
 }
 case $mode in
 quick) pictures=(default) learners=() others=(film update) ;;
 all | --write)
     pictures=(default precomputed reinforcement)
-    learners=(sarsa monte_carlo probes)
+    learners=(sarsa monte_carlo probe_kernels)
     others=(views film update)
     ;;
 *) echo "mode: expected quick, all or --write, got '$mode'" >&2; exit 2 ;;

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/fields/make_field.h"
+#include "core/fields/place_volumes.h"
 #include "tests/catch.hpp"
 #include "tests/fields/nanoflann_index.h"
 #include "tests/kernel/shapes.h"

@@ -1,8 +1,9 @@
 // Sizes of a learned field, its radiance unit and its empty tables.
-#include "core/fields/make_field.h"
+#include "core/fields/place_volumes.h"
+#include "core/fields/table_model.h"
 
 #include "core/fields/volume_grid.h"
-#include "core/kernel/fields/direction_table.h"
+#include "core/kernel/guiding/direction_table.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/shapes.h"
 
@@ -57,12 +58,13 @@ TEST_CASE("Bytes are those of the arrays") {
         HostVolumes volumes = place_volumes(scene, settings);
         const HostTables tables = make_tables(make_field_shape(scene, settings), volumes.sites.size());
         const std::size_t without_grid = bytes_per_volume(bins) - kGridBytesPerVolume;
-        CHECK(field_bytes(volumes, tables) == volumes.sites.size() * without_grid);
-        CHECK(field_bytes(volumes, tables) == volume_bytes(volumes) + volumes.sites.size() * table_bytes(bins));
+        CHECK(volume_bytes(volumes) + field_bytes(tables) == volumes.sites.size() * without_grid);
+        CHECK(volume_bytes(volumes) + field_bytes(tables) ==
+              volume_bytes(volumes) + volumes.sites.size() * table_bytes(bins));
         const std::size_t before = volume_bytes(volumes);
         volumes.grid = build_volume_grid(scene, volumes, 1);
         CHECK(volume_bytes(volumes) > before);
-        CHECK(field_bytes(volumes, tables) <=
+        CHECK(volume_bytes(volumes) + field_bytes(tables) <=
               volumes.sites.size() * bytes_per_volume(bins) + scene.triangles.size() * kGridBytesPerTriangle);
     }
 }

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/fields/make_field.h"
+#include "core/fields/place_volumes.h"
 #include "core/fields/surfaces.h"
 #include "tests/catch.hpp"
 #include "tests/fields/lit_room.h"

@@ -6,6 +6,7 @@
 
 #include "core/fields/disagreement.h"
 #include "core/fields/volume_grid.h"
+#include "core/kernel/guiding/update_volume.h"
 #include "tests/catch.hpp"
 #include "tests/fields/lit_room.h"
 #include "tests/kernel/walk.h"
@@ -48,10 +49,11 @@ struct Learned {
     }
 
     RefinedPlacement refine(std::size_t most, int threads = 2) {
-        return refine_placement(scene, settings, view(), most, threads);
+        const TableField field = view();
+        return refine_placement(scene, settings, field, volumes_to_split(field, most, threads));
     }
     void take(RefinedPlacement refined) {
-        tables = split_tables(shape, std::move(tables), refined.parents);
+        tables = split_field(shape, std::move(tables), refined.parents);
         volumes = std::move(refined.volumes);
     }
 };

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/kernel/fields/volume_lookup.h"
+#include "core/kernel/guiding/volume_lookup.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/shapes.h"
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/fields/make_field.h"
+#include "core/fields/place_volumes.h"
 #include "core/io/load_scene.h"
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/shading/lambert.h"

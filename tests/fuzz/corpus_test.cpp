@@ -116,7 +116,7 @@ TEST_CASE("Writes the corpus of fields anew, for another version of the files", 
     write_field(corpus / "small", small_field());
     LearnedField empty = small_field();
     empty.volumes = std::make_shared<const HostVolumes>();
-    empty.tables = {};
+    empty.field = {};
     empty.refinement = {};
     empty.progress.next_probe = 0;
     write_field(corpus / "empty", empty);

@@ -1,5 +1,5 @@
 // Long runs in the arithmetic: sums of 1e10 samples, extreme neighbors, counters at their ends, sizes that change.
-#include "core/kernel/fields/table_update.h"
+#include "core/kernel/guiding/table_update.h"
 #include "core/kernel/film/film_view.h"
 #include "tests/catch.hpp"
 #include "tests/hard/hard_scenes.h"

@@ -104,7 +104,7 @@ void check_energy(const SceneDescription& description, std::uint32_t paths, doub
         PathState<F, DefaultMethod> state;
         state.ray = start.ray;
         state.sample = i;
-        trace_path<F>(scene, intersector, DefaultMethod{}, settings, state, counters);
+        trace_path<F>(PathContext<DefaultMethod>{scene, DefaultMethod{}, settings}, intersector, state, counters);
         const Vec3f albedo = scene.materials[start.point.material].albedo;
         for (std::size_t c = 0; c < 3; ++c) {
             const int k = static_cast<int>(c);

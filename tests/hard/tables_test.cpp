@@ -1,5 +1,5 @@
 // What is learned at the limits: nothing, infinity, wrong numbers, thin walls, and runs that hardly end.
-#include "core/fields/make_field.h"
+#include "core/fields/table_model.h"
 #include "tests/catch.hpp"
 #include "tests/hard/hard_scenes.h"
 #include "tests/session/small_settings.h"
@@ -21,7 +21,7 @@ std::uint64_t count_not_finite(const Array& values) {
 HostTables tables_after(const SceneDescription& scene, Estimator estimator, std::uint32_t passes) {
     Session session = make_session(scene, small_settings(scene, estimator, 32, 32));
     render_passes(session, passes);
-    return session.backend_access().download_tables(estimator.method);
+    return tables_of(session.backend_access().download_field(estimator.method));
 }
 
 }  // namespace
@@ -59,11 +59,11 @@ namespace {
 
 /// Fills what a session has learned with one number, as damaged memory or another program might.
 void poison(Session& session, MethodId method, float value) {
-    HostTables tables = session.backend_access().download_tables(method);
+    HostTables tables = tables_of(session.backend_access().download_field(method));
     for (LargeArray<float>* list :
          {&tables.radiance, &tables.mean_radiance, &tables.reach_weight, &tables.inverse_reach})
         for (float& entry : *list) entry = value;
-    session.backend_access().upload_tables(method, std::move(tables));
+    session.backend_access().upload_field(method, std::move(tables));
     session.backend_access().update_field(method);
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("Tables full of zeros, infinities, NaN or huge numbers leave the pictu
         const Snapshot picture = session.snapshot();
         CHECK(count_broken(picture) == 0);
         CHECK(pixels_mean(picture, {1.0}, 0.06));
-        CHECK(count_not_finite(session.backend_access().download_tables(MethodId::Reinforcement).row_cdf) == 0);
+        CHECK(count_not_finite(tables_of(session.backend_access().download_field(MethodId::Reinforcement)).row_cdf) == 0);
     }
 }
 

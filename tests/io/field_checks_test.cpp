@@ -85,29 +85,29 @@ std::vector<Wrong> wrong_tables() {
     using F = LearnedField;
     using V = HostVolumes;
     return {
-        {"radiance: expected 12 values, got 11", [](F& f, V&) { f.tables.radiance.pop_back(); }},
-        {"visits: expected 12 values, got 13", [](F& f, V&) { f.tables.visits.push_back(1); }},
-        {"sums: expected 12 values, got 0", [](F& f, V&) { f.tables.pending_sum.clear(); }},
-        {"counts: expected 12 values, got 11", [](F& f, V&) { f.tables.pending_count.pop_back(); }},
-        {"row table: expected 6 values, got 7", [](F& f, V&) { f.tables.row_cdf.push_back(1.0f); }},
-        {"column table: expected 12 values, got 11", [](F& f, V&) { f.tables.column_cdf.pop_back(); }},
-        {"mean radiance: expected 3 values, got 2", [](F& f, V&) { f.tables.mean_radiance.pop_back(); }},
-        {"radiance of cell 7: expected 0 or more, got nan", [](F& f, V&) { f.tables.radiance[7] = kNan; }},
-        {"radiance of cell 7: expected 0 or more, got -1", [](F& f, V&) { f.tables.radiance[7] = -1.0f; }},
+        {"radiance: expected 12 values, got 11", [](F& f, V&) { tables_of(f.field).radiance.pop_back(); }},
+        {"visits: expected 12 values, got 13", [](F& f, V&) { tables_of(f.field).visits.push_back(1); }},
+        {"sums: expected 12 values, got 0", [](F& f, V&) { tables_of(f.field).pending_sum.clear(); }},
+        {"counts: expected 12 values, got 11", [](F& f, V&) { tables_of(f.field).pending_count.pop_back(); }},
+        {"row table: expected 6 values, got 7", [](F& f, V&) { tables_of(f.field).row_cdf.push_back(1.0f); }},
+        {"column table: expected 12 values, got 11", [](F& f, V&) { tables_of(f.field).column_cdf.pop_back(); }},
+        {"mean radiance: expected 3 values, got 2", [](F& f, V&) { tables_of(f.field).mean_radiance.pop_back(); }},
+        {"radiance of cell 7: expected 0 or more, got nan", [](F& f, V&) { tables_of(f.field).radiance[7] = kNan; }},
+        {"radiance of cell 7: expected 0 or more, got -1", [](F& f, V&) { tables_of(f.field).radiance[7] = -1.0f; }},
         {"mean radiance of volume 2: expected 0 or more, got inf",
-         [](F& f, V&) { f.tables.mean_radiance[2] = std::numeric_limits<float>::infinity(); }},
-        {"inverse reaches: expected 3 values, got 2", [](F& f, V&) { f.tables.inverse_reach.pop_back(); }},
+         [](F& f, V&) { tables_of(f.field).mean_radiance[2] = std::numeric_limits<float>::infinity(); }},
+        {"inverse reaches: expected 3 values, got 2", [](F& f, V&) { tables_of(f.field).inverse_reach.pop_back(); }},
         {"inverse reach of volume 1: expected 0 or more, got -1",
-         [](F& f, V&) { f.tables.inverse_reach[1] = -1.0f; }},
+         [](F& f, V&) { tables_of(f.field).inverse_reach[1] = -1.0f; }},
         {"distance of volume 2: expected 0 to 5, got 6",
-         [](F& f, V&) { f.tables.pending_light[2] = 5, f.tables.pending_distance[2] = 6; }},
-        {"sum of cell 3: expected 0 to", [](F& f, V&) { f.tables.pending_sum[3] = -1; }},
-        {"sum of cell 3: expected 0 to 0", [](F& f, V&) { f.tables.pending_count[3] = 0; }},
-        {"entry 1 of the row table: expected 1, got 0.99", [](F& f, V&) { f.tables.row_cdf[1] = 0.99f; }},
-        {"entry 2 of the row table: expected a probability", [](F& f, V&) { f.tables.row_cdf[2] = 1.5f; }},
-        {"entry 4 of the column table: expected a probability", [](F& f, V&) { f.tables.column_cdf[4] = -0.1f; }},
-        {"entry 4 of the column table: expected a probability", [](F& f, V&) { f.tables.column_cdf[4] = kNan; }},
-        {"entry 11 of the column table: expected 1, got nan", [](F& f, V&) { f.tables.column_cdf[11] = kNan; }},
+         [](F& f, V&) { tables_of(f.field).pending_light[2] = 5, tables_of(f.field).pending_distance[2] = 6; }},
+        {"sum of cell 3: expected 0 to", [](F& f, V&) { tables_of(f.field).pending_sum[3] = -1; }},
+        {"sum of cell 3: expected 0 to 0", [](F& f, V&) { tables_of(f.field).pending_count[3] = 0; }},
+        {"entry 1 of the row table: expected 1, got 0.99", [](F& f, V&) { tables_of(f.field).row_cdf[1] = 0.99f; }},
+        {"entry 2 of the row table: expected a probability", [](F& f, V&) { tables_of(f.field).row_cdf[2] = 1.5f; }},
+        {"entry 4 of the column table: expected a probability", [](F& f, V&) { tables_of(f.field).column_cdf[4] = -0.1f; }},
+        {"entry 4 of the column table: expected a probability", [](F& f, V&) { tables_of(f.field).column_cdf[4] = kNan; }},
+        {"entry 11 of the column table: expected 1, got nan", [](F& f, V&) { tables_of(f.field).column_cdf[11] = kNan; }},
     };
 }
 
@@ -134,10 +134,10 @@ TEST_CASE("Probabilities that fall are refused") {
     LearnedField field = small_field();
     field.settings.bins = 16;
     field.shape.cells.side = 4;
-    field.tables = make_tables(field.shape, kVolumes);
+    tables_of(field.field) = make_tables(field.shape, kVolumes);
     write_field(folder.path() / "field", field);
     CHECK_NOTHROW(read_field(folder.path() / "field"));
-    std::swap(field.tables.column_cdf[5], field.tables.column_cdf[6]);
+    std::swap(tables_of(field.field).column_cdf[5], tables_of(field.field).column_cdf[6]);
     write_field(folder.path() / "field", field);
     CHECK_THAT(input_error([&] { read_field(folder.path() / "field"); }),
                contains("entry 6 of the column table: expected a probability from 0.75 to 1, got 0.5"));

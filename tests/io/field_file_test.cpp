@@ -51,7 +51,7 @@ void check_same(const LearnedField& a, const LearnedField& b) {
     CHECK((a.progress == b.progress));
     const auto check = [](const auto& x, const auto& y) { CHECK(same_bits(x, y)); };
     zip(*a.volumes, *b.volumes, check);
-    zip(a.tables, b.tables, check);
+    zip(tables_of(a.field), tables_of(b.field), check);
 }
 
 /// Another checksum behind changed bytes, and their number in front: what a broken writer would leave.
@@ -88,7 +88,7 @@ TEST_CASE("A learned field without volumes comes back") {
     const TemporaryFolder folder;
     LearnedField field = small_field();
     field.volumes = std::make_shared<const HostVolumes>();
-    field.tables = {};
+    field.field = {};
     field.refinement = {};
     field.progress.next_probe = 0;
     written(folder, field);

@@ -48,7 +48,7 @@ inline LearnedField small_field() {
                                  .lookup = Lookup::Linear},
                        .volumes = std::make_shared<const HostVolumes>(small_volumes()),
                        .refinement = {.rounds = 2, .added = 1},
-                       .tables = {},
+                       .field = {},
                        .progress = {.passes = std::uint64_t{3} << 40,
                                     .records = std::uint64_t{5} << 50,
                                     .clamped_records = 13,
@@ -56,18 +56,18 @@ inline LearnedField small_field() {
                                     .precomputed_slices = 4,
                                     .next_probe = 11,
                                     .precompute_seconds = 0.3}};
-    field.tables = make_tables(field.shape, kVolumes);
+    HostTables tables = make_tables(field.shape, kVolumes);
     std::mt19937 random(1);
     const auto uniform = [&] { return std::uniform_real_distribution<float>(0.0f, 1.0f)(random); };
-    for (float& radiance : field.tables.radiance) radiance = 10.0f * uniform();
-    for (float& radiance : field.tables.mean_radiance) radiance = 10.0f * uniform();
-    for (std::uint32_t& visits : field.tables.visits) visits = static_cast<std::uint32_t>(random());
-    for (std::uint32_t& count : field.tables.pending_count) count = 1 + static_cast<std::uint32_t>(random()) % 9;
-    for (std::int64_t& sum : field.tables.pending_sum) sum = static_cast<std::int64_t>(random()) << 8;
-    for (LargeArray<float>* reach : {&field.tables.reach_weight, &field.tables.inverse_reach})
+    for (float& radiance : tables.radiance) radiance = 10.0f * uniform();
+    for (float& radiance : tables.mean_radiance) radiance = 10.0f * uniform();
+    for (std::uint32_t& visits : tables.visits) visits = static_cast<std::uint32_t>(random());
+    for (std::uint32_t& count : tables.pending_count) count = 1 + static_cast<std::uint32_t>(random()) % 9;
+    for (std::int64_t& sum : tables.pending_sum) sum = static_cast<std::int64_t>(random()) << 8;
+    for (LargeArray<float>* reach : {&tables.reach_weight, &tables.inverse_reach})
         for (float& value : *reach) value = uniform();
-    for (std::int64_t& light : field.tables.pending_light) light = static_cast<std::int64_t>(random());
-    for (LargeArray<float>* cdf : {&field.tables.row_cdf, &field.tables.column_cdf})
+    for (std::int64_t& light : tables.pending_light) light = static_cast<std::int64_t>(random());
+    for (LargeArray<float>* cdf : {&tables.row_cdf, &tables.column_cdf})
         for (std::size_t i = 0; i < cdf->size(); i += 2) (*cdf)[i] = uniform();
     return field;
 }

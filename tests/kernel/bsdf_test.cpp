@@ -161,7 +161,7 @@ TEST_CASE("Directions that a surface cannot send light to have no cosine") {
     const LobeSurface mirror(rough(SurfaceKind::Conductor, 0.0f));
     CHECK(mirror.from(tilted(0.7f)).cosine(point, above) == 0.0f);
     CHECK(mirror.from(tilted(0.7f)).delta_probability() == 1.0f);
-    CHECK(mirror.from(tilted(0.7f)).passes_on());
+    CHECK(mirror.from(tilted(0.7f)).is_specular());
 }
 
 // The numbers of grazing and of upright directions at both ends of roughness.

@@ -1,5 +1,5 @@
 // Cells of directions: which one holds a direction, where they are, and that both agree.
-#include "core/kernel/fields/direction_cells.h"
+#include "core/kernel/guiding/direction_cells.h"
 
 #include "core/kernel/base/frame.h"
 

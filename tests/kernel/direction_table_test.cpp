@@ -1,7 +1,7 @@
 // Sampling a table: every interval reachable, densities that belong to the samples, for tables made to be hard.
 #include <algorithm>
 
-#include "core/kernel/fields/direction_table.h"
+#include "core/kernel/guiding/direction_table.h"
 
 #include "tests/catch.hpp"
 #include "tests/kernel/field_fixture.h"

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <functional>
 
-#include "core/fields/make_field.h"
-#include "core/kernel/fields/direction_table.h"
+#include "core/fields/place_volumes.h"
+#include "core/fields/table_model.h"
+#include "core/kernel/guiding/direction_table.h"
+#include "core/kernel/guiding/update_volume.h"
 #include "tests/kernel/shapes.h"
 
 namespace pl::test {
@@ -28,7 +30,7 @@ struct TestField {
     }
 
     TableField view() { return table_field(shape, volumes, tables); }
-    TableUpdateView publication() { return table_update_view(shape, tables); }
+    TableUpdateView update_view() { return table_update_view(shape, tables); }
     DirectionTable table(std::int32_t volume = 0) { return DirectionTable(view(), volume); }
 
     /// Sampling tables of a volume made of weights, [row][column], without what publication adds.
@@ -43,7 +45,7 @@ struct TestField {
     }
 
     void update() {
-        for (std::uint32_t volume = 0; volume < volumes.sites.size(); ++volume) update_volume(publication(), volume);
+        for (std::uint32_t volume = 0; volume < volumes.sites.size(); ++volume) update_volume(update_view(), volume);
     }
 };
 

@@ -1,11 +1,10 @@
 // The mixture of BSDF and table: samples follow its density, the density belongs to the direction, weights are bounded.
 #include "core/kernel/methods/guided.h"
 
-#include "core/kernel/methods/precomputed.h"
-#include "core/kernel/methods/reinforcement.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/field_fixture.h"
 #include "tests/kernel/sampling_rule.h"
+#include "tests/kernel/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -57,9 +56,9 @@ std::vector<double> integrate_bins(Pdf&& pdf) {
 struct Draws {
     std::uint32_t next = 0;
 
-    DirectionSample operator()(const GuidedSampling& guided, GuidedVertex vertex, const SurfacePoint& surface) {
+    DirectionSample operator()(const PrecomputedMethod& guided, TableLocation vertex, const SurfacePoint& surface) {
         const Rng rng{5, Stream::Picture, next++, 0};
-        return guided.sample_direction(vertex, surface, rng, 1, rng.draw(1, Purpose::Scatter));
+        return guided.sample_direction(vertex, surface, numbers_of(rng, 1));
     }
 };
 
@@ -72,7 +71,7 @@ void check_mixture(int samples, double delta) {
             const SurfacePoint surface = make_surface(20.0, fraction_and_place.y);
             field.tables.inverse_reach[0] = 1.0f;
             field.set_weights(hard.weights);
-            const GuidedSampling guided{field.view(), {.learned = 0, .bsdf_fraction = fraction}};
+            const auto guided = guided_by<PrecomputedMethod>(field.view(), {.learned = 0, .bsdf_fraction = fraction});
             const std::vector<double> expected =
                 integrate_bins([&](Vec3f d) { return guided.pdf_sa({0}, surface, d); });
             double sum = 0.0;
@@ -96,7 +95,7 @@ TEST_CASE("The density of a sample is that of its direction and no weight exceed
     for (const float fraction : {0.1f, 0.5f, 0.9f, 1.0f})
         for (const NamedWeights& hard : hard_weights(16)) {
             field.set_weights(hard.weights);
-            const GuidedSampling guided{field.view(), {.learned = 0, .bsdf_fraction = fraction}};
+            const auto guided = guided_by<PrecomputedMethod>(field.view(), {.learned = 0, .bsdf_fraction = fraction});
             const SurfacePoint surface = make_surface(10.0, 0.5f);
             field.tables.inverse_reach[0] = 1.5f;
             Draws draw;
@@ -117,12 +116,12 @@ TEST_CASE("The density of a sample is that of its direction and no weight exceed
 TEST_CASE("Where no volume serves the mixture is the BSDF alone") {
     TestField field(12, {Vec3f{0, 0, 1}});
     field.set_weights(hard_weights(12)[2].weights);
-    const GuidedSampling guided{field.view(), {.learned = 0, .bsdf_fraction = 0.5f}};
+    const auto guided = guided_by<PrecomputedMethod>(field.view(), {.learned = 0, .bsdf_fraction = 0.5f});
     SurfacePoint surface;
     MethodCounters counters;
-    CHECK(guided.arrive(surface, counters).volume == 0);
+    CHECK(guided.locate(surface, counters).volume == 0);
     surface.geometric_normal = surface.shading_normal = Vec3f{1, 0, 0};
-    const GuidedVertex nowhere = guided.arrive(surface, counters);
+    const TableLocation nowhere = guided.locate(surface, counters);
     CHECK(nowhere.volume == kNoVolume);
     CHECK(counters.lookups == 2);
     CHECK(counters.lookup_misses == 1);
@@ -136,7 +135,7 @@ TEST_CASE("Where no volume serves the mixture is the BSDF alone") {
 TEST_CASE("A fraction of one is the BSDF alone") {
     TestField field(12);
     field.set_weights(hard_weights(12)[2].weights);
-    const GuidedSampling guided{field.view(), {.learned = 0, .bsdf_fraction = 1.0f}};
+    const auto guided = guided_by<PrecomputedMethod>(field.view(), {.learned = 0, .bsdf_fraction = 1.0f});
     const SurfacePoint surface;
     Draws draw;
     for (int i = 0; i < 10000; ++i) {
@@ -152,37 +151,44 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     method.field = field.view();
     MethodCounters counters;
     const Vec3f wi = square_to_cosine_hemisphere(DirectionCells{4}.point_in_cell(9, {0.5f, 0.5f}));
-    auto memory = method.remember({0}, method.weigh({0}, SurfacePoint{}, wi));
-    CHECK(memory.volume == 0);
-    CHECK(memory.cell == 9);
+    const auto open = [&](TableLocation vertex, Vec3f direction) {
+        const FieldDensity density = field.view().density({0}, SurfacePoint{}, direction);
+        ReinforcementMethod::Memory memory;
+        method.scattered(memory, vertex,
+                         {.direction = {direction, density.pdf_sa, 1.0f, vertex.is_served() ? density.bin : -1}},
+                         counters);
+        return memory;
+    };
+    auto memory = open({0}, wi);
+    CHECK(memory.entry.volume == 0);
+    CHECK(memory.entry.cell == 9);
 
     // L_e + rho V, in luminance. Powers of two: exact.
-    method.commit(method.learn(memory, {.emitted = Vec3f{0.0f}, .albedo = Vec3f{0.25f}}, {1}, counters));
+    method.record(method.observe(memory, {.emitted = Vec3f{0.0f}, .albedo = Vec3f{0.25f}}, {1}, counters));
     const auto quarter_gray = static_cast<double>(luminance(Vec3f{0.25f})) * 2.0;
     CHECK(field.tables.pending_count[9] == 1);
     CHECK(field.tables.pending_sum[9] == static_cast<std::int64_t>(quarter_gray * 16777216.0));
     // A lamp that reflects nothing, or the sky.
-    method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}}, {kNoVolume}, counters));
+    method.record(method.observe(memory, {.emitted = Vec3f{1.0f}}, {kNoVolume}, counters));
     CHECK(field.tables.pending_count[9] == 2);
     CHECK(counters.records == 2);
 
     // More than the sums can hold is counted, and added as the most that they can.
     CHECK(counters.clamped_records == 0);
     const float most = kMaxRecordedUnits * field.view().radiance_unit;
-    method.commit(method.learn(memory, {.emitted = Vec3f{2.0f * most}}, {kNoVolume}, counters));
+    method.record(method.observe(memory, {.emitted = Vec3f{2.0f * most}}, {kNoVolume}, counters));
     CHECK(counters.clamped_records == 1);
     CHECK(counters.records == 3);
     CHECK(field.tables.pending_sum[9] == static_cast<std::int64_t>((quarter_gray + 1.0 + 65536.0) * 16777216.0));
 
     // Nothing is known where the surface reflects but no volume serves it, and nothing where none was left.
-    method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}, .albedo = Vec3f{0.5f}}, {kNoVolume}, counters));
+    method.record(method.observe(memory, {.emitted = Vec3f{1.0f}, .albedo = Vec3f{0.5f}}, {kNoVolume}, counters));
     ReinforcementMethod::Memory none{};
-    method.commit(method.learn(none, {.emitted = Vec3f{1.0f}}, {1}, counters));
+    method.record(method.observe(none, {.emitted = Vec3f{1.0f}}, {1}, counters));
     CHECK(counters.records == 3);
     CHECK(field.tables.pending_count[9] == 3);
-    CHECK(method.remember({kNoVolume}, method.weigh({kNoVolume}, SurfacePoint{}, wi)).volume == kNoVolume);
-    CHECK(method.remember({0}, method.weigh({0}, SurfacePoint{}, {0, 0.6f, -0.8f})).volume ==
-          kNoVolume);  // below the volume's horizon
+    CHECK_FALSE(open({kNoVolume}, wi).entry.is_trained());
+    CHECK_FALSE(open({0}, {0, 0.6f, -0.8f}).entry.is_trained());  // below the volume's horizon
 }
 
 TEST_CASE("The precomputed method learns nothing") {
@@ -190,8 +196,9 @@ TEST_CASE("The precomputed method learns nothing") {
     PrecomputedMethod method;
     method.field = field.view();
     MethodCounters counters;
-    auto memory = method.remember({0}, {Vec3f{0, 0, 1}, 1.0f, 1.0f});
-    method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}}, {0}, counters));
+    PrecomputedMethod::Memory memory;
+    method.scattered(memory, TableLocation{0}, {.direction = {Vec3f{0, 0, 1}, 1.0f, 1.0f}}, counters);
+    method.record(method.observe(memory, {.emitted = Vec3f{1.0f}}, TableLocation{0}, counters));
     CHECK(counters.records == 0);
     CHECK(field.tables.pending_count == LargeArray<std::uint32_t>(16, 0));
 }

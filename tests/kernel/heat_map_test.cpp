@@ -20,7 +20,7 @@ constexpr View kHeatMaps[] = {View::Visits,    View::Irradiance, View::Entropy,
 /// Two volumes of 2 x 2 cells; the second one is looked at.
 struct TwoVolumes : TestField {
     TwoVolumes() : TestField(2, {Vec3f{0, 0, 1}, Vec3f{0, 0, -1}}) {}
-    float value(View view, std::uint32_t volume = 1) { return volume_value(publication(), volume, view); }
+    float value(View view, std::uint32_t volume = 1) { return volume_value(TableVolumeSummary{update_view()}, volume, view); }
 };
 
 /// Relative luminance of an sRGB color.   [IEC 61966-2-1]

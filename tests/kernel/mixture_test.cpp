@@ -1,5 +1,5 @@
 // The share of BSDF sampling that a volume learns.
-#include "core/kernel/fields/mixture.h"
+#include "core/kernel/guiding/mixture.h"
 
 #include <vector>
 
@@ -50,7 +50,7 @@ void learn(TestField& field, const TwoHalves& halves, int passes, int records, U
             record_light(field, static_cast<float>(halves.bsdf[half] / halves.density(a, half)),
                          static_cast<float>(halves.radiance[half]));
         }
-        move_mixture(field.publication(), 0);
+        move_mixture(field.update_view(), 0);
     }
 }
 
@@ -108,8 +108,8 @@ TEST_CASE("The order of records does not move the share by a bit") {
         record_light(forward, first.x, first.y);
         record_light(backward, last.x, last.y);
     }
-    move_mixture(forward.publication(), 0);
-    move_mixture(backward.publication(), 0);
+    move_mixture(forward.update_view(), 0);
+    move_mixture(backward.update_view(), 0);
     CHECK(forward.tables.bsdf_fraction[0] == backward.tables.bsdf_fraction[0]);
     CHECK(forward.tables.bsdf_fraction[0] != kInitialBsdfFraction);
 }
@@ -121,7 +121,7 @@ TEST_CASE("Bad and huge numbers leave a share that is one") {
             field.tables.mean_radiance[0] = 1e-30f;
             for (int i = 0; i < 10000; ++i) record_light(field, ratio, radiance);
             CHECK(field.tables.pending_curvature[0] >= 0);
-            move_mixture(field.publication(), 0);
+            move_mixture(field.update_view(), 0);
             INFO("ratio " << ratio << ", radiance " << radiance);
             CHECK(field.tables.bsdf_fraction[0] >= kMinBsdfFraction);
             CHECK(field.tables.bsdf_fraction[0] <= kMaxBsdfFraction);

@@ -1,5 +1,5 @@
 // Directions carried between a site and the points around it: they meet on the sphere, and no solid angle is lost.
-#include "core/kernel/fields/parallax.h"
+#include "core/kernel/guiding/parallax.h"
 
 #include "tests/catch.hpp"
 #include "tests/kernel/shapes.h"

@@ -1,11 +1,9 @@
 // The distance of the light that a volume learns: a weighted mean, whatever the order and however bad the numbers are.
-#include "core/kernel/fields/reach.h"
+#include "core/kernel/guiding/reach.h"
 
-#include "core/kernel/methods/monte_carlo.h"
-#include "core/kernel/methods/reinforcement.h"
-#include "core/kernel/methods/sarsa.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/field_fixture.h"
+#include "tests/kernel/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -22,7 +20,7 @@ struct Field : TestField {
     }
     void add(float weight, float distance) { record_reach(view(), 0, weight, distance); }
     double reach() {
-        move_reach(publication(), 0);
+        move_reach(update_view(), 0);
         return 1.0 / static_cast<double>(tables.inverse_reach[0]);
     }
 };
@@ -45,11 +43,12 @@ double reach_after_one_path(LearningSettings learning) {
     MethodCounters counters;
     DirectionSample direction;
     direction.pdf_sa = direction.bsdf_pdf_sa = 1.0f;
-    direction.cell = 3;
+    direction.bin = 3;
     for (int path = 0; path < 100; ++path) {
-        auto memory = method.remember({0}, direction);
-        method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}, .distance = 2.0f}, {kNoVolume}, counters));
-        if constexpr (FollowingMethod<M>) method.finish(memory, counters);
+        typename M::Memory memory;
+        method.scattered(memory, {0}, {.direction = direction}, counters);
+        method.record(method.observe(memory, {.emitted = Vec3f{1.0f}, .distance = 2.0f}, {kNoVolume}, counters));
+        method.finished(memory, counters);
     }
     return field.reach();
 }

@@ -12,11 +12,11 @@ using namespace pl::test;
 
 namespace {
 
-/// A method with a fixed opinion.
-struct Opinionated : DefaultMethod {
-    float opinion = 0.0f;
+/// A method with a fixed contribution estimate.
+struct FixedEstimate : DefaultMethod {
+    float estimate = 0.0f;
 
-    PL_HD float roulette_worth(const Vertex&, Vec3f, Vec3f, float, Expectation&) const { return opinion; }
+    PL_HD float estimate_contribution(const Vertex&, Vec3f, Vec3f, float, Expectation&) const { return estimate; }
 };
 
 constexpr float kAlbedo = 0.75f;
@@ -35,12 +35,12 @@ float survive(const M& method, const PathSettings& settings, Uniforms& random) {
     return state.throughput.x;
 }
 
-/// One that splits paths: its opinion is as good as it can be, times a factor, because every path brings the same.
+/// One that splits paths: its estimate is as good as it can be, times a factor, because every path brings the same.
 struct Splitting : DefaultMethod {
     static constexpr bool kSplitsPaths = true;
     float factor = 1.0f;
 
-    PL_HD float roulette_worth(const Vertex&, Vec3f, Vec3f throughput, float, Expectation&) const {
+    PL_HD float estimate_contribution(const Vertex&, Vec3f, Vec3f throughput, float, Expectation&) const {
         return factor * throughput.x;
     }
 };
@@ -86,10 +86,10 @@ Family trace_family(const Splitting& method, const PathSettings& settings, Unifo
 TEST_CASE("Roulette keeps the mean and lets no weight grow, right or wrong about what a path is worth") {
     const double expected = std::pow(static_cast<double>(kAlbedo), kVertices);
     for (const float threshold : {0.01f, 1.0f})
-        for (const float opinion : {0.0f, 1e-6f, 0.005f, 0.5f, 1.0f, 1e6f, kInfinity}) {
-            INFO("worth " << opinion << ", threshold " << threshold);
-            Opinionated method;
-            method.opinion = opinion;
+        for (const float estimate : {0.0f, 1e-6f, 0.005f, 0.5f, 1.0f, 1e6f, kInfinity}) {
+            INFO("estimate " << estimate << ", threshold " << threshold);
+            FixedEstimate method;
+            method.estimate = estimate;
             Uniforms random(1);
             Moments weights;
             float most = 0.0f;
@@ -103,13 +103,13 @@ TEST_CASE("Roulette keeps the mean and lets no weight grow, right or wrong about
         }
 }
 
-// By the rule that trusts the opinion alone weights may grow, up to 10 at a vertex; those opinions are left out that would
-// need more paths than a test has. Reflectances alone ignore every opinion.
+// By the rule that trusts the estimate alone weights may grow, up to 10 at a vertex; those opinions are left out that would
+// need more paths than a test has. Reflectances alone ignore every estimate.
 TEST_CASE("The other rules of roulette keep the mean, too") {
     const double expected = std::pow(static_cast<double>(kAlbedo), kVertices);
-    const auto played = [&](RouletteRule rule, float opinion, float threshold) {
-        Opinionated method;
-        method.opinion = opinion;
+    const auto played = [&](RouletteRule rule, float estimate, float threshold) {
+        FixedEstimate method;
+        method.estimate = estimate;
         Uniforms random(2);
         Moments weights;
         for (int path = 0; path < 1000000; ++path)
@@ -117,13 +117,13 @@ TEST_CASE("The other rules of roulette keep the mean, too") {
                 static_cast<double>(survive(method, {.roulette_threshold = threshold, .roulette = rule}, random)));
         return weights;
     };
-    for (const float opinion : {0.25f, 0.3f, 1.0f, kInfinity}) {
-        INFO("worth " << opinion);
-        CHECK(mean_equals(played(RouletteRule::Field, opinion, 1.0f / 3.0f), {expected, 1e-6}, 0.05));
+    for (const float estimate : {0.25f, 0.3f, 1.0f, kInfinity}) {
+        INFO("estimate " << estimate);
+        CHECK(mean_equals(played(RouletteRule::Field, estimate, 1.0f / 3.0f), {expected, 1e-6}, 0.05));
     }
-    for (const float opinion : {0.0f, 0.5f, kInfinity}) {
-        INFO("worth " << opinion);
-        const Moments weights = played(RouletteRule::Albedo, opinion, 0.01f);
+    for (const float estimate : {0.0f, 0.5f, kInfinity}) {
+        INFO("estimate " << estimate);
+        const Moments weights = played(RouletteRule::Albedo, estimate, 0.01f);
         CHECK(mean_equals(weights, {expected, 1e-6}, 0.05));
         CHECK(weights.mean() == played(RouletteRule::Albedo, 1.0f, 1.0f).mean());
     }

@@ -1,5 +1,5 @@
 // From records to tables: exact sums, exact rates, tables that are probabilities whatever memory holds.
-#include "core/kernel/fields/table_update.h"
+#include "core/kernel/guiding/table_update.h"
 
 #include <algorithm>
 
@@ -148,7 +148,7 @@ TEST_CASE("Ten updates give the rational mean") {
 TEST_CASE("Ten million visits keep the mean") {
     TestField field(4);
     field.shape.rate = LearningRate::SampleMean;
-    TableUpdateView view = field.publication();
+    TableUpdateView view = field.update_view();
     Uniforms random(2);
     double sum = 0.0;
     for (std::uint32_t visit = 0; visit < 10000000; ++visit) {
@@ -166,7 +166,7 @@ TEST_CASE("Learned radiance stays between the least and the greatest target") {
     for (const LearningRate rate : {LearningRate::SampleMean, LearningRate::Forgetful}) {
         TestField field(4);
         field.shape.rate = rate;
-        TableUpdateView view = field.publication();
+        TableUpdateView view = field.update_view();
         Uniforms random(3);
         const float low = 0.3f;
         const float high = 0.300001f;

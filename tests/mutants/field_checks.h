@@ -3,11 +3,11 @@
 
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/default.h"
-#include "core/kernel/methods/reinforcement.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
 #include "tests/statistical/rules.h"
 #include "tests/statistical/scenes.h"
+#include "tests/kernel/guided_methods.h"
 
 namespace pl::test {
 
@@ -73,7 +73,7 @@ inline Decision check_learned_cells() {
     const HostScene scene = box_with_bright_wall();
     SmallField field(scene, 30, 12);
     trace_many<FeatureSet{}>(scene, camera_at_center(kFloor, kCubeLow, kCubeHigh),
-                             ReinforcementMethod{{.field = field.view()}}, {.seed = 1}, {0, 20'000},
+                             guided_by(field.view()), {.seed = 1}, {0, 20'000},
                              [](const auto&, const auto&) {});
     field.update();
     const Vec3f middle = wall_center(kFloor, kCubeLow, kCubeHigh);
@@ -91,8 +91,9 @@ inline Decision check_probed_cells() {
     for (int cell = 0; cell < tables.cells.count(); ++cell)
         for (std::uint32_t sample = 0; sample < 16; ++sample) {
             PathCounters counters;
-            auto state = begin_probe<FeatureSet{}>(tables, settings, tables.cell_index(volume, cell), sample, 4);
-            trace_path<FeatureSet{}>(view, BvhIntersector{view}, ProbeMethod{}, settings, state, counters);
+            auto state = begin_probe<FeatureSet{}>(tables, settings, tables.cell_index(volume, cell), {sample, 4});
+            trace_path<FeatureSet{}>(PathContext<ProbeMethod>{view, ProbeMethod{}, settings}, BvhIntersector{view}, state,
+                                     counters);
             finish_probe(tables, state, counters.method);
         }
     field.update();
@@ -107,7 +108,7 @@ inline Decision check_furnace_cells() {
     SmallField field(scene, 30, 4);
     for (std::uint32_t pass = 0; pass < 64; ++pass) {
         trace_many<FeatureSet{}>(scene, CameraDescription{.eye = Vec3f{0.0f}, .target = Vec3f{1.0f}},
-                                 ReinforcementMethod{{.field = field.view()}}, {.seed = 1}, {1000 * pass, 1000},
+                                 guided_by(field.view()), {.seed = 1}, {1000 * pass, 1000},
                                  [](const auto&, const auto&) {});
         field.update();
     }
@@ -134,7 +135,7 @@ inline Decision check_mixture_density() {
         field.tables().visits[i] = 1000;
     }
     field.update();
-    const ReinforcementMethod method{{.field = field.view(), .mixture = {.learned = 0, .bsdf_fraction = 0.3f}}};
+    const ReinforcementMethod method = guided_by(field.view(), {.learned = 0, .bsdf_fraction = 0.3f});
     const std::int32_t volume = field.volume_at({0.5f, 0.0f, 0.5f}, {0.0f, 1.0f, 0.0f});
     const SurfacePoint& surface = field.site(volume);
     const Frame frame = field.view().frame(volume);
@@ -153,7 +154,7 @@ inline Decision check_mixture_density() {
     for (std::uint32_t i = 0; i < kSamples; ++i) {
         const Rng rng{.seed = 1, .sample = i};
         const DirectionSample sample =
-            method.sample_direction({volume}, surface, rng, 1, rng.draw(1, Purpose::Scatter));
+            method.sample_direction({volume}, surface, numbers_of(rng, 1));
         const Vec3f local{glm::dot(sample.wi, frame.x), glm::dot(sample.wi, frame.y), glm::dot(sample.wi, frame.z)};
         ++observed[static_cast<std::size_t>(bins.cell_of_direction(local))];
     }

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "core/kernel/methods/default.h"
-#include "core/kernel/methods/reinforcement.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
 #include "tests/statistical/cube_radiosity.h"
 #include "tests/statistical/rectangle_light.h"
 #include "tests/statistical/rules.h"
+#include "tests/kernel/guided_methods.h"
 
 namespace pl::test {
 
@@ -51,7 +51,7 @@ inline Decision check_cube_guided() {
     const CubeReference reference = cube_with_lamp();
     const HostScene scene = pack_scene(cube_scene(reference));
     SmallField field(scene, 30, 8);
-    const ReinforcementMethod method{{.field = field.view()}};
+    const ReinforcementMethod method = guided_by(field.view());
     for (std::uint32_t pass = 0; pass < 32; ++pass) {
         trace_many<FeatureSet{}>(scene, camera_at_center(kWallX0, kCubeLow, kCubeHigh), method, {.seed = 1},
                                  {1000 * pass, 1000}, [](const auto&, const auto&) {});
@@ -106,9 +106,9 @@ inline Decision check_equilibrium() {
     for (std::uint32_t sample = 0; sample < kPaths; ++sample) {
         Vec3d product{1.0};
         PathCounters counters;
-        auto state = begin_path<FeatureSet{}, DefaultMethod>(camera, settings, 1, 1, 0, sample);
-        trace_path<FeatureSet{}>(view, AlbedoProduct{BvhIntersector{view}, &product}, DefaultMethod{}, settings,
-                                 state, counters);
+        auto state = begin_path<FeatureSet{}, DefaultMethod>(camera, settings, {1, 1, sample}, 0);
+        trace_path<FeatureSet{}>(PathContext<DefaultMethod>{view, DefaultMethod{}, settings},
+                                 AlbedoProduct{BvhIntersector{view}, &product}, state, counters);
         const double tolerance = 4.0 * (state.vertices + 1) * static_cast<double>(kRoundoff);
         const Vec3d off = glm::abs(Vec3d{state.radiance} - (Vec3d{1.0} - product));
         const bool right = off.x <= tolerance && off.y <= tolerance && off.z <= tolerance;

@@ -1,7 +1,9 @@
 // A learned field without a session: placement and tables of a scene, filled by scalar passes.
 #pragma once
 
-#include "core/fields/make_field.h"
+#include "core/fields/place_volumes.h"
+#include "core/fields/table_model.h"
+#include "core/kernel/guiding/update_volume.h"
 
 namespace pl::test {
 

@@ -26,8 +26,8 @@ void trace_many(const HostScene& scene, const CameraDescription& camera, const M
     const Camera pinhole = make_camera(camera, 1, 1);
     for (std::uint32_t i = 0; i < samples.count; ++i) {
         PathCounters counters;
-        auto state = begin_path<F, M>(pinhole, settings, 1, 1, 0, samples.first + i);
-        trace_path<F>(view, intersector, method, settings, state, counters);
+        auto state = begin_path<F, M>(pinhole, settings, {1, 1, samples.first + i}, 0);
+        trace_path<F>(PathContext<M>{view, method, settings}, intersector, state, counters);
         each(state, counters);
     }
 }

@@ -131,9 +131,9 @@ TEST_CASE("Publication of the same records is equal to the bit") {
     const auto published = [&](RenderBackend& backend) {
         backend.upload_scene(scene);
         backend.upload_volumes(volumes, shape);
-        backend.upload_tables(MethodId::Reinforcement, records);
+        backend.upload_field(MethodId::Reinforcement, records);
         backend.update_field(MethodId::Reinforcement);
-        return backend.download_tables(MethodId::Reinforcement);
+        return tables_of(backend.download_field(MethodId::Reinforcement));
     };
     const HostTables cpu = published(*make_cpu_backend({.threads = 1}));
     CHECK(same_bits(published(*make_cuda_backend()), cpu));

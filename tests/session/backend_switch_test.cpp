@@ -143,12 +143,12 @@ TEST_CASE("All methods move, and what is cleared is cleared everywhere") {
     render_passes(session, 2);
     std::array<HostTables, kMethodCount> tables;
     for (const MethodInfo& method : all_methods())
-        tables[static_cast<std::size_t>(method.id)] = first->download_tables(method.id);
+        tables[static_cast<std::size_t>(method.id)] = tables_of(first->download_field(method.id));
     const auto second = cpu_backend(2);
     session.apply(EditBackend{second});
     for (const MethodInfo& method : all_methods()) {
-        CHECK(second->has_tables(method.id) == method.uses_field);
-        CHECK(same_bits(tables[static_cast<std::size_t>(method.id)], second->download_tables(method.id)));
+        CHECK(second->has_field(method.id) == method.uses_field);
+        CHECK(same_bits(tables[static_cast<std::size_t>(method.id)], tables_of(second->download_field(method.id))));
     }
 
     session.apply(EditForget{});
@@ -200,9 +200,9 @@ TEST_CASE("A back end that cannot take over leaves the session as it was") {
     const SceneDescription scene = shipped_scene("door");
     for (const Estimator estimator : kEstimators) {
         const RenderSettings settings = small_settings(scene, estimator);
-        const bool has_tables = info_of(estimator.method).uses_field;
+        const bool has_field = info_of(estimator.method).uses_field;
         for (const Failure failure : {Failure::Scene, Failure::Volumes, Failure::Tables}) {
-            if (!has_tables && failure != Failure::Scene) continue;
+            if (!has_field && failure != Failure::Scene) continue;
             INFO(estimator << ", failure " << static_cast<int>(failure));
             const auto first = cpu_backend(2);
             Session session = session_on(first, scene, settings);
@@ -243,7 +243,7 @@ TEST_CASE("A lost back end is abandoned with what it held, and the next one star
         CHECK(invalidated_by(abandon) == Invalidation{.tables = true});
         session.apply(abandon);
         CHECK(session.passes() == 0);
-        CHECK_FALSE(next->has_tables(estimator.method));
+        CHECK_FALSE(next->has_field(estimator.method));
         CHECK(lost.use_count() == 1);  // nobody will touch it again
         render_passes(session, 2);
         Session fresh = session_on(cpu_backend(1), scene, settings);

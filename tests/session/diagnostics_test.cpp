@@ -127,7 +127,7 @@ TEST_CASE("Diagnostic: records are clamped where tables hold too much, and nowhe
     CHECK(sound.traced == 3);
     CHECK(sound.count(Diagnostic::ClampedRecord) == 0);
 
-    for (float& mean : source.tables.mean_radiance) mean = 1e6f * source.shape.radiance_unit;
+    for (float& mean : tables_of(source.field).mean_radiance) mean = 1e6f * source.shape.radiance_unit;
     CHECK(find_diagnostics(source, 2).count(Diagnostic::ClampedRecord) > 1000);
 }
 

@@ -22,15 +22,15 @@ public:
         check(Failure::Volumes);
         inner_->upload_volumes(std::move(volumes), shape);
     }
-    void upload_tables(MethodId method, HostTables tables) override {
+    void upload_field(MethodId method, HostField tables) override {
         check(Failure::Tables);
-        inner_->upload_tables(method, std::move(tables));
+        inner_->upload_field(method, std::move(tables));
     }
-    HostTables download_tables(MethodId method) const override {
+    HostField download_field(MethodId method) const override {
         check(Failure::Download);
-        return inner_->download_tables(method);
+        return inner_->download_field(method);
     }
-    bool has_tables(MethodId method) const override { return inner_->has_tables(method); }
+    bool has_field(MethodId method) const override { return inner_->has_field(method); }
     void reset_film(FilmSlot slot, int width, int height) override { inner_->reset_film(slot, width, height); }
     FilmReading read_film(FilmSlot slot) const override { return inner_->read_film(slot); }
     FilmReading read_halves(FilmSlot slot) const override { return inner_->read_halves(slot); }

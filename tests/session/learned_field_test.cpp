@@ -110,8 +110,8 @@ TEST_CASE("An imported field empties all pictures and the tables of other method
         session.apply(EditMethod{method.id});
         CHECK(session.passes() == 0);
         const bool is_owner = method.id == MethodId::Reinforcement;
-        CHECK(session.backend_access().has_tables(method.id) == is_owner);
-        if (is_owner) CHECK(same_bits(session.backend_access().download_tables(method.id), field.tables));
+        CHECK(session.backend_access().has_field(method.id) == is_owner);
+        if (is_owner) CHECK(same_bits(tables_of(session.backend_access().download_field(method.id)), tables_of(field.field)));
     }
     // The others start as in a new session.
     session.apply(EditMethod{MethodId::Precomputed});
@@ -135,7 +135,7 @@ TEST_CASE("A field that does not belong to the session is refused and changes no
     LearnedField other_scene = good;
     other_scene.scene_hash = "0000000000000000";
     LearnedField short_table = good;
-    short_table.tables.visits.pop_back();
+    tables_of(short_table.field).visits.pop_back();
     LearnedField default_method = good;
     default_method.method = MethodId::Default;
     LearnedField no_volumes = good;

@@ -31,7 +31,7 @@ struct State {
 };
 
 inline State state_of(Session& session) {
-    return {session.snapshot_with_halves(), session.backend_access().download_tables(session.settings().method)};
+    return {session.snapshot_with_halves(), tables_of(session.backend_access().download_field(session.settings().method))};
 }
 
 inline bool same_film(const State& a, const State& b) {

@@ -33,14 +33,14 @@ Session stopped_in_first_pass(const SceneDescription& scene) {
         Session session = make_session(scene, small_settings(scene, kLearning, 300, 200), 2);
         while (session.passes() == 0) {
             advance_interrupted(session, random.next());
-            if (pass_is_partial(session) && sum(session.export_field().tables.visits) > 0) return session;
+            if (pass_is_partial(session) && sum(tables_of(session.export_field().field).visits) > 0) return session;
         }
     }
     FAIL("no first pass could be stopped");
     throw std::logic_error("unreachable");
 }
 
-std::uint64_t waiting_records(const Session& session) { return sum(session.export_field().tables.pending_count); }
+std::uint64_t waiting_records(const Session& session) { return sum(tables_of(session.export_field().field).pending_count); }
 
 }  // namespace
 
@@ -80,7 +80,7 @@ TEST_CASE("The first pass is guided by its own first paths, later ones by whole 
     const SceneDescription scene = shipped_scene("door");
     Session session = stopped_in_first_pass(scene);
     REQUIRE(session.passes() == 0);
-    const HostTables published = session.export_field().tables;
+    const HostTables published = tables_of(session.export_field().field);
     CHECK(published.mean_radiance != make_tables(session.export_field().shape, 60).mean_radiance);
     CHECK(sum(published.visits) + sum(published.pending_count) == session.field_status()->records);
     // Stopped and gone on with, it is the pass that it would have been.
@@ -119,7 +119,7 @@ TEST_CASE("Records wait in their sums until tables are published, and none is lo
         INFO("after pass " << pass);
         const std::uint64_t waiting = waiting_records(session);
         CHECK((waiting == 0) == is_updated_after(pass));
-        CHECK(sum(session.export_field().tables.visits) + waiting == session.field_status()->records);
+        CHECK(sum(tables_of(session.export_field().field).visits) + waiting == session.field_status()->records);
     }
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("A picture that begins anew is learned from after its first pass, with
     session.apply(EditRestart{});
     render_passes(session, 1);
     CHECK(waiting_records(session) == 0);
-    CHECK(sum(session.export_field().tables.visits) == session.field_status()->records);
+    CHECK(sum(tables_of(session.export_field().field).visits) == session.field_status()->records);
 }
 
 TEST_CASE("Records that wait are saved and loaded with the tables") {
@@ -140,13 +140,13 @@ TEST_CASE("Records that wait are saved and loaded with the tables") {
     Session first = make_session(scene, settings, 2);
     render_passes(first, 17);
     const LearnedField field = first.export_field();
-    REQUIRE(sum(field.tables.pending_count) > 0);
+    REQUIRE(sum(tables_of(field.field).pending_count) > 0);
     const TemporaryFolder folder;
     write_field(folder.path() / "field", field);
 
     Session second = make_session(scene, settings, 1);
     second.import_field(read_field(folder.path() / "field"));
-    CHECK(waiting_records(second) == sum(field.tables.pending_count));
+    CHECK(waiting_records(second) == sum(tables_of(field.field).pending_count));
     first.apply(EditRestart{});
     render_passes(first, 2);
     render_passes(second, 2);

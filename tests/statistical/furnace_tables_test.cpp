@@ -20,7 +20,9 @@ RenderSettings furnace_settings(Estimator estimator, const SceneDescription& sce
     return settings;
 }
 
-HostTables tables_of(Session& session) { return session.backend_access().download_tables(session.settings().method); }
+HostTables learned_tables(Session& session) {
+    return tables_of(session.backend_access().download_field(session.settings().method));
+}
 
 /// What is left of the old mean where this share of the visits is new.
 double kept_share(double share, LearningRate rate) {
@@ -101,7 +103,7 @@ TEST_CASE("Reinforcement learns e/(1-rho) in every cell of the furnace") {
             Session session = make_session(scene, settings);
             session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f});  // places the volumes
             render_passes(session, 1);
-            HostTables tables = tables_of(session);
+            HostTables tables = learned_tables(session);
             HostTables empty = tables;
             std::fill(empty.visits.begin(), empty.visits.end(), 0u);
             ErrorBound bound(empty);
@@ -109,7 +111,7 @@ TEST_CASE("Reinforcement learns e/(1-rho) in every cell of the furnace") {
             for (std::uint32_t pass = 1; pass < passes; ++pass) {
                 session.apply(EditRestart{});  // after the first pass of a picture tables are always published
                 render_passes(session, 1);
-                tables = tables_of(session);
+                tables = learned_tables(session);
                 bound.publish(tables, rate);
             }
             double worst_bound = 0.0;
@@ -136,7 +138,7 @@ TEST_CASE("Precomputation fills e/(1-rho) into every cell of the furnace") {
         settings.field.precompute_samples = 24 * 24;
         Session session = make_session(scene, settings);
         render_passes(session, 1);
-        const HostTables tables = tables_of(session);
+        const HostTables tables = learned_tables(session);
         Moments cells;
         for (const float radiance : tables.radiance) cells.add(static_cast<double>(radiance));
         INFO("next-event estimation " << next_event);
@@ -161,7 +163,7 @@ TEST_CASE("The other targets learn e/(1-rho) in the furnace, too") {
             settings.field.learning.target = target;
             Session session = make_session(scene, settings);
             render_passes(session, 400);
-            const HostTables tables = tables_of(session);
+            const HostTables tables = learned_tables(session);
             Moments means;
             for (const float mean : tables.mean_radiance) {
                 CHECK(static_cast<double>(mean) == Approx(1.0).margin(0.03));

@@ -2,7 +2,7 @@
 // stay true even if all of it is wrong.
 #include <cmath>
 
-#include "core/kernel/fields/direction_table.h"
+#include "core/kernel/guiding/direction_table.h"
 #include "core/kernel/geometry/intersector.h"
 #include "tests/catch.hpp"
 #include "tests/statistical/rectangle_light.h"
@@ -98,11 +98,11 @@ LearnedField map_of_one_cell(const SceneDescription& scene) {
     render_passes(session, 1);
     LearnedField field = session.export_field();
     const std::size_t cells = static_cast<std::size_t>(field.shape.cells.count());
-    for (std::size_t i = 0; i < field.tables.radiance.size(); ++i) {
-        field.tables.radiance[i] = i % cells == 5 ? 1.0f : 0.0f;
-        field.tables.visits[i] = 1000000;
+    for (std::size_t i = 0; i < tables_of(field.field).radiance.size(); ++i) {
+        tables_of(field.field).radiance[i] = i % cells == 5 ? 1.0f : 0.0f;
+        tables_of(field.field).visits[i] = 1000000;
     }
-    const TableUpdateView view = table_update_view(field.shape, field.tables);
+    const TableUpdateView view = table_update_view(field.shape, tables_of(field.field));
     for (std::uint32_t volume = 0; volume < view.mean_radiance.count; ++volume) update_volume(view, volume);
     return field;
 }
@@ -119,7 +119,7 @@ TEST_CASE("After training every table's density integrates to one") {
         Session session = make_session(scene, settings);
         render_passes(session, 16);
         LearnedField field = session.export_field();
-        const TableField view = table_field(field.shape, *field.volumes, field.tables);
+        const TableField view = table_field(field.shape, *field.volumes, tables_of(field.field));
         INFO(learner);
         REQUIRE(view.volume_count() >= 300);
         for (std::int32_t volume = 0; volume < view.volume_count(); ++volume)

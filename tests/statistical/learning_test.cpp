@@ -52,7 +52,7 @@ double learned_light(const SceneDescription& scene, bool next_event, LearningSet
     settings.field.learning = learning;
     Session session = make_session(scene, settings);
     render_passes(session, passes);
-    const HostTables tables = session.backend_access().download_tables(MethodId::Reinforcement);
+    const HostTables tables = tables_of(session.backend_access().download_field(MethodId::Reinforcement));
     double sum = 0.0;
     for (const float mean : tables.mean_radiance) sum += static_cast<double>(mean);
     return sum / static_cast<double>(tables.mean_radiance.size());

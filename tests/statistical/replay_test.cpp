@@ -1,12 +1,12 @@
 // What a method is told of a path is all that the path brought: from the records alone its radiance comes out again.
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/integrator/trace_path.h"
-#include "core/kernel/methods/monte_carlo.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/field_fixture.h"
 #include "tests/statistical/shipped_scenes.h"
+#include "tests/kernel/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -24,31 +24,29 @@ struct ReplayedMethod : MonteCarloMethod {
         Vec3f weight{0.0f};  ///< with which the first vertex was left
     };
 
-    Memory remember(const Vertex& vertex, const DirectionSample& direction) const {
-        return {MonteCarloMethod::remember(vertex, direction)};
-    }
-    Record learn(Memory& memory, const Arrival& arrival, const Vertex& vertex, MethodCounters& counters) const {
-        if (!memory.has_met) memory.brought = arrival.emitted;
+    Sample observe(Memory& memory, const Observation& observation, const Vertex& vertex,
+                   MethodCounters& counters) const {
+        if (!memory.has_met) memory.brought = observation.emitted;
         memory.has_met = true;
         memory.first_light_waits = false;
-        return MonteCarloMethod::learn(memory, arrival, vertex, counters);
+        return MonteCarloMethod::observe(memory, observation, vertex, counters);
     }
-    void request_light(Memory& memory, Vec3f reflected) const {
+    void light_sampled(Memory& memory, Vec3f reflected) const {
         memory.first_light_waits = !memory.has_left;
         memory.first_light = reflected;
-        MonteCarloMethod::request_light(memory, reflected);
+        MonteCarloMethod::light_sampled(memory, reflected);
     }
-    void receive_light(Memory& memory, MethodCounters& counters) const {
+    void light_received(Memory& memory, MethodCounters& counters) const {
         if (memory.first_light_waits) memory.brought += memory.first_light;
-        MonteCarloMethod::receive_light(memory, counters);
+        MonteCarloMethod::light_received(memory, counters);
     }
-    void depart(Memory& memory, const Vertex& vertex, const Scattering& scattering, MethodCounters& counters) const {
-        if (!memory.has_left) memory.weight = scattering.weight;
+    void scattered(Memory& memory, const Vertex& vertex, const ScatterEvent& event, MethodCounters& counters) const {
+        if (!memory.has_left) memory.weight = event.weight;
         memory.has_left = true;
-        MonteCarloMethod::depart(memory, vertex, scattering, counters);
+        MonteCarloMethod::scattered(memory, vertex, event, counters);
     }
     /// The steps are needed until the path has been judged.
-    void finish(Memory&, MethodCounters&) const {}
+    void finished(Memory&, MethodCounters&) const {}
 
     Vec3f replay(const Memory& memory) const {
         Vec3f brought{0.0f};
@@ -57,7 +55,7 @@ struct ReplayedMethod : MonteCarloMethod {
         return memory.brought + memory.weight * brought;
     }
 };
-static_assert(FollowingMethod<ReplayedMethod>);
+static_assert(Method<ReplayedMethod>);
 
 /// Paths of a scene whose records give another radiance than the path; those cut for learning are left out.
 template <FeatureSet F>
@@ -82,9 +80,9 @@ void check_replay(const std::string& name, bool next_event) {
     double brightest = 0.0;
     int lit = 0;
     for (std::uint32_t i = 0; i < kSide * kSide * kSamples; ++i) {
-        auto state = begin_path<F, ReplayedMethod>(camera, path, kSide, kSide, i / kSamples, i % kSamples);
+        auto state = begin_path<F, ReplayedMethod>(camera, path, {kSide, kSide, i % kSamples}, i / kSamples);
         PathCounters counters;
-        trace_path<F>(view, BvhIntersector{view}, method, path, state, counters);
+        trace_path<F>(PathContext<ReplayedMethod>{view, method, path}, BvhIntersector{view}, state, counters);
         if (counters.method.cut_returns > 0) continue;
         const Vec3f replayed = method.replay(state.memory);
         lit += is_black(state.radiance) ? 0 : 1;

@@ -78,17 +78,17 @@ public:
             static_cast<std::uint32_t>(volumes->normals.size()) * static_cast<std::uint32_t>(shape.cells.count());
         tables_.clear();
     }
-    void upload_tables(MethodId method, HostTables tables) override {
+    void upload_field(MethodId method, HostField field) override {
         require_device();
-        control_->keep_tables(control_->uploaded, method, tables);
-        tables_[method] = std::move(tables);
+        control_->keep_tables(control_->uploaded, method, tables_of(field));
+        tables_[method] = tables_of(std::move(field));
     }
-    HostTables download_tables(MethodId method) const override {
+    HostField download_field(MethodId method) const override {
         require_device();
         control_->keep_tables(control_->downloaded, method, tables_.at(method));
         return tables_.at(method);
     }
-    bool has_tables(MethodId method) const override { return tables_.count(method) > 0; }
+    bool has_field(MethodId method) const override { return tables_.count(method) > 0; }
 
     void reset_film(FilmSlot slot, int width, int height) override {
         require_device();

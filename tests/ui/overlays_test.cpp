@@ -2,7 +2,7 @@
 
 #include "core/kernel/base/frame.h"
 #include "core/kernel/base/rng.h"
-#include "core/kernel/fields/direction_cells.h"
+#include "core/kernel/guiding/direction_cells.h"
 #include "core/scene/pack_scene.h"
 #include "tests/catch.hpp"
 #include "ui/overlays/direction_disc.h"

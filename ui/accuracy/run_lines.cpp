@@ -73,14 +73,7 @@ std::string name_of(const RunLabel& label) {
     return name;
 }
 
-std::uint32_t color_of(MethodId method) {
-    switch (method) {
-    case MethodId::Default: return 0xff56b4e9u;
-    case MethodId::Precomputed: return 0xffe69f00u;
-    case MethodId::Reinforcement: return 0xff26c48fu;
-    }
-    return 0xffcc79a7u;
-}
+std::uint32_t color_of(MethodId method) { return info_of(method).color; }
 
 LineStyle style_of(const std::string& backend) {
     if (backend == "cpu") return LineStyle::Full;

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/kernel/fields/direction_cells.h"
+#include "core/kernel/guiding/direction_cells.h"
 #include "ui/overlays/overlays.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/widgets.h"

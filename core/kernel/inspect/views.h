@@ -1,7 +1,7 @@
-// Views of the first surface that a pixel sees: what the picture is made of, and what was learned there.
+// Views of the first surface of each pixel: geometry, materials, direct light, and numbers of the radiance volumes.
 #pragma once
 
-#include "core/kernel/fields/table_field.h"
+#include "core/kernel/guiding/placement_view.h"
 #include "core/kernel/integrator/holes.h"
 #include "core/kernel/integrator/steps.h"
 #include "core/kernel/methods/default.h"
@@ -16,7 +16,7 @@ enum class View : std::uint32_t {
     Normal,
     Albedo,
     Depth,
-    // Heat maps: numbers of the volume that serves a point, see volume_value().
+    // Heat maps: a number of the volume that serves a point, see volume_value().
     Visits,
     Irradiance,
     Entropy,
@@ -25,26 +25,27 @@ enum class View : std::uint32_t {
     Unvisited,
 };
 inline constexpr int kViewCount = 13;
-/// Which sets of effects the kernels of all views but Beauty are compiled for.
+/// Sets of features that the kernels of all views but Beauty are compiled for.
 inline constexpr KernelRange kViewRange = KernelRange::Sparse;
 
-/// Does a view show a number per volume? Its films hold the numbers of the last pass, not a mean over passes.
+/// Whether a view shows a number per volume. Its films hold the numbers of the last pass, not a mean over passes.
 PL_HD constexpr bool is_heat_map(View view) { return view >= View::Visits; }
 
-/// Stable, well spread color of a number, in [0.15, 1] per channel.
+/// Pseudorandom color of a number, in [0.15, 1] per channel.
 PL_HD inline Vec3f color_of_id(std::uint32_t id) {
     const Philox block = philox4x32({{id, 0, 0, 0}}, 0x9E3779B9u, 0xBB67AE85u);
     return Vec3f{0.15f} +
            0.85f * Vec3f{to_unit_float(block.v[0]), to_unit_float(block.v[1]), to_unit_float(block.v[2])};
 }
 
-/// What the views of a field look up.
+/// The part of a field that views show: any representation that keeps numbers per volume.
 struct ShownField {
-    TableField field;
-    Span<const float> volume_values;  ///< of heat maps, else empty: volume_value(). [volume]
+    PlacementView placement;
+    /// Heat maps: volume_value(); View::RadianceMap: irradiance / pi (luminance); other views: empty. [volume]
+    Span<const float> volume_values;
 };
 
-/// What the views of cells and the heat maps show of a volume; 0 where there is none.
+/// The color of a volume in the views of cells and heat maps; black without a volume.
 PL_HD inline Vec3f shown_volume(View view, const ShownField& shown, std::int32_t volume) {
     if (volume == kNoVolume) return Vec3f{0.0f};
     const auto number = static_cast<std::uint32_t>(volume);
@@ -59,7 +60,7 @@ struct FirstSurface {
     float distance = 0.0f;
 };
 
-/// The classic ray tracer: emission plus one shadow ray, no light from other surfaces.
+/// Whitted-style ray tracing without recursion: emission plus one light sample.
 template <FeatureSet F, Intersector I>
 PL_HD inline Vec3f direct_radiance(const SceneView& scene, const I& intersector, const FirstSurface& surface,
                                    const Rng& rng) {
@@ -72,7 +73,7 @@ PL_HD inline Vec3f direct_radiance(const SceneView& scene, const I& intersector,
     return emitted + bsdf.eval(surface.point, sample.wi, sample.cos_i) * sample.emitted * (1.0f / sample.pdf_sa);
 }
 
-/// What the camera sees where there is no surface.
+/// Radiance of a camera ray that misses all surfaces.
 template <FeatureSet F>
 PL_HD inline Vec3f background(const SceneView& scene, Vec3f direction) {
     Vec3f radiance{0.0f};
@@ -83,11 +84,11 @@ PL_HD inline Vec3f background(const SceneView& scene, Vec3f direction) {
     return radiance;
 }
 
-/// Learned mean radiance around a point: the nearest volumes, blended with weights that fall to zero at the
-/// distance of the last one, so that the result has no steps. Biased: a preview, not a picture.
-PL_HD inline float interpolated_mean_radiance(const TableField& field, const SurfacePoint& surface) {
+/// Learned irradiance / pi around a point: that of the nearest volumes, with weights that fall to zero at the distance of the
+/// last one, so that the result is continuous. Biased: a preview, not a picture.
+PL_HD inline float interpolated_mean_radiance(const ShownField& shown, const SurfacePoint& surface) {
     NearestSeveral<8> nearest;
-    search_kd_tree(field.tree, surface.position, surface.geometric_normal, nearest);
+    search_kd_tree(shown.placement.tree, surface.position, surface.geometric_normal, nearest);
     if (nearest.found == 0) return 0.0f;
     const float reach = std::sqrt(nearest.distance2[nearest.found - 1]) * 1.0001f;
     float sum = 0.0f;
@@ -95,25 +96,32 @@ PL_HD inline float interpolated_mean_radiance(const TableField& field, const Sur
     for (int i = 0; i < nearest.found; ++i) {
         const float ratio = reach > 0.0f ? std::sqrt(nearest.distance2[i]) / reach : 0.0f;
         const float weight = square(1.0f - ratio) + 1.0e-6f;  // the last one alone must not divide by zero
-        sum += weight * field.mean_radiance[static_cast<std::uint32_t>(nearest.volume[i])];
+        sum += weight * shown.volume_values[static_cast<std::uint32_t>(nearest.volume[i])];
         weight_sum += weight;
     }
     return sum / weight_sum;
 }
 
-/// Value of one view at the first surface; the camera ray has missed nothing. Depth is in scene units, heat maps are
-/// numbers as they are, three times the same.
+/// What the samples of a view of one pass have in common.
+struct ViewContext {
+    View view = View::Normal;
+    ShownField shown;
+    Camera camera;
+    PathSettings settings;
+    PixelGrid grid;
+};
+
+/// Value of a view at the first surface. Depth is in scene units; heat maps repeat their number in all three channels.
 template <FeatureSet F, Intersector I>
-PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& intersector, const ShownField& shown,
+PL_HD inline Vec3f surface_view(const ViewContext& context, const SceneView& scene, const I& intersector,
                                 const FirstSurface& surface, const Rng& rng) {
-    switch (view) {
+    switch (context.view) {
     case View::Beauty: return Vec3f{0.0f};
     case View::Direct: return direct_radiance<F>(scene, intersector, surface, rng);
-    case View::RadianceMap: {
+    case View::RadianceMap:
         return emitted_at<F>(scene, surface.point, surface.weights) +
                albedo_at<F>(scene, surface.point, surface.weights) *
-                   interpolated_mean_radiance(shown.field, surface.point);
-    }
+                   interpolated_mean_radiance(context.shown, surface.point);
     case View::Normal: return 0.5f * (surface.point.shading_normal + Vec3f{1.0f});
     case View::Albedo: return albedo_at<F>(scene, surface.point, surface.weights);
     case View::Depth: return Vec3f{surface.distance};
@@ -123,22 +131,23 @@ PL_HD inline Vec3f surface_view(View view, const SceneView& scene, const I& inte
     case View::Entropy:
     case View::BsdfShare:
     case View::Change:
-    case View::Unvisited: return shown_volume(view, shown, shown.field.volume_at(surface.point));
+    case View::Unvisited:
+        return shown_volume(context.view, context.shown, context.shown.placement.volume_at(surface.point));
     }
     return Vec3f{0.0f};
 }
 
 /// One sample of a view for one pixel.
 template <FeatureSet F, Intersector I>
-PL_HD inline Vec3f sample_view(View view, const SceneView& scene, const I& intersector, const ShownField& shown,
-                               const Camera& camera, const PathSettings& settings, std::uint32_t width,
-                               std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
-    const auto state = begin_path<F, DefaultMethod>(camera, settings, width, height, pixel, sample);
+PL_HD inline Vec3f sample_view(const ViewContext& context, const SceneView& scene, const I& intersector,
+                               std::uint32_t pixel) {
+    const auto state = begin_path<F, DefaultMethod>(context.camera, context.settings, context.grid, pixel);
     const Hit hit = closest_solid_hit<F>(scene, intersector, state.ray);
-    if (!hit.found()) return view == View::Direct ? background<F>(scene, state.ray.direction) : Vec3f{0.0f};
+    if (!hit.found()) return context.view == View::Direct ? background<F>(scene, state.ray.direction) : Vec3f{0.0f};
     const Vec3f wo = -state.ray.direction;
     const FirstSurface surface{make_surface_point<F>(scene, hit, wo), hit_weights(hit), wo, hit.t};
-    return surface_view<F>(view, scene, intersector, shown, surface, path_rng(settings, pixel, sample));
+    return surface_view<F>(context, scene, intersector, surface,
+                           path_rng(context.settings, pixel, context.grid.sample));
 }
 
 }  // namespace pl

@@ -1,5 +1,5 @@
-// Paths that go on from one vertex in several directions: branches, one after the other, in the state of one path. So a pixel
-// still has one writer, and a pass still counts paths.
+// Splitting: a path continues from one vertex in several directions. Its branches are traced one after the other in the state
+// of one path, so that a pixel keeps one writer and a pass one count of paths.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace pl {
 
-/// Branches of a path at most, itself among them: splitting is bounded however wrong an opinion is.
+/// Most branches of a path, itself included: bounds the cost of a wrong contribution estimate.
 inline constexpr std::uint32_t kMostBranches = 32;
-/// Vertices at most from which branches wait at the same time.
+/// Most vertices with branches waiting at the same time.
 inline constexpr std::uint32_t kMostForks = 4;
-/// Branch b draws the random numbers of its vertex v at b 2^kBranchShift + v: no path has so many vertices.
+/// Vertex v of branch b draws random numbers by the index b 2^kBranchShift + v; no path has so many vertices.
 inline constexpr std::uint32_t kBranchShift = 17;
 static_assert((kMostBranches << kBranchShift) < (1u << 24));
 
-/// A vertex from which branches wait to leave.
+/// A vertex with branches waiting to be scattered.
 template <class Vertex>
 struct Fork {
     Vec3f wo;
@@ -26,24 +26,24 @@ struct Fork {
     float survival;
     std::uint32_t vertices;
     std::uint32_t waiting;
-    Vertex vertex;  ///< what the method knows about it
+    Vertex vertex;
 };
 
 template <class Vertex>
 struct Branches {
-    std::uint32_t number = 0;   ///< of the one under way
-    std::uint32_t waiting = 0;  ///< at all forks
+    std::uint32_t number = 0;   ///< of the current branch
+    std::uint32_t waiting = 0;  ///< branches at all forks
     std::uint32_t forks = 0;
     Fork<Vertex> stack[kMostForks];
 
-    /// How many may go on from a vertex, now.
+    /// Most branches that may continue from the current vertex.
     PL_HD std::uint32_t room() const { return forks < kMostForks ? kMostBranches - number - waiting : 1u; }
 
     PL_HD void wait(const Fork<Vertex>& fork) {
         stack[forks++] = fork;
         waiting += fork.waiting;
     }
-    /// The newest fork, for the next branch. Only while some wait.
+    /// Takes the next branch from the newest fork. Only while some wait.
     PL_HD Fork<Vertex> begin() {
         Fork<Vertex>& fork = stack[forks - 1];
         if (--fork.waiting == 0) --forks;
@@ -53,7 +53,7 @@ struct Branches {
     }
 };
 
-/// What the state of a path keeps of them.
+/// The branches in the state of a path: none unless its method splits.
 template <class M>
 struct BranchesOf {};
 template <SplittingMethod M>

@@ -1,4 +1,4 @@
-// Weights of light that a path meets, and what it meets where it leaves the scene.
+// Emission along a path: its weight by multiple importance sampling, and the radiance of the environment.
 #pragma once
 
 #include "core/kernel/integrator/path.h"
@@ -6,14 +6,14 @@
 
 namespace pl {
 
-/// Light from outside, in one direction.
-struct FarArrival {
+/// Radiance of the environment in one direction.
+struct FarRadiance {
     Vec3f radiance{0.0f};
-    float share = 1.0f;  ///< that the path's direction brings; see Arrival::light_share
+    float direction_share = 1.0f;  ///< see Observation
 };
 
-/// Weight of light that the path's direction met. Where its last vertex sampled lights too, the two strategies share it;
-/// light_pdf_sa() is the density of the other one.
+/// Balance-heuristic weight of emission in the path's direction; 1 if its last vertex sampled no lights. light_pdf_sa() is the
+/// density of light sampling, per steradian.
 template <FeatureSet F, class M, class Density>
 PL_HD inline float direction_weight([[maybe_unused]] const PathSettings& settings,
                                     [[maybe_unused]] const PathState<F, M>& state,
@@ -25,27 +25,26 @@ PL_HD inline float direction_weight([[maybe_unused]] const PathSettings& setting
     return 1.0f;
 }
 
-/// Light from outside, as the path sees it. Where the previous vertex sampled far lights too, the two strategies
-/// share them.
+/// Adds the radiance of the environment to the path's estimator, weighted where the last vertex sampled far lights.
 template <FeatureSet F, class M>
-PL_HD inline FarArrival add_environment(const SceneView& scene, [[maybe_unused]] const PathSettings& settings,
-                                        PathState<F, M>& state) {
-    FarArrival arrival;
-    if constexpr (F.has(Feature::Environment)) arrival.radiance = scene.environment;
-    state.radiance += state.throughput * arrival.radiance;
+PL_HD inline FarRadiance add_environment(const SceneView& scene, [[maybe_unused]] const PathSettings& settings,
+                                         PathState<F, M>& state) {
+    FarRadiance far;
+    if constexpr (F.has(Feature::Environment)) far.radiance = scene.environment;
+    state.radiance += state.throughput * far.radiance;
     if constexpr (F.has(Feature::EnvironmentMap)) {
-        if (scene.far_lights.empty()) return arrival;
-        const Vec3f far = far_radiance(scene.far_lights, state.ray.direction);
-        if (is_black(far)) return arrival;
+        if (scene.far_lights.empty()) return far;
+        const Vec3f map = far_radiance(scene.far_lights, state.ray.direction);
+        if (is_black(map)) return far;
         const float weight =
             direction_weight(settings, state, [&] { return far_light_pdf_sa(scene, state.ray.direction); });
-        state.radiance += weight * (state.throughput * far);
-        const float constant = luminance(arrival.radiance);
-        const float varying = luminance(far);
-        if (varying > 0.0f) arrival.share = (constant + weight * varying) / (constant + varying);
-        arrival.radiance += far;
+        state.radiance += weight * (state.throughput * map);
+        const float constant = luminance(far.radiance);
+        const float varying = luminance(map);
+        if (varying > 0.0f) far.direction_share = (constant + weight * varying) / (constant + varying);
+        far.radiance += map;
     }
-    return arrival;
+    return far;
 }
 
 }  // namespace pl

@@ -1,4 +1,4 @@
-// State of one path between two steps, and what a step may ask for.
+// The state of one path between two steps, its settings and its counters.
 #pragma once
 
 #include <cstdint>
@@ -10,59 +10,67 @@
 
 namespace pl {
 
-/// What Russian roulette listens to. The surfaces' reflectances are always at hand; what a guided method has learned says
-/// more, and may be wrong.
+/// The contribution estimate that Russian roulette goes by. The product of albedos is always known; the estimate by a guiding
+/// field is more precise, and may be wrong.
 enum class RouletteRule : std::uint32_t {
-    Spare,  ///< what is learned may spare a path or split it, but not end it sooner than the reflectances alone would
-    Albedo,  ///< the reflectances alone; no path is split
-    Field,   ///< what is learned alone, where something is   [Vorba and Krivanek 2016]
+    Spare,  ///< the field's estimate may spare a path or split it, but not end it sooner than the albedos alone would
+    Albedo,  ///< the albedos alone; no path is split
+    Field,   ///< the field's estimate alone, where there is one   [Vorba and Krivanek 2016]
 };
 
 /// What decides a path besides scene, camera and method.
 struct PathSettings {
     std::uint64_t seed = 1;
     Stream stream = Stream::Picture;
-    std::uint32_t max_depth = 64;       ///< most surface vertices of a path; longer ones are cut and counted
+    std::uint32_t max_depth = 64;       ///< most surface vertices of a path; longer ones are truncated and counted
     std::uint32_t roulette_start = 3;   ///< surface vertices after which Russian roulette may end a path
-    float roulette_threshold = 1.0f;    ///< worth, as a share of what it was at first, below which a path has to play
-    float split_threshold = kInfinity;  ///< the same above which it is split, where the method can
+    float roulette_threshold = 1.0f;    ///< contribution estimate below which a path plays roulette
+    float split_threshold = kInfinity;  ///< contribution estimate above which it is split, if the method can
     RouletteRule roulette = RouletteRule::Spare;
-    std::uint32_t next_event = 0;  ///< 1: sample lights at every vertex, combined with the method's directions
+    std::uint32_t next_event = 0;  ///< 1: sample lights at every vertex, combined by multiple importance sampling
+};
+
+/// What the steps of all paths of a pass have in common.
+template <class M>
+struct PathContext {
+    const SceneView& scene;
+    const M& method;
+    const PathSettings& settings;
 };
 
 struct Nothing {};
 
-/// What a path has seen since it left the last vertex that learns: mirrors and glass have no tables, they pass light on.
-struct Passage {
-    Vec3f weight{1.0f};   ///< product of f cos / pdf, and of roulette weights, at the surfaces that passed it on
-    Vec3f emitted{0.0f};  ///< radiance that these emitted, as seen from that vertex
+/// The specular chain since the last vertex that learns: mirrors and glass have no location in a field and pass radiance on.
+struct SpecularChain {
+    Vec3f weight{1.0f};   ///< product of f cos / pdf, and of roulette weights, along the chain
+    Vec3f emitted{0.0f};  ///< radiance emitted by its surfaces, as seen from that vertex
     float distance = 0.0f;
-    bool is_open = false;  ///< there were such surfaces
+    bool is_open = false;  ///< there are such surfaces
 };
 
 template <FeatureSet F, class M>
 struct PathState {
     Ray ray;                        ///< the segment to trace next
-    Vec3f throughput{1.0f};         ///< product of BSDF x cosine / pdf, and of roulette weights
-    Vec3f radiance{0.0f};           ///< what the path has brought so far
-    float direction_pdf_sa = 0.0f;  ///< density of ray.direction; 0 where no light was sampled at its origin
-    float survival = 1.0f;          ///< product of albedos divided by the chances of the roulettes survived
-    std::uint32_t pixel = 0;        ///< or the probe's index
+    Vec3f throughput{1.0f};         ///< product of f cos / pdf, and of roulette and splitting weights
+    Vec3f radiance{0.0f};           ///< of the path's estimator so far
+    float direction_pdf_sa = 0.0f;  ///< density of ray.direction; 0 if no light was sampled at its origin
+    float survival = 1.0f;          ///< product of albedos over the survival probabilities so far
+    std::uint32_t pixel = 0;        ///< or the probe's number
     std::uint32_t sample = 0;
-    std::uint32_t vertices = 0;  ///< surface points met so far
-    [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), Passage, Nothing> passage{};
+    std::uint32_t vertices = 0;  ///< surface vertices so far
+    [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), SpecularChain, Nothing> chain{};
     [[no_unique_address]] typename M::Memory memory{};
     [[no_unique_address]] typename M::Expectation expectation{};
     [[no_unique_address]] BranchesOf<M> branches;
 
-    /// By which random numbers are drawn for the vertex under way: no other one of the path has it, nor the branches.
+    /// Index of the random numbers of the current vertex: unique within the path, its branches included.
     PL_HD std::uint32_t draw_index() const {
         if constexpr (SplittingMethod<M>) return vertices + (branches.number << kBranchShift);
         return vertices;
     }
 };
 
-/// A light sample that counts if nothing is in between.
+/// A light sample that contributes if nothing occludes it.
 struct ShadowRequest {
     Ray ray;
     Vec3f contribution{0.0f};
@@ -71,25 +79,25 @@ struct ShadowRequest {
 
 enum class PathStatus : std::uint32_t { Continues, Finished };
 
-/// Sums of events; integers, so that adding them up in any order gives the same result.
+/// Counts of events: integers, so that their sum does not depend on order.
 struct PathCounters {
     std::uint64_t segments = 0;  ///< path rays traced, without shadow rays
     std::uint64_t shadow_rays = 0;
     std::uint64_t escaped = 0;          ///< paths that left the scene
     std::uint64_t truncated = 0;        ///< paths cut at max_depth
-    std::uint64_t zero_directions = 0;  ///< sampled directions that the surface cannot reflect
+    std::uint64_t zero_directions = 0;  ///< sampled directions with f cos = 0
     MethodCounters method;
 };
 
-/// Events of one pass. Equal for every thread count and launch shape.
+/// Counts of one pass. Equal for every thread count and launch shape.
 struct PassCounters {
     PathCounters path;
-    std::uint64_t paths = 0;  ///< started (and finished): pixels of a picture pass, probes of a precomputation
+    std::uint64_t paths = 0;  ///< finished: pixels of a picture pass, probes of a precomputation
     std::uint64_t zero_contribution_paths = 0;
     std::uint64_t invalid_samples = 0;
 };
 
-/// Calls add(total, count) for every counter: the one list that sums go by.
+/// Calls add(total, count) for every counter: the one list of them.
 template <class Add>
 PL_HD inline void add_counters(PassCounters& totals, const PassCounters& counts, Add&& add) {
     add(totals.path.segments, counts.path.segments);
@@ -112,7 +120,7 @@ inline PassCounters& operator+=(PassCounters& totals, const PassCounters& counts
     return totals;
 }
 
-/// A path has ended: counts it and whether it brought anything.
+/// Counts a finished path by its radiance.
 PL_HD inline void count_path(PassCounters& counters, Vec3f radiance, bool valid) {
     ++counters.paths;
     counters.zero_contribution_paths += is_black(radiance) ? 1u : 0u;

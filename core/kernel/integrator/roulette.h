@@ -1,4 +1,4 @@
-// Russian roulette and splitting: how many paths go on from a vertex, by what they are still worth.
+// Russian roulette and splitting: the number of paths that continue from a vertex, by their contribution estimate.
 #pragma once
 
 #include "core/kernel/integrator/path.h"
@@ -8,44 +8,47 @@ namespace pl {
 /// Roulette never ends more than 9 of 10 paths at once, which bounds its weight.
 inline constexpr float kMinSurvival = 0.1f;
 
-/// Chance of going on. An opinion may be wrong, and most are at first, so by RouletteRule::Spare it can spare a path but not
-/// end it sooner than the reflectances alone would: weights then grow no faster than they fall by reflection, and their
-/// variance stays finite. RouletteRule::Field trusts the opinion.
-PL_HD inline float survival_probability(const PathSettings& settings, float worth, float survival) {
+/// Survival probability for a contribution estimate. Estimates by a field may be wrong, most of all early, so with
+/// RouletteRule::Spare they can spare a path but not end it sooner than the albedos alone would: weights then grow no faster
+/// than reflection reduces them, and their variance stays finite. RouletteRule::Field trusts the estimate.
+PL_HD inline float survival_probability(const PathSettings& settings, float estimate, float survival) {
     float wanted = survival;
-    if (settings.roulette == RouletteRule::Spare) wanted = max_of(worth / settings.roulette_threshold, survival);
-    if (settings.roulette == RouletteRule::Field) wanted = worth / settings.roulette_threshold;
+    if (settings.roulette == RouletteRule::Spare) wanted = max_of(estimate / settings.roulette_threshold, survival);
+    if (settings.roulette == RouletteRule::Field) wanted = estimate / settings.roulette_threshold;
     return clamp_to(wanted, kMinSurvival, 1.0f);
 }
 
-/// What a path does at a vertex.
+/// The continuation of a path at a vertex.
 struct Continuation {
-    std::uint32_t branches = 0;  ///< that go on from there; none: it ends
-    float weight = 1.0f;         ///< of what one of them brings, as an estimate of what the vertex reflects
+    std::uint32_t branches = 0;  ///< 0: the path ends
+    float weight =
+        1.0f;  ///< of one branch, as an estimator of the radiance reflected there: 1 / survival probability
 };
 
-/// As many branches as the path is worth, on the mean, each with its share of the throughput. `u` decides about the last one.
+/// As many branches as the estimate asks for, on the mean, each with its share of the throughput. `u` decides the last one.
 template <FeatureSet F, class M>
-PL_HD inline Continuation split(const PathSettings& settings, float worth, float u, PathState<F, M>& state) {
-    const float wanted = min_of(worth / settings.split_threshold, static_cast<float>(state.branches.room()));
+PL_HD inline Continuation split(const PathSettings& settings, float estimate, float u, PathState<F, M>& state) {
+    const float wanted = min_of(estimate / settings.split_threshold, static_cast<float>(state.branches.room()));
     const auto sure = static_cast<std::uint32_t>(wanted);
     state.throughput *= 1.0f / wanted;
     return {.branches = u < wanted - static_cast<float>(sure) ? sure + 1u : sure};
 }
 
-/// Asks the method what the path is still worth; splits it if that is much, and plays Russian roulette if it is little.
+/// Splits a path with a large contribution estimate, and plays Russian roulette with one that has a small one.
 /// [Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation"]
 template <FeatureSet F, Method M>
 PL_HD inline Continuation play_roulette(const M& method, const PathSettings& settings,
                                         const typename M::Vertex& vertex, Vec3f albedo, float u,
                                         PathState<F, M>& state) {
     state.survival *= max_component(albedo);
-    const float worth = method.roulette_worth(vertex, albedo, state.throughput, state.survival, state.expectation);
+    const float estimate =
+        method.estimate_contribution(vertex, albedo, state.throughput, state.survival, state.expectation);
     if (state.vertices < settings.roulette_start) return {.branches = 1};
     if constexpr (SplittingMethod<M>) {
-        if (worth > settings.split_threshold && state.branches.room() > 1) return split(settings, worth, u, state);
+        if (estimate > settings.split_threshold && state.branches.room() > 1)
+            return split(settings, estimate, u, state);
     }
-    const float probability = survival_probability(settings, worth, state.survival);
+    const float probability = survival_probability(settings, estimate, state.survival);
     if (u >= probability) return {};
     state.throughput *= 1.0f / probability;
     state.survival = min_of(state.survival / probability, 1.0f);

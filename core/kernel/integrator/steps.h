@@ -1,12 +1,13 @@
-// The integrator as steps on one path: begin, extend (once per hit), connect (once per shadow ray). Pure functions
-// of their arguments, so that a loop over one path, a batch of paths and a GPU thread all call the same code. A driver
-// that handles several paths at once calls the parts of extend_path: arrive, the method's choice of a direction, leave.
+// The integrator as steps on one path: begin, shade (once per hit), scatter, connect (once per shadow ray). Pure functions of
+// their arguments, so that a loop over one path (trace_path.h), a batch of paths (cpu/run_paths.h) and a GPU thread
+// (cuda/kernels/trace.cuh) call the same code. Drivers of several paths call shade_hit() and scatter() apart, so that they can
+// sample directions for many paths at once.
 #pragma once
 
 #include "core/kernel/film/pixel_sequence.h"
-#include "core/kernel/integrator/departure.h"
 #include "core/kernel/integrator/environment.h"
 #include "core/kernel/integrator/roulette.h"
+#include "core/kernel/integrator/scatter.h"
 #include "core/kernel/scene/camera.h"
 #include "core/kernel/shading/lights.h"
 
@@ -16,13 +17,13 @@ PL_HD inline Rng path_rng(const PathSettings& settings, std::uint32_t pixel, std
     return {settings.seed, settings.stream, pixel, sample};
 }
 
-/// The uniform numbers that a path uses up where its segment ends. An argument of the step, so that a back end may
-/// draw those of many paths at once.
+/// Uniform numbers of a vertex: an argument of the steps, so that a back end may draw those of many paths at once.
 struct VertexNumbers {
-    Vec4f scatter{0.0f};
-    Vec4f light{0.0f};  ///< drawn only where lights are sampled
+    Vec4f scatter{0.0f};  ///< ScatterNumbers::u
+    Vec4f light{0.0f};    ///< drawn only if lights are sampled
 };
 
+/// The numbers of the vertex at the end of the path's segment.
 template <FeatureSet F, class M>
 PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, const PathState<F, M>& state) {
     const Rng rng = path_rng(settings, state.pixel, state.sample);
@@ -33,31 +34,44 @@ PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, con
     return numbers;
 }
 
-/// Starts a path at the camera, somewhere in a pixel; `start` is that of the pixel's sequence, see pixel_sample().
+/// The numbers by which a path is scattered at its current vertex.
 template <FeatureSet F, class M>
-PL_HD inline PathState<F, M> begin_path(const Camera& camera, std::uint32_t width, std::uint32_t height,
-                                        std::uint32_t pixel, std::uint32_t sample, Vec4f start) {
-    const Vec4f u = pixel_sample(start, sample);
-    const Vec2f film{static_cast<float>(pixel % width) + u.x, static_cast<float>(pixel / width) + u.y};
+PL_HD inline ScatterNumbers scatter_numbers(const PathSettings& settings, const PathState<F, M>& state, Vec4f u) {
+    return {.rng = path_rng(settings, state.pixel, state.sample), .index = state.draw_index(), .u = u};
+}
+
+/// The raster that paths start from, and the number of their sample.
+struct PixelGrid {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::uint32_t sample = 0;
+};
+
+/// Starts a path at the camera; `start` is the first number of the pixel's sequence, see pixel_sample().
+template <FeatureSet F, class M>
+PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PixelGrid& grid, std::uint32_t pixel,
+                                        Vec4f start) {
+    const Vec4f u = pixel_sample(start, grid.sample);
+    const Vec2f film{static_cast<float>(pixel % grid.width) + u.x, static_cast<float>(pixel / grid.width) + u.y};
     PathState<F, M> state;
-    state.ray = generate_ray(camera, film, {static_cast<float>(width), static_cast<float>(height)});
+    state.ray = generate_ray(camera, film, {static_cast<float>(grid.width), static_cast<float>(grid.height)});
     if constexpr (F.has(Feature::ThinLens)) {
         if (camera.aperture_radius > 0.0f) state.ray = through_lens(camera, state.ray, {u.z, u.w});
     }
     state.pixel = pixel;
-    state.sample = sample;
+    state.sample = grid.sample;
     return state;
 }
 
 template <FeatureSet F, class M>
-PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PathSettings& settings, std::uint32_t width,
-                                        std::uint32_t height, std::uint32_t pixel, std::uint32_t sample) {
-    const Vec4f start = path_rng(settings, pixel, sequence_of(sample)).draw(0, Purpose::Pixel);
-    return begin_path<F, M>(camera, width, height, pixel, sample, start);
+PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PathSettings& settings, const PixelGrid& grid,
+                                        std::uint32_t pixel) {
+    const Vec4f start = path_rng(settings, pixel, sequence_of(grid.sample)).draw(0, Purpose::Pixel);
+    return begin_path<F, M>(camera, grid, pixel, start);
 }
 
-/// Emission of the surface just met, as the path sees it. Where the previous vertex sampled lights too, the two
-/// strategies share it. Returns the share that the path brings.
+/// Adds the emission of the surface hit to the path's estimator, weighted where the last vertex sampled lights. Returns the
+/// weight.
 template <FeatureSet F, class M>
 PL_HD inline float add_emission(const SceneView& scene, const PathSettings& settings, const SurfacePoint& surface,
                                 Vec3f emitted, PathState<F, M>& state) {
@@ -67,153 +81,163 @@ PL_HD inline float add_emission(const SceneView& scene, const PathSettings& sett
     return weight;
 }
 
-/// Light sample at a vertex; `shadow.wanted` stays false if it cannot contribute.
+/// Samples a light at a vertex; `shadow.wanted` stays false if the sample cannot contribute.
 template <FeatureSet F, Method M>
-PL_HD inline void request_shadow_ray(const SceneView& scene, const M& method, const Departure<F, M>& from, Vec4f u,
-                                     PathState<F, M>& state, ShadowRequest& shadow) {
-    const DirectLight sample = sample_direct_light<F>(scene, from.surface, from.bsdf, {u.x, u.y, u.z}, u.w);
+PL_HD inline void sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
+                               PathState<F, M>& state, ShadowRequest& shadow) {
+    const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, {u.x, u.y, u.z}, u.w);
     if (!(sample.pdf_sa > 0.0f)) return;
-    const float weight = balance_weight(sample.pdf_sa, departure_pdf_sa(method, from, sample.wi));
+    const float weight = balance_weight(sample.pdf_sa, scatter_pdf_sa(context.method, from, sample.wi));
     const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
     shadow.ray = shadow_ray_to<F>(from.surface, sample);
     shadow.contribution = state.throughput * reflectance * sample.emitted * (weight / sample.pdf_sa);
     shadow.wanted = true;
-    if constexpr (FollowingMethod<M>) {
-        Vec3f learned = reflectance * sample.emitted * (weight / sample.pdf_sa);
-        if constexpr (F.has_any(kLobeFeatures)) {
-            // What passes light on has brought it by its directions alone.
-            learned = from.bsdf.passes_on() ? Vec3f{0.0f} : state.passage.weight * learned;
-        }
-        method.request_light(state.memory, learned);
+    Vec3f reflected = reflectance * sample.emitted * (weight / sample.pdf_sa);
+    if constexpr (F.has_any(kLobeFeatures)) {
+        // The radiance of a specular chain is what its scattered directions bring.
+        reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : state.chain.weight * reflected;
     }
+    context.method.light_sampled(state.memory, reflected);
 }
 
-/// What the path learns where its segment ends; returns what the method knows about the place.
+/// Lets the method observe the surface hit. Returns its knowledge of the vertex.
 template <FeatureSet F, Method M>
-PL_HD inline typename M::Vertex learn_at(const M& method, const SurfacePoint& surface, const Bsdf<F>& bsdf,
-                                         const Arrival& arrival, PathState<F, M>& state, typename M::Record& record,
-                                         PathCounters& counters) {
+PL_HD inline typename M::Vertex observe_vertex(const M& method, const SurfacePoint& surface, const Bsdf<F>& bsdf,
+                                               const Observation& observation, PathState<F, M>& state,
+                                               const StepOutput<M>& out) {
     typename M::Vertex vertex{};
     if constexpr (F.has_any(kLobeFeatures)) {
-        if (bsdf.passes_on()) {
-            state.passage.emitted += state.passage.weight * arrival.emitted;
-            state.passage.distance += arrival.distance;
-            state.passage.is_open = true;
+        if (bsdf.is_specular()) {
+            state.chain.emitted += state.chain.weight * observation.emitted;
+            state.chain.distance += observation.distance;
+            state.chain.is_open = true;
             return vertex;
         }
     }
-    if (bsdf.scatters()) vertex = method.arrive(surface, counters.method);
-    record = method.learn(state.memory, seen_from_last_vertex(state, arrival), vertex, counters.method);
+    if (bsdf.scatters()) vertex = method.locate(surface, out.counters.method);
+    out.sample = method.observe(state.memory, through_chain(state, observation), vertex, out.counters.method);
     if constexpr (F.has_any(kLobeFeatures))
-        state.passage.is_open = false;  // the weight is needed until the path leaves
+        state.chain.is_open = false;  // its weight is needed until the path is scattered
     return vertex;
 }
 
-/// Consumes the hit of the path's segment: collects emission, lets the method learn, asks for a shadow ray and decides
-/// whether the path goes on. surface_of() is asked for the surface once if there is one. `shadow` and `record` come in
-/// cleared; `departure` is only good if the path continues.
-template <FeatureSet F, Method M, class SurfaceOf>
-PL_HD inline PathStatus arrive(const SceneView& scene, const M& method, const PathSettings& settings, const Hit& hit,
-                               const SurfaceOf& surface_of, const VertexNumbers& numbers, PathState<F, M>& state,
-                               Departure<F, M>& departure, typename M::Record& record, ShadowRequest& shadow,
-                               PathCounters& counters) {
-    ++counters.segments;
-    if (!hit.found()) {
-        ++counters.escaped;
-        const FarArrival far = add_environment(scene, settings, state);
-        record = method.learn(state.memory,
-                              seen_from_last_vertex(state, {.emitted = far.radiance, .light_share = far.share}),
-                              typename M::Vertex{}, counters.method);
-        return PathStatus::Finished;
-    }
-    const SurfacePoint& surface = surface_of();
-    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, hit_weights(hit), -state.ray.direction);
-    const Vec3f albedo = bsdf.albedo();
-    const Vec3f emitted = emitted_at<F>(scene, surface, hit_weights(hit));
-    float light_share = 1.0f;
-    if (!is_black(emitted)) light_share = add_emission(scene, settings, surface, emitted, state);
+/// The path's segment missed all surfaces.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus shade_miss(const PathContext<M>& context, PathState<F, M>& state, const StepOutput<M>& out) {
+    ++out.counters.escaped;
+    const FarRadiance far = add_environment(context.scene, context.settings, state);
+    const Observation observation{.emitted = far.radiance, .direction_share = far.direction_share};
+    out.sample = context.method.observe(state.memory, through_chain(state, observation), typename M::Vertex{},
+                                        out.counters.method);
+    return PathStatus::Finished;
+}
 
-    const Arrival arrival{.emitted = emitted, .albedo = albedo, .light_share = light_share, .distance = hit.t};
-    const typename M::Vertex vertex = learn_at<F>(method, surface, bsdf, arrival, state, record, counters);
-    ++state.vertices;
-    if (!bsdf.scatters()) return PathStatus::Finished;
-    if (state.vertices >= settings.max_depth) {
-        ++counters.truncated;
-        return cut_path(method, state, record, counters);
-    }
-    if constexpr (F.has(Feature::NextEventEstimation)) {
-        if (settings.next_event != 0)
-            request_shadow_ray<F, M>(scene, method, {surface, bsdf, vertex}, numbers.light, state, shadow);
-    }
-    const Continuation next = play_roulette(method, settings, vertex, albedo, numbers.scatter.w, state);
-    if (next.branches == 0) return cut_path(method, state, record, counters);
-    if constexpr (FollowingMethod<M>) state.memory.roulette_weight = next.weight;
+/// Results of shade_hit(). `from` is valid only if the path continues; `shadow` comes in cleared.
+template <FeatureSet F, class M>
+struct ShadeOutput : StepOutput<M> {
+    ScatterPoint<F, M>& from;
+    ShadowRequest& shadow;
+};
+
+/// Russian roulette and splitting at the vertex `from`, whose random numbers are `u`. Returns whether the path continues.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus continue_path(const PathContext<M>& context, const Hit& hit, float u, PathState<F, M>& state,
+                                      ScatterPoint<F, M>& from, const StepOutput<M>& out) {
+    const Continuation next =
+        play_roulette(context.method, context.settings, from.vertex, from.bsdf.albedo(), u, state);
+    if (next.branches == 0) return terminate_path(context.method, state, out);
+    from.roulette_weight = next.weight;
     if constexpr (F.has_any(kLobeFeatures)) {
-        if (bsdf.passes_on()) state.passage.weight *= next.weight;
+        if (from.bsdf.is_specular()) state.chain.weight *= next.weight;
     }
     if constexpr (SplittingMethod<M>) {
         if (next.branches > 1)
             state.branches.wait({-state.ray.direction, hit, state.throughput, state.survival, state.vertices,
-                                 next.branches - 1, vertex});
+                                 next.branches - 1, from.vertex});
     }
-    departure = {surface, bsdf, vertex};
     return PathStatus::Continues;
 }
 
-/// All that happens where a segment ends: the path's ray is then the next segment. `shadow` comes in cleared.
-template <FeatureSet F, Method M>
-PL_HD inline PathStatus extend_path(const SceneView& scene, const M& method, const PathSettings& settings,
-                                    const Hit& hit, const VertexNumbers& numbers, PathState<F, M>& state,
-                                    ShadowRequest& shadow, PathCounters& counters) {
-    Departure<F, M> departure;
-    typename M::Record record{};
-    const auto surface_of = [&] { return make_surface_point<F>(scene, hit, -state.ray.direction); };
-    PathStatus status =
-        arrive<F>(scene, method, settings, hit, surface_of, numbers, state, departure, record, shadow, counters);
-    if (status == PathStatus::Continues) {
-        const Rng rng = path_rng(settings, state.pixel, state.sample);
-        status = choose_and_leave(method, departure, rng, numbers.scatter, state, record, counters);
+/// Shades the end of the path's segment: adds emission, lets the method observe, samples a light, and decides whether the path
+/// continues. `surface_of()` is called once if there is a hit.
+template <FeatureSet F, Method M, class SurfaceOf>
+PL_HD inline PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const SurfaceOf& surface_of,
+                                  const VertexNumbers& numbers, PathState<F, M>& state,
+                                  const ShadeOutput<F, M>& out) {
+    ++out.counters.segments;
+    if (!hit.found()) return shade_miss(context, state, out);
+    const SceneView& scene = context.scene;
+    const SurfacePoint& surface = surface_of();
+    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, hit_weights(hit), -state.ray.direction);
+    const Vec3f emitted = emitted_at<F>(scene, surface, hit_weights(hit));
+    float direction_share = 1.0f;
+    if (!is_black(emitted)) direction_share = add_emission(scene, context.settings, surface, emitted, state);
+
+    const Observation observation{
+        .emitted = emitted, .albedo = bsdf.albedo(), .direction_share = direction_share, .distance = hit.t};
+    const typename M::Vertex vertex = observe_vertex<F>(context.method, surface, bsdf, observation, state, out);
+    ++state.vertices;
+    if (!bsdf.scatters()) return PathStatus::Finished;
+    if (state.vertices >= context.settings.max_depth) {
+        ++out.counters.truncated;
+        return terminate_path(context.method, state, out);
     }
-    method.commit(record);
+    out.from = {surface, bsdf, vertex};
+    if constexpr (F.has(Feature::NextEventEstimation)) {
+        if (context.settings.next_event != 0) sample_light(context, out.from, numbers.light, state, out.shadow);
+    }
+    return continue_path(context, hit, numbers.scatter.w, state, out.from, out);
+}
+
+/// Shades the end of a segment and scatters the path: its ray is then the next segment. `shadow` comes in cleared.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus extend_path(const PathContext<M>& context, const Hit& hit, const VertexNumbers& numbers,
+                                    PathState<F, M>& state, ShadowRequest& shadow, PathCounters& counters) {
+    ScatterPoint<F, M> from;
+    typename M::Sample sample{};
+    const StepOutput<M> out{sample, counters};
+    const auto surface_of = [&] { return make_surface_point<F>(context.scene, hit, -state.ray.direction); };
+    PathStatus status = shade_hit<F, M>(context, hit, surface_of, numbers, state, {out, from, shadow});
+    if (status == PathStatus::Continues)
+        status = scatter(context.method, from, scatter_numbers(context.settings, state, numbers.scatter), state, out);
+    context.method.record(sample);
     return status;
 }
 
-/// Adds a light sample whose shadow ray found nothing in between.
+/// Adds a light sample whose shadow ray was not occluded.
 template <FeatureSet F, Method M>
 PL_HD inline void connect_light(const M& method, const ShadowRequest& shadow, PathState<F, M>& state,
                                 PathCounters& counters) {
     state.radiance += shadow.contribution;
-    if constexpr (FollowingMethod<M>) method.receive_light(state.memory, counters.method);
+    method.light_received(state.memory, counters.method);
 }
 
-/// Sends a branch that waits on its way. It knows nothing of those before it, and no light is sampled for it again.
+/// Scatters the next waiting branch. It starts with an empty memory, and without a light sample of its own.
 template <FeatureSet F, SplittingMethod M>
-PL_HD inline PathStatus begin_branch(const SceneView& scene, const M& method, const PathSettings& settings,
-                                     PathState<F, M>& state, PathCounters& counters) {
+PL_HD inline PathStatus begin_branch(const PathContext<M>& context, PathState<F, M>& state, PathCounters& counters) {
     const Fork<typename M::Vertex> fork = state.branches.begin();
     state.throughput = fork.throughput;
     state.survival = fork.survival;
     state.vertices = fork.vertices;
     state.memory = {};
-    state.passage = {};
-    const SurfacePoint surface = make_surface_point<F>(scene, fork.hit, fork.wo);
-    const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, hit_weights(fork.hit), fork.wo);
-    const Rng rng = path_rng(settings, state.pixel, state.sample);
-    typename M::Record none{};
-    return choose_and_leave<F, M>(method, {surface, bsdf, fork.vertex}, rng,
-                                  rng.draw(state.draw_index(), Purpose::Scatter), state, none, counters);
+    state.chain = {};
+    const SurfacePoint surface = make_surface_point<F>(context.scene, fork.hit, fork.wo);
+    const Bsdf<F> bsdf = make_bsdf<F>(context.scene, surface, hit_weights(fork.hit), fork.wo);
+    const Rng rng = path_rng(context.settings, state.pixel, state.sample);
+    const Vec4f u = rng.draw(state.draw_index(), Purpose::Scatter);
+    typename M::Sample none{};
+    return scatter<F, M>(context.method, {surface, bsdf, fork.vertex},
+                         {.rng = rng, .index = state.draw_index(), .u = u}, state, {none, counters});
 }
 
-/// The path, or a branch of it, is over, and so is its last shadow ray: what can be learned only from whole paths is
-/// learned, and the next branch sets out. Returns whether there is one.
+/// Ends a path, or a branch of it, after its last shadow ray: training samples that need whole paths are made, and the next
+/// branch begins. Returns whether there is one.
 template <FeatureSet F, Method M>
-PL_HD inline PathStatus end_branch(const SceneView& scene, const M& method, const PathSettings& settings,
-                                   PathState<F, M>& state, PathCounters& counters) {
-    if constexpr (FollowingMethod<M>) method.finish(state.memory, counters.method);
+PL_HD inline PathStatus finish_branch(const PathContext<M>& context, PathState<F, M>& state, PathCounters& counters) {
+    context.method.finished(state.memory, counters.method);
     if constexpr (SplittingMethod<M>) {
         while (state.branches.waiting > 0)
-            if (begin_branch(scene, method, settings, state, counters) == PathStatus::Continues)
-                return PathStatus::Continues;
+            if (begin_branch(context, state, counters) == PathStatus::Continues) return PathStatus::Continues;
     }
     return PathStatus::Finished;
 }

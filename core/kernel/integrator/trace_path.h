@@ -1,4 +1,5 @@
-// The main loop: one path from its first segment to its end.
+// The loop over one path: the integrator from beginning to end. A GPU thread runs it (cuda/kernels/trace.cuh), and so do tests
+// and the search for diagnostics; on the CPU, pictures run the same steps over batches of paths (cpu/run_paths.h).
 #pragma once
 
 #include "core/kernel/integrator/holes.h"
@@ -6,30 +7,30 @@
 
 namespace pl {
 
-/// One segment of a path, with the shadow ray at its end. Where a branch ends the next one has begun.
+/// Traces one segment of a path, and the shadow ray at its end. The next branch follows the end of one.
 template <FeatureSet F, Method M, Intersector I>
-PL_HD inline PathStatus trace_segment(const SceneView& scene, const I& intersector, const M& method,
-                                      const PathSettings& settings, PathState<F, M>& state, PathCounters& counters) {
-    const Hit hit = closest_solid_hit<F>(scene, intersector, state.ray);
-    const VertexNumbers numbers = draw_vertex_numbers<F>(settings, state);
+PL_HD inline PathStatus trace_segment(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
+                                      PathCounters& counters) {
+    const Hit hit = closest_solid_hit<F>(context.scene, intersector, state.ray);
+    const VertexNumbers numbers = draw_vertex_numbers<F>(context.settings, state);
     ShadowRequest shadow;
-    PathStatus status = extend_path<F>(scene, method, settings, hit, numbers, state, shadow, counters);
+    PathStatus status = extend_path<F>(context, hit, numbers, state, shadow, counters);
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (shadow.wanted) {
             ++counters.shadow_rays;
-            if (!is_blocked<F>(scene, intersector, shadow.ray)) connect_light(method, shadow, state, counters);
+            if (!is_blocked<F>(context.scene, intersector, shadow.ray))
+                connect_light(context.method, shadow, state, counters);
         }
     }
-    if (status == PathStatus::Finished) status = end_branch(scene, method, settings, state, counters);
+    if (status == PathStatus::Finished) status = finish_branch(context, state, counters);
     return status;
 }
 
 template <FeatureSet F, Method M, Intersector I>
-PL_HD inline void trace_path(const SceneView& scene, const I& intersector, const M& method,
-                             const PathSettings& settings, PathState<F, M>& state, PathCounters& counters) {
+PL_HD inline void trace_path(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
+                             PathCounters& counters) {
     PathStatus status = PathStatus::Continues;
-    while (status == PathStatus::Continues)
-        status = trace_segment<F>(scene, intersector, method, settings, state, counters);
+    while (status == PathStatus::Continues) status = trace_segment<F>(context, intersector, state, counters);
 }
 
 }  // namespace pl

@@ -1,43 +1,36 @@
-// Default path tracing: directions from the BSDF alone, nothing learned.
+// Default path tracing: directions are sampled from the BSDF alone; nothing is learned.
 #pragma once
 
 #include "core/kernel/methods/method.h"
+#include "core/kernel/methods/method_info.h"
 
 namespace pl {
 
-struct DefaultMethod {
-    static constexpr bool kSplitsPaths = false;
-
-    struct Vertex {};
-    struct Memory {};
-    struct Expectation {};
-    struct Record {};
-
-    PL_HD Vertex arrive(const SurfacePoint&, MethodCounters&) const { return {}; }
-
-    PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const Rng&, std::uint32_t,
-                                           Vec4f u) const {
-        return weigh_lambert(surface, lambert_sample(surface, {u.y, u.z}));
+struct DefaultMethod : MethodHooks {
+    PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface,
+                                           const ScatterNumbers& numbers) const {
+        return weigh_lambert(surface, lambert_sample(surface, {numbers.u.y, numbers.u.z}));
     }
-
     PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, Vec3f wi) const {
         return lambert_pdf_sa(surface, wi);
     }
 
     PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const LayeredBsdf& bsdf,
-                                           const Rng&, std::uint32_t, Vec4f u, float choice) const {
-        return sample_bsdf(surface, bsdf, u, choice);
+                                           const ScatterNumbers& numbers) const {
+        return sample_bsdf(surface, bsdf, numbers);
     }
     PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, const LayeredBsdf& bsdf, Vec3f wi) const {
         return bsdf.pdf_sa(surface, wi);
     }
-
-    PL_HD float roulette_worth(const Vertex&, Vec3f, Vec3f, float survival, Expectation&) const { return survival; }
-
-    PL_HD Memory remember(const Vertex&, const DirectionSample&) const { return {}; }
-    PL_HD Record learn(const Memory&, const Arrival&, const Vertex&, MethodCounters&) const { return {}; }
-    PL_HD void commit(const Record&) const {}
 };
 static_assert(Method<DefaultMethod>);
+
+struct Default {
+    static constexpr MethodInfo kInfo{.name = "default",
+                                      .label = "Default",
+                                      .summary = "Directions from the surface's reflectance alone.",
+                                      .key = '1',
+                                      .color = 0xff56b4e9u};
+};
 
 }  // namespace pl

@@ -1,4 +1,4 @@
-// What reinforcement learns from: which target a record holds, and which light counts.
+// The training target of reinforcement, and the light that it holds.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +7,17 @@
 
 namespace pl {
 
-/// The target of the record for leaving x through a cell, when the ray meets y.   [Sutton and Barto 2018, 5.1, 6.4, 6.6]
+/// The target of the training sample for leaving x through a cell, if the ray hits y.   [Sutton and Barto 2018, 5.1, 6.4, 6.6]
 enum class LearningTarget : std::uint32_t {
-    ExpectedSarsa,  ///< L_e(y) + the mean over the next direction of what y reflects   [Dahm and Keller 2017, section 3]
-    Sarsa,          ///< L_e(y) + what y reflects of the next direction w that was drawn: f cos / pdf * Q(y, w)
-    MonteCarlo,     ///< the light that the path really brought from there
+    ExpectedSarsa,  ///< L_e(y) + the expectation over the next direction of y's reflected radiance   [Dahm and Keller 2017, section 3]
+    Sarsa,       ///< L_e(y) + the reflected radiance of the sampled next direction w: f cos / pdf * Q(y, w)
+    MonteCarlo,  ///< the radiance that the path brings from y
 };
 
-/// Which light a record holds where lights are sampled; the same without.
+/// The light in a target where lights are sampled; without light samples both are the same.
 enum class LearnedLight : std::uint32_t {
-    All,       ///< all that arrives through the cell
-    Indirect,  ///< what light samples at x do not bring: emission at y only as far as directions share in it
+    All,       ///< all radiance incident through the cell
+    Indirect,  ///< without the light samples of x: emission at y counts by its share of scattered directions
 };
 
 struct LearningSettings {
@@ -27,19 +27,10 @@ struct LearningSettings {
     friend bool operator==(const LearningSettings&, const LearningSettings&) = default;
 };
 
-/// The kernels that serve: records of the default need the least of a path.
-enum class LearningKernel : std::uint32_t { Immediate, Late, WholePath };
-
-/// Which sets of effects they are compiled for.
-constexpr KernelRange range_of(LearningKernel kernel) {
-    return kernel == LearningKernel::Immediate ? KernelRange::Full : KernelRange::Sparse;
-}
-
-constexpr LearningKernel kernel_for(const LearningSettings& learning, bool samples_lights) {
-    if (learning.target == LearningTarget::MonteCarlo) return LearningKernel::WholePath;
-    const bool late =
-        learning.target == LearningTarget::Sarsa || (learning.light == LearnedLight::Indirect && samples_lights);
-    return late ? LearningKernel::Late : LearningKernel::Immediate;
+/// Whether targets are complete when the next vertex is reached: its own direction and light sample are not needed.
+constexpr bool is_complete_at_next_vertex(const LearningSettings& learning, bool samples_lights) {
+    return learning.target == LearningTarget::ExpectedSarsa &&
+           !(learning.light == LearnedLight::Indirect && samples_lights);
 }
 
 }  // namespace pl

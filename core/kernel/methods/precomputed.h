@@ -1,20 +1,20 @@
-// Importance sampling from a radiance map that was computed before rendering and is then frozen.
+// Importance sampling from a radiance map that probes fill before rendering and that is frozen then.
 #pragma once
 
-#include "core/kernel/methods/guided.h"
+#include "core/kernel/methods/method_info.h"
+#include "core/kernel/methods/targets/frozen.h"
 
 namespace pl {
 
-struct PrecomputedMethod : GuidedSampling {
-    using Vertex = GuidedVertex;
-    using Expectation = GuidedExpectation;
-    struct Memory {};
-    struct Record {};
-
-    PL_HD Memory remember(const Vertex&, const DirectionSample&) const { return {}; }
-    PL_HD Record learn(const Memory&, const Arrival&, const Vertex&, MethodCounters&) const { return {}; }
-    PL_HD void commit(const Record&) const {}
+struct Precomputed {
+    static constexpr MethodInfo kInfo{
+        .name = "precomputed",
+        .label = "Precomputed",
+        .summary = "Directions guided by a radiance map that is computed first and then frozen.",
+        .key = '2',
+        .color = 0xffe69f00u,
+        .uses_field = true,
+        .precomputes = true};
 };
-static_assert(Method<PrecomputedMethod>);
 
 }  // namespace pl

@@ -26,7 +26,7 @@ struct LambertBsdf {
     PL_HD Vec3f albedo() const { return reflectance; }
     PL_HD bool scatters() const { return !is_black(reflectance); }
     static PL_HD constexpr bool is_lambert() { return true; }
-    static PL_HD constexpr bool passes_on() { return false; }
+    static PL_HD constexpr bool is_specular() { return false; }
     /// |cos| of a direction that can be sampled; 0 for one that cannot.
     PL_HD float cosine(const SurfacePoint& surface, Vec3f wi) const { return reflection_cosine(surface, wi); }
     PL_HD Vec3f eval(const SurfacePoint&, Vec3f, float cos_i) const { return lambert_eval(reflectance, cos_i); }
@@ -62,7 +62,7 @@ public:
 
     PL_HD bool is_lambert() const { return lobes_.kind == SurfaceKind::Diffuse; }
     /// No table chooses directions here: what is seen is passed on to the vertex before.
-    PL_HD bool passes_on() const { return is_black(reflectance_) && scatters(); }
+    PL_HD bool is_specular() const { return is_black(reflectance_) && scatters(); }
     PL_HD bool scatters() const { return lobes_.kind == SurfaceKind::Dielectric || !is_black(albedo_); }
     /// Share of light from all around that leaves towards the viewer.
     PL_HD Vec3f albedo() const { return albedo_; }

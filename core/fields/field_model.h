@@ -1,0 +1,79 @@
+// All representations of a guiding field on the host. Back ends, session and files speak HostField and AnyFieldView and call the
+// functions below, each of which a representation overloads for its own arrays (table_model.h is the first). A representation is
+// its kernel model (GuidingField), its storage with these overloads, one entry in each of the two lists, and its tests.
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include "core/fields/table_model.h"
+#include "core/kernel/methods/method.h"
+
+namespace pl {
+
+/// The arrays of a field in memory of one kind, by representation.
+template <template <class> class Array>
+using FieldArrays = std::variant<TableStorage<Array>>;
+using HostField = FieldArrays<LargeArray>;
+
+/// A field as kernels see it, by representation; nothing for methods without one.
+using AnyFieldView = std::variant<std::monostate, TableField>;
+
+/// A field without training samples.
+inline HostField make_field(const FieldShape& shape, std::size_t volumes) { return make_tables(shape, volumes); }
+
+/// Whether all arrays have the length that shape and number of volumes ask for.
+inline bool fits(const FieldShape& shape, const HostField& field, std::size_t volumes) {
+    return std::visit([&](const auto& arrays) { return fits(shape, arrays, volumes); }, field);
+}
+
+inline std::size_t field_bytes(const HostField& field) {
+    return std::visit([](const auto& arrays) { return field_bytes(arrays); }, field);
+}
+
+/// Calls fn(array of `from`, array of `to`) for every array, after `to` has got the representation of `from`.
+template <template <class> class From, template <class> class To, class Fn>
+void zip_fields(const FieldArrays<From>& from, FieldArrays<To>& to, Fn&& fn) {
+    to = TableStorage<To>{};
+    zip(std::get<TableStorage<From>>(from), std::get<TableStorage<To>>(to), fn);
+}
+
+/// The field of a refined placement: volume i of the new ones, behind the others, is split off parents[i].
+inline HostField split_field(const FieldShape& shape, HostField field, std::span<const std::uint32_t> parents) {
+    return std::visit(
+        [&](auto&& arrays) -> HostField {
+            return split_field(shape, std::forward<decltype(arrays)>(arrays), parents);
+        },
+        std::move(field));
+}
+
+/// Views for kernels that trace paths.
+template <template <class> class Array, template <class> class FieldArray>
+AnyFieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes,
+                        FieldArrays<FieldArray>& field) {
+    return std::visit([&](auto& arrays) -> AnyFieldView { return field_view(shape, volumes, arrays); }, field);
+}
+
+/// Calls visit(view) with the view that `field`, an AnyFieldView, holds. Throws std::bad_variant_access if it holds none.
+template <class Any, class Visit>
+decltype(auto) visit_field(Any& field, Visit&& visit) {
+    return visit(std::get<TableField>(field));
+}
+
+/// Sets what a pass decides of a method, as far as the method has it.
+template <Method M>
+void configure_method(M& method, const AnyFieldView& field, const MixtureSettings& mixture,
+                      const LearningSettings& learning) {
+    if constexpr (requires { typename M::Field; }) {
+        method.field = std::get<typename M::Field>(field);
+        method.mixture = mixture;
+    }
+    if constexpr (requires { method.learning; }) method.learning = learning;
+}
+
+/// The tables of a field that is represented by them. Throws std::bad_variant_access for others.
+inline const HostTables& tables_of(const HostField& field) { return std::get<HostTables>(field); }
+inline HostTables& tables_of(HostField& field) { return std::get<HostTables>(field); }
+inline HostTables tables_of(HostField&& field) { return std::get<HostTables>(std::move(field)); }
+
+}  // namespace pl

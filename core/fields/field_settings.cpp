@@ -1,0 +1,78 @@
+#include "core/fields/field_settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fields/table_model.h"
+#include "core/fields/volume_grid.h"
+#include "core/scene/pack_scene.h"
+
+namespace pl {
+namespace {
+
+constexpr double kBytesPerMegabyte = 1.0e6;
+
+int side_of(int bins) { return static_cast<int>(std::lround(std::sqrt(static_cast<double>(bins)))); }
+
+/// Number of volumes within the budget.
+double affordable(const FieldSettings& settings) {
+    return settings.budget_megabytes * kBytesPerMegabyte / static_cast<double>(bytes_per_volume(settings.bins));
+}
+
+/// Smallest power of two not below `value`, kept where neither dividing by it nor kMaxRecordedUnits times it can
+/// leave the range of float.
+float power_of_two_above(float value) {
+    constexpr int kMaxExponent = 100;
+    if (!(value > 0.0f)) return 1.0f;
+    int exponent = 0;
+    const float mantissa = std::frexp(value, &exponent);  // in [0.5, 1)
+    if (mantissa == 0.5f) --exponent;
+    return std::ldexp(1.0f, std::clamp(exponent, -kMaxExponent, kMaxExponent));
+}
+
+}  // namespace
+
+std::size_t bytes_per_volume(int bins) {
+    return sizeof(SurfacePoint) + sizeof(Vec3f) + sizeof(KdNode) + kGridBytesPerVolume + table_bytes(bins);
+}
+
+int volume_count(const FieldSettings& settings) {
+    if (settings.volumes > 0) return settings.volumes;
+    return std::max(1, static_cast<int>(std::min(affordable(settings), static_cast<double>(kDefaultVolumes))));
+}
+
+std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t placed) {
+    const bool is_budgeted = settings.volumes == 0;
+    double share = settings.refine_share;
+    if (settings.refine_share == kRefineByRecords) share = is_budgeted ? 1.0 : 0.0;
+    double most = std::floor((1.0 + share) * static_cast<double>(placed));
+    if (is_budgeted) most = std::min(most, std::floor(affordable(settings)));
+    return std::max(placed, static_cast<std::size_t>(most));
+}
+
+FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings) {
+    float brightest = luminance(scene.environment);
+    for (const Vec3f& texel : scene.map_texels) brightest = std::max(brightest, luminance(texel));
+    // A sun is so small and bright that fixed-point steps of its radiance would lose all other light: its mean over half of the
+    // sky resolves both.
+    const Sun& sun = scene.far_lights.sun;
+    brightest = std::max(brightest, luminance(sun.radiance) * 0.5f * sun.chord2);
+    for (const Light& light : scene.lights) {
+        const Material& material = scene.materials[scene.triangles[light.primitive].material];
+        brightest = std::max(brightest, luminance(material.emission));
+    }
+    return {.cells = {side_of(settings.bins)},
+            .radiance_unit = power_of_two_above(brightest),
+            .extent = bounds_of(scene).diagonal(),
+            .rate = settings.rate,
+            .uniform_floor = settings.uniform_floor,
+            .lookup = settings.lookup};
+}
+
+std::size_t volume_bytes(const HostVolumes& volumes) {
+    std::size_t bytes = 0;
+    zip(volumes, volumes, [&](const auto& array, const auto&) { bytes += array.size() * sizeof array[0]; });
+    return bytes;
+}
+
+}  // namespace pl

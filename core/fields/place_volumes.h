@@ -1,0 +1,27 @@
+// Placement of the radiance volumes on the surfaces of a scene.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/fields/field_settings.h"
+#include "core/scene/scene_storage.h"
+
+namespace pl {
+
+/// Places volumes on reflecting surfaces by systematic sampling of cumulative area with a Hammersley set, on every
+/// side of a surface that light can reach. A surface is a connected set of triangles that face (nearly) the same way;
+/// each side gets at least one volume unless there are more sides than volumes. Deterministic in the scene and the
+/// settings; scaling the scene by a power of two scales the result.
+HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings);
+
+/// Visits points on the sides that carry volumes, placed as place_volumes() places these, but `density` times as many per side.
+/// One side after the other.
+void for_each_site(const HostScene& scene, const FieldSettings& settings, std::uint32_t density,
+                   const std::function<void(const SurfacePoint&)>& visit);
+
+/// Balanced tree over the sites in the layout of KdTreeView, without sites whose position is not finite.
+std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites);
+
+}  // namespace pl

@@ -1,0 +1,31 @@
+// Lists of types: what is compiled once per entry.
+#pragma once
+
+#include <type_traits>
+
+namespace pl {
+
+template <class... Types>
+struct TypeList {
+    static constexpr int kCount = static_cast<int>(sizeof...(Types));
+};
+
+/// The type of one entry.
+template <int kIndex, class List>
+struct TypeAtIndex;
+template <int kIndex, class First, class... Rest>
+struct TypeAtIndex<kIndex, TypeList<First, Rest...>> : TypeAtIndex<kIndex - 1, TypeList<Rest...>> {};
+template <class First, class... Rest>
+struct TypeAtIndex<0, TypeList<First, Rest...>> {
+    using Type = First;
+};
+template <int kIndex, class List>
+using TypeAt = typename TypeAtIndex<kIndex, List>::Type;
+
+/// Calls visit.operator()<Type>() for every entry in order, until one returns true. Returns whether one did.
+template <class Visit, class... Types>
+constexpr bool any_of_types(TypeList<Types...>, Visit&& visit) {
+    return (visit.template operator()<Types>() || ...);
+}
+
+}  // namespace pl

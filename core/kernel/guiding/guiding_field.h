@@ -1,0 +1,66 @@
+// A guiding field: a representation of incident radiance over all surfaces from which directions are sampled. Tables of cells
+// are the first model (table_field.h); trees, lobes and networks are further ones. Kernels are templates over the model.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "core/kernel/guiding/direction_sample.h"
+
+namespace pl {
+
+/// A training sample whose target is not known yet: kept by a path between scattering and the next vertex.
+template <class Field>
+struct OpenSample {
+    typename Field::Entry entry{};
+    float bsdf_ratio = 1.0f;  ///< p_bsdf / q of the direction, q the density it was sampled with
+    float distance = 0.0f;    ///< along the direction to the surface hit, scene units; 0 if it is not traced yet
+};
+
+/// One observation of incident radiance, on its way into a field's pending sums.
+template <class Field>
+struct TrainingSample : OpenSample<Field> {
+    float target = 0.0f;  ///< incident radiance, luminance
+};
+
+/// What kernels need of a field while paths are traced. All operations but record() and add() are constant between two
+/// updates; these two may be called by any thread in any order and have to give the same sums.
+///   Location                   the part of the field that serves a surface point (a volume); default: none, is_served() false
+///   Entry                      the part of the field that a direction trains (a cell); default: none, is_trained() false
+///   locate(surface)            the location of a surface point
+///   sample(l, surface, n)      a direction; uses n.u.y, n.u.z and further draws of n.rng. Served locations only, as below
+///   density(l, surface, wi)    of sample(), per steradian at the surface point
+///   bsdf_fraction_at(l)        learned fraction a of BSDF samples in the mixture, in (0, 1]
+///   value_at(l)                expected irradiance / pi (luminance): the value function V of reinforcement learning
+///   entry_of(l, direction)     the entry that a sampled direction trains
+///   record(sample, fraction)   adds a training sample to the pending sums; `fraction`: also to those of the BSDF fraction
+///   add(sample, fraction)      adds radiance to the target of a training sample that was recorded before
+///   is_clamped(target)         whether the sums will hold less than this target
+template <class Field>
+concept GuidingField = std::is_trivially_copyable_v<Field> && std::default_initializable<typename Field::Location> &&
+    std::default_initializable<typename Field::Entry> &&
+    requires(const Field& field, const typename Field::Location& location, const typename Field::Entry& entry,
+             const SurfacePoint& surface, const ScatterNumbers& numbers, const DirectionSample& direction,
+             const TrainingSample<Field>& sample) {
+    { field.locate(surface) } -> std::same_as<typename Field::Location>;
+    { location.is_served() } -> std::same_as<bool>;
+    { field.sample(location, surface, numbers) } -> std::same_as<Vec3f>;
+    { field.density(location, surface, Vec3f{}) } -> std::same_as<FieldDensity>;
+    { field.bsdf_fraction_at(location) } -> std::same_as<float>;
+    { field.value_at(location) } -> std::same_as<float>;
+    { field.entry_of(location, direction) } -> std::same_as<typename Field::Entry>;
+    { entry.is_trained() } -> std::same_as<bool>;
+    field.record(sample, bool{});
+    field.add(sample, bool{});
+    { field.is_clamped(float{}) } -> std::same_as<bool>;
+};
+
+/// A field that also knows its radiance in single directions, as the targets of Sarsa need.
+template <class Field>
+concept RadianceField = GuidingField<Field> &&
+    requires(const Field& field, const typename Field::Location& location) {
+    /// Incident radiance (luminance) in the direction of DirectionSample::bin; value_at() if nothing is known of it.
+    { field.radiance_at(location, std::int32_t{}) } -> std::same_as<float>;
+};
+
+}  // namespace pl

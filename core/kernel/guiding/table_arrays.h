@@ -1,0 +1,40 @@
+// The arrays of a field of tables, named once for files, host memory, device memory and kernels.
+// core/fields/table_model.h says how long each is, how it begins and what happens to it when a volume is split.
+#pragma once
+
+#include <cstdint>
+
+#include "core/kernel/base/span.h"
+
+namespace pl {
+
+/// `Learned` arrays change in updates only and are constant while paths are traced; `Pending` ones are sums that paths add to
+/// between two updates. Shapes: [volume][cell] with cells row by row, [volume][row], or [volume].
+template <template <class> class Learned, template <class> class Pending>
+struct TableArrays {
+    Learned<float> radiance;               ///< learned incident radiance Q, luminance. [volume][cell]
+    Learned<std::uint32_t> visits;         ///< training samples so far. [volume][cell]
+    Pending<std::int64_t> pending_sum;     ///< of targets, fixed point. [volume][cell]
+    Pending<std::uint32_t> pending_count;  ///< of training samples. [volume][cell]
+
+    /// Inclusive cumulative probabilities, each row ending in exactly 1.
+    Learned<float> row_cdf;     ///< [volume][row]
+    Learned<float> column_cdf;  ///< within the row. [volume][row][column]
+
+    Learned<float> mean_radiance;  ///< cosine-weighted mean of Q over the hemisphere: irradiance / pi. [volume]
+    Learned<float> change;         ///< mean |new - old| of the cells that the last update moved. [volume]
+
+    Pending<std::int64_t> pending_slope;      ///< see record_mixture(). [volume]
+    Pending<std::int64_t> pending_curvature;  ///< [volume]
+    Learned<float> mixture_target;            ///< sum of curvature times aim of the Newton steps so far. [volume]
+    Learned<float> mixture_weight;            ///< sum of their curvature. [volume]
+    Learned<float> bsdf_fraction;             ///< learned share of the BSDF in the mixture. [volume]
+
+    Pending<std::int64_t> pending_distance;  ///< see record_reach(). [volume]
+    Pending<std::int64_t> pending_light;     ///< [volume]
+    Learned<float> reach_distance;  ///< sum of weight times distance of the training samples so far. [volume]
+    Learned<float> reach_weight;    ///< sum of their weights. [volume]
+    Learned<float> inverse_reach;   ///< one over the radius of Parallax. [volume]
+};
+
+}  // namespace pl

@@ -1,0 +1,55 @@
+// A field of tables as kernels see it while paths are traced: constant sampling tables, and the pending sums that training
+// samples are added to. core/fields owns the memory.
+#pragma once
+
+#include "core/kernel/base/atomics.h"
+#include "core/kernel/guiding/direction_cells.h"
+#include "core/kernel/guiding/placement_view.h"
+#include "core/kernel/guiding/table_arrays.h"
+
+namespace pl {
+
+/// Targets are clamped at this multiple of the field's radiance unit before they are summed. Pictures are not.
+inline constexpr float kMaxRecordedUnits = 65536.0f;
+
+/// Steps per radiance unit of the fixed-point sums: 2^-24 resolves a float's mantissa, and 63 bits hold 2^23 - 1 samples of
+/// the largest target between two updates.
+inline constexpr float kStepsPerUnit = 16777216.0f;
+
+template <class T>
+using ConstSpan = Span<const T>;
+
+struct TableView : PlacementView, TableArrays<ConstSpan, Span> {
+    DirectionCells cells;
+    float radiance_unit = 1.0f;       ///< of the fixed-point sums: a power of two not below the brightest emission
+    Writers writers = Writers::Many;  ///< threads that add to the pending sums
+
+    PL_HD std::uint32_t cell_index(std::int32_t volume, int cell) const {
+        return static_cast<std::uint32_t>(volume) * static_cast<std::uint32_t>(cells.count()) +
+               static_cast<std::uint32_t>(cell);
+    }
+};
+
+/// Whether the sums will hold less than the target.
+PL_HD inline bool is_clamped(float target, float radiance_unit) { return target > kMaxRecordedUnits * radiance_unit; }
+
+/// Fixed-point steps of a target; 0 for NaN and negative values.
+PL_HD inline std::int64_t to_fixed_point(float target, float radiance_unit) {
+    const float units = target / radiance_unit;
+    if (!(units > 0.0f)) return 0;
+    return static_cast<std::int64_t>(min_of(units, kMaxRecordedUnits) * kStepsPerUnit);
+}
+
+/// Mean target of `count` training samples.
+PL_HD inline float from_fixed_point(std::int64_t sum, std::uint32_t count, float radiance_unit) {
+    return (static_cast<float>(sum) / kStepsPerUnit) / static_cast<float>(count) * radiance_unit;
+}
+
+/// Adds one training sample of the radiance incident at a volume through a cell. Any thread, any order: the same sums.
+PL_HD inline void record(const TableView& field, std::int32_t volume, int cell, float target) {
+    const std::uint32_t index = field.cell_index(volume, cell);
+    atomic_add_counted(field.pending_sum[index], to_fixed_point(target, field.radiance_unit),
+                       field.pending_count[index], field.writers);
+}
+
+}  // namespace pl

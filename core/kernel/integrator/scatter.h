@@ -1,0 +1,134 @@
+// Scattering at a vertex: by a delta lobe, or into a direction that the method samples; and the end of a path there.
+#pragma once
+
+#include "core/kernel/integrator/path.h"
+#include "core/kernel/shading/bsdf.h"
+
+namespace pl {
+
+/// A vertex from which a path is scattered.
+template <FeatureSet F, class M>
+struct ScatterPoint {
+    SurfacePoint surface;
+    Bsdf<F> bsdf;
+    [[no_unique_address]] typename M::Vertex vertex{};
+    float roulette_weight = 1.0f;  ///< 1 / survival probability of the roulette played here
+};
+
+/// Results of a step besides the path's state.
+template <class M>
+struct StepOutput {
+    typename M::Sample& sample;  ///< comes in cleared
+    PathCounters& counters;
+};
+
+/// Density, per steradian, of scattering into wi: the delta lobes' share of samples has none.
+template <FeatureSet F, Method M>
+PL_HD inline float scatter_pdf_sa(const M& method, const ScatterPoint<F, M>& from, Vec3f wi) {
+    if constexpr (F.has_any(kLobeFeatures)) {
+        if (!from.bsdf.is_lambert())
+            return (1.0f - from.bsdf.delta_probability()) * method.pdf_sa(from.vertex, from.surface, from.bsdf, wi);
+    }
+    return method.pdf_sa(from.vertex, from.surface, wi);
+}
+
+/// An observation as the last vertex that learns sees it, through the specular chain if there is one.
+template <FeatureSet F, class M>
+PL_HD inline Observation through_chain(const PathState<F, M>& state, Observation observation) {
+    if constexpr (F.has_any(kLobeFeatures)) {
+        if (state.chain.is_open)
+            return {.emitted = state.chain.emitted + state.chain.weight * observation.emitted,
+                    .albedo = state.chain.weight * observation.albedo,
+                    .direction_share = 1.0f,  // light samples do not pass through delta lobes
+                    .distance = state.chain.distance + observation.distance};
+    }
+    return observation;
+}
+
+/// Ends a path at a vertex that reflects. An open specular chain is then all that the last vertex that learns will observe.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus terminate_path(const M& method, PathState<F, M>& state, const StepOutput<M>& out) {
+    if constexpr (F.has_any(kLobeFeatures)) {
+        if (state.chain.is_open)
+            out.sample =
+                method.observe(state.memory, {.emitted = state.chain.emitted, .distance = state.chain.distance},
+                               typename M::Vertex{}, out.counters.method);
+    }
+    method.terminated(state.memory, out.counters.method);
+    return PathStatus::Finished;
+}
+
+/// Ends a path that sampled a direction with f cos = 0: a zero-valued sample.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus terminate_black(const M& method, PathState<F, M>& state, const StepOutput<M>& out) {
+    ++out.counters.zero_directions;
+    return terminate_path(method, state, out);
+}
+
+/// Sends the path into `direction` with weight f cos / pdf. direction.pdf_sa is that of scatter_pdf_sa(), 0 for a delta lobe.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus send_path(const M& method, const ScatterPoint<F, M>& from, const DirectionSample& direction,
+                                  Vec3f weight, PathState<F, M>& state, PathCounters& counters) {
+    state.throughput *= weight;
+    state.ray = spawn_ray(from.surface, direction.wi);
+    Vec3f chain_weight{1.0f};
+    if constexpr (F.has_any(kLobeFeatures)) {
+        if (from.bsdf.is_specular()) {
+            state.chain.weight *= weight;
+            return PathStatus::Continues;
+        }
+        chain_weight = state.chain.weight;
+        state.chain = {};
+    }
+    method.scattered(state.memory, from.vertex,
+                     {chain_weight * (from.roulette_weight * weight), chain_weight * from.bsdf.albedo(), direction},
+                     counters.method);
+    return PathStatus::Continues;
+}
+
+/// Scatters a path at a Lambert reflector into a direction that the method sampled.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus scatter_lambert(const M& method, const ScatterPoint<F, M>& from,
+                                        const DirectionSample& direction, PathState<F, M>& state,
+                                        const StepOutput<M>& out) {
+    const float cos_i = from.bsdf.cosine(from.surface, direction.wi);
+    if (!(direction.pdf_sa > 0.0f) || cos_i == 0.0f) return terminate_black(method, state, out);
+    const Vec3f weight = from.bsdf.eval(from.surface, direction.wi, cos_i) * (1.0f / direction.pdf_sa);
+    state.direction_pdf_sa = direction.pdf_sa;
+    return send_path(method, from, direction, weight, state, out.counters);
+}
+
+/// Scatters a path at any other surface: first chooses between the delta lobes and the others. `numbers.lobe` is drawn here.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus scatter_layered(const M& method, const ScatterPoint<F, M>& from, ScatterNumbers numbers,
+                                        PathState<F, M>& state, const StepOutput<M>& out) {
+    const Vec4f choice = numbers.rng.draw(numbers.index, Purpose::Lobe);
+    const float p = from.bsdf.delta_probability();
+    if (choice.x < p) {
+        const DeltaDirection delta = from.bsdf.sample_delta(from.surface, choice.y);
+        if (is_black(delta.weight)) return terminate_black(method, state, out);
+        state.direction_pdf_sa = 0.0f;
+        return send_path(method, from, {.wi = delta.wi}, delta.weight * (1.0f / p), state, out.counters);
+    }
+    numbers.lobe = choice.z;
+    const DirectionSample direction = method.sample_direction(from.vertex, from.surface, from.bsdf, numbers);
+    const float pdf_sa = (1.0f - p) * direction.pdf_sa;
+    const float cos_i = from.bsdf.cosine(from.surface, direction.wi);
+    if (!(pdf_sa > 0.0f) || cos_i == 0.0f) return terminate_black(method, state, out);
+    const Vec3f weight = from.bsdf.eval(from.surface, direction.wi, cos_i) * (1.0f / pdf_sa);
+    if (is_black(weight)) return terminate_black(method, state, out);
+    state.direction_pdf_sa = pdf_sa;
+    return send_path(method, from, direction, weight, state, out.counters);
+}
+
+/// Samples the next direction of one path and scatters it.
+template <FeatureSet F, Method M>
+PL_HD inline PathStatus scatter(const M& method, const ScatterPoint<F, M>& from, const ScatterNumbers& numbers,
+                                PathState<F, M>& state, const StepOutput<M>& out) {
+    if constexpr (F.has_any(kLobeFeatures)) {
+        if (!from.bsdf.is_lambert()) return scatter_layered(method, from, numbers, state, out);
+    }
+    return scatter_lambert(method, from, method.sample_direction(from.vertex, from.surface, numbers), state, out);
+}
+
+}  // namespace pl

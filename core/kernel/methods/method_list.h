@@ -1,0 +1,69 @@
+// The list of all methods. Both back ends, their build lists and launchers, the session and the window expand it: a method is
+// its header, and its lines here.
+#pragma once
+
+#include "core/kernel/base/type_list.h"
+#include "core/kernel/guiding/table_field.h"
+#include "core/kernel/methods/default.h"
+#include "core/kernel/methods/precomputed.h"
+#include "core/kernel/methods/reinforcement.h"
+
+namespace pl {
+
+/// An integrator of a method. A method with several, for its settings or for several representations of its field, has one
+/// line for each, one after the other.
+template <class Identity, Method M>
+struct MethodKernel {
+    using Info = Identity;
+    using Integrator = M;
+};
+
+// One line each: cmake/MethodList.cmake counts them, and compiles each in a file of its own.
+// clang-format off
+using MethodList = TypeList<
+    MethodKernel<Default, DefaultMethod>,
+    MethodKernel<Precomputed, Guided<TableField, FrozenField>>,
+    MethodKernel<Reinforcement, Guided<TableField, ExpectedSarsa>>,
+    MethodKernel<Reinforcement, Guided<TableField, Sarsa>>,
+    MethodKernel<Reinforcement, Guided<TableField, MonteCarlo>>
+>;
+// clang-format on
+
+/// Number of the method that an entry of the list belongs to.
+template <int kEntry>
+constexpr std::uint32_t method_index() {
+    if constexpr (kEntry == 0) {
+        return 0;
+    } else {
+        constexpr bool kSame =
+            std::is_same_v<typename TypeAt<kEntry, MethodList>::Info, typename TypeAt<kEntry - 1, MethodList>::Info>;
+        return method_index<kEntry - 1>() + (kSame ? 0u : 1u);
+    }
+}
+
+inline constexpr int kMethodCount = static_cast<int>(method_index<MethodList::kCount - 1>()) + 1;
+
+/// Calls visit.operator()<kEntry>() for the entries of the list in order, until one returns true. Returns whether one did.
+template <int kEntry = 0, class Visit>
+constexpr bool any_method_kernel(Visit&& visit) {
+    if constexpr (kEntry == MethodList::kCount) {
+        return false;
+    } else {
+        if (visit.template operator()<kEntry>()) return true;
+        return any_method_kernel<kEntry + 1>(visit);
+    }
+}
+
+/// Calls the same for the first entry that serves a method and its settings.
+template <class Visit>
+constexpr bool with_method_kernel(MethodId method, const LearningSettings& learning, bool samples_lights,
+                                  Visit&& visit) {
+    return any_method_kernel([&]<int kEntry>() {
+        using Integrator = typename TypeAt<kEntry, MethodList>::Integrator;
+        if (MethodId{method_index<kEntry>()} != method || !Integrator::serves(learning, samples_lights)) return false;
+        visit.template operator()<kEntry>();
+        return true;
+    });
+}
+
+}  // namespace pl

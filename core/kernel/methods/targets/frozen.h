@@ -1,0 +1,11 @@
+// No target: the field stays as it is while paths are traced.
+#pragma once
+
+#include "core/kernel/methods/guided.h"
+
+namespace pl {
+
+template <GuidingField F>
+struct FrozenField : FieldTrainer<F> {};
+
+}  // namespace pl

@@ -1,7 +1,0 @@
-#include "cpu/launchers.h"
-
-namespace pl {
-
-constinit const PassKernels<PicturePass> kReinforcementKernels = make_picture_kernels<ReinforcementMethod>();
-
-}  // namespace pl

@@ -1,0 +1,101 @@
+// The training samples of one thread on their way to a table's pending sums. Threads share the sums, and a sample is up to six
+// additions: atomic ones made segments of two threads a sixth slower than plain ones. So samples wait, sorted by ranges of
+// volumes, until a range has enough of them to be worth its lock. The sums are integers: the order changes no bit.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <concepts>
+#include <mutex>
+#include <type_traits>
+#include <vector>
+
+#include "core/kernel/guiding/table_field.h"
+#include "core/kernel/methods/guided.h"
+
+namespace pl {
+
+/// Methods guided by tables: the driver looks up volumes and samples directions for blocks of their paths.
+template <class M>
+concept TableGuided = GuidedMethod<M> && std::same_as<typename M::Field, TableField>;
+
+/// Methods whose training samples are complete in observe().
+template <class M>
+inline constexpr bool kSamplesInObserve = !std::is_empty_v<typename M::Sample>;
+
+/// One lock for each of some ranges of volumes, to be held while adding to their sums without atomic operations.
+class VolumeLocks {
+public:
+    static constexpr std::uint32_t kRanges = 64;
+
+    explicit VolumeLocks(std::uint32_t volumes)
+        : shift_(static_cast<std::uint32_t>(std::bit_width((std::max(volumes, 1u) - 1u) / kRanges))) {}
+
+    std::uint32_t range_of(std::int32_t volume) const { return static_cast<std::uint32_t>(volume) >> shift_; }
+    std::mutex& of_range(std::uint32_t range) { return locks_[range].mutex; }
+
+private:
+    struct alignas(64) Lock {
+        std::mutex mutex;
+    };
+
+    std::uint32_t shift_;
+    Lock locks_[kRanges];
+};
+
+/// Empty for methods whose observe() makes no samples.
+template <TableGuided M>
+class TrainingQueue {
+public:
+    TrainingQueue(const M&, VolumeLocks&) {}
+    void push(const typename M::Sample&) {}
+    void flush() {}
+};
+
+template <TableGuided M>
+requires kSamplesInObserve<M>
+class TrainingQueue<M> {
+public:
+    TrainingQueue(const M& method, VolumeLocks& locks)
+        : method_(method), locks_(locks), ranges_(VolumeLocks::kRanges) {
+        method_.field.writers = Writers::One;
+    }
+
+    /// Prefetches the sample's cell and queues it.
+    void push(const typename M::Sample& sample) {
+        if (!sample.entry.is_trained()) return;
+        const std::uint32_t cell = method_.field.cell_index(sample.entry.volume, sample.entry.cell);
+        __builtin_prefetch(method_.field.pending_sum.data + cell, 1);
+        __builtin_prefetch(method_.field.pending_count.data + cell, 1);
+        const std::uint32_t number = locks_.range_of(sample.entry.volume);
+        Range& range = ranges_[number];
+        range.samples[range.count++] = sample;
+        if (range.count == kCapacity) flush(number);
+    }
+
+    /// Adds all samples to the sums. To be called after the thread's last path.
+    void flush() {
+        for (std::uint32_t range = 0; range < VolumeLocks::kRanges; ++range) flush(range);
+    }
+
+private:
+    static constexpr std::uint32_t kCapacity = 16;
+
+    struct Range {
+        std::uint32_t count = 0;
+        typename M::Sample samples[kCapacity];
+    };
+
+    [[gnu::flatten, gnu::noinline]] void flush(std::uint32_t number) {
+        Range& range = ranges_[number];
+        const std::lock_guard lock(locks_.of_range(number));
+        for (std::uint32_t i = 0; i < range.count; ++i) method_.record(range.samples[i]);
+        range.count = 0;
+    }
+
+    M method_;
+    VolumeLocks& locks_;
+    std::vector<Range> ranges_;
+};
+
+}  // namespace pl
