@@ -23,7 +23,7 @@ std::string materials_that(const SceneDescription& scene, Pick pick) {
     return fmt::format("of {} material{}: {}", names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", "));
 }
 
-/// Light from far away that depends on the direction, in words.
+/// Names of the far lights of a scene.
 std::string far_lights_of(const SceneDescription& scene) {
     const EnvironmentMapDescription& map = scene.environment_map;
     std::vector<std::string> parts;
