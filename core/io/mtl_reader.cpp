@@ -74,11 +74,11 @@ public:
             statement(reader_.keyword());
         }
         for (auto& [key, tally] : odd_) {
-            tally.tell(warnings_, path_, fmt::format("'{}': a value that cannot be meant is left out", key));
+            tally.tell(warnings_, path_, fmt::format("'{}': an implausible value is ignored", key));
         }
         if (!unsupported_.empty()) {
-            warnings_.push_back(fmt::format("{}: left out, because this version does not show it: {}", path_.string(),
-                                            fmt::join(unsupported_, ", ")));
+            warnings_.push_back(
+                fmt::format("{}: ignored, because not supported: {}", path_.string(), fmt::join(unsupported_, ", ")));
         }
         return std::move(entries_);
     }

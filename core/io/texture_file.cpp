@@ -111,7 +111,7 @@ RawImage read_by_stb(const fs::path& path, const std::string& suffix) {
     if (!image.is_ldr) {
         if (!has_whole_hdr_lines(bytes, static_cast<std::size_t>(image.width),
                                  static_cast<std::size_t>(image.height))) {
-            fail_image(path, "damaged: it ends too early, or a line of it is not what the format says");
+            fail_image(path, "damaged: truncated, or with an invalid scanline");
         }
         read(stbi_loadf_from_memory, 1.0f);
     } else if (stbi_is_16_bit_from_memory(data, size) != 0) {

@@ -56,7 +56,7 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::SmoothNormals: return smooth_normals_of(scene);
     case Feature::Environment:
         return fmt::format("the environment shines with radiance {},{},{}", sky.x, sky.y, sky.z);
-    case Feature::NextEventEstimation: return "asked for by --nee on";
+    case Feature::NextEventEstimation: return "requested by --nee on";
     case Feature::Specular: return materials_that(scene, [](const auto& m) { return has_lobe(m, false); });
     case Feature::Rough: return materials_that(scene, [](const auto& m) { return has_lobe(m, true); });
     case Feature::Plastic: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Plastic; });
