@@ -1,5 +1,5 @@
-# What a number is may not depend on how the program is built. Flags of the caller, CXXFLAGS for instance, come before those
-# of pl_options, which undo them for the compiler; the linker sees them still. So a program is built with all of them and run.
+# Run-time test of IEEE arithmetic with the flags of this build. pl_options comes after the user's flags (CXXFLAGS) and undoes
+# -ffast-math for the compiler, but not for the linker, which would still flush denormal numbers to zero.
 if(CMAKE_CROSSCOMPILING)
     return()
 endif()
@@ -35,7 +35,7 @@ int main() {
 }
 ]])
 
-# Asked again when flags change: they are in the name of the answer.
+# The name of the cached result contains the flags, so that the test runs again when they change.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 string(MD5 flags "${CMAKE_CXX_COMPILER} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}} ${pl_exact_flags}")
 set(CMAKE_TRY_COMPILE_CONFIGURATION "${CMAKE_BUILD_TYPE}")
@@ -50,8 +50,8 @@ set(faults "" "NaN is not found" "denormal numbers are flushed to zero" "product
 set(answer "${PL_ARITHMETIC_${flags}}")
 if(answer MATCHES "^[123]$")
     list(GET faults ${answer} fault)
-    message(FATAL_ERROR "Flags change what numbers are: ${fault}. Pictures would differ from build to build, and errors hide. "
-        "Leave out -ffast-math, -Ofast, -funsafe-math-optimizations and the like: "
+    message(FATAL_ERROR "Compiler flags change floating-point arithmetic: ${fault}. "
+        "Pictures would differ between builds, and errors hide. Leave out -ffast-math, -Ofast, -funsafe-math-optimizations and the like: "
         "'${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}}'")
 elseif(NOT answer STREQUAL "0")
     message(FATAL_ERROR "The test of floating-point arithmetic does not run: ${answer}")

@@ -1,6 +1,6 @@
-# Run at every build: writes OUTPUT anew only if the commit has changed, so that nothing else is compiled for it.
+# Writes the current commit to the source file OUTPUT, which changes only if the commit has.
 # cmake -DSOURCE_DIR=.. -DOUTPUT=.. -P CommitId.cmake
-set(ENV{GIT_OPTIONAL_LOCKS} 0) # looking must not write to the repository
+set(ENV{GIT_OPTIONAL_LOCKS} 0) # git describe must not write to the repository
 set(commit "")
 set(top "")
 execute_process(
@@ -9,7 +9,7 @@ execute_process(
     OUTPUT_STRIP_TRAILING_WHITESPACE
     ERROR_QUIET)
 file(REAL_PATH "${SOURCE_DIR}" source)
-if(top STREQUAL source) # not a folder that was unpacked inside of another repository
+if(top STREQUAL source) # not a source archive inside of another repository
     execute_process(
         COMMAND git -C "${SOURCE_DIR}" describe --always --dirty --abbrev=12
         OUTPUT_VARIABLE commit

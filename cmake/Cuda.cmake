@@ -1,7 +1,26 @@
-# Is there a CUDA compiler that works? Sets PL_CUDA_BUILT, else PL_CUDA_MISSING to the reason in words. With
-# PL_CUDA=ON a missing one is an error. CMAKE_CUDA_ARCHITECTURES defaults to all major ones.
+# Looks for a working CUDA compiler. Sets PL_CUDA_BUILT, or PL_CUDA_MISSING to the reason; with PL_CUDA=ON a missing one is an
+# error. CMAKE_CUDA_ARCHITECTURES defaults to the GPUs of this machine; the preset release-all has all major ones.
 set(PL_CUDA_BUILT OFF)
 set(PL_CUDA_MISSING "")
+set(PL_CUDA_NOTE "")
+
+# pl_gpu_architectures(RESULT): compute capabilities of the GPUs here, such as "86;90"; empty without one.
+function(pl_gpu_architectures result)
+    set(capabilities "")
+    find_program(PL_NVIDIA_SMI nvidia-smi)
+    mark_as_advanced(PL_NVIDIA_SMI)
+    if(PL_NVIDIA_SMI)
+        execute_process(
+            COMMAND "${PL_NVIDIA_SMI}" --query-gpu=compute_cap --format=csv,noheader
+            OUTPUT_VARIABLE output
+            ERROR_QUIET)
+        string(REGEX MATCHALL "[0-9]+\\.[0-9]" capabilities "${output}")
+        string(REPLACE "." "" capabilities "${capabilities}")
+        list(REMOVE_DUPLICATES capabilities)
+    endif()
+    set(${result} "${capabilities}" PARENT_SCOPE)
+endfunction()
+
 if(NOT PL_CUDA MATCHES "^(AUTO|ON|OFF)$")
     message(FATAL_ERROR "PL_CUDA: expected AUTO, ON or OFF, got '${PL_CUDA}'")
 endif()
@@ -9,10 +28,10 @@ endif()
 if(PL_CUDA STREQUAL "OFF")
     set(PL_CUDA_MISSING "configured with PL_CUDA=OFF")
 elseif(PL_SANITIZE)
-    # Sanitizers do not know the device; the tests run the same sources on the host instead.
+    # Sanitizers do not cover device code; tests run the same sources on the host.
     set(PL_CUDA_MISSING "a build with sanitizers")
 else()
-    # Found by name, not by CMAKE_CUDA_COMPILER: that would skip the check whether it works.
+    # By CUDACXX, because check_language() does not test a compiler given by CMAKE_CUDA_COMPILER.
     if(NOT CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX})
         find_program(PL_NVCC nvcc HINTS ENV CUDA_PATH ENV CUDA_HOME PATHS /usr/local/cuda /opt/cuda /usr/lib/cuda
             PATH_SUFFIXES bin)
@@ -31,8 +50,14 @@ else()
         set(PL_CUDA_MISSING "no nvcc was found")
     endif()
     if(CMAKE_CUDA_COMPILER)
+        # One architecture compiles in a fraction of the time of all. Its PTX is included, for newer GPUs.
         if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
-            set(CMAKE_CUDA_ARCHITECTURES all-major CACHE STRING "GPU architectures")
+            pl_gpu_architectures(pl_architectures)
+            if(NOT pl_architectures)
+                set(pl_architectures 90)
+                set(PL_CUDA_NOTE ", no GPU found")
+            endif()
+            set(CMAKE_CUDA_ARCHITECTURES "${pl_architectures}" CACHE STRING "GPU architectures")
         endif()
         enable_language(CUDA)
         if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 12.0)
@@ -48,7 +73,7 @@ if(PL_CUDA STREQUAL "ON" AND NOT PL_CUDA_BUILT)
 endif()
 
 if(PL_CUDA_BUILT)
-    # CMake 3.25.0 and 3.25.1 do not know how nvcc is told the standard.
+    # CMake 3.25.0 and 3.25.1 lack the C++20 flag of nvcc.
     if(NOT DEFINED CMAKE_CUDA20_STANDARD_COMPILE_OPTION)
         set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION "-std=c++20")
         set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION "-std=c++20")
@@ -56,8 +81,8 @@ if(PL_CUDA_BUILT)
     set(CMAKE_CUDA_STANDARD 20)
     set(CMAKE_CUDA_STANDARD_REQUIRED ON)
     set(CMAKE_CUDA_FLAGS_RELEASE "-O3 -DNDEBUG")
-    # No contraction, as on the host: -fmad=false makes every operation round for itself. 20012: annotations on
-    # defaulted functions, in GLM. 445: a template argument that only the body of a lambda uses.
+    # -fmad=false: no contraction, as on the host. Suppressed diagnostics: 20012, annotations on defaulted functions in GLM;
+    # 445, a template parameter that only the body of a lambda uses.
     set(PL_CUDA_FLAGS -fmad=false --expt-relaxed-constexpr -diag-suppress=20012,445 -Xcompiler=-Wall,-Wextra,-ffp-contract=off)
     add_library(pl_cuda_options INTERFACE)
     target_compile_options(pl_cuda_options INTERFACE

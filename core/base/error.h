@@ -1,4 +1,5 @@
-// The one exception type. `kind` decides the exit code; the message says what, where, expected, got.
+// The exception type of the program. `kind` decides the exit code; the message names subject, place, expected and
+// actual value.
 #pragma once
 
 #include <stdexcept>
@@ -8,11 +9,11 @@ namespace pl {
 
 /// Exit codes of the program (see README, "Exit codes").
 enum class ErrorKind {
-    Runtime = 1,      ///< something failed while working (disk full, ...)
+    Runtime = 1,      ///< failure during the work: disk full, device lost
     Usage = 2,        ///< the command line is wrong
     Input = 3,        ///< a file is missing or invalid
-    Unavailable = 4,  ///< back end, device or display is not there
-    Threshold = 5,    ///< a threshold asked for was missed
+    Unavailable = 4,  ///< back end, device or display is missing
+    Threshold = 5,    ///< a requested threshold was missed
 };
 
 class Error : public std::runtime_error {

@@ -1,4 +1,4 @@
-// Fnv1a: a 64-bit fingerprint of values, the same on every machine. For telling things apart, not for security.
+// Fnv1a: a 64-bit hash of values, the same on every machine. Not cryptographic.
 #pragma once
 
 #include <bit>
@@ -13,7 +13,7 @@ public:
     void add(std::uint64_t value) {
         for (int byte = 0; byte < 8; ++byte) add_byte(static_cast<std::uint8_t>(value >> (8 * byte)));
     }
-    /// The bits of the number; -0 counts as 0, because no picture tells them apart.
+    /// Adds the bits of the number; -0 counts as 0, because they give the same picture.
     void add(float value) { add(std::uint64_t{std::bit_cast<std::uint32_t>(value == 0.0f ? 0.0f : value)}); }
     void add(std::string_view text) {
         add(std::uint64_t{text.size()});

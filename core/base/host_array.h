@@ -1,4 +1,4 @@
-// HostArray: what Storage<Array> templates are instantiated with on the host. Device back ends bring their own.
+// HostArray: the array type of Storage<Array> templates on the host. Device back ends have their own.
 #pragma once
 
 #include <cstdint>

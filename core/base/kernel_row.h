@@ -1,4 +1,4 @@
-// Tables of compiled kernels: one entry per set of effects. Back ends fill one row per method.
+// Tables of compiled kernels, [set of effects]. Back ends fill one row per method.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace pl {
 template <class Kernel>
 using KernelRow = std::array<Kernel, kCompiledSetCount>;
 
-/// The row of what choose.operator()<F>() returns for every compiled set F of a range; the other sets are served by the
-/// next larger one.
+/// The row of choose.operator()<F>() for the compiled sets F of a range; every other set has the kernel of the next
+/// larger one.
 template <class Kernel, KernelRange range = KernelRange::Full, class Choose>
 constexpr KernelRow<Kernel> make_kernel_row(Choose choose) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -24,7 +24,8 @@ constexpr KernelRow<Kernel> make_kernel_row(Choose choose) {
     (std::make_index_sequence<kCompiledSetCount>{});
 }
 
-/// The set that serves the needed effects: the smallest one of a range that covers them.
+/// Index of the smallest compiled set of a range that covers the needed effects. Throws Error(Runtime) if there is
+/// none.
 inline std::size_t covering_set(FeatureSet needed, KernelRange range = KernelRange::Full) {
     const int set = smallest_superset(needed, range);
     if (!kCompiledSets[set].covers(needed))

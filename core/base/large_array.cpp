@@ -21,7 +21,7 @@ std::align_val_t alignment_of(std::size_t bytes) {
 void* allocate_large(std::size_t bytes) {
     void* const memory = ::operator new(bytes, alignment_of(bytes));
 #ifdef __linux__
-    // A wish: where it is not granted, memory is only slower. The rest behind the last whole page stays as it is.
+    // A hint: without it memory is only slower. The rest after the last whole huge page is excluded.
     if (bytes >= kLargePage) (void)madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 #endif
     return memory;

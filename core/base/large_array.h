@@ -1,5 +1,5 @@
-// LargeArray: a HostArray for what is read in no order and does not fit the caches. Rows of 64 bytes lie in one line of
-// the cache each, and the system is asked for large pages, so that a read seldom waits for the page tables.
+// LargeArray: a HostArray for random access to data larger than the caches. Aligned to cache lines, so that rows of
+// 64 bytes occupy one each, and on huge pages where the system grants them, so that reads seldom miss the TLB.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace pl {
 
-/// Bytes that begin at a cache line. Throws std::bad_alloc.
+/// Memory aligned to a cache line. Throws std::bad_alloc.
 void* allocate_large(std::size_t bytes);
-/// Gives them back; `bytes` as asked for.
+/// Frees memory of allocate_large(); `bytes` as allocated.
 void free_large(void* memory, std::size_t bytes) noexcept;
 
 template <class T>

@@ -46,7 +46,7 @@ std::string_view color_of(LogLevel level) {
 }
 
 void put(std::string_view text, std::FILE* file) {
-    // Nobody can be told that standard error cannot be written.
+    // A failure to write to standard error cannot be reported.
     (void)std::fwrite(text.data(), 1, text.size(), file);
 }
 

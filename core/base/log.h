@@ -1,4 +1,4 @@
-// Messages for people, on standard error: warnings, progress, and the one line that is redrawn in place.
+// Messages for users on standard error: errors, warnings, progress, and a status line that is redrawn in place.
 #pragma once
 
 #include <cstdio>
@@ -10,10 +10,10 @@
 
 namespace pl {
 
-/// From what must be read to what only a developer wants; a log shows everything up to its level.
+/// Severities, highest first; a log shows messages up to its level.
 enum class LogLevel { Error, Warning, Notice, Detail };
 
-/// Usable from any thread. Every message also goes to the log file, if there is one, whatever the level.
+/// Thread-safe. Every message of any level also goes to the log file, if there is one.
 class Log {
 public:
     Log();
@@ -22,7 +22,7 @@ public:
     Log& operator=(const Log&) = delete;
 
     void set_level(LogLevel level) { level_ = level; }
-    /// Messages are appended to the file from now on. Throws Error(Runtime) if it cannot be written.
+    /// Appends all further messages to the file. Throws Error(Runtime) if it cannot be opened.
     void open_file(const std::filesystem::path& path);
 
     void error(std::string_view message) { write(LogLevel::Error, message); }
@@ -30,13 +30,13 @@ public:
     void notice(std::string_view message) { write(LogLevel::Notice, message); }
     void detail(std::string_view message) { write(LogLevel::Detail, message); }
 
-    /// Replaces the line at the bottom of the terminal; messages are put above it. Only on a terminal.
+    /// Replaces the status line at the bottom of the terminal, below the messages. No effect without a terminal.
     void show_status(std::string_view line);
     void clear_status();
 
-    /// Standard error is a terminal that can redraw a line.
+    /// Whether standard error is a terminal that can redraw a line.
     bool is_terminal() const { return terminal_; }
-    /// Characters in a line of the terminal; 80 if that is not known.
+    /// Width of the terminal in characters; 80 if unknown.
     int terminal_width() const;
 
 private:

@@ -1,4 +1,4 @@
-// Work that several threads share: a queue from which they claim it, and plain threads that do.
+// Parallel work without OpenMP: a queue of index chunks, and threads.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace pl {
 
-/// Keeps the first exception of several threads, none of which may let one escape.
+/// Carries the first exception of several threads, none of which may let one escape, to the caller.
 class FirstException {
 public:
     template <class Body>
@@ -32,8 +32,7 @@ private:
     std::exception_ptr first_;
 };
 
-/// Calls body(thread) on `threads` plain threads at once, with thread < threads, waits for all, and rethrows the first
-/// exception.
+/// Calls body(thread) for thread = 0 .. threads - 1 concurrently, waits for all, and rethrows the first exception.
 template <class Body>
 void run_on_plain_threads(int threads, Body&& body) {
     FirstException exception;
@@ -45,7 +44,7 @@ void run_on_plain_threads(int threads, Body&& body) {
     exception.rethrow();
 }
 
-/// Numbers from `begin` up to, but not including, `end`.
+/// The indices [begin, end).
 struct IndexRange {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
@@ -53,14 +52,14 @@ struct IndexRange {
     bool empty() const { return begin == end; }
 };
 
-/// Hands out the numbers from `first` up to, but not including, `end`, in ascending chunks; any thread may ask. Once
-/// `stop` is set nothing more is handed out, so if claimed chunks are always done, what is done is a prefix.
+/// Distributes the indices [first, end) in ascending chunks to any number of threads. No chunk is claimed after
+/// `stop` is set; if claimed chunks are always completed, the completed indices are a prefix.
 class ChunkQueue {
 public:
     ChunkQueue(std::uint32_t first, std::uint32_t end, std::uint32_t chunk, const std::atomic<bool>* stop = nullptr)
         : next_(first), end_(end), chunk_(chunk), stop_(stop) {}
 
-    /// The next chunk; empty when there is none.
+    /// The next chunk; empty at the end.
     IndexRange claim() {
         if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) return {};
         const std::uint64_t begin = next_.fetch_add(chunk_, std::memory_order_relaxed);

@@ -1,4 +1,4 @@
-// OpenEXR through tinyexr.
+// OpenEXR by tinyexr.
 #include "core/io/image.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kMostAttributes = 100;                       // the library reads back up to 128
 constexpr std::array<const char*, 3> kChannels = {"B", "G", "R"};  // files hold channels in alphabetical order
 
-/// Takes over the library's message.
+/// Copies and frees a message of the library.
 std::string take_message(const char* message) {
     const std::string text = message != nullptr ? message : "unknown error";
     if (message != nullptr) {
@@ -46,7 +46,7 @@ std::vector<EXRAttribute> to_attributes(const ImageMetadata& metadata) {
         EXRAttribute attribute{};
         copy_name(attribute.name, name);
         copy_name(attribute.type, "string");
-        // The library only reads it.
+        // The library does not modify it.
         attribute.value = reinterpret_cast<unsigned char*>(const_cast<char*>(value.data()));
         attribute.size = static_cast<int>(value.size());
         attributes.push_back(attribute);
@@ -54,7 +54,7 @@ std::vector<EXRAttribute> to_attributes(const ImageMetadata& metadata) {
     return attributes;
 }
 
-/// The planes B, G, R, each row by row.
+/// The planes B, G, R, [plane][row][column].
 std::array<std::vector<float>, 3> to_planes(const LinearImage& image) {
     std::array<std::vector<float>, 3> planes;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -66,7 +66,7 @@ std::array<std::vector<float>, 3> to_planes(const LinearImage& image) {
     return planes;
 }
 
-/// NaN stays NaN.
+/// Clamps to the range of half floats; NaN stays NaN.
 void limit_to_half(std::array<std::vector<float>, 3>& planes) {
     constexpr float kLargestHalf = 65504.0f;
     for (std::vector<float>& plane : planes) {
@@ -91,7 +91,7 @@ struct ImageOwner {
     bool loaded = false;
     ImageOwner() { InitEXRImage(&image); }
     ~ImageOwner() {
-        if (loaded) {  // after a failure the library has freed the pixels, and would free them again
+        if (loaded) {  // after a failure the library has already freed the pixels
             FreeEXRImage(&image);
         }
     }
@@ -99,7 +99,7 @@ struct ImageOwner {
     ImageOwner& operator=(const ImageOwner&) = delete;
 };
 
-/// Value of an attribute of type string. The library gives an empty one as a single null character.
+/// Value of an attribute of type string. The library returns a single null character for an empty one.
 std::string text_of(const EXRAttribute& attribute) {
     const std::string text(reinterpret_cast<const char*>(attribute.value), static_cast<std::size_t>(attribute.size));
     return text.substr(0, text.find('\0'));
@@ -125,7 +125,7 @@ void read_header(const std::filesystem::path& path, const std::string& bytes, EX
         if (header.channels[c].x_sampling != 1 || header.channels[c].y_sampling != 1) {
             fail_image(path, "subsampled channels are not supported");
         }
-        // Other types than half stay as they are in the file.
+        // Only half is converted; the other types stay as in the file.
         if (header.pixel_types[c] == TINYEXR_PIXELTYPE_HALF) {
             header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
         }
@@ -172,7 +172,7 @@ void write_exr(const std::filesystem::path& path, const LinearImage& image, cons
     exr_image.height = image.height;
     exr_image.num_channels = 3;
 
-    EXRHeader header;  // not a HeaderOwner: everything it points to lives above
+    EXRHeader header;  // not a HeaderOwner: it points to local objects
     InitEXRHeader(&header);
     header.num_channels = 3;
     header.channels = channels.data();
@@ -203,7 +203,7 @@ LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata)
         channel[c] = static_cast<std::size_t>(channel_index(path, header, kChannels[2 - c]));
     }
     ImageOwner image;
-    image.image.num_channels = header.num_channels;  // else the library forgets to free them when it fails
+    image.image.num_channels = header.num_channels;  // without it the library leaks them on failure
     const char* message = nullptr;
     const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
     image.loaded = LoadEXRImageFromMemory(&image.image, &header, data, bytes.size(), &message) == TINYEXR_SUCCESS;

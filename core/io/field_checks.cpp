@@ -13,7 +13,7 @@ namespace {
 
 bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// A frame around a longer vector would map directions beyond the cells.
+/// A frame of a longer vector would give directions outside of the direction cells.
 bool is_unit(const Vec3f& v) { return std::fabs(glm::dot(v, v) - 1.0f) < 1.0e-4f; }
 
 bool is_square(int n) {
@@ -76,7 +76,7 @@ private:
     void shape() const {
         const FieldSettings& s = field_.settings;
         const FieldShape& shape = field_.shape;
-        // Only then is the product known not to overflow.
+        // The first conditions exclude an overflow of the product.
         require(shape.cells.side > 0 && shape.cells.side <= s.bins && shape.cells.count() == s.bins,
                 "cells to a side", fmt::format("the root of {} bins", s.bins), shape.cells.side);
         const float unit = shape.radiance_unit;
@@ -88,7 +88,7 @@ private:
                 "learning rate, uniform share and lookup of the tables", "those of the settings", "others");
     }
 
-    /// All arrays have the length that the number of volumes asks for.
+    /// All arrays have the length that follows from the number of volumes.
     void sizes() const {
         const std::size_t volumes = volumes_.normals.size();
         const auto side = static_cast<std::size_t>(field_.shape.cells.side);
@@ -126,7 +126,7 @@ private:
         require(is_amount(p.precompute_seconds), "seconds of precomputation", "a time", p.precompute_seconds);
     }
 
-    /// Triangle and material of a site are never used as indices.
+    /// SurfacePoint::primitive is only compared and SurfacePoint::material is unused, so neither needs a range.
     void placement() const {
         for (std::size_t i = 0; i < volumes_.sites.size(); ++i) {
             const SurfacePoint& site = volumes_.sites[i];

@@ -1,4 +1,4 @@
-// Checks of a field from a file, before kernels use its numbers as indices and probabilities.
+// Validation of learned fields from files, before kernels use their values as indices and probabilities.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace pl {
 
-/// Throws Error(Input) that names file, place, what was expected and what was got. `path` is only for the message.
+/// Throws Error(Input) with file, array, expected and actual value. `path` is for the message only.
 void require_usable(const LearnedField& field, const std::filesystem::path& path);
 
 }  // namespace pl

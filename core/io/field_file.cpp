@@ -27,7 +27,7 @@ constexpr std::size_t kPrefixBytes = kMagic.size() + sizeof kVersion + sizeof(st
     throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
 }
 
-/// Converts the bytes of a number between the orders of file and machine.
+/// Converts a number between the byte orders of file and host.
 template <class T>
 std::array<char, sizeof(T)> little_endian(std::array<char, sizeof(T)> bytes) {
     if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
@@ -40,7 +40,7 @@ std::uint64_t checksum_of(std::string_view bytes) {
     return hash.value();
 }
 
-/// Appends values to the bytes of a file.
+/// Serializes values into a buffer.
 class Writer {
 public:
     template <class T>
@@ -57,7 +57,7 @@ public:
         number(std::uint64_t{array.size()});
     }
     void raw(std::string_view bytes) { bytes_ += bytes; }
-    /// Overwrites a number at an offset.
+    /// Overwrites an earlier number.
     void patch(std::size_t offset, std::uint64_t value) {
         Writer other;
         other.number(value);
@@ -69,7 +69,7 @@ private:
     std::string bytes_;
 };
 
-/// Reads values in order; never past the end, and never allocates more than the rest of the file can fill.
+/// Deserializes values from a buffer; never reads past its end or allocates more than its size.
 class Reader {
 public:
     Reader(std::string_view bytes, const std::filesystem::path& path) : rest_(bytes), path_(path) {}
@@ -87,7 +87,7 @@ public:
     }
     template <class T, class Allocator>
     void count(std::vector<T, Allocator>& array) {
-        // Elements take as much room in files as in memory.
+        // Elements have the same size in files and in memory.
         static_assert(sizeof(SurfacePoint) == 13 * 4 && sizeof(KdNode) == 8 * 4);
         std::uint64_t size = 0;
         number(size);
@@ -113,7 +113,7 @@ private:
     const std::filesystem::path& path_;
 };
 
-/// Writes or reads one value: one code for both directions. No padding.
+/// Writes or reads one value: one description of the layout for both. No padding.
 template <class Stream, class T>
 void transfer(Stream& stream, T& value) {
     using Value = std::remove_const_t<T>;
@@ -162,7 +162,7 @@ void transfer_header(Stream& stream, Field& field) {
         progress.precomputed_slices, progress.next_probe, progress.precompute_seconds);
 }
 
-/// The field between prefix and checksum, which are known to be right.
+/// Parses the content between prefix and checksum.
 LearnedField read_content(std::string_view content, const std::filesystem::path& path) {
     Reader reader(content, path);
     LearnedField field;
@@ -183,7 +183,7 @@ LearnedField read_content(std::string_view content, const std::filesystem::path&
     return field;
 }
 
-/// The bytes between prefix and checksum. Throws unless the file is a field of this version and undamaged.
+/// The content between prefix and checksum. Throws unless kind, version, size and checksum are right.
 std::string_view checked_content(std::string_view bytes, const std::filesystem::path& path) {
     if (!bytes.starts_with(kMagic))
         fail(path, fmt::format("not a learned field: expected a file that begins with PLFIELD, got {:02x}",

@@ -37,13 +37,13 @@ std::string reason(int error_number) { return std::generic_category().message(er
     throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
 }
 
-/// Into what is no regular file; 0 or the error number.
+/// Writes to a device or pipe; returns 0 or errno.
 int write_through(const fs::path& path, std::string_view bytes) {
     const int file = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
     return file < 0 ? errno : write_and_close(file, bytes);
 }
 
-/// Removes what killed writers have left in a folder, when this process first writes there.
+/// Removes temporary files of killed processes, at the first write of this process to the folder.
 void clear_once(const fs::path& folder) {
     static std::mutex mutex;
     static std::set<fs::path> cleared;
@@ -68,7 +68,7 @@ std::string read_file(const fs::path& path) {
     if (!file) {
         fail_read(path, reason(errno));
     }
-    // Of the file that is open, which another may have replaced under this name by now.
+    // fstat of the open file: another one may have replaced it under this name.
     struct ::stat opened {};
     std::string bytes(::fstat(::fileno(file.get()), &opened) == 0 ? static_cast<std::size_t>(opened.st_size) : 0,
                       '\0');

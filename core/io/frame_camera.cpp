@@ -10,8 +10,8 @@ namespace pl {
 
 namespace {
 
-/// Side of the scene (+1: from +z) that shows more front faces; +1 if they differ by less than a hundredth, as the
-/// two sides of a closed surface do by rounding.
+/// Side of the scene (+1: +z) with the larger front-facing area; +1 if they differ by less than a hundredth, because
+/// the two sides of a closed surface differ by rounding only.
 double better_side(const SceneDescription& scene) {
     double front[2] = {0.0, 0.0};  // projected area facing -z, +z
     for (const TriangleDescription& triangle : scene.triangles) {
@@ -39,7 +39,7 @@ CameraDescription frame_camera(const SceneDescription& scene, float fov_deg) {
     const glm::dvec3 center = 0.5 * (glm::dvec3(low) + glm::dvec3(high));
     const double radius = 0.5 * glm::length(glm::dvec3(high) - glm::dvec3(low));
     const double half_angle = 0.5 * static_cast<double>(fov_deg) * glm::pi<double>() / 180.0;
-    // A tiny object far from the origin: the eye must differ from the target in floats.
+    // For a tiny object far from the origin: eye and target must differ as floats.
     const double smallest = 16.0 * std::abs(center.z) * static_cast<double>(std::numeric_limits<float>::epsilon());
     const double distance = std::max(radius / std::sin(half_angle), smallest);
 

@@ -3,7 +3,7 @@
 namespace pl {
 namespace {
 
-/// Takes a line and its line feed off the front.
+/// Removes and returns the first line, without its line feed.
 std::string_view take_line(std::string_view& rest) {
     const std::size_t end = rest.find('\n');
     const std::string_view line = rest.substr(0, end);
@@ -11,7 +11,7 @@ std::string_view take_line(std::string_view& rest) {
     return line;
 }
 
-/// What is behind the header and the line with the size.
+/// The bytes after the header and the line with the size.
 std::string_view behind_header(std::string_view rest) {
     while (!rest.empty()) {
         const std::string_view line = take_line(rest);
@@ -23,9 +23,9 @@ std::string_view behind_header(std::string_view rest) {
 
 std::size_t byte_at(std::string_view text, std::size_t at) { return static_cast<unsigned char>(text[at]); }
 
-/// Takes the runs of one channel of a line off the front.
+/// Removes the runs of one channel of a scanline; false if they are invalid.
 bool take_channel(std::string_view& rest, std::size_t width) {
-    constexpr std::size_t kRun = 128;  // beyond it, one value stands for all of the run
+    constexpr std::size_t kRun = 128;  // larger counts: a run of one value
     for (std::size_t done = 0; done < width;) {
         if (rest.empty()) return false;
         const std::size_t code = byte_at(rest, 0);
@@ -49,7 +49,7 @@ bool has_whole_hdr_lines(std::string_view file, std::size_t width, std::size_t h
                byte_at(rest, 1) == 2 && byte_at(rest, 2) < 128;
     };
     for (std::size_t row = 0; row < height; ++row) {
-        // Only the first line may say that the picture is flat: the decoder takes a later one for the first texels, too.
+        // Only the first line decides whether the picture is uncompressed: the decoder restarts at a later one.
         if (!is_coded()) return row == 0 && rest.size() >= kChannels * width * height;
         if ((byte_at(rest, 2) << 8 | byte_at(rest, 3)) != width) return false;
         rest.remove_prefix(kMark);

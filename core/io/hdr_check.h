@@ -1,5 +1,5 @@
-// Radiance pictures, before they are decoded: the decoder takes what is missing for zeros, among them runs of no length,
-// of which it never gets to the end.
+// Check of Radiance HDR files before decoding: stb_image reads missing bytes as zeros and loops forever on runs of
+// length 0.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace pl {
 
-/// Whether all scanlines of a picture of this size are there, every run of at least one texel and none beyond its line.
-/// Follows the format as stb_image reads it: flat texels where a line does not begin as a coded one.
-/// [Ward 1991, "Real Pixels", Graphics Gems II]
+/// Whether the file has all scanlines of a picture of this size, with runs of at least one texel that end in their
+/// line. Interprets the format as stb_image does: uncompressed texels if a line does not begin with the mark of a
+/// compressed one.   [Ward 1991, "Real Pixels", Graphics Gems II]
 bool has_whole_hdr_lines(std::string_view file, std::size_t width, std::size_t height);
 
 }  // namespace pl

@@ -5,7 +5,7 @@
 namespace pl {
 namespace {
 
-/// Little-endian number of `size` bytes; 0 beyond the end.
+/// Little-endian number of `size` bytes; bytes beyond the end are 0.
 std::size_t number_at(std::string_view file, std::size_t at, int size) {
     std::size_t value = 0;
     for (int i = size; i-- > 0;) {
@@ -15,13 +15,13 @@ std::size_t number_at(std::string_view file, std::size_t at, int size) {
     return value;
 }
 
-/// The mark of the end has to come after the last scan begins: one before is that of a thumbnail.
+/// The end marker must follow the start of the last scan: an earlier one belongs to a thumbnail.
 bool jpeg_ends_early(std::string_view file) {
     const std::size_t scan = file.rfind("\xff\xda");
     return scan == std::string_view::npos || file.find("\xff\xd9", scan) == std::string_view::npos;
 }
 
-/// Follows the runs of a coded image: a mark, and one texel or up to 128.
+/// Walks the packets of a run-length encoded image: a header byte, then one texel or up to 128.
 bool tga_runs_end_early(std::string_view file, std::size_t at, std::size_t texels, std::size_t texel_bytes) {
     constexpr std::size_t kRepeats = 128;
     while (texels > 0) {
@@ -44,7 +44,7 @@ bool tga_ends_early(std::string_view file, std::size_t texels) {
     return file.size() < first + texels * texel_bytes;
 }
 
-/// Rows begin at multiples of four bytes; what fills the last one up may be missing.
+/// Rows are padded to four bytes; the padding of the last one may be missing.
 bool bmp_ends_early(std::string_view file, std::size_t width, std::size_t height) {
     constexpr std::size_t kOldHeader = 12;
     const std::size_t first = number_at(file, 10, 4);

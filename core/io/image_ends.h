@@ -1,4 +1,4 @@
-// Images whose files end too early, before they are decoded: the decoder takes what is missing for black or gray.
+// Detection of truncated image files before decoding: the decoder reads missing bytes as black or gray.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace pl {
 
-/// Whether a JPEG, TGA or BMP file (by its suffix, ".tga") lacks some of what an image of this size takes. False for other
-/// kinds, whose decoders notice.   [ITU-T T.81, B.1; Truevision TGA 2.0, sections 2 to 4]
+/// Whether a JPEG, TGA or BMP file (by its suffix, such as ".tga") is too short for an image of this size. False for
+/// other kinds, whose decoders detect it.   [ITU-T T.81, B.1; Truevision TGA 2.0, sections 2 to 4]
 bool ends_early(const std::string& suffix, std::string_view file, std::size_t width, std::size_t height);
 
 }  // namespace pl

@@ -17,9 +17,9 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kDeepest = 64;  // each level stores its pointer: deep nesting would cost memory squared
+constexpr std::size_t kDeepest = 64;  // every level stores its pointer: memory is quadratic in the depth
 
-/// Reads characters and tells how far it came.
+/// Input iterator that counts the characters read.
 class CountingIterator {
 public:
     using iterator_category = std::input_iterator_tag;
@@ -47,7 +47,7 @@ private:
     const char** reached_;
 };
 
-/// Follows the parser through the text and notes the line of every key.
+/// SAX handler that records the line of every key.
 class LineFinder : public nlohmann::json_sax<json> {
 public:
     LineFinder(std::string_view text, const std::filesystem::path& path, std::map<std::string, int>& lines)
@@ -78,7 +78,7 @@ public:
     }
 
     bool parse_error(std::size_t, const std::string&, const json::exception& error) override {
-        // "[json.exception.NAME] parse error at line 1, column 2: what": the place is told the common way.
+        // "[json.exception.NAME] parse error at line 1, column 2: what": the place is removed, fail_at() adds it.
         std::string_view message = error.what();
         for (const char* lead : {"] ", "column ", ": "}) {
             const std::size_t at = message.find(lead);
@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    /// An object or array that is open: where it is, and where its current member is.
+    /// An open object or array: its pointer, and that of its current member.
     struct Level {
         std::string base;
         std::string pointer;
@@ -141,7 +141,7 @@ bool fits_float(const json& value) {
            std::abs(value.get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
 }
 
-/// The components of a vector from an array of as many finite numbers; nothing from anything else.
+/// A vector from an array of as many finite numbers; nothing from any other value.
 template <typename Vector>
 std::optional<Vector> read_floats(const json& value) {
     constexpr auto kLength = static_cast<std::size_t>(Vector::length());

@@ -1,4 +1,4 @@
-// A JSON text whose complaints name file and line: the JSON library forgets where a value came from.
+// A JSON text with error messages that name file and line, which the JSON library does not keep.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@
 
 namespace pl {
 
-/// A checked JSON object together with the lines of its keys.
+/// A JSON object and the lines of its keys.
 class JsonDocument {
 public:
-    /// Throws Error(Input) with file and line: not JSON, a key given twice, not an object at the top.
+    /// Throws Error(Input) with file and line: not JSON, a duplicate key, not an object at the top level.
     JsonDocument(std::string_view text, std::filesystem::path path);
 
     const nlohmann::json& root() const { return root_; }
@@ -25,16 +25,17 @@ public:
     /// Throws Error(Input) at the line of the member `pointer` (a JSON pointer such as "/camera/eye").
     [[noreturn]] void fail(const std::string& pointer, const std::string& what) const;
 
-    /// The object at `pointer`, nothing if there is none. Throws if it is no object or has a key that is not known;
-    /// the message names the nearest known one.
+    /// The object at `pointer`, null if there is none. Throws Error(Input) if it is not an object or has an unknown
+    /// key; the message names the nearest known one.
     const nlohmann::json* object(const std::string& pointer, const std::vector<std::string>& known_keys) const;
 
-    // The value at `pointer`, nothing if there is none; each throws if it is of another type or not finite.
+    // The value at `pointer`, nothing if there is none. They throw Error(Input) for another type or a non-finite
+    // number.
     std::optional<std::string> text(const std::string& pointer) const;
     std::optional<bool> boolean(const std::string& pointer) const;
     std::optional<float> number(const std::string& pointer) const;
     std::optional<glm::vec3> vector(const std::string& pointer) const;
-    /// [low, high], low below high.
+    /// [low, high] with low < high.
     std::optional<glm::vec2> range(const std::string& pointer) const;
     std::optional<std::vector<std::string>> texts(const std::string& pointer) const;
     /// Number of elements of the array at `pointer`, 0 if there is none.
@@ -48,7 +49,7 @@ private:
     nlohmann::json root_;
 };
 
-/// A key as one step of a JSON pointer.
+/// A key, escaped as one step of a JSON pointer.
 std::string pointer_step(const std::string& key);
 
 }  // namespace pl

@@ -28,7 +28,7 @@ bool is_control(char c) {
     return (code < 0x20 && c != '\t') || code == 0x7f;
 }
 
-/// from_chars() does not tell too large from too small.
+/// from_chars() does not distinguish overflow from underflow.
 bool is_underflow(std::string_view word) {
     const std::size_t exponent = word.find_first_of("eE");
     if (exponent != std::string_view::npos) {

@@ -1,4 +1,4 @@
-// Logical lines of OBJ and MTL text, and the numbers in them, with the line every complaint belongs to.
+// Tokenizer of OBJ and MTL text: logical lines, words and numbers, with line numbers for error messages.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,27 @@
 
 namespace pl {
 
-/// "file:line", the way every message of a loader starts.
+/// "file:line", the beginning of every message of a loader.
 std::string place(const std::filesystem::path& path, int line);
 
 /// Throws Error(Input) "file:line: what".
 [[noreturn]] void fail_at(const std::filesystem::path& path, int line, const std::string& what);
 
-/// Number in C syntax, whole word, independent of the locale: no hex, no "inf", no "nan". What is too small for a
-/// double reads as 0. Nothing if the word is no number or its magnitude exceeds the largest float.
+/// A whole word as a number in C syntax, independent of the locale; no hex, "inf" or "nan". Values too small for a
+/// double read as 0. Nothing if the word is not a number or its magnitude exceeds the largest float.
 std::optional<double> parse_number(std::string_view word);
 
-/// Decimal integer, whole word. Nothing if it is none or does not fit.
+/// A whole word as a decimal integer. Nothing if it is not one or does not fit.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
 /// Words separated by blanks; a word that starts with '#' begins a comment.
 std::vector<std::string_view> split_words(std::string_view text);
 
-/// At most `limit` characters of a word, for messages: what cannot be printed becomes '?'.
+/// At most `limit` characters of a word in quotes, for messages; unprintable characters become '?'.
 std::string in_quotes(std::string_view word, std::size_t limit = 40);
 
-/// Steps through the statements of a text: ends of line LF, CR LF or CR, a backslash at the end continues the
-/// line, empty lines and comment lines are left out. Control characters are an error: the file is binary.
+/// Iterates over the statements of a text: line ends LF, CR LF or CR; a backslash at the end continues the line;
+/// empty lines and comments are skipped. Control characters are an error: the file is binary.
 class LineReader {
 public:
     LineReader(std::string_view text, std::filesystem::path path) : text_(text), path_(std::move(path)) {}
@@ -39,7 +39,7 @@ public:
     /// False at the end of the text.
     bool next();
 
-    int line() const { return line_; }                         ///< where the statement starts, from 1
+    int line() const { return line_; }                         ///< of the start of the statement, from 1
     std::string_view keyword() const { return keyword_; }      ///< first word
     std::string_view arguments() const { return arguments_; }  ///< the rest, trimmed
     [[noreturn]] void fail(const std::string& what) const { fail_at(path_, line_, what); }

@@ -46,7 +46,7 @@ SceneDescription load_file(const fs::path& path, const KnobValues& knobs) {
     return scene;
 }
 
-/// Textures need coordinates: without them all of a triangle shows one point.
+/// Without texture coordinates a triangle shows a single point of the image.
 void warn_of_missing_uvs(SceneDescription& scene) {
     const auto lacks = [&](const TriangleDescription& t) {
         return scene.materials[t.material].textures.any() && t.uv.x == TriangleDescription::kNoUv;

@@ -22,7 +22,7 @@ public:
     }
 
 private:
-    /// Files made on another computer name images by where they were there: then the image may be beside the file.
+    /// Absolute paths of another computer are looked up by their file name beside the MTL file.
     fs::path path_of(const std::string& name) const {
         const fs::path inside = path_inside(folder_, name);
         return inside.empty() ? folder_ / name.substr(name.find_last_of("/\\") + 1) : inside;

@@ -1,4 +1,4 @@
-// One material of an MTL file as it is written, before anybody says what it means.
+// One material of an MTL file as written, before its interpretation by mtl_surface.h.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@ namespace pl {
 
 /// A `map_` statement.
 struct MtlMap {
-    std::string name{};  ///< of the file; empty: there is none
+    std::string name{};  ///< of the image file; empty: no image
     bool clamps = false;
 
     explicit operator bool() const { return !name.empty(); }
 };
 
-/// Values are checked: colors at least 0 and reflectances at most 1, numbers finite and in the ranges below.
+/// Checked values: colors at least 0, reflectances at most 1, numbers finite and in the ranges below.
 struct MtlEntry {
     std::string name;
     int line = 0;

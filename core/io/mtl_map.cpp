@@ -11,7 +11,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-/// Words that an option takes, at least and at most; those beyond the first are numbers.
+/// Smallest and largest number of arguments of an option; those after the first are numbers.
 struct OptionWords {
     std::size_t least, most;
 };
@@ -27,7 +27,7 @@ bool all_are(const Words& words, double wanted) {
                        [&](std::string_view word) { return parse_number(word) == wanted; });
 }
 
-/// Options that change nothing here, by their name or by their values.
+/// Whether an option has no effect on the picture, by its name or by its values.
 bool is_silent(std::string_view option, const Words& values) {
     if (option == "-s") {
         return all_are(values, 1.0);

@@ -1,4 +1,4 @@
-// What follows `map_Kd` and its like: options, then the name of an image.
+// Arguments of `map_Kd` and other map statements: options, then the name of an image.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct ParsedMap {
     std::vector<std::string> unsupported;  ///< options that would change the picture
 };
 
-/// The name is all that is left after the options, blanks included.
+/// The name is the rest after the options, with blanks.
 ParsedMap parse_map(std::string_view arguments);
 
 }  // namespace pl

@@ -20,7 +20,7 @@ namespace pl {
 
 namespace {
 
-/// Numbers of other programs: where they are kept, and what can be meant.
+/// Keys that other programs write: their member of MtlEntry and plausible range. Others are ignored with a warning.
 struct NumberKey {
     std::string_view name;
     std::optional<float> MtlEntry::*number;
@@ -36,7 +36,7 @@ constexpr std::array<NumberKey, 6> kNumbers = {{
     {"Pc", &MtlEntry::pc, 0.0f, 1.0f},
 }};
 
-/// Our own numbers: what is wrong is refused.
+/// Pl_ keys: values out of range are errors.
 constexpr std::array<NumberKey, 2> kOwnNumbers = {{
     {"Pl_roughness", &MtlEntry::roughness, 0.0f, 1.0f},
     {"Pl_ior", &MtlEntry::own_ior, kLeastIor, kMostIor},
@@ -54,7 +54,7 @@ constexpr std::array<MapKey, 5> kMaps = {{
     {"map_d", &MtlEntry::map_d},
 }};
 
-/// Would change the picture, and are left out.
+/// Ignored with a warning, because they would change the picture.
 constexpr std::array<std::string_view, 11> kUnsupported = {
     "bump", "norm", "disp", "decal", "refl", "map_Ks", "map_Pm", "map_bump", "map_Bump", "map_Tr", "map_refl"};
 
@@ -74,11 +74,11 @@ public:
             statement(reader_.keyword());
         }
         for (auto& [key, tally] : odd_) {
-            tally.tell(warnings_, path_, fmt::format("'{}': a value that cannot be meant is left out", key));
+            tally.tell(warnings_, path_, fmt::format("'{}': an implausible value is ignored", key));
         }
         if (!unsupported_.empty()) {
-            warnings_.push_back(fmt::format("{}: left out, because this version does not show it: {}", path_.string(),
-                                            fmt::join(unsupported_, ", ")));
+            warnings_.push_back(
+                fmt::format("{}: ignored, because not supported: {}", path_.string(), fmt::join(unsupported_, ", ")));
         }
         return std::move(entries_);
     }
@@ -99,7 +99,7 @@ private:
     }
 
     void begin_material() {
-        const std::string name = decode_name(encode_name(reader_.arguments()));  // as `usemtl` will say it
+        const std::string name = decode_name(encode_name(reader_.arguments()));  // as `usemtl` encodes it
         if (name.empty()) {
             reader_.fail("'newmtl': expected a name");
         }
@@ -124,7 +124,7 @@ private:
 
     MtlEntry& entry() { return skips_ ? skipped_ : entries_.back(); }
 
-    /// Three numbers of at least 0, or one for gray; nothing if they are none.
+    /// Three numbers of at least 0, or one for gray; nothing otherwise, with the word in `wrong`.
     std::optional<glm::vec3> parse_color(std::string_view& wrong) const {
         const std::vector<std::string_view> words = split_words(reader_.arguments());
         if (words.size() != 1 && words.size() != 3) {
@@ -196,13 +196,13 @@ private:
         }
     }
 
-    /// Written by other programs, for other renderers: what is wrong is told and left out.
+    /// A key that other programs write for other renderers: invalid values are ignored with a warning.
     void foreign_value(std::string_view keyword) {
         if (const NumberKey* const key = find_key(kNumbers, keyword)) {
             keep(entry().*key->number, parse_within(key->least, key->most));
         } else if (keyword == "Tr") {
             const std::optional<float> tr = parse_within(0.0f, 1.0f);
-            if (!entry().d || !tr) {  // the two say the same, and `d` is the one that programs agree about
+            if (!entry().d || !tr) {  // d = 1 - Tr; programs agree on the meaning of d only
                 keep(entry().d, tr ? std::optional(1.0f - *tr) : tr);
             }
         } else if (keyword == "illum") {
@@ -247,7 +247,7 @@ private:
     std::set<std::string> names_;
     bool in_material_ = false;
     bool skips_ = false;
-    MtlEntry skipped_;  ///< takes what is said of a material that does not count
+    MtlEntry skipped_;  ///< receives the statements of duplicate materials
     std::map<std::string, Tally> odd_;
     std::set<std::string> unsupported_;
 };

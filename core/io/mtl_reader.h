@@ -1,4 +1,4 @@
-// MTL text to entries: what is written, checked and in the order of the file.
+// Parser of MTL text: checked entries in the order of the file.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,10 @@
 
 namespace pl {
 
-/// Of two materials with one name the first counts. Warnings tell of that, of reflectances above 1 (clamped), of
-/// numbers of other programs that cannot be meant (left out), of options of maps and of statements that change a
-/// picture and are left out. Throws Error(Input) with file and line: Kd, Ke or a key of our own with a value that is
-/// none, a value before any newmtl.
+/// Of two materials with the same name the first counts. Adds warnings about duplicates, reflectances above 1
+/// (clamped), implausible values of keys that other programs write (ignored), and ignored map options and statements
+/// that would change the picture. Throws Error(Input) with file and line for an invalid value of Kd, Ke or a Pl_ key
+/// and for a value before any newmtl.
 std::vector<MtlEntry> read_mtl(std::string_view text, const std::filesystem::path& path,
                                std::vector<std::string>& warnings);
 

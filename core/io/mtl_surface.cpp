@@ -7,13 +7,13 @@ namespace pl {
 
 namespace {
 
-/// Exponents from here on, the largest of the format, mean a mirror.
+/// Exponents from the largest of the format on mean a mirror.
 constexpr float kMirrorExponent = 1000.0f;
 
-/// An index of refraction that is no index: programs write 1 where they mean nothing.
+/// Indices of refraction below this are ignored: programs write 1 as a default.
 constexpr float kNoRefraction = 1.01f;
 
-/// Facets of a rough interface of nothing to nothing are undefined; below this it is smooth.
+/// Below this index the interface is smooth: without refraction the half vector of a rough one is undefined.
 constexpr float kLeastRoughIor = 1.05f;
 
 float strongest(const std::optional<glm::vec3>& color) {
@@ -24,7 +24,7 @@ bool has_index(const MtlEntry& entry) { return entry.ni && *entry.ni > kNoRefrac
 
 bool is_metal(const MtlEntry& entry) { return entry.pm && *entry.pm >= 0.5f; }
 
-/// The illumination models of the format; 0 and 1 are matte, 2 has a highlight.
+/// Illumination models of the format; 0 and 1 are matte, 2 has a highlight.
 bool is_mirror_model(int illum) { return illum == 3 || illum == 5 || illum == 8; }
 bool is_glass_model(int illum) { return illum == 4 || illum == 6 || illum == 7 || illum == 9; }
 
@@ -41,7 +41,7 @@ SurfaceKind kind_of(const MtlEntry& entry) {
         return SurfaceKind::Dielectric;
     }
     if (is_mirror_model(illum) && strongest(entry.ks) > 0.0f) {
-        // Programs write model 3 for every surface with a highlight: what is mostly matte is no mirror.
+        // Programs write model 3 for any surface with a highlight: a mostly diffuse one is not a mirror.
         return 2.0f * strongest(entry.ks) >= strongest(entry.kd) ? SurfaceKind::Conductor : SurfaceKind::Plastic;
     }
     const bool shines = strongest(entry.ks) > 0.0f && (entry.ns || entry.pr);
@@ -54,14 +54,14 @@ float roughness_of(const MtlEntry& entry, SurfaceKind kind) {
     if (entry.roughness || entry.pr) {
         roughness = entry.roughness ? *entry.roughness : *entry.pr;
     } else if (entry.map_pr || entry.map_ns) {
-        roughness = 1.0f;  // the image says it
+        roughness = 1.0f;  // multiplied by the image
     } else if (kind != SurfaceKind::Dielectric && entry.ns && *entry.ns < kMirrorExponent) {
         roughness = roughness_of_exponent(*entry.ns);
     }
     return roughness < kLeastRoughness ? 0.0f : roughness;
 }
 
-/// Programs write 1, or nothing, where they mean the usual one; where light passes without being bent, 1 is meant.
+/// Programs write 1, or nothing, for the default; only transmission without refraction means 1.
 float ior_of(const MtlEntry& entry, SurfaceKind kind) {
     if (entry.own_ior) {
         return *entry.own_ior;
@@ -77,12 +77,12 @@ glm::vec3 specular_of(const MtlEntry& entry, SurfaceKind kind) {
     const bool has_ks = strongest(entry.ks) > 0.0f;
     const bool has_kd = strongest(entry.kd) > 0.0f;
     if (kind == SurfaceKind::Conductor) {
-        // In the metal workflow the base color is the metal's.
+        // In the metallic workflow the base color is the reflectance of the metal.
         const bool by_base = (is_metal(entry) && has_kd) || !has_ks;
         return by_base ? entry.kd.value_or(glm::vec3(1.0f)) : *entry.ks;
     }
     if (kind == SurfaceKind::Plastic && has_ks) {
-        return *entry.ks / strongest(entry.ks);  // how much is reflected is Fresnel's law
+        return *entry.ks / strongest(entry.ks);  // the tint only: Fresnel's equations give the reflectance
     }
     return glm::vec3(1.0f);
 }

@@ -1,4 +1,4 @@
-// What an MTL entry means: docs/materials.md has the table.
+// Interpretation of MTL entries as materials; docs/materials.md has the table.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace pl {
 
-/// What is shown where the file gives no material: a soft magenta that no real surface has, so that it is noticed.
+/// Albedo of surfaces without a material: a soft magenta that is noticed, because no real surface has it.
 inline constexpr glm::vec3 kDefaultAlbedo{0.70f, 0.45f, 0.70f};
 
-/// Roughness below this counts as 0: such a surface looks like a mirror.
+/// Roughness below this counts as 0: the surface looks like a mirror.
 inline constexpr float kLeastRoughness = 0.03f;
 
-/// Roughness of the GGX lobe that is about as wide as a Phong lobe of this exponent: alpha = sqrt(2 / (Ns + 2)),
-/// whose root it is. [Walter et al. 2007, section 5.2]
+/// Roughness sqrt(alpha) of the GGX lobe of about the width of a Phong lobe with exponent Ns: alpha = sqrt(2 / (Ns +
+/// 2)). [Walter et al. 2007, section 5.2]
 float roughness_of_exponent(float ns);
 
-/// Kind, colors and numbers of a material, without its textures. `notes` receives what the file asks for and is not
-/// shown.
+/// Kind, colors and numbers of a material, without its textures. `notes` receives the features that are not
+/// supported.
 MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& notes);
 
 }  // namespace pl

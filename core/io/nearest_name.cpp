@@ -8,7 +8,7 @@ namespace pl {
 
 namespace {
 
-/// Number of single-character insertions, deletions and replacements between the two.
+/// Levenshtein distance: insertions, deletions and replacements of single characters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -30,7 +30,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     std::string best;
     std::size_t best_distance = std::numeric_limits<std::size_t>::max();
     for (const std::string& candidate : candidates) {
-        // A beginning of a name is an abbreviation of it, however long the rest.
+        // A prefix of a name is an abbreviation of it, however long the rest.
         const bool shortened = !name.empty() && candidate.starts_with(name);
         const std::size_t distance = shortened ? 1 : edit_distance(name, candidate);
         if (distance < best_distance) {

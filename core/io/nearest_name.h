@@ -1,4 +1,4 @@
-// "Did you mean ...?": the known name that takes the fewest edits.
+// "Did you mean ...?": the known name with the smallest edit distance.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace pl {
 
-/// The candidate with the smallest Levenshtein distance to `name`, the first of equals; one that begins with `name`
-/// counts as one edit away. Empty without candidates.
+/// The candidate with the smallest Levenshtein distance to `name`, the first of equals; candidates that begin with
+/// `name` have distance 1. Empty without candidates.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace pl

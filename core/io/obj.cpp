@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint32_t kNoMaterial = 0xffffffffu;
 
-/// The polygons of a file, as the OBJ library tells them one by one.
+/// The polygons of a file, collected from the callbacks of the OBJ library.
 struct Polygons {
     struct Corner {
         std::uint32_t vertex;
@@ -62,13 +62,13 @@ void on_material(void* user_data, const char* word, int) {
     to.current = entry->second;
 }
 
-/// Indices are those of the file: absolute, from 1, and 0 where there is none. check_obj() has checked them.
+/// Indices as in the file: absolute, from 1, 0 for none. check_obj() has checked them.
 void on_face(void* user_data, tinyobj::index_t* indices, int count) {
     Polygons& to = polygons(user_data);
     to.first_corner.push_back(to.corners.size());
     to.material.push_back(to.current);
     for (int i = 0; i < count; ++i) {
-        // 0 - 1 is kNoNormal, and kNoUv.
+        // 0 - 1 wraps around to kNoNormal and kNoUv.
         to.corners.push_back({static_cast<std::uint32_t>(indices[i].vertex_index) - 1u,
                               static_cast<std::uint32_t>(indices[i].normal_index) - 1u,
                               static_cast<std::uint32_t>(indices[i].texcoord_index) - 1u});

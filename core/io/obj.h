@@ -1,4 +1,4 @@
-// Wavefront OBJ with its MTL files, through tinyobjloader.
+// Loader of Wavefront OBJ with its MTL files, by tinyobjloader.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,22 @@
 
 namespace pl {
 
-/// Which group each triangle of a scene belongs to: that of the last `o` or `g` statement before its face; all of the
-/// statement is the name.
+/// Groups of the triangles of a scene, by the last `o` or `g` statement before the face. The whole statement is the
+/// name.
 struct MeshGroups {
-    std::vector<std::string> names;            ///< the first one is empty: faces before any statement
+    std::vector<std::string> names;            ///< the first is empty: faces before any statement
     std::vector<std::uint32_t> of_triangle{};  ///< index into `names`, parallel to SceneDescription::triangles
 };
 
-/// Reads geometry and materials; the camera and the name are left to the caller.
-/// - `v`, `vn`, `vt`, `f` (triangles and polygons, negative indices), `usemtl`, `mtllib`; groups and objects are merged in
-///   the scene, and told apart in `groups` if it is not null.
-/// - Corners share a vertex exactly when they share its index: what is watertight in the file stays so.
-/// - Faces without a material get a default one, of color kDefaultAlbedo, with one warning for the whole scene.
-/// - Triangles too small to have a normal are removed; normals of no length, or missing at one of a triangle's
-///   corners, are ignored; each with one counted warning. Texture points missing at a corner are ignored for the triangle.
+/// Reads geometry and materials; the caller sets camera and name.
+/// - `v`, `vn`, `vt`, `f` (triangles and polygons, negative indices), `usemtl`, `mtllib`; groups and objects are
+///   merged, and listed in `groups` if it is not null.
+/// - Corners share a vertex exactly if they share its index, so watertight meshes stay watertight.
+/// - Faces without a material get a default one with kDefaultAlbedo, with one warning for the whole scene.
+/// - Triangles too small to have a normal are removed; normals of length 0, or missing at a corner of a triangle, are
+///   ignored; each with one counted warning. A triangle with a corner without texture coordinates has none.
 /// - `mtllib` may only name files in the folder of the OBJ file or below.
-/// Throws Error(Input) with file and line for what is malformed; see check_obj() and load_mtl().
+/// Throws Error(Input) with file and line for malformed statements; see check_obj() and load_mtl().
 SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups = nullptr);
 
 }  // namespace pl

@@ -16,7 +16,7 @@ namespace pl {
 
 namespace {
 
-constexpr char kEncodedBlank = '\x1f';  // cannot occur: the reader refuses control characters
+constexpr char kEncodedBlank = '\x1f';  // not in files: the reader refuses control characters
 constexpr double kLargestCoordinate = 1e18;
 constexpr std::size_t kMostCorners = 65536;
 constexpr std::int64_t kMostElements = std::numeric_limits<std::int32_t>::max();
@@ -24,7 +24,7 @@ constexpr std::int64_t kNone = 0;  // OBJ indices start at 1
 
 constexpr std::array<std::string_view, 5> kWithoutEffect = {"s", "l", "p", "vp", "mg"};
 
-/// How many of a kind there are so far, and the indices that point past them.
+/// Number of elements of a kind so far, and the forward references to later ones.
 struct Elements {
     struct Forward {
         std::int64_t index;
@@ -35,7 +35,7 @@ struct Elements {
     std::vector<Forward> forward{};
 };
 
-/// The word, or its value where so many digits are given that the library's sum of them would overflow.
+/// The word, or its value printed anew if it has so many digits that the library's parser would overflow.
 std::string plain_number(std::string_view word) {
     constexpr std::size_t kManyDigits = 24;
     return word.size() <= kManyDigits ? std::string(word) : fmt::format("{:.17g}", *parse_number(word));
@@ -111,7 +111,7 @@ private:
         count_one(vertices_);
     }
 
-    /// One to three numbers, of which two count.
+    /// `vt`: one to three numbers, of which two count.
     void texture_point() {
         std::vector<std::string_view> words = numbers();
         if (words.size() == 1) {
@@ -121,7 +121,7 @@ private:
         count_one(texture_points_);
     }
 
-    /// The words of the statement, each of which is a number.
+    /// The arguments, all of which must be numbers.
     std::vector<std::string_view> numbers() const {
         std::vector<std::string_view> words = split_words(reader_.arguments());
         for (const std::string_view word : words) {
@@ -214,7 +214,7 @@ private:
         if (*value > kind.count) {
             kind.forward.push_back({*value, reader_.line()});
         }
-        // What points beyond the limit is refused at the end, and must be a readable number until then.
+        // Out-of-range indices are refused at the end of the file; until then they are clamped to a printable number.
         return *value < 0 ? kind.count + 1 + *value : std::min(*value, kMostElements);
     }
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The file an `mtllib` names: relative, and not out of the scene's folder.
+/// Path of an `mtllib` argument, which must stay in the scene's folder.
 fs::path library_path(const fs::path& obj, const std::string& name, int line) {
     const fs::path relative(name);
     if (!stays_inside(relative)) {
@@ -42,7 +42,7 @@ std::vector<std::string> library_names(const fs::path& obj, const MaterialLibrar
     return {words.begin(), words.end()};
 }
 
-/// Loads all libraries into the scene. Returns what is missing, for the one warning about materials.
+/// Loads all libraries into the scene. Returns the missing ones, for the warning about materials.
 std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path& obj, const CheckedObj& checked) {
     std::vector<std::string> missing;
     std::set<std::string> seen;

@@ -1,4 +1,4 @@
-// Which material of the scene a `usemtl` name of an OBJ file means.
+// Lookup of the materials that the `usemtl` names of an OBJ file refer to.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ struct MaterialTable {
     std::uint32_t fallback = 0;          ///< scene material of faces without a name
 };
 
-/// Loads the file's material libraries into scene.materials and looks up `names`. Whatever is missing is replaced
-/// by one default material, added only if faces need it, with one warning. `faces_of` counts the faces of each
-/// name and, at its end, those without a name.
-/// Throws Error(Input): a library outside the scene's folder, or malformed.
+/// Loads the material libraries of the file into scene.materials and looks up `names`. Missing materials are replaced
+/// by one default material, added only if faces use it, with one warning. `faces_of`: number of faces per name and,
+/// last, without a name.
+/// Throws Error(Input) for a library that is outside the scene's folder or malformed.
 MaterialTable load_materials(SceneDescription& scene, const std::filesystem::path& obj, const CheckedObj& checked,
                              const std::vector<std::string>& names, const std::vector<std::size_t>& faces_of);
 

@@ -27,7 +27,7 @@ struct Header {
     std::size_t size = 0;  ///< bytes up to the first float
 };
 
-/// The next word, after which one byte of white space is skipped too: behind the last word the floats begin.
+/// The next word. Skips exactly one byte of white space after it: the floats follow the last word.
 std::string_view take_word(std::string_view bytes, std::size_t& at) {
     constexpr std::string_view kSpace = " \t\r\n";
     const std::size_t first = std::min(bytes.find_first_not_of(kSpace, at), bytes.size());

@@ -1,4 +1,4 @@
-// PNG through stb, which knows no text chunks: those are added and read here.
+// PNG by stb, which does not support text chunks: they are added and read here.
 #include "core/io/image.h"
 
 #include <array>

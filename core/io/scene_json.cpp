@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kSchema = "pathlight.scene/1";
 
-/// Options that a scene may preset: what decides the picture, not where it goes or what is printed.
+/// Options that a scene may preset: those that affect the picture, not output and reporting.
 const std::vector<std::string> kSettings = {
     "method",  "view", "backend",       "threads",       "spp",          "time-limit", "target-error", "width",
     "height",  "size", "seed",          "nee",           "max-depth",    "exposure",   "tonemap",      "field-budget",

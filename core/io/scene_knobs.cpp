@@ -20,13 +20,13 @@ namespace {
 
 constexpr double kRadiansPerDegree = 0.017453292519943295;
 
-/// What of a scene belongs to some groups, as flags per vertex and normal.
+/// The vertices and normals of some groups, as flags.
 struct Selection {
     std::vector<bool> vertices;
     std::vector<bool> normals;
 };
 
-/// A knob's motions: reads one at a time, checks it, and applies it.
+/// Reads, checks and applies the motions of a knob, one at a time.
 class MotionReader {
 public:
     MotionReader(const JsonDocument& file, SceneDescription& scene, const MeshGroups& groups,
@@ -122,7 +122,7 @@ private:
         return what;
     }
 
-    /// Calls fn(group, vertex, normal) for the corners of all triangles whose group is, or is not, among those moved.
+    /// Calls fn(group, vertex, normal) for the corners of all triangles whose group is, or is not, in the motion.
     template <typename Fn>
     void for_corners(const std::vector<bool>& moved, bool wanted, Fn&& fn) const {
         for (std::size_t i = 0; i < scene_.triangles.size(); ++i) {
@@ -132,7 +132,7 @@ private:
         }
     }
 
-    /// Not for a knob at its default, where rounding would change bits of what stays.
+    /// Skipped for a knob at its default, where rounding would change bits.
     template <typename Point, typename Normal>
     void apply(const Selection& what, Point&& point, Normal&& normal) {
         if (knob_.value == knob_.default_value) return;
@@ -169,7 +169,7 @@ void set_albedo(const JsonDocument& file, const std::string& at, SceneDescriptio
     }
 }
 
-/// The value asked for, or the default. Throws Error(Usage) if it is out of range.
+/// The requested value, or the default. Throws Error(Usage) if it is out of range.
 float value_of(const KnobDescription& knob, const KnobValues& asked) {
     float value = knob.default_value;
     for (const auto& [name, number] : asked) {

@@ -1,4 +1,4 @@
-// Knobs of a scene file: named numbers that move groups of the mesh or set the albedo of materials.
+// Knobs of a scene file: named parameters that transform groups of the mesh or set the albedo of materials.
 #pragma once
 
 #include "core/io/json_document.h"
@@ -7,19 +7,19 @@
 
 namespace pl {
 
-/// Reads the member `knobs` of a scene file into scene.knobs and applies `asked`. A knob at its default touches nothing:
-/// the scene has the bits of the mesh file. Else, with `turned` the value less the default, it does all of
+/// Reads the member `knobs` of a scene file into scene.knobs and applies the values `asked`. A knob at its default
+/// changes no bit of the mesh. Otherwise, with `turned` = value - default, it applies in this order
 ///   moves   [{groups, by: [x, y, z]}]            by `turned` times this vector
-///   turns   [{groups, about, axis, by_deg}]      by `turned` times so many degrees about the axis through a point,
-///                                                counter-clockwise for who looks against the axis
-///   scales  [{groups, about, by: [x, y, z]}]     by 1 + `turned` times these numbers, away from a point
-///   albedo  [material, ...]                      gray of this very value
-/// in this order. Throws Error(Input) with file and line for what is wrong in the files, whatever the values: a group
-/// or material that is not there, a group that shares a vertex or normal with a part that stays, a scale that reaches
-/// 0, an albedo that is not the default. Throws Error(Usage) for a value out of range or a name that no knob has.
+///   turns   [{groups, about, axis, by_deg}]      by `turned` times this angle about an axis through a point,
+///                                                right-handed
+///   scales  [{groups, about, by: [x, y, z]}]     by 1 + `turned` times these factors, about a point
+///   albedo  [material, ...]                      gray of the value itself
+/// Throws Error(Input) with file and line for errors of the files, whatever the values: an unknown group or material,
+/// a group that shares a vertex or normal with a part that does not move, a scale that reaches 0, an albedo different
+/// from the default. Throws Error(Usage) for a value out of range or an unknown knob.
 void read_knobs(const JsonDocument& file, SceneDescription& scene, const MeshGroups& groups, const KnobValues& asked);
 
-/// Throws Error(Usage) if a knob is asked for that the scene does not have.
+/// Throws Error(Usage) for a knob that the scene does not have.
 void require_known_knobs(const SceneDescription& scene, const KnobValues& asked);
 
 }  // namespace pl

@@ -8,18 +8,19 @@
 
 namespace pl {
 
-/// Overrides of MTL entries: name -> any of
+/// Reads `materials`: overrides of MTL entries, name -> any of
 ///   albedo, emission, specular, transmission   [r, g, b]
 ///   two_sided_emission                         true, false
 ///   surface                                    "diffuse", "conductor", "dielectric", "plastic"
 ///   roughness, ior                             numbers
 ///   albedo_map, roughness_map, emission_map, opacity_map    images in the folder of the scene or below; "" for none
-///   wrap                                       "repeat" (default) or "clamp", of these images
+///   wrap                                       "repeat" (default) or "clamp", for these images
 /// See MaterialDescription. Throws Error(Input) with file and line.
 void read_materials(const JsonDocument& file, SceneDescription& scene);
 
+/// Reads `environment`:
 ///   radiance [r, g, b]; map (an image), scale, rotation_deg; sun { direction, radiance, angle_deg }
-/// Throws Error(Input) with file and line; an image that cannot be read is an error too: the scene would be dark.
+/// Throws Error(Input) with file and line, also for an image that cannot be read, because the scene would be dark.
 void read_environment(const JsonDocument& file, SceneDescription& scene);
 
 }  // namespace pl

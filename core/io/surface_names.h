@@ -1,4 +1,4 @@
-// Kinds of surfaces as files write them.
+// Names of surface kinds in files.
 #pragma once
 
 #include <array>

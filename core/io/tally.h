@@ -1,4 +1,5 @@
-// Something that was left out or corrected while loading, told once with its number and first line.
+// Counter of one kind of ignored or corrected statements of a loader, for one warning with their number and first
+// line.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@ struct Tally {
         ++count;
     }
 
-    /// "file:line: what (3 in all)", unless nothing was counted.
+    /// Appends "file:line: what (3 in all)" if anything was counted.
     void tell(std::vector<std::string>& warnings, const std::filesystem::path& path, const std::string& what) const {
         if (count > 0) {
             warnings.push_back(path.string() + ":" + std::to_string(first_line) + ": " + what + " (" +

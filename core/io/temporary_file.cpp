@@ -23,13 +23,14 @@ namespace {
 constexpr std::string_view kPrefix = ".pathlight-";
 constexpr std::string_view kSuffix = ".tmp";
 
-/// Short, because names are limited. Another process may have had this number, and been killed: then the next one is free.
+/// Short, because the length of names is limited. A killed process with the same number may have left a name: the
+/// next is tried.
 fs::path next_name(const fs::path& folder) {
     static std::atomic<unsigned> counter{0};
     return folder / fmt::format("{}{}-{}{}", kPrefix, ::getpid(), counter.fetch_add(1), kSuffix);
 }
 
-/// Is it one that next_name() makes?
+/// Whether next_name() generates this name.
 bool is_name_of_ours(std::string_view name) {
     if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return false;
     name.remove_prefix(kPrefix.size());
@@ -42,7 +43,7 @@ bool has_name(int file) {
     return ::fstat(file, &status) == 0 && status.st_nlink > 0;
 }
 
-/// Removes a file if nobody holds its lock.
+/// Removes a file unless it is locked.
 void remove_if_left(const fs::path& path) {
     const int file = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return;
@@ -53,7 +54,7 @@ void remove_if_left(const fs::path& path) {
 }  // namespace
 
 TemporaryFile::TemporaryFile(const fs::path& target) : target_(target) {
-    // A name can be taken by what is left of another process, or its file be removed as such before it is locked.
+    // The name may be taken by a leftover file, or the file removed as a leftover before it is locked.
     constexpr int kTries = 100;
     for (int i = 0; i < kTries; ++i) {
         path_ = next_name(target.parent_path());
@@ -61,7 +62,7 @@ TemporaryFile::TemporaryFile(const fs::path& target) : target_(target) {
         error_ = file_ < 0 ? errno : 0;
         if (error_ == EEXIST) continue;
         if (error_ != 0) return;
-        ::flock(file_, LOCK_EX);  // where there are no locks, nobody takes one to remove it
+        ::flock(file_, LOCK_EX);  // without locks on this file system, no process removes it either
         if (has_name(file_)) return;
         ::close(std::exchange(file_, -1));
         error_ = EEXIST;
@@ -76,7 +77,7 @@ TemporaryFile::~TemporaryFile() {
 
 int TemporaryFile::replace_target(std::string_view bytes) {
     if (file_ < 0) return error_;
-    // The copy shares the lock, which stays until the file has its name.
+    // The duplicate shares the lock, which is held until the rename.
     const int copy = ::fcntl(file_, F_DUPFD_CLOEXEC, 0);
     if (copy < 0) return errno;
     if (const int error = write_and_close(copy, bytes)) return error;
@@ -93,7 +94,7 @@ int write_and_close(int file, std::string_view bytes) {
         return error;
     }
     const int error = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size() ? 0 : errno;
-    // The buffer is written here: a full disk shows up at the latest in this call.
+    // fclose() flushes the buffer: errors such as a full disk may appear here.
     return std::fclose(stream) == 0 ? error : (error != 0 ? error : errno);
 }
 

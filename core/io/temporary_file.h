@@ -1,5 +1,5 @@
-// A file that is being written, under a hidden name of its own beside the one that it is meant for. Its writer holds a lock
-// on it, so that others can tell the file of a writer that lives from what is left of one that was killed.
+// A temporary file beside its target, under a unique hidden name. The writer holds a lock on it, by which other
+// processes distinguish it from the leftovers of killed ones.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +9,16 @@ namespace pl {
 
 class TemporaryFile {
 public:
-    /// Beside `target`; error() tells whether it could be made.
+    /// Creates the file beside `target`; error() returns the result.
     explicit TemporaryFile(const std::filesystem::path& target);
-    /// Removes it, unless it has taken its target's place.
+    /// Removes the file, unless it has replaced its target.
     ~TemporaryFile();
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-    /// 0, or the number of the error.
+    /// 0 or errno.
     int error() const { return error_; }
-    /// Writes these bytes and takes the target's place; 0 or the number of the error. Once.
+    /// Writes the bytes and renames the file to the target; returns 0 or errno. To be called once.
     int replace_target(std::string_view bytes);
 
 private:
@@ -28,11 +28,11 @@ private:
     int error_ = 0;
 };
 
-/// Writes to an open file and closes it; 0 or the number of the error.
+/// Writes to an open file and closes it; returns 0 or errno.
 int write_and_close(int file, std::string_view bytes);
 
-/// Removes what writers that were killed have left in a folder, and nothing else: files that are locked are of writers that
-/// live. Where the file system knows no locks, nothing is removed.
+/// Removes the temporary files of killed processes from a folder; locked files belong to running ones. Without file
+/// locks on the file system, nothing is removed.
 void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace pl

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the file has to start with: stb tries all kinds that it knows, some of them little tested.
+/// Required first bytes of a file: without them stb tries all its decoders, some of them little tested.
 std::string_view signature_of(const std::string& suffix) {
     if (suffix == ".png") {
         return "\x89PNG\r\n\x1a\n";
@@ -61,7 +61,7 @@ float decode_srgb(float code) { return code <= 0.04045f ? code / 12.92f : std::p
 template <class Sample>
 using StbPixels = std::unique_ptr<Sample, decltype(&stbi_image_free)>;
 
-/// Four channels per texel as stb gives them, in [0, 1] for LDR files; without an alpha channel it is 1.
+/// Decoded by stb: [texel][4], in [0, 1] for LDR files; alpha is 1 if the file has none.
 struct RawImage {
     int width = 0;
     int height = 0;
@@ -111,7 +111,7 @@ RawImage read_by_stb(const fs::path& path, const std::string& suffix) {
     if (!image.is_ldr) {
         if (!has_whole_hdr_lines(bytes, static_cast<std::size_t>(image.width),
                                  static_cast<std::size_t>(image.height))) {
-            fail_image(path, "damaged: it ends too early, or a line of it is not what the format says");
+            fail_image(path, "damaged: truncated, or with an invalid scanline");
         }
         read(stbi_loadf_from_memory, 1.0f);
     } else if (stbi_is_16_bit_from_memory(data, size) != 0) {
@@ -141,7 +141,7 @@ RawImage read_raw(const fs::path& path) {
     return read_by_stb(path, suffix);
 }
 
-/// Puts 0 for what is no light.
+/// Replaces NaN, infinite and negative texels by 0.
 void clean(const fs::path& path, std::vector<glm::vec4>& texels, std::vector<std::string>& warnings) {
     std::size_t count = 0;
     for (glm::vec4& texel : texels) {
@@ -167,7 +167,7 @@ void decode(std::vector<glm::vec4>& texels) {
     }
 }
 
-/// Gives opacity by the first channel where the file's own says nothing.
+/// Opacity from the first channel, if alpha is 1 everywhere.
 void take_opacity(std::vector<glm::vec4>& texels) {
     if (std::all_of(texels.begin(), texels.end(), [](const glm::vec4& texel) { return texel.w == 1.0f; })) {
         for (glm::vec4& texel : texels) {
@@ -176,7 +176,7 @@ void take_opacity(std::vector<glm::vec4>& texels) {
     }
 }
 
-/// Shown where an image is missing: nobody paints that.
+/// Placeholder of an image that cannot be read: a conspicuous checkerboard.
 TextureDescription checkers(const fs::path& source, bool repeats) {
     constexpr glm::vec4 kMagenta{1.0f, 0.0f, 1.0f, 1.0f};
     constexpr glm::vec4 kBlack{0.0f, 0.0f, 0.0f, 1.0f};

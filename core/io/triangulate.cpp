@@ -11,10 +11,10 @@ namespace {
 using Index = std::uint32_t;
 using Triangle = std::array<Index, 3>;
 
-/// Corners in the plane in which the polygon runs counter-clockwise. Dropping the largest coordinate of the normal
-/// changes no number, so orientations are decided on the coordinates of the file.
+/// Projects the corners along the largest coordinate of the normal, such that the polygon is counter-clockwise. No
+/// coordinate is rounded, so orientations are decided on the numbers of the file.
 std::vector<glm::dvec2> project(std::span<const glm::vec3> corners) {
-    glm::dvec3 normal(0.0);  // Newell: the vector area of the outline, doubled
+    glm::dvec3 normal(0.0);  // Newell's method: twice the vector area
     const glm::dvec3 base(corners[0]);
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
         normal += glm::cross(glm::dvec3(corners[i]) - base, glm::dvec3(corners[i + 1]) - base);
@@ -39,10 +39,10 @@ double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Whether the triangles cover the polygon once: their areas, all counted as positive, add up to its own.
+/// Whether the triangles cover the polygon exactly once: the sum of their absolute areas equals its area.
 bool covers_exactly(const std::vector<glm::dvec2>& flat, const std::vector<Triangle>& triangles) {
     double outline = 0.0;
-    double magnitude = 0.0;  // what the rounding errors are relative to
+    double magnitude = 0.0;  // scale of the rounding errors
     for (std::size_t i = 1; i + 1 < flat.size(); ++i) {
         const double area = orientation(flat[0], flat[i], flat[i + 1]);
         outline += area;
@@ -52,7 +52,7 @@ bool covers_exactly(const std::vector<glm::dvec2>& flat, const std::vector<Trian
     for (const Triangle& t : triangles) {
         covered += std::abs(orientation(flat[t[0]], flat[t[1]], flat[t[2]]));
     }
-    // Two sums of n terms, each term rounded thrice: (2n + 6) u times the sum of magnitudes, doubled for safety.
+    // Two sums of n terms, each rounded three times: (2n + 6) u times the sum of magnitudes, doubled for safety.
     const double rounding = std::numeric_limits<double>::epsilon() * 2.0 * (static_cast<double>(flat.size()) + 3.0);
     return outline > 0.0 && std::abs(covered - outline) <= rounding * (magnitude + covered);
 }
@@ -73,7 +73,7 @@ Triangulation cut_quad(std::span<const glm::vec3> corners, const std::vector<glm
     const bool second_inside = inside(1, 2, 3, 0);
     if (!first_inside && !second_inside) {
         Triangulation plain = fan(4);
-        plain.exact = covers_exactly(flat, plain.triangles);  // a triangle with one corner listed twice
+        plain.exact = covers_exactly(flat, plain.triangles);  // inexact for a triangle with a repeated corner
         return plain;
     }
     const glm::dvec3 first = glm::dvec3(corners[2]) - glm::dvec3(corners[0]);
@@ -85,7 +85,7 @@ Triangulation cut_quad(std::span<const glm::vec3> corners, const std::vector<glm
     return {.triangles = {{0, 1, 3}, {1, 2, 3}}};
 }
 
-/// The outline that is left, as a ring, and its corners that are not strictly convex: only those can spoil an ear.
+/// The remaining outline as a linked ring, and its corners that are not strictly convex: only those can block an ear.
 class EarClipper {
 public:
     explicit EarClipper(const std::vector<glm::dvec2>& flat)
@@ -103,7 +103,7 @@ public:
         }
     }
 
-    /// False when no ear is left although more than three corners are.
+    /// False if no ear is left among more than three corners.
     bool clip_all(std::vector<Triangle>& triangles) {
         Index at = 0;
         std::size_t left = flat_.size();
@@ -143,7 +143,7 @@ private:
             if (!blocking_[k] || p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) {
                 continue;
             }
-            // A corner in the same place is where an outline touches itself, as it does along a cut to a hole.
+            // The outline touches itself at a corner with equal coordinates, as along a cut to a hole.
             const bool same_place = p == a || p == b || p == c;
             if (!same_place && orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 &&
                 orientation(c, a, p) >= 0.0) {
@@ -153,14 +153,14 @@ private:
         return true;
     }
 
-    /// Takes the corner out; returns where to look next, one corner further on so that the cuts do not form a fan.
+    /// Removes the corner; returns the next candidate, one corner further so that the triangles do not form a fan.
     Index remove(Index i) {
         const Index before = previous_[i];
         const Index after = next_[i];
         next_[before] = after;
         previous_[after] = before;
         blocking_[i] = false;
-        // Cutting an ear makes its neighbors more convex, never less.
+        // Clipping an ear never makes its neighbors less convex.
         blocking_[before] = blocking_[before] && !is_convex(before);
         blocking_[after] = blocking_[after] && !is_convex(after);
         if (++removed_since_cleanup_ > blockers_.size()) {

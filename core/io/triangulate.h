@@ -1,6 +1,5 @@
-// Cuts a polygon into triangles that cover exactly its area.
-// The built-in triangulation of the OBJ library is not used: it covers L-shaped polygons twice or not at all when
-// they lie away from the origin, and cuts concave quads along a diagonal outside of them.
+// Triangulation of simple polygons. Replaces that of the OBJ library, which covers L-shaped polygons twice or not at
+// all away from the origin, and splits concave quads along an outer diagonal.
 #pragma once
 
 #include <array>
@@ -12,15 +11,14 @@
 
 namespace pl {
 
-/// Triangles as positions in the polygon's corner list, with the polygon's orientation.
+/// Triangles as indices into the corners of the polygon, with its orientation.
 struct Triangulation {
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    bool exact = true;  ///< false: the outline crosses itself or has no area, and this is a plain fan
+    bool exact = true;  ///< false: the outline crosses itself or has no area; the result is a fan
 };
 
-/// Quads are cut along the shorter diagonal inside them, larger polygons by clipping ears; a polygon of n corners
-/// gives n - 2 triangles. Corners that are not in one plane are judged by their projection along the polygon's mean
-/// normal. At least 3 corners. Ear clipping takes time proportional to corners times reflex corners.
+/// Splits quads along the shorter inner diagonal and larger polygons by ear clipping, in time proportional to corners
+/// x reflex corners. n >= 3 corners give n - 2 triangles. Non-planar polygons are projected along their mean normal.
 Triangulation triangulate(std::span<const glm::vec3> corners);
 
 }  // namespace pl

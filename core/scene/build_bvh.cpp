@@ -13,7 +13,7 @@ constexpr std::uint32_t kMaxLeafSize = 4;
 /// Cost of visiting an inner node, in triangle tests.
 constexpr double kNodeCost = 1.0;
 
-/// Bounds in double, so that areas of scenes of any legal size neither overflow nor underflow.
+/// Bounds in double, so that areas of scenes of any valid size neither overflow nor underflow.
 struct Box {
     Vec3f low{kInfinity};
     Vec3f high{-kInfinity};
@@ -38,7 +38,7 @@ struct Primitive {
     std::uint32_t id;
 };
 
-/// A node whose primitives [first, first + count) are not split yet.
+/// A node with primitives [first, first + count), not split yet.
 struct Task {
     std::uint32_t node;
     std::uint32_t first;
@@ -129,7 +129,7 @@ private:
         tasks.push_back({child, task.first, lower, task.depth + 1});
     }
 
-    /// True where only halving, down to single primitives, still keeps the depth below kMaxBvhDepth.
+    /// True if only median splits, down to single primitives, keep the depth below kMaxBvhDepth.
     static bool must_halve(const Task& task) {
         const int halvings = static_cast<int>(std::bit_width(task.count - 1));
         return task.depth + halvings + 1 >= kMaxBvhDepth - 1;
@@ -171,7 +171,7 @@ private:
         }
     }
 
-    /// Splits by bins; returns the size of the lower side. Both sides keep their order.
+    /// Splits between two bins, stably; returns the number of primitives of the lower side.
     std::uint32_t divide(const Task& task, const Box& centers, const Split& best) {
         const Binning binning(centers, best.axis);
         const auto begin = primitives_.begin() + task.first;
@@ -181,7 +181,7 @@ private:
         return static_cast<std::uint32_t>(middle - begin);
     }
 
-    /// Splits at the median of the longest axis; primitives with equal centers by number.
+    /// Splits at the median along the longest axis; ties by primitive number.
     std::uint32_t halve(const Task& task, const Box& centers) {
         const Vec3f extent = centers.high - centers.low;
         int axis = extent.y > extent.x ? 1 : 0;

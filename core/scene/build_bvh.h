@@ -1,4 +1,4 @@
-// Builds the bounding volume hierarchy that core/kernel/geometry/bvh_view.h traverses.
+// Construction of the bounding volume hierarchy; core/kernel/geometry/bvh_view.h traverses it.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,9 @@ struct Bvh {
     std::vector<std::uint32_t> primitives;
 };
 
-/// Binned surface-area heuristic, falling back to median splits where it finds none or would grow too deep.
-/// Depth stays below kMaxBvhDepth for any input; the result does not depend on anything but the input.
-/// [Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies"]
+/// Binned surface-area heuristic, with median splits if it finds none or the tree gets too deep. The depth is below
+/// kMaxBvhDepth for any input. Deterministic.   [Wald 2007, "On fast Construction of SAH-based Bounding Volume
+/// Hierarchies"]
 Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles);
 
 }  // namespace pl

@@ -11,20 +11,20 @@
 namespace pl {
 namespace {
 
-/// Facets per table entry: values are then off by 1e-3 or so. A grid of as many is off by ten times that.
+/// Samples per table entry, for an error of about 1e-3. A regular grid of as many points has ten times the error.
 constexpr int kSamples = 1024;
-/// Rows below this roughness hold what a smooth surface reflects: facets are too small a matter to tell.
+/// Rows below this roughness hold the values of the smooth interface.
 constexpr float kSmooth = 1e-3f;
 
-/// Additive recurrence of low discrepancy in the unit square, by the plastic number.   [Roberts 2018, "The Unreasonable
-/// Effectiveness of Quasirandom Sequences"]
+/// Point i of the R2 sequence in the unit square.   [Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
+/// Sequences"]
 Vec2f spread_point(int i) {
     const double x = 0.5 + i * 0.7548776662466927;
     const double y = 0.5 + i * 0.5698402909980532;
     return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
 }
 
-/// Mean over the facets that a direction sees, of what those return by `value(ggx, wo, m)`.
+/// Mean of value(ggx, wo, m) over the normals m visible from a direction.
 template <class Value>
 float mean_over_facets(float roughness, float cos_theta, Value value) {
     const Ggx ggx{square(roughness)};
@@ -34,7 +34,8 @@ float mean_over_facets(float roughness, float cos_theta, Value value) {
     return static_cast<float>(sum / kSamples);
 }
 
-/// Share of the light mirrored by a facet that leaves the surface.   [Heitz 2018, eq. 19: f cos / pdf = F G2 / G1]
+/// Weight of a reflection with Fresnel reflectance 1: f cos / pdf = G2 / G1, 0 below the horizon.   [Heitz 2018, eq.
+/// 19]
 float mirrored(const Ggx& ggx, Vec3f wo, Vec3f m) {
     const Vec3f wi = reflect_at(wo, m);
     return wi.z > 0.0f ? ggx.visible(wo, wi) / ggx.visible(wo) : 0.0f;
@@ -44,7 +45,7 @@ float refracted(const Ggx& ggx, Vec3f wo, Vec3f m, float eta) {
     return wi.z < 0.0f ? ggx.visible(wo, wi) / ggx.visible(wo) : 0.0f;
 }
 
-/// Twice the integral of a row over the cosine times the cosine, as AlbedoTable interpolates it.
+/// Cosine-weighted mean of a row: 2 times the integral of mu times the value, with the interpolation of AlbedoTable.
 float mean_of_row(const float* row) {
     constexpr int kSteps = 32;
     double sum = 0.0;
@@ -53,14 +54,14 @@ float mean_of_row(const float* row) {
         for (int k = 0; k < kSteps; ++k) {
             const double share = (k + 0.5) / kSteps;
             const double root = (i + share) / (AlbedoTable::kCosines - 1);
-            const double weight = root * root * root;  // mu dmu with mu = root^2
+            const double weight = root * root * root;  // mu dmu for mu = root^2
             sum += weight * (static_cast<double>(row[i]) * (1.0 - share) + static_cast<double>(row[i + 1]) * share);
             weights += weight;
         }
     return static_cast<float>(sum / weights);
 }
 
-/// `smooth(cos)` fills the row of roughness 0, `value` as in mean_over_facets() the others.
+/// smooth(cos) gives the row of roughness 0; `value`, as in mean_over_facets(), the others.
 template <class Smooth, class Value>
 std::vector<float> make_table(Smooth smooth, Value value) {
     std::vector<float> table;
@@ -68,7 +69,7 @@ std::vector<float> make_table(Smooth smooth, Value value) {
     for (int r = 0; r < AlbedoTable::kRoughnesses; ++r) {
         const float roughness = static_cast<float>(r) / (AlbedoTable::kRoughnesses - 1);
         for (int c = 0; c < AlbedoTable::kCosines; ++c) {
-            // Edge-on itself, hardly a facet is seen: the value a little above stands for it.
+            // At grazing incidence hardly a facet is visible: a direction slightly above is used instead.
             const float cos_theta = max_of(square(static_cast<float>(c) / (AlbedoTable::kCosines - 1)), 1e-4f);
             const float returned =
                 roughness < kSmooth ? smooth(cos_theta) : mean_over_facets(roughness, cos_theta, value);
@@ -84,7 +85,7 @@ float facet_reflectance(Vec3f wo, Vec3f m, float eta) {
     return fresnel_dielectric(clamp_to(glm::dot(wo, m), 0.0f, 1.0f), eta);
 }
 
-/// Tables made so far by their eta. One costs some 33 ms, and every edit of any material packs the scene anew.
+/// Cache of tables by eta. A table takes about 33 ms, and every edit of a material repacks all materials.
 class TablesByEta {
 public:
     template <class Make>
@@ -96,7 +97,7 @@ public:
     }
 
 private:
-    /// A megabyte or so: who drags an index of refraction leaves a trail of them.
+    /// Capacity, about a megabyte: dragging an index of refraction adds a table per step.
     static constexpr std::size_t kMost = 256;
 
     std::mutex mutex_;

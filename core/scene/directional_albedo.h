@@ -1,4 +1,4 @@
-// Makes the tables of core/kernel/shading/directional_albedo.h.
+// Computes the tables of core/kernel/shading/directional_albedo.h.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace pl {
 
-/// What single reflections return where facets reflect everything: [AlbedoTable::kSize] values in [0, 1].
+/// Directional albedo by single reflection for facets of reflectance 1: [AlbedoTable::kSize] values in [0, 1].
 std::vector<float> lossless_albedo();
 
-/// What single reflections return where facets are a dielectric's, by Fresnel's equations; `eta` as in fresnel_dielectric().
+/// Directional albedo by single reflection for dielectric facets; `eta` as in fresnel_dielectric().
 std::vector<float> coat_albedo(float eta);
 
-/// What single reflections and refractions through such facets return together.
+/// Directional albedo by single reflection and refraction for dielectric facets.
 std::vector<float> glass_albedo(float eta);
 
 }  // namespace pl

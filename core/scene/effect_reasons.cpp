@@ -23,7 +23,7 @@ std::string materials_that(const SceneDescription& scene, Pick pick) {
     return fmt::format("of {} material{}: {}", names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", "));
 }
 
-/// Light from far away that depends on the direction, in words.
+/// Names of the far lights of a scene.
 std::string far_lights_of(const SceneDescription& scene) {
     const EnvironmentMapDescription& map = scene.environment_map;
     std::vector<std::string> parts;
@@ -56,7 +56,7 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::SmoothNormals: return smooth_normals_of(scene);
     case Feature::Environment:
         return fmt::format("the environment shines with radiance {},{},{}", sky.x, sky.y, sky.z);
-    case Feature::NextEventEstimation: return "asked for by --nee on";
+    case Feature::NextEventEstimation: return "requested by --nee on";
     case Feature::Specular: return materials_that(scene, [](const auto& m) { return has_lobe(m, false); });
     case Feature::Rough: return materials_that(scene, [](const auto& m) { return has_lobe(m, true); });
     case Feature::Plastic: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Plastic; });

@@ -1,4 +1,4 @@
-// Why a scene needs an effect, in words for people: `info` and the viewer say the same.
+// The reason a scene needs an effect, as text for `info` and the viewer.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace pl {
 
-/// "of 2 materials: mirror, window". Meant for effects that needed_features() names; `camera` is the one in use.
+/// For example "of 2 materials: mirror, window". For effects of needed_effects(); `camera` is the current one.
 std::string reason_of(Feature feature, const SceneDescription& scene, const CameraDescription& camera);
 
 }  // namespace pl

@@ -17,7 +17,7 @@ struct Edge {
     auto ends() const { return std::tie(low, high); }
 };
 
-/// One number for all corners at the same place. [position]
+/// [position] -> number of the first equal position.
 std::vector<std::uint32_t> places_of(const std::vector<glm::vec3>& positions) {
     const auto at = [&](std::uint32_t i) { return std::tie(positions[i].x, positions[i].y, positions[i].z); };
     std::vector<std::uint32_t> order(positions.size());
@@ -31,12 +31,12 @@ std::vector<std::uint32_t> places_of(const std::vector<glm::vec3>& positions) {
     return places;
 }
 
-/// Light passes through glass and through holes.
+/// Opaque: neither a dielectric nor with holes.
 bool is_solid(const MaterialDescription& material) {
     return material.kind != SurfaceKind::Dielectric && material.textures.opacity == kNoTexture;
 }
 
-/// Of all solid triangles, sorted by their ends; those without an area have none.
+/// Edges of all opaque triangles with an area, sorted by their ends.
 std::vector<Edge> edges_of(const SceneDescription& scene) {
     const std::vector<std::uint32_t> places = places_of(scene.positions);
     std::vector<Edge> edges;
@@ -56,7 +56,7 @@ std::vector<Edge> edges_of(const SceneDescription& scene) {
     return edges;
 }
 
-/// Which triangles hang together.
+/// Connected components of triangles (union-find).
 class Connections {
 public:
     explicit Connections(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -70,7 +70,8 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// Distances are compared with 0 alone, so that nothing depends on the size of the scene.   [Moeller and Trumbore 1997]
+/// Ray-triangle test in double. Comparisons with 0 only, so that it is independent of scale.   [Moeller and Trumbore
+/// 1997]
 bool crosses(glm::dvec3 origin, glm::dvec3 direction, glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
     const glm::dvec3 p = glm::cross(direction, c - a);
     const double determinant = glm::dot(b - a, p);
@@ -96,7 +97,7 @@ Enclosure::Enclosure(const SceneDescription& scene) {
     std::vector<bool> is_open(scene.triangles.size());
     for (const std::uint32_t triangle : at_border) is_open[connections.root(triangle)] = true;
 
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> closed;  // surface and triangle
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> closed;  // (surface, triangle)
     for (const Edge& edge : edges)
         if (const std::uint32_t root = connections.root(edge.triangle); !is_open[root])
             closed.emplace_back(root, edge.triangle);
@@ -115,7 +116,7 @@ Enclosure::Enclosure(const SceneDescription& scene) {
 }
 
 bool Enclosure::contains(glm::vec3 point) const {
-    // Along no axis and no diagonal, so that it meets no edge of what people build.
+    // Along no axis or diagonal, so that it meets no edges of typical scenes.
     constexpr glm::dvec3 kDirection{0.314159265358979, 0.577215664901533, 0.754877666246693};
     const glm::dvec3 origin{point};
     std::size_t first = 0;

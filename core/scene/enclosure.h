@@ -1,4 +1,4 @@
-// Surfaces without a border: whoever is inside one sees no way out, so that a path that leaves was lost.
+// Closed surfaces: a ray that starts inside of one and escapes has leaked.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace pl {
 
-/// The closed surfaces of a scene: connected triangles that no light passes through, of which every edge belongs to an even
-/// number. Corners at the same place count as one, whatever their numbers are.
+/// The closed opaque surfaces of a scene: connected components of triangles in which an even number of triangles
+/// share every edge. Vertices at equal positions count as one.
 class Enclosure {
 public:
-    /// Takes time and memory like sorting all edges.
+    /// Time and memory of a sort of all edges.
     explicit Enclosure(const SceneDescription& scene);
 
-    /// Is the point inside one of them, by the parity of what a ray from there crosses?
+    /// Whether the point is inside of a closed surface, by the parity of the intersections of a ray.
     bool contains(glm::vec3 point) const;
 
     std::size_t surface_count() const { return surfaces_.size(); }
@@ -28,8 +28,8 @@ private:
     };
 
     struct Surface {
-        std::size_t end;  ///< of its faces, which begin where those of the one before end
-        glm::dvec3 low;   ///< of its bounds
+        std::size_t end;  ///< end of its faces; they begin at the end of the previous surface
+        glm::dvec3 low;   ///< bounds
         glm::dvec3 high;
     };
 

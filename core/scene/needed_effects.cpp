@@ -6,7 +6,7 @@ namespace pl {
 
 namespace {
 
-/// A lobe of a rough surface; one that a texture may make rough or smooth counts as both.
+/// Effects of the non-diffuse lobes of a material.
 FeatureSet effects_of(const SurfaceLobes& lobes) {
     if (lobes.kind == SurfaceKind::Diffuse) return {};
     const FeatureSet set = features(lobes.roughness > 0.0f ? Feature::Rough : Feature::Specular);

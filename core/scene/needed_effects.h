@@ -1,4 +1,4 @@
-// Which effects a scene calls for. Kernels are chosen by this set: what is not needed is not executed.
+// The effects that a scene needs. Kernels are chosen by this set, so that absent effects cost nothing.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace pl {
 
-/// Effects that the scene itself needs; not those that settings or the camera ask for.
+/// Effects of geometry, materials and lights; without those of settings and camera.
 FeatureSet needed_effects(const HostScene& scene);
-/// Those that the camera needs.
+/// Effects of the camera.
 FeatureSet needed_effects(const CameraDescription& camera);
 
 /// Stable names of the effects in a set, in the order of kAllFeatures, for `info`, `--stats` and `--force-effects`:

@@ -10,18 +10,18 @@ namespace {
 
 constexpr double kPiExact = 3.14159265358979323846;
 
-/// Least share of the samples of a kind of light that is there at all.
+/// Smallest share of the light samples for a kind of light that exists.
 constexpr float kLeastShare = 0.1f;
 
-/// Probability of the first of two lights; 0 or 1 if only one is there.
+/// Probability of the first of two kinds of light with these powers; 0 or 1 if only one exists.
 float share_of(double first, double second) {
     if (!(first > 0.0)) return 0.0f;
     if (!(second > 0.0)) return 1.0f;
     return clamp_to(static_cast<float>(first / (first + second)), kLeastShare, 1.0f - kLeastShare);
 }
 
-/// Appends cumulative probabilities. Random numbers are multiples of 2^-24: so are these, then what the table says is
-/// exactly how often an entry is drawn. Weights without a sum become uniform.
+/// Appends cumulative probabilities. They are multiples of 2^-24, as random numbers are, so the tabulated probability
+/// of an entry is exact. Weights with a sum of 0 give a uniform distribution.
 void append_cdf(const std::vector<double>& weights, double sum, std::vector<float>& cdf) {
     double running = 0.0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -31,7 +31,7 @@ void append_cdf(const std::vector<double>& weights, double sum, std::vector<floa
     }
 }
 
-/// Returns the light that arrives from all directions: the integral of the luminance over the sphere.
+/// Packs the map and returns the integral of its luminance over the sphere.
 double pack_map(const EnvironmentMapDescription& map, HostScene& packed) {
     std::vector<double> rows;
     std::vector<double> row(map.width);
@@ -75,7 +75,7 @@ void pack_far_lights(const SceneDescription& scene, HostScene& packed) {
     const double sun = pack_sun(scene.sun, packed);
     packed.far_lights.map_probability = share_of(map, sun);
     const double radius = 0.5 * static_cast<double>(bounds_of(scene).diagonal());
-    // Emitting surfaces give pi x area x radiance; the scene's disc takes pi r^2 x the light from everywhere.
+    // Power: pi x area x radiance for emissive triangles, pi r^2 x the integral over the sphere for far lights.
     packed.far_probability = share_of(radius * radius * (map + sun), static_cast<double>(packed.light_power));
     if (packed.far_probability < 1.0f) packed.light_power /= 1.0f - packed.far_probability;
 }

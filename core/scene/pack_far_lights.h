@@ -1,4 +1,4 @@
-// Environment map and sun for the kernels: what light samples are chosen by.
+// Environment map and sun for the kernels, with their sampling distributions.
 #pragma once
 
 #include "core/scene/description.h"
@@ -6,11 +6,11 @@
 
 namespace pl {
 
-/// Packs the map, if any of it is bright, with its cumulative probabilities, and the sun. Far lights are chosen by
-/// what crosses a unit area that faces them; between them and the surfaces that emit the choice is by power, far
-/// light being what crosses the disc that the scene shows it, and leaves each at least a tenth of the samples.
-/// Expects packed triangles and lights. SceneView::light_power becomes larger by the share of the samples that lights
-/// do not get, so that their densities need not know of it.
+/// Packs the map, unless it is black, with its cumulative probabilities, and the sun. Map and sun are sampled in
+/// proportion to their irradiance; far lights and emissive triangles in proportion to their power, at least a tenth
+/// of the samples each, with pi r^2 of the scene's bounding sphere as the receiving area of the far lights.
+/// Expects packed triangles and lights. Divides SceneView::light_power by the probability of sampling `lights`, so
+/// that the densities of lights include it.
 void pack_far_lights(const SceneDescription& scene, HostScene& packed);
 
 }  // namespace pl

@@ -13,15 +13,16 @@ namespace {
 
 constexpr double kPi64 = 3.14159265358979323846;
 constexpr int kBins = 12;
-/// Deeper nodes are halved, so that no trail gets too long: 2^32 lights at most need 32 more levels.
+/// Deeper nodes are split in equal halves to bound the length of trails: up to 2^32 lights need 32 more levels.
 constexpr int kMostUnevenLevels = kMostLightLevels - 32;
 
-/// Directions within an angle of an axis.
+/// The directions within an angle of an axis.
 struct Cone {
     Vec3d axis{0.0, 0.0, 1.0};
     double angle = 0.0;
 
-    /// The smallest cone around two.   [Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., 3.8.4]
+    /// Union with another cone: the smallest cone around both.   [Pharr, Jakob, Humphreys, Physically Based
+    /// Rendering, 4th ed., 3.8.4]
     void add(const Cone& other) {
         const double between = std::acos(std::clamp(glm::dot(axis, other.axis), -1.0, 1.0));
         if (std::min(between + other.angle, kPi64) <= angle) return;
@@ -41,7 +42,8 @@ struct Cone {
         angle = wanted;
     }
 
-    /// Integral over all directions of the largest cosine to a direction of the cone.   [Conty Estevez and Kulla 2018, eq. 1]
+    /// Orientation measure: the integral over the sphere of the largest cosine to a direction of the cone.   [Conty
+    /// Estevez and Kulla 2018, eq. 1]
     double measure() const {
         const double wide = std::min(angle + 0.5 * kPi64, kPi64);
         const double sine = std::sin(angle);
@@ -51,7 +53,7 @@ struct Cone {
     }
 };
 
-/// Bounds of some lights.
+/// Bounds of a set of lights.
 struct LightBounds {
     Vec3d low{std::numeric_limits<double>::infinity()};
     Vec3d high{-std::numeric_limits<double>::infinity()};
@@ -72,7 +74,8 @@ struct LightBounds {
 
     Vec3d center() const { return 0.5 * (low + high); }
 
-    /// What it costs to choose among these lights: their power, spread over space and over directions.
+    /// Surface-area orientation heuristic: power x area measure x orientation measure.   [Conty Estevez and Kulla
+    /// 2018]
     double cost() const {
         if (power == 0.0) return 0.0;
         const Vec3d d = high - low;
@@ -86,7 +89,7 @@ struct LightItem {
     double area = 0.0;
 };
 
-/// Bins of lights along one axis; monotone, so that equal centers share a bin.
+/// Maps light centers along one axis to bins; monotone, so that equal centers share a bin.
 struct LightBinning {
     int axis;
     double low;
@@ -99,7 +102,7 @@ struct LightBinning {
 
 struct LightSplit {
     LightBinning binning{};
-    int bin = -1;  ///< last one of the first child; -1: none found
+    int bin = -1;  ///< last bin of the first child; -1: none found
     double cost = std::numeric_limits<double>::infinity();
 };
 
@@ -130,7 +133,7 @@ private:
         add_node(middle, last, level + 1, trail | std::uint64_t{1} << level);
     }
 
-    /// Puts the lights of the first child first; neither is empty.
+    /// Partitions the lights between two children, neither of them empty; returns the begin of the second.
     std::size_t partition(std::size_t first, std::size_t last, int level, const LightBounds& bounds) {
         const auto begin = items_.begin() + static_cast<std::ptrdiff_t>(first);
         const auto end = items_.begin() + static_cast<std::ptrdiff_t>(last);
@@ -171,7 +174,7 @@ private:
         std::array<LightBounds, kBins> bins;
         for (std::size_t i = first; i < last; ++i)
             bins[static_cast<std::size_t>(binning(items_[i]))].add(items_[i].bounds);
-        std::array<double, kBins> above{};  // cost of all bins behind
+        std::array<double, kBins> above{};  // cost of all bins above
         LightBounds sum;
         for (std::size_t i = kBins - 1; i > 0; --i) {
             sum.add(bins[i]);
@@ -181,14 +184,14 @@ private:
         for (int i = 0; i + 1 < kBins; ++i) {
             sum.add(bins[static_cast<std::size_t>(i)]);
             const double cost = sum.cost() + above[static_cast<std::size_t>(i)];
-            // The outermost bins are never empty, so neither side is.
+            // The outermost bins are never empty, so neither child is.
             if (cost < best.cost) best = {binning, i, cost};
         }
     }
 
     static LightNode packed_node(const LightBounds& bounds) {
         const Vec3f center{bounds.center()};
-        // Around the center as it was rounded, and rounded up.
+        // Around the rounded center, and rounded up.
         const Vec3d far = glm::max(glm::abs(bounds.high - Vec3d{center}), glm::abs(bounds.low - Vec3d{center}));
         const auto radius = static_cast<float>(glm::length(far) * (1.0 + 1e-6));
         return {.center = center,

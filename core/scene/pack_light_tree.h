@@ -1,14 +1,14 @@
-// Builds the tree over a scene's lights.
+// Construction of the light tree of core/kernel/shading/light_tree.h.
 #pragma once
 
 #include "core/scene/scene_storage.h"
 
 namespace pl {
 
-/// Up to so many triangles that emit are chosen by their power alone: a tree would not pay for its steps.
+/// Up to this number of emissive triangles, sampling by power alone is more efficient than a tree.
 inline constexpr std::size_t kFewLights = 32;
 
-/// Expects packed triangles, materials, lights and far lights. Leaves the tree empty where lights are few.
+/// Expects packed triangles, materials, lights and far lights. Up to kFewLights lights give an empty tree.
 void pack_light_tree(HostScene& packed);
 
 }  // namespace pl

@@ -21,7 +21,7 @@ bool has_normals(const TriangleDescription& t) {
            t.normal.z != TriangleDescription::kNoNormal;
 }
 
-/// Unit; a normal of length 0 stays 0, and has no say where normals are interpolated.
+/// Normalizes; a vector of length 0 stays 0 and does not affect interpolation.
 Vec3f unit_or_zero(Vec3d v) {
     const double length = glm::length(v);
     return length > 0.0 ? Vec3f{v / length} : Vec3f{0.0f};
@@ -54,7 +54,7 @@ void pack_normals(const SceneDescription& scene, HostScene& packed) {
     }
 }
 
-/// Albedo of what tables guide at such a surface; 0 where none does.
+/// Albedo of the guided lobes of a surface; 0 if none is guided.
 Vec3f guided_albedo(const MaterialDescription& m) {
     switch (m.kind) {
     case SurfaceKind::Diffuse:
@@ -71,7 +71,7 @@ void pack_materials(const SceneDescription& scene, HostScene& packed) {
         packed.materials.push_back({guided_albedo(m), m.emission, m.two_sided_emission ? 1u : 0u});
 }
 
-/// Puts tables of directional albedos into a scene, each once.
+/// Appends tables of directional albedos to a scene, each once.
 class AlbedoTables {
 public:
     explicit AlbedoTables(std::vector<float>& values) : values_(values) {}
@@ -99,7 +99,7 @@ private:
     std::map<std::pair<SurfaceKind, float>, std::uint32_t> first_;
 };
 
-/// Glass that hardly refracts has no facets to speak of.
+/// A dielectric that hardly refracts counts as smooth.
 float usable_roughness(const MaterialDescription& m) {
     constexpr float kLeastContrast = 1e-3f;
     const bool refracts = m.kind != SurfaceKind::Dielectric || std::fabs(m.ior - 1.0f) > kLeastContrast;
@@ -119,13 +119,13 @@ void pack_lobes(const SceneDescription& scene, HostScene& packed) {
                            .specular = m.specular,
                            .transmission = m.transmission};
         const bool uses_table = lobes.kind == SurfaceKind::Plastic || lobes.roughness > 0.0f;
-        // A metal's table does not depend on its index of refraction.
+        // The table of a conductor does not depend on an index of refraction.
         if (uses_table) lobes.table = tables.first_for(m.kind, m.kind == SurfaceKind::Conductor ? 1.0f : m.ior);
         packed.lobes.push_back(lobes);
     }
 }
 
-/// Collects the emitting triangles. Sums are taken in double and rounded once.
+/// Collects the emissive triangles. Sums are in double and rounded once.
 void pack_lights(HostScene& packed) {
     std::vector<double> running;
     double total = 0.0;
@@ -139,31 +139,31 @@ void pack_lights(HostScene& packed) {
         running.push_back(total);
         packed.lights.push_back({id, 1.0f});
     }
-    // The last one keeps its 1, so that no number in [0,1) can miss.
+    // The last one stays 1, so that every number in [0,1) falls into an interval.
     for (std::size_t i = 0; i + 1 < running.size(); ++i)
         packed.lights[i].cumulative_probability = static_cast<float>(running[i] / total);
     packed.light_power = static_cast<float>(total);
 }
 
-/// Everything that follows from materials and lights. Expects packed triangles.
+/// Packs everything that depends on materials and lights. Expects packed triangles.
 void pack_looks(const SceneDescription& scene, HostScene& packed) {
     pack_materials(scene, packed);
     pack_lobes(scene, packed);
-    pack_textures(scene, packed);  // emission becomes its mean
+    pack_textures(scene, packed);  // replaces textured emission by its mean
     pack_lights(packed);
     packed.environment = scene.environment;
     pack_far_lights(scene, packed);
     pack_light_tree(packed);
 }
 
-/// The coordinate axis that makes the largest angle with a direction.
+/// The coordinate axis with the largest angle to a direction.
 Vec3d farthest_axis(Vec3d direction) {
     const Vec3d a = glm::abs(direction);
     if (a.y <= a.x && a.y <= a.z) return {0.0, 1.0, 0.0};
     return a.x <= a.z ? Vec3d{1.0, 0.0, 0.0} : Vec3d{0.0, 0.0, 1.0};
 }
 
-/// Scaled by its largest component first, so that squares neither overflow nor vanish; 0 stays 0.
+/// Normalizes without overflow or underflow of squares, by first scaling to the largest component; 0 stays 0.
 Vec3d safe_unit(Vec3d v) {
     const double scale = glm::max(glm::abs(v.x), glm::max(glm::abs(v.y), glm::abs(v.z)));
     return scale > 0.0 ? glm::normalize(v / scale) : Vec3d{0.0};
@@ -209,7 +209,7 @@ HostScene repack_materials(const SceneDescription& scene, const HostScene& packe
     return repacked;
 }
 
-/// The hierarchy follows from the rest.
+// Equal triangles have equal hierarchies.
 bool same_triangles(const HostScene& a, const HostScene& b) {
     const auto same_corners = [](const Triangle& s, const Triangle& t) {
         return s.v0 == t.v0 && s.v1 == t.v1 && s.v2 == t.v2;
@@ -218,7 +218,7 @@ bool same_triangles(const HostScene& a, const HostScene& b) {
 }
 
 Camera make_camera(const CameraDescription& camera, int width, int height) {
-    /// Below this sine the rounding of the inputs decides what is to the right.
+    /// Below this sine the rounding errors of the input decide the right vector.
     constexpr double kMinSine = 1e-6;
     constexpr double kDegree = 3.14159265358979323846 / 180.0;
     Vec3d forward = safe_unit(Vec3d{camera.target} - Vec3d{camera.eye});

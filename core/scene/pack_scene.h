@@ -1,4 +1,4 @@
-// From a description to the arrays that kernels read.
+// Conversion of a scene description to the arrays of the kernels.
 #pragma once
 
 #include "core/kernel/scene/camera.h"
@@ -7,7 +7,7 @@
 
 namespace pl {
 
-/// Axis-aligned bounds of all triangles; empty scenes give low > high.
+/// Axis-aligned bounds of all triangles; low > high for an empty scene.
 struct Bounds {
     Vec3f low{kInfinity};
     Vec3f high{-kInfinity};
@@ -24,19 +24,19 @@ struct Bounds {
 Bounds bounds_of(const SceneDescription& scene);
 Bounds bounds_of(const HostScene& scene);
 
-/// Packs triangles, materials and lights and builds the hierarchy. The description must be valid.
-/// Smooth normals are packed only if a triangle has them: triangles without get their geometric normal.
+/// Packs a valid description and builds the BVH and the light tree. Smooth normals are packed only if a triangle has
+/// them; triangles without then have their geometric normal.
 HostScene pack_scene(const SceneDescription& scene);
 
-/// The same bits as pack_scene(), without building anything that depends on triangles alone: that is copied from `packed`,
-/// which was packed from a scene of other materials and equal in all else.
+/// Equal to pack_scene(scene) bit for bit, but copies everything that depends on triangles alone from `packed`, which
+/// must come from a scene that differs in materials only.
 HostScene repack_materials(const SceneDescription& scene, const HostScene& packed);
 
-/// Are triangles and hierarchy the same, whatever their materials?
+/// Whether triangles and hierarchy are equal, regardless of materials.
 bool same_triangles(const HostScene& a, const HostScene& b);
 
-/// Camera basis for an image of the given shape. `up` along the view direction is replaced by the axis that is
-/// farthest from it.
+/// Camera for an image of this size in pixels. An `up` vector along the viewing direction is replaced by the
+/// coordinate axis with the largest angle to it.
 Camera make_camera(const CameraDescription& camera, int width, int height);
 
 }  // namespace pl

@@ -8,7 +8,7 @@ namespace {
 
 Texel pack_texel(const glm::vec4& t) { return {to_half(t.x), to_half(t.y), to_half(t.z), to_half(t.w)}; }
 
-/// As kernels will see it.
+/// Mean of the texels after rounding to half floats, as kernels read them.
 Vec3f mean_of(const TextureDescription& texture) {
     Vec3d sum{0.0};
     for (const glm::vec4& texel : texture.texels) sum += Vec3d{Vec3f{unpack(pack_texel(texel))}};
@@ -22,7 +22,7 @@ bool has_holes(const TextureDescription& texture) {
 
 float inverse_or_zero(float x) { return x > 0.0f ? 1.0f / x : 0.0f; }
 
-/// What an albedo texture multiplies.
+/// The parameter that an albedo texture multiplies.
 Vec3f tinted(const MaterialDescription& material) {
     if (material.kind == SurfaceKind::Conductor) return material.specular;
     return material.kind == SurfaceKind::Dielectric ? Vec3f{0.0f} : material.albedo;
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    /// Each texture is packed once.
+    /// Index of the packed image of a texture; each is packed once.
     std::uint32_t image(std::uint32_t texture) {
         std::uint32_t& index = image_of_[texture];
         if (index != kNoImage) return index;

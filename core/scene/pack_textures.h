@@ -1,4 +1,4 @@
-// Images and image coordinates for the kernels.
+// Images and texture coordinates for the kernels.
 #pragma once
 
 #include "core/scene/description.h"
@@ -6,10 +6,10 @@
 
 namespace pl {
 
-/// Packs the images that materials of triangles use, and the coordinates of all triangles: those without any are at
-/// (0, 0). Leaves all arrays empty if there is no such material. Images that change nothing are left out: opacity
-/// that is nowhere below one half, factors of 0. Material::emission becomes the mean over its image, so that lights
-/// can be chosen by it. Expects packed materials.
+/// Packs the images of the materials in use and the texture coordinates of all triangles, (0, 0) where they have
+/// none. All arrays stay empty if no material in use has an image. Images without effect are omitted: opacity that is
+/// nowhere below one half, images that multiply 0. Material::emission is multiplied by the mean of its image, so that
+/// lights are sampled by it. Expects packed materials.
 void pack_textures(const SceneDescription& scene, HostScene& packed);
 
 }  // namespace pl

@@ -22,8 +22,8 @@ void add(Fnv1a& hash, const glm::uvec3& v) {
     hash.add(std::uint64_t{v.z});
 }
 
-/// Adds what decides the light beyond Lambert's law, in one of many ways: names of parts keep them apart. Nothing is
-/// added for what a scene does not have, so that its hash is what it was before there was such a thing.
+/// Adds the optional parts of a scene (textures, lobes, far lights), each preceded by its name. Absent parts add
+/// nothing, so that a new kind of part does not change the hashes of existing scenes.
 class PartHasher {
 public:
     explicit PartHasher(Fnv1a& hash) : hash_(hash) {}
@@ -87,7 +87,7 @@ private:
             add_pair(texel.z, texel.w);
         }
     }
-    /// Two numbers at a time: images are large.
+    /// Two floats as one 64-bit value: images are large.
     void add_pair(float a, float b) {
         const std::uint64_t high = std::bit_cast<std::uint32_t>(a == 0.0f ? 0.0f : a);
         hash_.add(high << 32 | std::bit_cast<std::uint32_t>(b == 0.0f ? 0.0f : b));

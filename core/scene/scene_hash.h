@@ -1,4 +1,4 @@
-// Fingerprint of a scene: equal for files that describe the same light, different for those that do not.
+// Hash of a scene: equal for files that describe the same light transport.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace pl {
 
-/// 16 hexadecimal digits over everything that decides the light: geometry, normals, materials, textures, environment. Names,
-/// paths, the camera and settings do not count: they are told apart by what is recorded beside the hash.
+/// 16 hexadecimal digits over geometry, normals, materials, textures and environment. Names, paths, camera and
+/// settings do not count; files store them beside the hash.
 std::string scene_hash(const SceneDescription& scene);
 
 }  // namespace pl

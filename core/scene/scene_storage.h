@@ -1,4 +1,4 @@
-// Owner of a scene's arrays, written once for host and device: SceneStorage<HostArray>, SceneStorage<DeviceArray>.
+// Owner of a scene's arrays, on host and device: SceneStorage<HostArray>, SceneStorage<DeviceArray>.
 #pragma once
 
 #include "core/base/host_array.h"
@@ -32,7 +32,7 @@ struct SceneStorage {
     float light_power = 0.0f;
     Vec3f environment{0.0f};
     std::uint32_t has_holes = 0;
-    FarLights far_lights;  ///< all but its arrays
+    FarLights far_lights;  ///< without its arrays
     float far_probability = 0.0f;
 
     SceneView view() const {
@@ -66,7 +66,7 @@ struct SceneStorage {
 
 using HostScene = SceneStorage<HostArray>;
 
-/// Calls fn(from_array, to_array) for every array and copies the scalars: the one list that uploads go by.
+/// Calls fn(from_array, to_array) for every array and copies the scalars: the single list of members for uploads.
 template <template <class> class From, template <class> class To, class Fn>
 void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.positions, to.positions);
@@ -97,7 +97,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     to.far_probability = from.far_probability;
 }
 
-/// Bytes of all arrays.
+/// Total size of all arrays.
 inline std::uint64_t bytes_of(const HostScene& scene) {
     std::uint64_t bytes = 0;
     HostScene nowhere;

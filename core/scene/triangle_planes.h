@@ -1,6 +1,6 @@
-// What rays that leave a triangle need to know about it, computed once in double: its normal, how far to step off
-// its plane and how far to keep from its edges, so that no ray meets the surface it left or slips past the next one.
-// Header only, because tests that compile a changed kernel bring their own scene.
+// TrianglePlane of a triangle, computed in double: normal, offset from the plane and margin to the edges such that no
+// ray intersects the surface it starts on or misses an adjacent one. Header only, because tests that compile a
+// modified kernel pack a scene of their own.
 #pragma once
 
 #include <algorithm>
@@ -11,25 +11,25 @@
 
 namespace pl {
 
-/// Roundoffs (per axis, of the coordinates) that separate a position computed from barycentric weights from the true
-/// plane: sum of the weights 2, its inverse 1, weight 1, product with the corner 1, sum of the corners 2.
+/// Distance of a position from barycentric weights to the true plane, in roundoffs of the coordinates per axis: sum
+/// of the weights 2, its inverse 1, weight 1, product with the corner 1, sum of the corners 2.
 inline constexpr double kPositionError = gamma_bound(7);
 
-/// Roundoffs that moving off the plane adds: the addition 1, one more float 2.
+/// Roundoffs of the offset from the plane: the addition 1, one more float 2.
 inline constexpr double kMoveError = gamma_bound(3);
 
-/// Roundoffs, of a triangle's longest edge, between a plane and where a ray test that starts close to it sees it.
-/// The test takes corners relative to the origin (1 roundoff) and shears them (3, and 2 of the result), in two
-/// coordinates: 6 sqrt(2). The products of its edge functions add 2 for a triangle as high as long. For slivers they
-/// add more, but that only shows to rays that graze: walks next to the edges of strips 3 mm by 3 m find such rays,
-/// 1.5e8 segments of diffuse paths did not.
+/// Error of the ray test for a ray that starts close to the plane, in roundoffs of the triangle's longest edge. The
+/// test translates corners to the origin (1 roundoff) and shears them (3, and 2 of the result), in two coordinates: 6
+/// sqrt(2). The products of its edge functions add 2 for a triangle as high as long. Slivers add more, but only for
+/// grazing rays: walks along the edges of strips of 3 mm by 3 m find such rays, 1.5e8 segments of diffuse paths did
+/// not.
 inline constexpr double kTestError = gamma_bound(11);
 
-/// Walls may meet at an angle: over this factor's inverse, the sine of 3.6 degrees, the bounds above still hold along
-/// the wall; with the step off the plane, which also leads towards the other wall, down to about 8 degrees.
+/// Adjacent walls may meet at an angle: down to the inverse of this factor, the sine of 3.6 degrees, the bounds hold
+/// along the wall; with the offset from the plane, which also leads towards the other wall, down to about 8 degrees.
 inline constexpr double kEdgeMarginFactor = 16.0;
 
-/// No point is moved further than this share of its triangle.
+/// Upper bound on the margin, as a barycentric weight.
 inline constexpr double kMaxEdgeMargin = 1.0 / 16.0;
 
 struct TriangleCorners {
@@ -38,17 +38,17 @@ struct TriangleCorners {
     TriangleCorners(Span<const Vec3f> positions, const Triangle& t)
         : p{Vec3d{positions[t.v0]}, Vec3d{positions[t.v1]}, Vec3d{positions[t.v2]}} {}
 
-    /// Its length is twice the area.
+    /// Unnormalized normal; its length is twice the area.
     Vec3d cross() const { return glm::cross(p[1] - p[0], p[2] - p[0]); }
     double longest_edge() const {
         return std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
     }
-    /// Largest magnitude of each coordinate.
+    /// Largest magnitude of the corners per coordinate.
     Vec3d reach() const { return glm::max(glm::abs(p[0]), glm::max(glm::abs(p[1]), glm::abs(p[2]))); }
 };
 
-/// `scene_edge`: the longest edge of the scene, which stands for those of the walls that meet this triangle.
-/// A degenerate triangle gets some unit normal, so that whatever asks never sees NaN.
+/// `scene_edge`: the longest edge of the scene, a bound for the adjacent triangles. A degenerate triangle gets an
+/// arbitrary unit normal instead of NaN.
 inline TrianglePlane make_triangle_plane(const TriangleCorners& corners, double scene_edge) {
     const Vec3d cross = corners.cross();
     const double twice_area = glm::length(cross);

@@ -21,7 +21,7 @@ bool is_albedo(const glm::vec3& v) { return is_light(v) && v.x <= 1.0f && v.y <=
 
 std::string show(const glm::vec3& v) { return fmt::format("({} {} {})", v.x, v.y, v.z); }
 
-/// Complaints of one kind: the first in words, all as a number.
+/// Errors of one kind: the text of the first, and their number.
 class Complaint {
 public:
     explicit Complaint(std::string& list) : list_(list) {}
@@ -253,11 +253,11 @@ void validate_material(const MaterialDescription& material, const SceneDescripti
 }
 
 glm::vec3 usable_up(const CameraDescription& camera) {
-    // In double: coordinates may be as large as the squares of their differences allow.
+    // In double: floats would overflow in the squares of large coordinates.
     const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
     const glm::dvec3 up(camera.up);
     const double length = glm::length(up);
-    // Sine of the angle between the two below which the picture's roll would be decided by rounding of floats.
+    // Below this sine of their angle, rounding errors of floats would decide the roll of the camera.
     constexpr double kSmallestSine = 1e-5;
     if (length > 0.0 && glm::length(glm::cross(forward, up / length)) > kSmallestSine) {
         return camera.up;
@@ -266,7 +266,7 @@ glm::vec3 usable_up(const CameraDescription& camera) {
     if (size.y <= size.x && size.y <= size.z) {
         return {0.0f, 1.0f, 0.0f};
     }
-    // Looking up or down: the top of the picture is away from a viewer who looks along -z.
+    // Vertical view: the top of the picture is towards -z.
     return size.z <= size.x ? glm::vec3(0.0f, 0.0f, -1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
 }
 

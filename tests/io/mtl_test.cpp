@@ -70,7 +70,7 @@ TEST_CASE("What changes the picture but is not supported is told once, the rest 
         load("newmtl a\nKd 0.5 0.5 0.5\nbump c.png\nmap_Ks d.png\nmap_Ka e.png\nKa 1 1 1\n"
              "newmtl b\nKd 0.5 0.5 0.5\nbump f.png\n");
     REQUIRE(loaded.warnings.size() == 1);
-    CHECK_THAT(loaded.warnings[0], contains("does not show it: bump, map_Ks"));
+    CHECK_THAT(loaded.warnings[0], contains("not supported: bump, map_Ks"));
     CHECK(load("newmtl a\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 10\nd 1\nTr 0\nillum 2\n").warnings.empty());
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("Numbers of other programs that cannot be meant are told once and left
         load("newmtl a\nKd 0.5\nKs 0.5 nan 1\nNs -3\nNi 0\nd 7\nillum 77\nPr x\nPm\nNi -1\n");
     CHECK(loaded.materials[0].kind == SurfaceKind::Diffuse);
     CHECK(loaded.warnings.size() == 7);
-    for (const std::string& warning : loaded.warnings) CHECK_THAT(warning, contains("cannot be meant is left out"));
+    for (const std::string& warning : loaded.warnings) CHECK_THAT(warning, contains("an implausible value is ignored"));
     CHECK_THAT(loaded.warnings[1], contains("m.mtl:5: 'Ni'") && contains("(2 in all)"));
 }
 
@@ -195,5 +195,5 @@ TEST_CASE("Images of a material: loaded once, missing ones shown as checkers") {
     std::string all;
     for (const std::string& warning : scene.warnings) all += warning + "\n";
     CHECK_THAT(all, contains("gone.png: cannot be read") && contains("shown as checkers") && contains("left out") &&
-                        contains("-o of map_Kd") && contains("'map_Kd': a value that cannot be meant"));
+                        contains("-o of map_Kd") && contains("'map_Kd': an implausible value"));
 }

@@ -1,4 +1,5 @@
-// Angles in turns (1 is all the way round), by own functions: the library's differ between CPU and GPU.
+// Trigonometry on angles in turns (1 turn = 2 pi). Own polynomials: the math libraries of CPU and GPU round
+// differently.
 #pragma once
 
 #include "core/kernel/base/numbers.h"
@@ -9,7 +10,7 @@ struct SineCosine {
     float sine, cosine;
 };
 
-/// Of an angle of at most a million turns; errors below 1e-6 for less than one.
+/// Sine and cosine of an angle in turns, |turns| <= 1e6. Absolute error below 1e-6 for |turns| < 1.
 PL_HD inline SineCosine sine_cosine_of_turns(float turns) {
     const float quarters = 4.0f * turns;
     const float nearest = std::floor(quarters + 0.5f);
@@ -24,7 +25,7 @@ PL_HD inline SineCosine sine_cosine_of_turns(float turns) {
     }
 }
 
-/// atan2(y, x) in turns, in [-1/2, 1/2]; 0 at the origin. Error below 1e-7.
+/// atan2(y, x) in turns, in [-1/2, 1/2]; 0 at the origin. Absolute error below 1e-7 turns.
 PL_HD inline float turns_of(float y, float x) {
     const float across = std::fabs(y);
     const float along = std::fabs(x);

@@ -1,5 +1,5 @@
-// Integer atomic adds. Learned tables are summed as integers, because integer addition commutes:
-// the result is the same for every thread count, order and back end.
+// Integer atomic adds. The sums of training samples are integers because integer addition is associative: the result
+// is the same for every thread count, order and back end.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,8 @@
 
 namespace pl {
 
-/// Who adds to the same sums. One thread alone adds for a fraction of the time; a device never is one.
+/// Number of threads that add to the same sums. A single host thread needs no atomic instruction, which costs several
+/// times a plain add. Device code is always Many.
 enum class Writers : std::uint32_t { Many, One };
 
 #ifndef __CUDA_ARCH__
@@ -22,7 +23,7 @@ inline void add_on_host(T& target, T value, Writers writers) {
 }
 #endif
 
-/// Readers see these sums only after the pass has ended, so no ordering is needed.
+/// Relaxed: the sums are read after the pass has ended, which orders them.
 PL_HD inline void atomic_add(std::int64_t& target, std::int64_t value, [[maybe_unused]] Writers writers) {
 #ifdef __CUDA_ARCH__
     atomicAdd(reinterpret_cast<unsigned long long*>(&target), static_cast<unsigned long long>(value));
@@ -39,8 +40,9 @@ PL_HD inline void atomic_add(std::uint32_t& target, std::uint32_t value, [[maybe
 #endif
 }
 
-/// Adds a value to a sum and one to its count. On a device the threads of a warp that hit the same sum add up first:
-/// paths that start side by side meet the same volume and are guided into the same few cells.
+/// Adds a value to a sum and 1 to its count. On the device the threads of a warp with the same target reduce their
+/// values first: neighboring paths meet the same volume and are guided into the same few cells, so contention is
+/// high.
 PL_HD inline void atomic_add_counted(std::int64_t& sum, std::int64_t value, std::uint32_t& count, Writers writers) {
 #ifdef __CUDA_ARCH__
     const unsigned peers = __match_any_sync(__activemask(), reinterpret_cast<unsigned long long>(&sum));

@@ -1,4 +1,4 @@
-// Between the values of a row: which two a coordinate lies between, and how near to each.
+// Linear and bilinear interpolation between equally spaced values.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace pl {
 
-/// Value = (1 - share) * [low] + share * [high].
+/// The two values to interpolate: (1 - share) * value[low] + share * value[high].
 struct Taps {
     std::uint32_t low, high;
     float share;
 };
 
-/// Values sit in the middle of `count` equal parts of [0, 1], which holds x. Beyond the outermost ones the row starts
-/// over, or its last value goes on.
+/// Taps at x in [0, 1] among `count` values at the centers of as many equal intervals. Before the first center and
+/// after the last one the row wraps around (`starts_over`) or is clamped.
 PL_HD inline Taps taps_at(float x, std::uint32_t count, bool starts_over) {
     const float position = x * static_cast<float>(count) - 0.5f;
     const float below = std::floor(position);
@@ -25,7 +25,7 @@ PL_HD inline Taps taps_at(float x, std::uint32_t count, bool starts_over) {
             static_cast<std::uint32_t>(high <= last ? high : (starts_over ? 0 : last)), position - below};
 }
 
-/// Of four values: low and high of the row above, then of the row below.
+/// Bilinear interpolation of the low and high values of the upper row and of the lower row.
 template <class Value>
 PL_HD inline Value bilinear(const Taps& x, const Taps& y, Value low_above, Value high_above, Value low_below,
                             Value high_below) {

@@ -1,5 +1,5 @@
-// Effects as a set of bits. Kernels are templates over the set they were compiled for; the host picks the
-// smallest compiled set that covers what the scene needs, so an absent effect costs nothing.
+// Effects of light transport as a bit set. Kernels are templates over it; the host chooses the smallest compiled set
+// that covers the effects the scene needs, so an absent effect costs nothing.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@ namespace pl {
 
 enum class Feature : std::uint32_t {
     SmoothNormals = 1u << 0,        ///< shading normals differ from geometric ones
-    Environment = 1u << 1,          ///< rays that leave the scene see light, the same in all directions
-    NextEventEstimation = 1u << 2,  ///< shadow rays towards lights, combined by multiple importance sampling
-    Specular = 1u << 3,             ///< mirrors and clear glass: lobes of a single direction
-    Rough = 1u << 4,                ///< rough metals and rough glass: microfacets
-    Plastic = 1u << 5,              ///< Lambert under a coat
+    Environment = 1u << 1,          ///< escaped rays receive a constant radiance
+    NextEventEstimation = 1u << 2,  ///< light samples with shadow rays, combined by multiple importance sampling
+    Specular = 1u << 3,             ///< delta lobes: mirrors and clear glass
+    Rough = 1u << 4,                ///< microfacet lobes: rough metals and rough glass
+    Plastic = 1u << 5,              ///< Lambert under a dielectric coat
     Textures = 1u << 6,             ///< images on surfaces
-    CutOuts = 1u << 7,              ///< holes in surfaces
-    EnvironmentMap = 1u << 8,       ///< light from far away that depends on the direction: an image, a sun
-    ThinLens = 1u << 9,             ///< an aperture with a size
-    ManyLights = 1u << 10,  ///< light samples choose among the lights by distance and direction, not by power alone
+    CutOuts = 1u << 7,              ///< opacity textures: holes in surfaces
+    EnvironmentMap = 1u << 8,       ///< infinitely distant light that depends on the direction: an image, a sun
+    ThinLens = 1u << 9,             ///< a camera with a finite aperture
+    ManyLights = 1u << 10,          ///< light samples choose lights by a light tree instead of by power alone
 };
 
 inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
@@ -47,7 +47,7 @@ PL_HD constexpr FeatureSet features(Features... list) {
     return {(0u | ... | static_cast<std::uint32_t>(list))};
 }
 
-/// What makes a surface more than a Lambert reflector.
+/// Effects of surfaces that have other lobes than Lambert's.
 inline constexpr FeatureSet kLobeFeatures = features(Feature::Specular, Feature::Rough, Feature::Plastic);
 
 inline constexpr FeatureSet kEveryFeature = [] {
@@ -56,7 +56,7 @@ inline constexpr FeatureSet kEveryFeature = [] {
     return all;
 }();
 
-/// The sets that are compiled, smallest first; the last one holds every feature.
+/// The compiled sets, smallest first; the last one holds every feature.
 inline constexpr FeatureSet kCompiledSets[] = {
     features(),
     features(Feature::NextEventEstimation),
@@ -67,10 +67,10 @@ inline constexpr FeatureSet kCompiledSets[] = {
 };
 inline constexpr int kCompiledSetCount = static_cast<int>(sizeof(kCompiledSets) / sizeof(kCompiledSets[0]));
 
-/// How many of the sets a kernel is compiled for.
+/// Density of the compiled sets of a kernel: build time against unused branches.
 enum class KernelRange {
     Full,
-    Sparse,  ///< every second set, the smallest and the largest among them: for kernels that are asked for less often
+    Sparse,  ///< every second set, with the smallest and the largest: for rarely used kernels
 };
 
 /// Index into kCompiledSets of the first (smallest) set of a range that covers `needed`.

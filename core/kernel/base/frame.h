@@ -16,7 +16,8 @@ struct FrameOf {
     PL_INLINE Real3<N> to_local(const Real3<N>& world) const { return {dot(world, x), dot(world, y), dot(world, z)}; }
 };
 
-/// Branchless and continuous except at z = -0.   [Duff et al. 2017, "Building an Orthonormal Basis, Revisited"]
+/// Orthonormal frame around a unit normal. Branchless; continuous except where normal.z changes sign.   [Duff et al.
+/// 2017, "Building an Orthonormal Basis, Revisited", JCGT 6(1)]
 template <class N>
 PL_INLINE FrameOf<N> make_frame(const Real3<N>& normal) {
     const auto sign = N::copy_sign(N::constant(1.0f), normal.z);
@@ -27,7 +28,7 @@ PL_INLINE FrameOf<N> make_frame(const Real3<N>& normal) {
             normal};
 }
 
-/// The frame of one normal.
+/// The scalar frame.
 struct Frame {
     Vec3f x, y, z;
 

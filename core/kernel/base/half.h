@@ -1,4 +1,4 @@
-// 16-bit floats: three digits, enough for pictures and textures in memory.
+// IEEE 754 binary16 in software, for textures in memory and picture files: 11 significant bits.
 #pragma once
 
 #include <bit>
@@ -10,8 +10,8 @@ namespace pl {
 
 inline constexpr float kLargestHalf = 65504.0f;
 
-/// Nearest half float, ties to even. What exceeds kLargestHalf becomes that, as in files; NaN stays NaN.
-/// [IEEE 754-2008, binary16]
+/// Nearest half float, ties to even. Magnitudes above kLargestHalf, infinity too, become kLargestHalf; NaN stays NaN.
+/// [IEEE 754-2008, 3.6 and 4.3.1]
 PL_HD inline std::uint16_t to_half(float value) {
     const auto bits = std::bit_cast<std::uint32_t>(value);
     const std::uint32_t sign = bits >> 16 & 0x8000u;
@@ -20,7 +20,7 @@ PL_HD inline std::uint16_t to_half(float value) {
     if (size >= std::bit_cast<std::uint32_t>(kLargestHalf)) return static_cast<std::uint16_t>(sign | 0x7bffu);
     constexpr std::uint32_t kSmallestNormal = 0x38800000u;  // 2^-14
     if (size < kSmallestNormal) {
-        // Adding a half leaves the steps of subnormal halves, 2^-24, as the last bit of a float.
+        // Floats in [1/2, 1) have the spacing of subnormal halves, 2^-24, so the addition rounds to it.
         const float shifted = std::bit_cast<float>(size) + 0.5f;
         return static_cast<std::uint16_t>(sign | (std::bit_cast<std::uint32_t>(shifted) - 0x3f000000u));
     }
@@ -28,7 +28,7 @@ PL_HD inline std::uint16_t to_half(float value) {
     return static_cast<std::uint16_t>(sign | ((rounded - 0x38000000u) >> 13));
 }
 
-/// Exact.
+/// The value of a half float, exactly.
 PL_HD inline float from_half(std::uint16_t half) {
     const std::uint32_t sign = (half & 0x8000u) << 16;
     const std::uint32_t size = half & 0x7fffu;

@@ -1,4 +1,4 @@
-// Small mathematics on glm types.
+// Small vector and scalar functions on glm types.
 #pragma once
 
 #include <bit>
@@ -26,7 +26,8 @@ inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 /// Unit roundoff of float: half the gap between 1 and the next float.
 inline constexpr float kRoundoff = 0x1p-24f;
 
-/// Bound on the relative error of n chained roundings: n u / (1 - n u).   [Higham 2002, Lemma 3.1]
+/// Bound on the relative error of n chained roundings: n u / (1 - n u).   [Higham 2002, "Accuracy and Stability of
+/// Numerical Algorithms", Lemma 3.1]
 PL_HD constexpr float gamma_bound(int n) {
     return (static_cast<float>(n) * kRoundoff) / (1.0f - static_cast<float>(n) * kRoundoff);
 }
@@ -52,7 +53,7 @@ PL_HD inline Vec3f absolute(Vec3f v) { return {std::fabs(v.x), std::fabs(v.y), s
 /// Relative luminance of linear sRGB (Rec. 709 weights).
 PL_HD inline float luminance(Vec3f rgb) { return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z; }
 
-/// True for values a film may keep: finite and not negative in every channel.
+/// True if every channel is finite and not negative: the values that a film accepts.
 PL_HD inline bool is_valid_radiance(Vec3f v) {
     return v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f && v.x < kInfinity && v.y < kInfinity && v.z < kInfinity;
 }
@@ -85,8 +86,8 @@ PL_HD inline float exp_of(float x) {
 /// x^p for x in (0, 1], normal, and p in (0, 1].
 PL_HD inline float power(float x, float p) { return exp_of(p * log_of(x)); }
 
-/// log2(x) for normal x > 0, exact for powers of two, error below 2e-7 (1 + |log2(x)|). By the series of atanh; own
-/// because the library's differs between CPU and GPU.
+/// log2(x) for normal x > 0, exact for powers of two, error below 2e-7 (1 + |log2(x)|). Series of atanh; not the math
+/// library's, which rounds differently on CPU and GPU.
 PL_HD inline float log2_normal(float x) {
     constexpr float kTwoOverLn2 = 2.88539008f;
     const auto bits = std::bit_cast<std::uint32_t>(x);
@@ -102,8 +103,8 @@ PL_HD inline float log2_normal(float x) {
     return exponent + kTwoOverLn2 * (s * series);
 }
 
-/// The neighbouring float towards +infinity for a `step` of 1, towards -infinity for -1; x itself for 0. What is not finite
-/// stays. Which way to go is as likely one as the other, so no branch hangs on it.
+/// The neighboring float towards +infinity for a `step` of 1, towards -infinity for -1; x itself for 0 and if x is
+/// not finite. Branchless, because the sign of the step is unpredictable.
 PL_HD inline float step_float(float x, std::int32_t step) {
     if (!(std::fabs(x) < kInfinity)) return x;
     if (x == 0.0f) return step == 0 ? x : static_cast<float>(step) * std::bit_cast<float>(std::uint32_t{1});

@@ -1,19 +1,19 @@
-// Arithmetic that runs on one number, or on a vector of them in one go, is a template over N: what a number is, and the
-// operations that have no operator. One is the plain case, cpu/lanes.h has the vectors. Both choose by select() instead
-// of branching and do the same operations in the same order, so they give the same bits.
+// Number traits. Arithmetic that runs on one number or on a vector of SIMD lanes is a template over N, which names
+// the number types and the operations without an operator: One for scalars, those of cpu/lanes.h for vectors. Both
+// use select() instead of branches and the same operations in the same order, so their bits agree.
 #pragma once
 
 #include "core/kernel/base/math.h"
 
 namespace pl {
 
-/// Chooses per lane. `Mask` is bool, or a vector of lanes with all bits set or clear.
+/// Blends per lane. `Mask` is bool, or a vector of lanes with all bits set or clear.
 template <class Mask, class T>
 PL_INLINE T select(Mask mask, T yes, T no) {
     return mask ? yes : no;
 }
 
-/// Numbers one at a time.
+/// Scalars.
 struct One {
     using Real = float;
     using Int = std::int32_t;
@@ -28,7 +28,7 @@ struct One {
     static PL_INLINE Real to_real(Int i) { return static_cast<Real>(i); }
     static PL_INLINE bool any(Mask mask) { return mask; }
     static PL_INLINE Real load(const float* values, Int index) { return values[index]; }
-    /// How many of `count` ascending values from `first` on are not above x.
+    /// Number of the `count` ascending values from values[first] on that are not above x.
     static PL_INLINE Int count_not_above(const float* values, Int first, int count, Real x) {
         Int index = 0;
         for (int i = 0; i < count; ++i) index += values[first + i] <= x ? 1 : 0;
@@ -73,14 +73,15 @@ PL_INLINE typename N::Int clamp_int(typename N::Int i, std::int32_t low, std::in
     return select(i < low, N::constant(low), select(i > high, N::constant(high), i));
 }
 
-/// Largest integer not above x, for |x| < 2^31.
+/// Largest integer not above x (floor), for |x| < 2^31.
 template <class N>
 PL_INLINE typename N::Int floor_of(typename N::Real x) {
     const typename N::Int truncated = N::truncate(x);
     return select(N::to_real(truncated) > x, truncated - 1, truncated);
 }
 
-// Own sine, cosine and arctangent: the library's differ between CPU and GPU. Polynomials of the Cephes library.
+// Sine, cosine and arctangent by the polynomials of the Cephes library: math libraries of CPU and GPU round
+// differently.
 
 /// sin(x) for |x| <= pi/4, error below 1e-7.
 template <class N>

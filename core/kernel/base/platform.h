@@ -1,5 +1,5 @@
-// What differs between the C++ compiler and nvcc, in one place: PL_HD, PL_INLINE, PL_ASSERT.
-// With atomics.h this is the only file of core/kernel that names a compiler macro.
+// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_ASSERT. Besides atomics.h the only file of
+// core/kernel that tests compiler macros.
 #pragma once
 
 #ifdef __FAST_MATH__
@@ -14,7 +14,7 @@
 #define PL_INLINE inline __attribute__((always_inline))
 #endif
 
-/// Checked in debug builds on both sides; costs nothing in release.
+/// Assertion on host and device; nothing in release builds.
 #if defined(NDEBUG)
 #define PL_ASSERT(condition) ((void)0)
 #elif defined(__CUDA_ARCH__)

@@ -1,5 +1,5 @@
-// Counter-based random numbers: no state to carry, any sample can be replayed alone.
-// Philox4x32-10 [Salmon et al. 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", section 3.3].
+// Counter-based random numbers: no state to carry, and any sample can be replayed alone. Philox4x32-10   [Salmon et
+// al. 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", section 3.3]
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,18 @@
 
 namespace pl {
 
-/// Who draws. Every effect has its own purpose, so switching one never shifts the numbers of another.
+/// Purpose of a draw. Every effect has its own, so enabling one never shifts the random numbers of another.
 enum class Purpose : std::uint32_t {
-    Pixel = 0,       ///< where the positions inside a pixel start, see pixel_sample()
-    Scatter = 1,     ///< choice of strategy, direction (2), roulette
+    Pixel = 0,       ///< start of the film and lens sequences, see pixel_sample()
+    Scatter = 1,     ///< one-sample MIS strategy, direction (2), Russian roulette
     CellJitter = 2,  ///< position inside a direction cell
-    Light = 3,       ///< which light, and where on it
-    Probe = 4,       ///< first direction of a precomputation path
-    Placement = 5,   ///< where volumes are placed
-    Lobe = 6,        ///< which lobe of a surface that has several
+    Light = 3,       ///< choice of a light, point on it
+    Probe = 4,       ///< first direction of a probe
+    Placement = 5,   ///< placement of radiance volumes
+    Lobe = 6,        ///< choice among the lobes of a surface
 };
 
-/// Which family of paths draws: pictures and precomputation never share a number.
+/// Independent families of random numbers: camera paths, probes and placement never share one.
 enum class Stream : std::uint32_t { Picture = 0, Precompute = 1, Placement = 2 };
 
 /// A 128-bit counter or block of random bits; `Word` is a 32-bit integer, or a vector of them.
@@ -65,10 +65,10 @@ PL_HD inline float to_unit_float(std::uint32_t bits) { return static_cast<float>
 struct Rng {
     std::uint64_t seed = 0;
     Stream stream = Stream::Picture;
-    std::uint32_t pixel = 0;  ///< or the probe's index
+    std::uint32_t pixel = 0;  ///< or the index of the probe
     std::uint32_t sample = 0;
 
-    /// Four independent uniforms in [0, 1)^4 for this vertex and purpose.
+    /// A uniform point of [0, 1)^4 for this vertex and purpose.
     PL_HD Vec4f draw(std::uint32_t vertex, Purpose purpose) const {
         PL_ASSERT(vertex < (1u << 24));
         const Philox counter{{pixel, sample, vertex | (static_cast<std::uint32_t>(purpose) << 24),

@@ -16,7 +16,7 @@ struct Span {
     Span() = default;
     PL_HD Span(T* pointer, std::uint32_t size) : data(pointer), count(size) {}
 
-    /// A view that may write converts to one that may only read.
+    /// Span<T> converts to Span<const T>.
     template <class U>
     requires std::is_same_v<const U, T> PL_HD Span(Span<U> other) : data(other.data), count(other.count) {}
 

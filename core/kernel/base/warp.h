@@ -1,11 +1,12 @@
-// Maps between the unit square and the shapes that are sampled, each with its density and its inverse.
+// Sampling warps from the unit square, with their densities and inverses.
 #pragma once
 
 #include "core/kernel/base/numbers.h"
 
 namespace pl {
 
-/// Concentric map of [0,1]^2 to the unit disk; equal areas map to equal areas.   [Shirley and Chiu 1997]
+/// Concentric map of [0,1]^2 to the unit disk, area preserving: density 1/pi.   [Shirley and Chiu 1997, "A Low
+/// Distortion Map Between Disk and Square"]
 template <class N>
 PL_INLINE Real2<N> square_to_disk(const Real2<N>& u) {
     const auto a = 2.0f * u.x - 1.0f;
@@ -37,8 +38,8 @@ PL_INLINE Real2<N> disk_to_square(const Real2<N>& p) {
 }
 PL_HD inline Vec2f disk_to_square(Vec2f p) { return pack(disk_to_square(unpack(p))); }
 
-/// Lifts [0,1]^2 to the hemisphere around +z. Uniform input gives density cos(theta)/pi per steradian.
-/// [Malley's method; Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., A.5.3]
+/// Malley's method: [0,1]^2 to the hemisphere around +z with density cos(theta)/pi per steradian.   [Pharr, Jakob,
+/// Humphreys, Physically Based Rendering, 4th ed., A.5.3]
 template <class N>
 PL_INLINE Real3<N> square_to_cosine_hemisphere(const Real2<N>& u) {
     const Real2<N> d = square_to_disk(u);
@@ -50,14 +51,15 @@ PL_HD inline Vec3f square_to_cosine_hemisphere(Vec2f u) { return pack(square_to_
 /// Inverse of square_to_cosine_hemisphere for unit directions with z >= 0.
 PL_HD inline Vec2f cosine_hemisphere_to_square(Vec3f direction) { return disk_to_square({direction.x, direction.y}); }
 
-/// Density of cosine-weighted directions, per steradian; 0 below the horizon.
+/// Density of square_to_cosine_hemisphere() per steradian; 0 below the horizon.
 template <class N>
 PL_INLINE typename N::Real cosine_pdf_sa(typename N::Real cos_theta) {
     return select(cos_theta > 0.0f, cos_theta * kInvPi, N::constant(0.0f));
 }
 PL_HD inline float cosine_hemisphere_pdf_sa(float cos_theta) { return cosine_pdf_sa<One>(cos_theta); }
 
-/// Barycentric coordinates (b1, b2), uniform over a triangle's area.   [Heitz 2019, "A Low-Distortion Map"]
+/// Barycentric coordinates (b1, b2), uniform over a triangle's area.   [Heitz 2019, "A Low-Distortion Map Between
+/// Triangle and Square"]
 PL_HD inline Vec2f square_to_triangle(Vec2f u) {
     if (u.y > u.x) {
         const float b1 = 0.5f * u.x;
@@ -67,7 +69,8 @@ PL_HD inline Vec2f square_to_triangle(Vec2f u) {
     return {u.x - b2, b2};
 }
 
-/// The first of `count` indices at which `holds` is true; it is for all behind that one. `count` if there is none.
+/// Binary search: the first of `count` indices at which `holds` is true, `count` if there is none. `holds` must be
+/// monotone (false, then true).
 template <class Predicate>
 PL_HD inline std::uint32_t find_first(std::uint32_t count, Predicate holds) {
     std::uint32_t low = 0;
@@ -82,13 +85,14 @@ PL_HD inline std::uint32_t find_first(std::uint32_t count, Predicate holds) {
     return low;
 }
 
-/// Index of the interval that holds u in [0,1), of `count` > 0 that end at cumulative(index), ascending to 1.
+/// Inversion of a discrete distribution: the index of the interval that contains u in [0,1), among `count` > 0
+/// intervals with upper ends cumulative(index), which ascend to 1.
 template <class Cumulative>
 PL_HD inline std::uint32_t find_interval(std::uint32_t count, float u, Cumulative cumulative) {
     return find_first(count - 1, [&](std::uint32_t index) { return u < cumulative(index); });
 }
 
-/// Triangular density on [-1, 1] from a uniform number: one cell to each side.
+/// Sample of the tent 1 - |x| on [-1, 1] from a uniform number.
 template <class N>
 PL_INLINE typename N::Real sample_tent(typename N::Real u) {
     const typename N::Mask low = u < 0.5f;
@@ -96,7 +100,7 @@ PL_INLINE typename N::Real sample_tent(typename N::Real u) {
     return select(low, root - 1.0f, 1.0f - root);
 }
 
-/// Folds a coordinate that left [0, side] by less than one cell back in, and keeps it below `side`.
+/// Reflects a coordinate in (-1, side + 1) at the ends of [0, side] and keeps it below `side`.
 template <class N>
 PL_INLINE typename N::Real reflect_into(typename N::Real x, float side) {
     const auto folded = select(x < 0.0f, -x, select(x > side, 2.0f * side - x, x));

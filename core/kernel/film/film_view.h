@@ -1,4 +1,4 @@
-// Accumulation: sums in double, so that ten million samples lose nothing a float could show.
+// The film: per-pixel sums of radiance, in double so that the mean of ten million samples is exact to a float.
 #pragma once
 
 #include "core/kernel/base/math.h"
@@ -6,16 +6,16 @@
 
 namespace pl {
 
-/// The passes of a film fall into two halves by the parity of their number. What both say alike is signal, the rest noise.
+/// Even and odd passes form the two halves of a film: independent estimates whose difference measures the noise.
 PL_HD inline bool in_second_half(std::uint32_t pass) { return (pass & 1u) != 0; }
 
-/// One cache line, which adding a sample touches alone.
+/// One cache line: a sample touches no other.
 struct alignas(64) FilmPixel {
-    Vec3d sum{0.0};             ///< of valid samples, linear sRGB radiance
-    Vec3d second_sum{0.0};      ///< of those of the second half
-    std::uint32_t samples = 0;  ///< valid ones: what the mean divides by
+    Vec3d sum{0.0};             ///< of all valid samples: linear sRGB radiance
+    Vec3d second_sum{0.0};      ///< of the valid samples of the second half
+    std::uint32_t samples = 0;  ///< number of valid samples
     std::uint32_t second_samples = 0;
-    std::uint32_t invalid = 0;  ///< NaN, infinite or negative ones: dropped, counted, shown
+    std::uint32_t invalid = 0;  ///< number of dropped samples: NaN, infinite or negative
 };
 
 struct FilmView {
@@ -24,11 +24,11 @@ struct FilmView {
     std::uint32_t height = 0;
 };
 
-/// A counter that is full stays so: the mean that it divides is converged as far as floats can show.
+/// Counters saturate here; the mean has long converged to float precision.
 inline constexpr std::uint32_t kMostSamples = 0xffffffffu;
 
-/// Adds the sample of a pass; every pixel has one writer at a time. Returns false if the sample was invalid. A pixel of
-/// kMostSamples takes no more.
+/// Adds the sample of a pass; a pixel must have one writer at a time. Returns false if the sample is invalid. Samples
+/// beyond kMostSamples are ignored.
 PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass) {
     FilmPixel& p = film.pixels[pixel];
     if (!is_valid_radiance(radiance)) {
@@ -46,7 +46,7 @@ PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f ra
     return true;
 }
 
-/// Makes one sample all that a pixel holds. Returns false if the sample was invalid.
+/// Replaces the contents of a pixel by one sample. Returns false if the sample is invalid.
 PL_HD inline bool replace_sample(const FilmView& film, std::uint32_t pixel, Vec3f value, std::uint32_t pass) {
     film.pixels[pixel] = {};
     return accumulate(film, pixel, value, pass);
@@ -58,7 +58,7 @@ PL_HD inline Vec3f mean_radiance(const FilmPixel& pixel) {
     return Vec3f{pixel.sum * (1.0 / static_cast<double>(pixel.samples))};
 }
 
-/// The same, but NaN where every sample was invalid, so that it shows.
+/// Mean radiance, but NaN if all samples were invalid, so that the display marks the pixel.
 PL_HD inline Vec3f mean_or_nan(const FilmPixel& pixel) {
     const bool all_invalid = pixel.samples == 0 && pixel.invalid > 0;
     return all_invalid ? Vec3f{kNan} : mean_radiance(pixel);

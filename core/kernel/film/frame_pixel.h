@@ -1,4 +1,4 @@
-// From what a film holds to the 8-bit pixels of a window: the same function for every back end.
+// From film pixels to the 8-bit pixels of the display: one function for all back ends.
 #pragma once
 
 #include "core/kernel/film/film_view.h"
@@ -7,14 +7,14 @@
 
 namespace pl {
 
-/// How a film is shown.
+/// Display mapping of a film.
 struct FrameStyle {
-    float scale = 1.0f;  ///< multiplies linear values: exposure, or what brings a view's numbers into [0, 1]
+    float scale = 1.0f;  ///< multiplies linear values: exposure, or 1 / range of a view
     ToneCurve curve = ToneCurve::Clamp;
-    std::uint32_t heat = 0;  ///< 1: the red channel is a number, shown by heat_color(); no curve then
+    std::uint32_t heat = 0;  ///< 1: the red channel is a scalar, shown by heat_color() without a tone curve
 };
 
-/// What pixels look like of which every sample was invalid.
+/// Marker of pixels with invalid samples only: opaque magenta.
 inline constexpr std::uint32_t kInvalidPixel = 0xffff00ffu;
 
 /// Opaque ARGB, 8 bits each, A in the highest.
@@ -22,7 +22,7 @@ PL_HD inline std::uint32_t pack_pixel(std::uint32_t r, std::uint32_t g, std::uin
     return 0xff000000u | r << 16 | g << 8 | b;
 }
 
-/// `codes` are those of the style's curve.
+/// Display value of a pixel. `codes` must be those of style.curve.
 PL_HD inline std::uint32_t frame_pixel(Vec3f value, const FrameStyle& style, const ToneCodes& codes) {
     if (style.heat != 0) {
         const ByteColor color = heat_color(value.x * style.scale);
@@ -32,8 +32,7 @@ PL_HD inline std::uint32_t frame_pixel(Vec3f value, const FrameStyle& style, con
     return pack_pixel(codes(value.x * style.scale), codes(value.y * style.scale), codes(value.z * style.scale));
 }
 
-/// What a pixel counts for where a range ends at the largest value of a picture: its red channel, or 0 if that is no
-/// positive, finite number.
+/// Contribution of a pixel to the automatic range of a heat map: its red channel if positive and finite, else 0.
 PL_HD inline float range_value(const FilmPixel& pixel) {
     const float value = mean_or_nan(pixel).x;
     return value > 0.0f && value < kInfinity ? value : 0.0f;

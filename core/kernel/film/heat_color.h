@@ -1,4 +1,4 @@
-// The colors of heat maps: display only.
+// The color map of heat maps. Display only.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,14 @@ struct ByteColor {
     PL_HD friend bool operator==(const ByteColor&, const ByteColor&) = default;
 };
 
-/// Steps between the colors that are given; the others lie in between.
+/// Intervals of the color map; colors are interpolated linearly.
 inline constexpr int kHeatSteps = 16;
 
-/// From dark violet over teal to light yellow. In CIELAB lightness grows evenly from 14 to 92, hue falls evenly from 308
-/// to 100 degrees, chroma is what the screen can show, smoothed: equal steps of the number look about equally large.
-/// Color of a share of the range that is shown; outside [0, 1] that of the nearer end, for NaN the marker of invalid
-/// pixels.
+/// Color of a value in [0, 1], clamped; NaN gives the marker of invalid pixels. From dark violet over teal to light
+/// yellow, perceptually about uniform: in CIELAB lightness rises linearly from 14 to 92, hue falls linearly from 308
+/// to 100 degrees, chroma is the smoothed limit of the sRGB gamut.
 PL_HD inline ByteColor heat_color(float share) {
-    // Inside, because device code sees no array of the host.
+    // Local, because device code cannot read namespace-scope arrays of the host.
     constexpr std::uint8_t kColors[kHeatSteps + 1][3] = {
         {43, 23, 81},    {32, 41, 96},    {18, 56, 107},   {3, 70, 115},    {4, 84, 121},   {2, 98, 129},
         {6, 112, 136},   {3, 126, 142},   {7, 140, 147},   {25, 155, 149},  {51, 169, 148}, {79, 183, 145},

@@ -1,5 +1,5 @@
-// Where in its pixel, and on the lens, the path of a pass starts: spread evenly over the passes, because what a pixel holds
-// at its border, half a lamp and half a wall, would else be noise that no choice of directions can take away.
+// Low-discrepancy sequence of film and lens positions over the passes. It removes most of the noise of edges inside a
+// pixel, which no sampling of directions can reduce.
 #pragma once
 
 #include "core/kernel/base/rng.h"
@@ -7,19 +7,20 @@
 
 namespace pl {
 
-/// The sample whose random numbers start the sequence of a pass. Each half of the passes has a sequence of its own, so that the
-/// halves are independent and still tell what is noise.
+/// Sample index of the random start of the sequence of a pass. Each half of the passes has its own, so that the
+/// halves stay independent and their difference measures the noise.
 PL_HD inline std::uint32_t sequence_of(std::uint32_t pass) { return in_second_half(pass) ? 1u : 0u; }
 
-/// A number of [0,1), a multiple of 2^-24, moved by `steps` times `step` 2^-32, modulo 1.
+/// (start + steps * step * 2^-32) mod 1, for a start in [0,1) that is a multiple of 2^-24.
 PL_HD inline float moved_by_steps(float start, std::uint32_t step, std::uint32_t steps) {
     return to_unit_float(static_cast<std::uint32_t>(start * 16777216.0f) * 256u + step * steps);
 }
 
-/// The member of a pixel's sequence that belongs to a pass, in [0,1)^4: x and y on the film, z and w on the lens. `start` is what
-/// sequence_of(pass) draws for vertex 0 and Purpose::Pixel, so every member alone is uniform. An additive recurrence: the film by
-/// powers of the plastic number, the lens by the roots of 2 and 3.   [Roberts 2018, "The Unreasonable Effectiveness of
-/// Quasirandom Sequences"; Cranley and Patterson 1976, "Randomization of Number Theoretic Methods for Multiple Integration"]
+/// Point of a pixel's sequence for a pass, in [0,1)^4: x, y on the film, z, w on the lens. `start` is the draw of
+/// sample sequence_of(pass) for vertex 0 and Purpose::Pixel, a random shift that makes every point uniform. Additive
+/// recurrence by powers of the plastic number (film) and by sqrt(2), sqrt(3) (lens).   [Roberts 2018, "The
+/// Unreasonable Effectiveness of Quasirandom Sequences"; Cranley and Patterson 1976, "Randomization of Number
+/// Theoretic Methods for Multiple Integration"]
 PL_HD inline Vec4f pixel_sample(Vec4f start, std::uint32_t pass) {
     const std::uint32_t steps = pass / 2;
     return {moved_by_steps(start.x, 0xc13fa9a9u, steps), moved_by_steps(start.y, 0x91e10da5u, steps),

@@ -1,5 +1,5 @@
-// A tone curve followed by the sRGB encoding, as a table over the upper bits of a float. Display only. It is filled on the
-// host, so that every back end shows the same codes, whatever its power function returns.
+// Tone curve and sRGB encoding, tabulated over the upper bits of a float. Display only. Filled on the host, so that
+// the 8-bit codes do not depend on the power function of a back end.
 #pragma once
 
 #include <bit>
@@ -10,12 +10,12 @@
 
 namespace pl {
 
-/// The table's entries, wherever they lie. The 8-bit result differs from exact rounding only where the exact value is
-/// within kMaxError of a boundary between two codes.
+/// View of the table, in host or device memory. Codes differ from exact rounding only if the exact value is within
+/// kMaxError of the boundary between two codes.
 struct ToneCodes {
     static constexpr float kMaxError = 0.13f;  ///< in codes: half a table step where the curve is steepest
 
-    // Below 2^-16 even the code of the steepest curve rounds to 0; above 2^15 every curve has reached its end.
+    // Below 2^-16 every curve rounds to code 0; above 2^15 every curve has reached its limit.
     static constexpr int kLowestExponent = -16;
     static constexpr int kHighestExponent = 15;
     static constexpr int kMantissaBits = 10;
@@ -26,7 +26,7 @@ struct ToneCodes {
 
     Span<const std::uint8_t> codes;  ///< kSize of them
 
-    /// Code of an exposed, linear value. Not for NaN.
+    /// 8-bit code of a linear value after exposure, which must not be NaN.
     PL_HD std::uint8_t operator()(float exposed) const {
         const float positive = exposed > 0.0f ? exposed : 0.0f;
         const std::uint32_t index = std::bit_cast<std::uint32_t>(positive) >> kShift;
@@ -39,7 +39,7 @@ class ToneTable {
 public:
     explicit ToneTable(ToneCurve curve) : curve_(curve) {
         for (std::uint32_t i = 0; i < ToneCodes::kSize; ++i) {
-            // The middle of the values that share this entry.
+            // The center of the interval of this entry.
             const std::uint32_t bits =
                 ((i + ToneCodes::kFirst) << ToneCodes::kShift) + (1u << (ToneCodes::kShift - 1));
             const float encoded = encode_srgb(apply_curve(curve, std::bit_cast<float>(bits)));

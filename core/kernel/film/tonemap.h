@@ -1,4 +1,4 @@
-// From linear radiance to display values. Display only: nothing here feeds back into what is measured.
+// Tone curves and sRGB encoding. Display only: measurements use linear radiance.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace pl {
 
 enum class ToneCurve : std::uint32_t { Clamp, Reinhard, Aces };
 
-/// What NaN looks like on screen: impossible to miss.
+/// Display color of NaN: magenta.
 inline constexpr float kInvalidMarker[3] = {1.0f, 0.0f, 1.0f};
 
 /// One channel of non-negative exposed radiance to [0, 1]; monotone, infinity gives 1.
@@ -19,7 +19,7 @@ PL_HD inline float apply_curve(ToneCurve curve, float x) {
     case ToneCurve::Clamp: return min_of(x, 1.0f);
     case ToneCurve::Reinhard: return 1.0f - 1.0f / (1.0f + x);
     case ToneCurve::Aces: {
-        // Fit of the ACES filmic curve [Narkowicz 2016]; beyond 1e4 it has reached its limit and x*x could overflow.
+        // Fit of the ACES filmic curve [Narkowicz 2016]; clamped, because y * y could overflow.
         const float y = min_of(x, 1.0e4f);
         return clamp_to((y * (2.51f * y + 0.03f)) / (y * (2.43f * y + 0.59f) + 0.14f), 0.0f, 1.0f);
     }
@@ -27,7 +27,7 @@ PL_HD inline float apply_curve(ToneCurve curve, float x) {
     return 0.0f;
 }
 
-/// Linear display value in [0,1]^3; `exposure_scale` is 2^EV.
+/// Linear display value in [0,1]^3, magenta for NaN; `exposure_scale` is 2^EV.
 PL_HD inline Vec3f tone_map(Vec3f radiance, float exposure_scale, ToneCurve curve) {
     if (radiance.x != radiance.x || radiance.y != radiance.y || radiance.z != radiance.z)
         return {kInvalidMarker[0], kInvalidMarker[1], kInvalidMarker[2]};

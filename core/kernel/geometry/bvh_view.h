@@ -6,8 +6,8 @@
 
 namespace pl {
 
-/// Inner node: `count` is 0 and the children are `first` and `first + 1`. Leaf: `count` entries of
-/// BvhView::primitives from `first`.
+/// Inner node: `count` is 0 and the children are nodes `first` and `first + 1`. Leaf: `count` entries of
+/// BvhView::primitives from `first` on.
 struct BvhNode {
     Vec3f low{kInfinity};
     std::uint32_t first = 0;
@@ -16,7 +16,7 @@ struct BvhNode {
 };
 static_assert(sizeof(BvhNode) == 32);
 
-/// Builders keep the depth below this, so the stack cannot overflow.
+/// build_bvh() keeps the depth below this bound, so the traversal stack cannot overflow.
 inline constexpr int kMaxBvhDepth = 64;
 
 struct BvhView {
@@ -24,32 +24,32 @@ struct BvhView {
     Span<const std::uint32_t> primitives;
 };
 
-/// A ray prepared for boxes.
+/// A ray prepared for slab tests.
 struct BoxRay {
     Vec3f origin;
     Vec3f inverse_direction;
-    float slack;  ///< by how much boxes are grown
+    float slack;  ///< distance by which boxes are enlarged
 };
 
-/// The triangle test sees corners off by 8 roundoffs of their distance across the ray, returns a distance off by
-/// 10, and a slab is computed with 3. Growing boxes by 32 roundoffs of the greatest distance in the scene covers
-/// them, so that no box is skipped that holds the result of testing all triangles: both agree bit by bit. (Triangles
-/// without area, which loaders remove, are beyond this: of rays aimed at them about one in 1e6 differs.)
+/// The triangle test displaces corners by up to 8 roundoffs of their distance across the ray and its distance by 10;
+/// a slab distance has 3. Boxes enlarged by 32 roundoffs of the largest distance in the scene cover the sum, so no
+/// box with the closest hit is skipped and traversal agrees bit by bit with a test of all triangles. (The bound does
+/// not cover triangles without area, which loaders remove: of rays aimed at them about one in 1e6 differs.)
 PL_HD inline BoxRay make_box_ray(const BvhNode& root, const Ray& ray) {
     const Vec3f reach = glm::max(absolute(root.low - ray.origin), absolute(root.high - ray.origin));
     const Vec3f d = ray.direction;
     return {ray.origin, {1.0f / d.x, 1.0f / d.y, 1.0f / d.z}, 32.0f * kRoundoff * max_component(reach)};
 }
 
-/// Conservative slab test: may accept too much, never too little.
-/// Returns the entry distance, or infinity if the box is missed or lies beyond `t_max`.
+/// Conservative slab test: false positives only. Returns the entry distance, or infinity if the ray misses the box or
+/// enters it beyond `t_max`.
 PL_HD inline float intersect_box(const BvhNode& node, const BoxRay& ray, float t_max) {
     float entry = 0.0f;
     float exit = t_max;
     for (int axis = 0; axis < 3; ++axis) {
         const float t0 = (node.low[axis] - ray.origin[axis] - ray.slack) * ray.inverse_direction[axis];
         const float t1 = (node.high[axis] - ray.origin[axis] + ray.slack) * ray.inverse_direction[axis];
-        // 0 * infinity is NaN (origin on a slab that the ray runs along): such a slab does not narrow the interval.
+        // 0 * infinity is NaN: the origin lies on a slab parallel to the ray, which does not narrow the interval.
         if (t0 != t0 || t1 != t1) continue;
         const float near = min_of(t0, t1);
         const float far = max_of(t0, t1);
@@ -59,14 +59,14 @@ PL_HD inline float intersect_box(const BvhNode& node, const BoxRay& ray, float t
     return entry <= exit ? entry : kInfinity;
 }
 
-/// False for rays that hit nothing because a component is NaN or infinite, but would look into every box.
+/// A ray with a NaN or infinite component hits nothing, but passes every slab test: it is rejected in advance.
 PL_HD inline bool is_finite(const Ray& ray) {
     const Vec3f sum = absolute(ray.origin) + absolute(ray.direction);
     return sum.x + sum.y + sum.z < kInfinity;
 }
 
-/// Visits every triangle whose box the ray may enter, nearer boxes first. `visit(primitive, best)` updates the
-/// best hit and returns true to stop. Boxes farther than the best hit are skipped.
+/// Visits the triangles of all leaves that the ray may enter, nearer children first. `visit(primitive, best)` updates
+/// the closest hit and returns true to stop. Nodes beyond the closest hit are culled.
 template <class Visit>
 PL_HD inline void traverse(const BvhView& bvh, const Ray& ray, Hit& best, Visit&& visit) {
     if (bvh.nodes.empty() || !is_finite(ray)) return;

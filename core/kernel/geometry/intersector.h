@@ -1,4 +1,4 @@
-// What the integrator asks of ray tracing, and the implementation over our own hierarchy.
+// The ray-casting interface of the integrator, and its implementation over the scene's BVH.
 #pragma once
 
 #include <concepts>
@@ -8,14 +8,15 @@
 
 namespace pl {
 
-/// Finds the closest hit with 0 < t <= t_max (lowest number on ties), or whether anything lies in between.
+/// closest_hit: with 0 < t <= t_max, on ties the lowest primitive number. occluded: whether any hit exists in that
+/// range. Both ignore Ray::source and Ray::target.
 template <class T>
 concept Intersector = requires(const T& intersector, const Ray& ray) {
     { intersector.closest_hit(ray) } -> std::same_as<Hit>;
     { intersector.occluded(ray) } -> std::same_as<bool>;
 };
 
-/// Traverses the scene's own hierarchy.
+/// Traverses SceneView::bvh.
 struct BvhIntersector {
     SceneView scene;
 

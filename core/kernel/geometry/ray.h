@@ -1,4 +1,4 @@
-// Rays and what they hit.
+// Rays and hits.
 #pragma once
 
 #include <cstdint>
@@ -7,25 +7,25 @@
 
 namespace pl {
 
-/// No primitive: the source of camera rays, the result of a miss.
+/// No primitive: the source of camera rays, and the primitive of a miss.
 inline constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
 
-/// A segment: points origin + t * direction with 0 < t <= t_max. The direction need not be unit.
+/// The points origin + t * direction with 0 < t <= t_max. The direction need not be unit.
 struct Ray {
     Vec3f origin{0.0f};
     Vec3f direction{0.0f, 0.0f, 1.0f};
     float t_max = kInfinity;
-    /// Planar triangles cannot be hit by rays that leave them, so the source (and a shadow ray's target)
-    /// are excluded by number instead of by a distance that would have to guess the scale of the scene.
+    /// A ray cannot hit the planar triangle that it starts on, so the source (and the target of a shadow ray) are
+    /// excluded by number; a minimal distance would depend on the scale of the scene.
     std::uint32_t source = kNoPrimitive;
     std::uint32_t target = kNoPrimitive;
 };
 
-/// Closest hit: distance in units of the ray direction, barycentric weights of the triangle's three corners.
+/// Closest hit: t in units of the ray direction's length, and barycentric weights.
 struct Hit {
     float t = kInfinity;
     std::uint32_t primitive = kNoPrimitive;
-    float b1 = 0.0f, b2 = 0.0f;  ///< weights of corners 1 and 2; corner 0 has the rest
+    float b1 = 0.0f, b2 = 0.0f;  ///< weights of corners 1 and 2; b0 = 1 - b1 - b2
 
     PL_HD bool found() const { return primitive != kNoPrimitive; }
 };

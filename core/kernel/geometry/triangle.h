@@ -1,6 +1,6 @@
 // Watertight ray-triangle test.   [Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1)]
-// The arithmetic is a template over the number type: float for one ray, a vector of lanes for many at once.
-// Same operations in the same order without contraction, so every caller gets the same bits.
+// Templates over the number type: float for one ray, a vector of SIMD lanes for many. Both perform the same
+// operations in the same order without contraction, so their bits agree.
 #pragma once
 
 #include "core/kernel/base/numbers.h"
@@ -8,15 +8,15 @@
 
 namespace pl {
 
-/// A ray prepared for the test: the axis where its direction is largest becomes z, then a shear makes it (0,0,1).
+/// Ray space: the dominant axis of the direction is permuted to z, then a shear and scale make the direction (0,0,1).
 template <class Real, class Mask>
 struct RaySpace {
     Real origin_x, origin_y, origin_z;
     Real shear_x, shear_y, scale_z;
-    Mask along_x, along_y;  ///< which axis became z; neither: z itself
+    Mask along_x, along_y;  ///< whether x or y is the dominant axis; neither: z
 };
 
-/// A corner in ray space: the ray is the z axis, z is the distance along it.
+/// A corner in ray space, where the ray is the z axis.
 template <class Real>
 struct RayCorner {
     Real x, y, z;
@@ -61,13 +61,14 @@ PL_INLINE RayCorner<Real> to_ray_space(const RaySpace<Real, Mask>& space, Real p
     return {x - space.shear_x * z, y - space.shear_y * z, space.scale_z * z};
 }
 
-/// Twice the signed area spanned by the ray and the edge p -> q. Bitwise antisymmetric: e(p,q) = -e(q,p).
+/// Edge function: twice the signed area of the triangle of the ray (the origin in x and y) and the edge p -> q.
+/// Bitwise antisymmetric: e(p,q) = -e(q,p).
 template <class Real>
 PL_INLINE Real edge_function(const RayCorner<Real>& p, const RayCorner<Real>& q) {
     return p.x * q.y - p.y * q.x;
 }
 
-/// The three edge functions; u weighs corner a, v corner b, w corner c.
+/// The three edge functions: scaled barycentric weights u of corner a, v of b, w of c.
 template <class Real>
 struct EdgeFunctions {
     Real u, v, w;
@@ -79,22 +80,22 @@ PL_INLINE EdgeFunctions<Real> edge_functions(const RayCorner<Real>& a, const Ray
     return {edge_function(c, b), edge_function(a, c), edge_function(b, a)};
 }
 
-/// Where rounding decided an edge, the products are repeated in double, where they are exact: the sign is then
-/// the true sign for the rounded corners, and two triangles that share an edge agree about it.
+/// Fallback for edge functions that round to 0: in double the products are exact, so the sign is exact for the
+/// rounded corners, and triangles that share an edge agree on it.
 PL_HD inline float exact_edge_function(const RayCorner<float>& p, const RayCorner<float>& q) {
     return static_cast<float>(static_cast<double>(p.x) * static_cast<double>(q.y) -
                               static_cast<double>(p.y) * static_cast<double>(q.x));
 }
 
-/// Scaled distance: divided by the determinant u + v + w it is the ray parameter t.
+/// Distance scaled by the determinant u + v + w: their quotient is the ray parameter t.
 template <class Real>
 PL_INLINE Real scaled_distance(const EdgeFunctions<Real>& e, const RayCorner<Real>& a, const RayCorner<Real>& b,
                                const RayCorner<Real>& c) {
     return e.u * a.z + e.v * b.z + e.w * c.z;
 }
 
-/// The order in which hits replace each other: nearer first, then the lower number, so that the result does not
-/// depend on the order of the tests.
+/// Total order of hits, by distance and then by primitive number, so that the closest hit does not depend on the
+/// order of the tests.
 PL_HD inline bool is_closer(float t, std::uint32_t primitive, const Hit& best) {
     return t < best.t || (t == best.t && primitive < best.primitive);
 }
@@ -107,8 +108,8 @@ PL_HD inline ScalarRaySpace make_ray_space(const Ray& ray) {
                                        std::fabs(d.y), std::fabs(d.z), 1.0f);
 }
 
-/// Tests one triangle and keeps the hit in `best` if it is closer. Both sides are hit. `best.t` starts as the
-/// ray's t_max; exclusion of source and target is the caller's.
+/// Two-sided test of one triangle; updates `best` if the hit is closer. `best.t` starts as the ray's t_max. The
+/// caller excludes source and target.
 PL_HD inline void intersect_triangle(const ScalarRaySpace& space, Vec3f p0, Vec3f p1, Vec3f p2,
                                      std::uint32_t primitive, Hit& best) {
     const auto a = to_ray_space(space, p0.x, p0.y, p0.z);

@@ -1,4 +1,4 @@
-// The camera: a pinhole, or a lens with an aperture.
+// The camera: a pinhole or a thin lens.
 #pragma once
 
 #include "core/kernel/base/warp.h"
@@ -6,27 +6,27 @@
 
 namespace pl {
 
-/// The image plane at distance 1: `right` and `up` span half of its width and height. A lens without an aperture is a
-/// pinhole.
+/// The image plane at distance 1 along `forward`; `right` and `up` are half of its width and height. With an aperture
+/// radius of 0 it is a pinhole.
 struct Camera {
     Vec3f eye{0.0f};
     Vec3f forward{0.0f, 0.0f, -1.0f};
     Vec3f right{1.0f, 0.0f, 0.0f};
     Vec3f up{0.0f, 1.0f, 0.0f};
     float aperture_radius = 0.0f;
-    float focus_distance = 1.0f;  ///< from the eye to the plane that is sharp, along `forward`
+    float focus_distance = 1.0f;  ///< distance of the plane of focus, along `forward`
 };
 
-/// Ray through a point of the film, in pixels from the top left corner. The direction is unit.
+/// Camera ray through a point of the film, in pixels from the top left corner. The direction is unit.
 PL_HD inline Ray generate_ray(const Camera& camera, Vec2f film, Vec2f resolution) {
     const float x = 2.0f * (film.x / resolution.x) - 1.0f;
     const float y = 1.0f - 2.0f * (film.y / resolution.y);
     return {.origin = camera.eye, .direction = glm::normalize(camera.forward + x * camera.right + y * camera.up)};
 }
 
-/// Ray of a thin lens through a point of its aperture, u in [0,1)^2, towards what the ray through its center meets in
-/// the plane that is sharp.   [Kolb, Mitchell, Hanrahan 1995, "A Realistic Camera Model for Computer Graphics",
-/// section 3.1]
+/// Thin-lens ray: from a uniform point of the aperture, u in [0,1)^2, to the point where `center`, the ray through
+/// the center of the lens, meets the plane of focus.   [Kolb, Mitchell, Hanrahan 1995, "A Realistic Camera Model for
+/// Computer Graphics", section 3.1]
 PL_HD inline Ray through_lens(const Camera& camera, const Ray& center, Vec2f u) {
     const Vec2f disk = camera.aperture_radius * square_to_disk(u);
     const Vec3f offset = disk.x * glm::normalize(camera.right) + disk.y * glm::normalize(camera.up);

@@ -1,4 +1,5 @@
-// SceneView: every array of the scene that a kernel may read. A plain handle; core/scene owns the memory.
+// SceneView: the arrays of the scene that kernels read. A non-owning view; core/scene/scene_storage.h owns the
+// memory.
 #pragma once
 
 #include "core/kernel/base/span.h"
@@ -17,11 +18,11 @@ struct Triangle {
     std::uint32_t material;
 };
 
-/// Where rays that leave a triangle may start; core/scene/triangle_planes.h derives the bounds.
+/// Bounds on the origins of rays that start on a triangle; derived in core/scene/triangle_planes.h.
 struct TrianglePlane {
     Vec3f normal;          ///< unit, on the front side
-    float position_error;  ///< distance that a ray must start off the plane
-    float edge_margin;     ///< barycentric weights below this are too close to an edge
+    float position_error;  ///< distance to offset ray origins from the plane
+    float edge_margin;     ///< smallest barycentric weight of a ray origin
 };
 
 /// Shading normals of a triangle's corners: indices into SceneView::normals.
@@ -29,8 +30,8 @@ struct TriangleNormals {
     std::uint32_t n0, n1, n2;
 };
 
-/// A triangle that emits, with the running sum of (area x luminance of the emission) up to and including it,
-/// divided by the sum over all lights: the cumulative probability of choosing it.
+/// An emissive triangle and the cumulative probability of choosing it: the sum of (area x luminance of the emission)
+/// over the lights up to and including it, divided by the sum over all lights.
 struct Light {
     std::uint32_t primitive;
     float cumulative_probability;
@@ -40,20 +41,19 @@ struct SceneView {
     Span<const Vec3f> positions;
     Span<const Triangle> triangles;
     Span<const TrianglePlane> planes;              ///< [triangle]
-    Span<const Vec3f> normals;                     ///< empty unless the scene has smooth normals
-    Span<const TriangleNormals> triangle_normals;  ///< one per triangle, or empty
+    Span<const Vec3f> normals;                     ///< unit or 0; empty unless the scene has smooth normals
+    Span<const TriangleNormals> triangle_normals;  ///< [triangle], or empty
     Span<const Material> materials;
     Span<const SurfaceLobes> lobes;        ///< [material]; empty if all are diffuse
-    Span<const float> directional_albedo;  ///< tables that they refer to
+    Span<const float> directional_albedo;  ///< tables that SurfaceLobes::table indexes
     Textures textures;
-    Span<const Light> lights;  ///< by ascending primitive
-    LightTree light_tree;      ///< over them; empty if they are few
+    Span<const Light> lights;  ///< sorted by primitive
+    LightTree light_tree;      ///< over `lights`; empty if they are few
     BvhView bvh;
-    float light_power =
-        0.0f;  ///< sum over lights of area x luminance of the emission, over the share of their samples
-    Vec3f environment{0.0f};       ///< radiance of everything that no surface covers
-    FarLights far_lights;          ///< added to it
-    float far_probability = 0.0f;  ///< that a light sample is one of the far lights rather than of `lights`
+    float light_power = 0.0f;      ///< sum of area x luminance of the emission, divided by 1 - far_probability
+    Vec3f environment{0.0f};       ///< constant radiance of escaped rays
+    FarLights far_lights;          ///< added to `environment`
+    float far_probability = 0.0f;  ///< probability that a light sample chooses `far_lights` instead of `lights`
 };
 
 }  // namespace pl

@@ -1,4 +1,4 @@
-// From a hit to a point on a surface, and from there to the next ray without hitting the surface again.
+// From a hit to a surface point, and from there to the next ray without self-intersection.
 #pragma once
 
 #include "core/kernel/base/features.h"
@@ -6,27 +6,27 @@
 
 namespace pl {
 
-/// A point on a surface seen from direction `wo`. Both normals face the viewer's side.
+/// A surface point seen from direction `wo`. Both normals lie on the side of `wo`.
 struct SurfacePoint {
     Vec3f position{0.0f};
     Vec3f geometric_normal{0.0f, 0.0f, 1.0f};
     Vec3f shading_normal{0.0f, 0.0f, 1.0f};
-    float position_error = 0.0f;  ///< how far a ray that leaves must start off the surface, along the normal
+    float position_error = 0.0f;  ///< distance to offset ray origins along the geometric normal
     std::uint32_t primitive = kNoPrimitive;
     std::uint32_t material = 0;
-    bool front = true;  ///< the viewer is on the triangle's front side
+    bool front = true;  ///< `wo` is on the front side of the triangle
 };
 
 /// Barycentric weights (b0, b1, b2).
 PL_HD inline Vec3f hit_weights(const Hit& hit) { return {1.0f - hit.b1 - hit.b2, hit.b1, hit.b2}; }
 
-/// Barycentric weights (b0, b1, b2), kept away from the edges.
+/// Barycentric weights (b0, b1, b2), each at least about `margin`.
 PL_HD inline Vec3f inner_barycentrics(const Hit& hit, float margin) {
     const Vec3f b{max_of(1.0f - hit.b1 - hit.b2, margin), max_of(hit.b1, margin), max_of(hit.b2, margin)};
     return b * (1.0f / (b.x + b.y + b.z));
 }
 
-/// Not normalized; its length is twice the area.
+/// Unnormalized normal; its length is twice the area.
 PL_HD inline Vec3f triangle_cross(Vec3f p0, Vec3f p1, Vec3f p2) { return glm::cross(p1 - p0, p2 - p0); }
 
 template <FeatureSet F>
@@ -42,12 +42,13 @@ PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t prim
     return fallback;
 }
 
-/// The point with the shading normal that F asks for; `attributes` are the weights for what is interpolated besides the
-/// position.
+/// The point with its interpolated shading normal, if F has SmoothNormals; `attributes` are the barycentric weights
+/// of the normals.
 template <FeatureSet F>
 PL_HD inline SurfacePoint with_shading_normal(const SceneView& scene, SurfacePoint point, Vec3f attributes) {
     if constexpr (F.has(Feature::SmoothNormals)) {
-        // A file may give normals that disagree with the winding: the shading normal follows the geometric one.
+        // Normals of a file may disagree with the winding: the shading normal is flipped to the side of the geometric
+        // one.
         const Vec3f plane_normal = scene.planes[point.primitive].normal;
         const Vec3f smooth = interpolate_normal<F>(scene, point.primitive, attributes, plane_normal);
         point.shading_normal = (glm::dot(smooth, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f) * smooth;
@@ -55,7 +56,7 @@ PL_HD inline SurfacePoint with_shading_normal(const SceneView& scene, SurfacePoi
     return point;
 }
 
-/// Point at barycentric weights `b` of a triangle, seen from `wo`; with the normal of its plane.
+/// Point at barycentric weights `b` of a triangle, seen from `wo`; the shading normal is the geometric normal.
 PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
     const Triangle& triangle = scene.triangles[primitive];
     const TrianglePlane& plane = scene.planes[primitive];
@@ -71,14 +72,14 @@ PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, std::uint32_t 
     return point;
 }
 
-/// Point at barycentric weights, exactly there.
+/// Point at exactly these barycentric weights, with its shading normal.
 template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
     return with_shading_normal<F>(scene, make_flat_point(scene, primitive, b, wo), b);
 }
 
-/// Point of a hit, kept so far from the triangle's edges that rounding cannot put the origin of the next ray behind
-/// a wall that meets this one. Only the position moves: normals stay smooth on the smallest triangles.
+/// Point of a hit, kept at a distance from the triangle's edges so that rounding cannot put the origin of the next
+/// ray behind an adjacent wall. Only the position moves: normals stay smooth on the smallest triangles.
 PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
     return make_flat_point(scene, hit.primitive, inner_barycentrics(hit, scene.planes[hit.primitive].edge_margin),
                            wo);
@@ -88,12 +89,13 @@ PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& 
     return with_shading_normal<F>(scene, make_flat_point(scene, hit, wo), hit_weights(hit));
 }
 
-/// Moves `coordinate` by `offset` and then one float further in the same direction.
+/// coordinate + offset, rounded away from `coordinate` by one float.
 PL_HD inline float offset_outwards(float coordinate, float offset) {
     return step_float(coordinate + offset, (offset > 0.0f ? 1 : 0) - (offset < 0.0f ? 1 : 0));
 }
 
-/// Origin of a ray that leaves the surface towards `direction`: outside the error bound, on the right side.
+/// Origin of a ray in `direction`, outside of the error bounds of the point, on the side of the direction.   [Pharr,
+/// Jakob, Humphreys, Physically Based Rendering, 4th ed., 6.8.6]
 PL_HD inline Vec3f spawn_origin(const SurfacePoint& point, Vec3f direction) {
     const float side = glm::dot(direction, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f;
     const Vec3f offset = (side * point.position_error) * point.geometric_normal;
@@ -105,7 +107,7 @@ PL_HD inline Ray spawn_ray(const SurfacePoint& point, Vec3f direction) {
     return {.origin = spawn_origin(point, direction), .direction = direction, .source = point.primitive};
 }
 
-/// The segment between two surface points, free of both: 0 < t < 1.
+/// Shadow ray between two surface points, t in (0, 1), that excludes both triangles.
 PL_HD inline Ray spawn_shadow_ray(const SurfacePoint& from, const SurfacePoint& to) {
     const Vec3f direction = to.position - from.position;
     const Vec3f origin = spawn_origin(from, direction);

@@ -1,4 +1,4 @@
-// Images on surfaces: where a point of a triangle lies in them, and their value there.
+// Image textures: texture coordinates of a surface point, and bilinear lookup.
 #pragma once
 
 #include "core/kernel/base/bilinear.h"
@@ -10,7 +10,7 @@ namespace pl {
 /// No image.
 inline constexpr std::uint32_t kNoImage = 0xffffffffu;
 
-/// Red, green, blue and opacity as half floats: three digits in 8 bytes, where floats would take 16.
+/// Red, green, blue and opacity as half floats: 8 bytes.
 struct alignas(8) Texel {
     std::uint16_t red, green, blue, opacity;
 };
@@ -19,23 +19,23 @@ PL_HD inline Vec4f unpack(Texel t) {
     return {from_half(t.red), from_half(t.green), from_half(t.blue), from_half(t.opacity)};
 }
 
-/// Texels lie row by row from the top, from `first` on in Textures::texels.
+/// Texels are stored row by row from the top in Textures::texels, from `first` on.
 struct Image {
     std::uint32_t first;
     std::uint32_t width, height;
-    std::uint32_t repeats;  ///< 0: outside of [0, 1] the border goes on
+    std::uint32_t repeats;  ///< 1: coordinates wrap around; 0: they are clamped
 };
 
-/// What each number of a material is multiplied with: indices into Textures::images, or kNoImage.
+/// Textures that multiply a material's parameters: indices into Textures::images, or kNoImage.
 struct MaterialImages {
     std::uint32_t albedo = kNoImage;
     std::uint32_t roughness = kNoImage;
     std::uint32_t emission = kNoImage;
     std::uint32_t opacity = kNoImage;
-    Vec3f emission_scale{1.0f};  ///< one over the image's mean, which is a factor of Material::emission already
+    Vec3f emission_scale{1.0f};  ///< 1 / mean of the image, because Material::emission includes the mean
 };
 
-/// Corners of a triangle in the image plane: indices into Textures::uvs.
+/// Texture coordinates of a triangle's corners: indices into Textures::uvs.
 struct TriangleUvs {
     std::uint32_t t0, t1, t2;
 };
@@ -47,22 +47,22 @@ struct Textures {
     Span<const Image> images;
     Span<const Texel> texels;
     Span<const MaterialImages> of_material;  ///< [material]
-    std::uint32_t has_holes = 0;             ///< 1: a material has an opacity image
+    std::uint32_t has_holes = 0;             ///< 1: some material has an opacity image
 };
 
-/// Image coordinates at barycentric weights of a triangle.
+/// Texture coordinates at barycentric weights of a triangle.
 PL_HD inline Vec2f uv_at(const Textures& textures, std::uint32_t primitive, Vec3f b) {
     const TriangleUvs t = textures.triangle_uvs[primitive];
     return b.x * textures.uvs[t.t0] + b.y * textures.uvs[t.t1] + b.z * textures.uvs[t.t2];
 }
 
-/// In [0, 1], whatever x is: NaN and what is too large to have a fraction become 0.
+/// Wraps or clamps x to [0, 1]. NaN, and values that are too large to have a fraction, give 0.
 PL_HD inline float into_unit(float x, bool repeats) {
     const float inside = repeats ? x - std::floor(x) : clamp_to(x, 0.0f, 1.0f);
     return inside >= 0.0f && inside <= 1.0f ? inside : 0.0f;
 }
 
-/// Bilinear between the middles of texels; u runs to the right, v upwards.
+/// Bilinear lookup between the centers of texels; u to the right, v upwards.
 PL_HD inline Vec4f sample_image(const Textures& textures, std::uint32_t index, Vec2f uv) {
     const Image& image = textures.images[index];
     const bool repeats = image.repeats != 0;
@@ -74,10 +74,10 @@ PL_HD inline Vec4f sample_image(const Textures& textures, std::uint32_t index, V
     return bilinear(x, y, at(x.low, y.low), at(x.high, y.low), at(x.low, y.high), at(x.high, y.high));
 }
 
-/// Below this opacity a surface has a hole.
+/// A surface has a hole where its opacity is below this threshold (alpha test).
 inline constexpr float kLeastOpacity = 0.5f;
 
-/// Whether rays pass the point at barycentric weights `b` of a triangle of this material.
+/// Whether the triangle of this material has a hole at barycentric weights `b`.
 PL_HD inline bool is_hole(const Textures& textures, std::uint32_t material, std::uint32_t primitive, Vec3f b) {
     const std::uint32_t opacity = textures.of_material[material].opacity;
     return opacity != kNoImage && sample_image(textures, opacity, uv_at(textures, primitive, b)).w < kLeastOpacity;

@@ -1,5 +1,5 @@
-// What a surface does to light at one point. Kernels are templates over it: where a scene has diffuse surfaces alone it is
-// LambertBsdf, an albedo and nothing else.
+// The BSDF at a surface point. Kernels are templates over it: LambertBsdf, an albedo alone, serves scenes with
+// diffuse surfaces only, LayeredBsdf all others.
 #pragma once
 
 #include "core/kernel/base/features.h"
@@ -11,13 +11,13 @@
 
 namespace pl {
 
-/// Metals rougher than this are guided by tables: their lobes are wider than a cell of 16 x 16.
+/// Conductors at least this rough are guided: their lobes are wider than a cell of a 16 x 16 table.
 inline constexpr float kMinGuidedRoughness = 0.3f;
 
-/// A lobe of a single direction.
+/// Sample of a delta lobe.
 struct DeltaDirection {
     Vec3f wi{0.0f};
-    Vec3f weight{0.0f};  ///< f / density; black: it cannot go there
+    Vec3f weight{0.0f};  ///< f / probability of the choice; black: no contribution
 };
 
 struct LambertBsdf {
@@ -27,13 +27,13 @@ struct LambertBsdf {
     PL_HD bool scatters() const { return !is_black(reflectance); }
     static PL_HD constexpr bool is_lambert() { return true; }
     static PL_HD constexpr bool is_specular() { return false; }
-    /// |cos| of a direction that can be sampled; 0 for one that cannot.
+    /// |cos theta_i| at the shading normal; 0 for directions that the BSDF is black for.
     PL_HD float cosine(const SurfacePoint& surface, Vec3f wi) const { return reflection_cosine(surface, wi); }
     PL_HD Vec3f eval(const SurfacePoint&, Vec3f, float cos_i) const { return lambert_eval(reflectance, cos_i); }
 };
 
-/// Any surface. A vertex takes a delta lobe with probability delta_probability(), else one of the lobes that eval(), pdf_sa()
-/// and sample() are for; densities and weights of both are those of the lobes alone.
+/// The BSDF of any SurfaceKind. A vertex samples the delta lobe with probability delta_probability(), else the
+/// others, which eval(), pdf_sa() and sample() describe; their densities and weights exclude that probability.
 class LayeredBsdf {
 public:
     LayeredBsdf() = default;
@@ -43,12 +43,12 @@ public:
                       Span<const float> tables)
         : reflectance_(albedo), lobes_(lobes), tables_(tables.data + lobes.table), albedo_(albedo) {
         if (is_lambert()) return;
-        // A shading normal may face away from the viewer; the true one never does.
+        // The shading normal may face away from the viewer; the geometric one never does.
         const bool usable = glm::dot(wo, surface.shading_normal) > kGrazing;
         frame_ = make_frame(usable ? surface.shading_normal : surface.geometric_normal);
         wo_ = frame_.to_local(wo);
         wo_.z = max_of(wo_.z, kGrazing);
-        // A coat is on both sides; glass is left from its back.
+        // A coat is on both sides; the back of a dielectric is its inside.
         const bool is_inside = lobes.kind == SurfaceKind::Dielectric && !surface.front;
         eta_ = is_inside ? 1.0f / lobes.ior : lobes.ior;
         if (lobes.kind == SurfaceKind::Plastic) {
@@ -61,10 +61,10 @@ public:
     }
 
     PL_HD bool is_lambert() const { return lobes_.kind == SurfaceKind::Diffuse; }
-    /// No table chooses directions here: what is seen is passed on to the vertex before.
+    /// Not guided: the vertex learns nothing and passes the incident radiance on to the previous vertex.
     PL_HD bool is_specular() const { return is_black(reflectance_) && scatters(); }
     PL_HD bool scatters() const { return lobes_.kind == SurfaceKind::Dielectric || !is_black(albedo_); }
-    /// Share of light from all around that leaves towards the viewer.
+    /// Directional albedo: the reflected and transmitted share of uniform incident radiance, towards wo.
     PL_HD Vec3f albedo() const { return albedo_; }
 
     PL_HD float delta_probability() const {
@@ -90,7 +90,7 @@ public:
         return delta;
     }
 
-    /// |cos| of a direction that eval() may not be black for; 0 for others.
+    /// |cos theta_i| at the shading normal; 0 for directions that eval() is black for.
     PL_HD float cosine(const SurfacePoint& surface, Vec3f wi) const {
         if (is_lambert()) return reflection_cosine(surface, wi);
         const float above = glm::dot(wi, surface.geometric_normal);
@@ -99,7 +99,7 @@ public:
         if (z < 0.0f && lobes_.kind != SurfaceKind::Dielectric) return 0.0f;
         return smooth() && lobes_.kind != SurfaceKind::Plastic ? 0.0f : std::fabs(z);
     }
-    /// BSDF times |cos|, per steradian, for a direction whose cosine() is not 0.
+    /// BSDF times |cos theta_i|, 1/sr, without delta lobes, for a direction whose cosine() is not 0.
     PL_HD Vec3f eval(const SurfacePoint&, Vec3f wi, float cos_i) const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return lambert_eval(reflectance_, cos_i);
@@ -118,7 +118,8 @@ public:
         }
         return 0.0f;
     }
-    /// A unit direction with density pdf_sa(), or 0, a sample without value; u in [0,1)^2, `choice` in [0, 1).
+    /// A unit direction with density pdf_sa() per steradian, or 0 for a sample of value 0; u in [0,1)^2, `choice` in
+    /// [0, 1).
     PL_HD Vec3f sample(const SurfacePoint& surface, Vec2f u, float choice) const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return lambert_sample(surface, u);
@@ -164,14 +165,14 @@ private:
     Frame frame_{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
     Vec3f wo_{0.0f, 0.0f, 1.0f};
     float eta_ = 1.0f;
-    float returned_ = 1.0f;  ///< of light from wo, by single reflections (and refractions) of the interface
+    float returned_ = 1.0f;  ///< directional albedo of the interface by single scattering, for wo
     Vec3f albedo_{0.0f};
 };
 
 template <FeatureSet F>
 using Bsdf = std::conditional_t<F.has_any(kLobeFeatures), LayeredBsdf, LambertBsdf>;
 
-/// The BSDF of a surface that is seen from wo. `b`: barycentric weights of the point.
+/// The BSDF of a surface point for wo. `b`: its barycentric weights.
 template <FeatureSet F>
 PL_HD inline Bsdf<F> make_bsdf(const SceneView& scene, const SurfacePoint& surface, Vec3f b, Vec3f wo) {
     const Vec3f albedo = albedo_at<F>(scene, surface, b);

@@ -1,4 +1,4 @@
-// Metals: a mirror, or GGX with what bounces more than once between its facets.
+// Conductors: a mirror, or GGX with compensation for multiple scattering.
 #pragma once
 
 #include "core/kernel/shading/directional_albedo.h"
@@ -7,9 +7,9 @@
 
 namespace pl {
 
-/// Local directions, wo.z > 0. Single reflections as [Walter et al. 2007]; the rest as a lobe that is reciprocal and gives back
-/// all that is missing where facets absorb nothing.   [Kulla and Conty 2017, "Revisiting Physically Based Shading at
-/// Imageworks"; Turquin 2019 for the tint by several reflections]
+/// Local directions, wo.z > 0. Single scattering by [Walter et al. 2007]; multiple scattering by a reciprocal lobe
+/// that restores the missing energy, all of it if the facets absorb nothing.   [Kulla and Conty 2017, "Revisiting
+/// Physically Based Shading at Imageworks"; Turquin 2019 for its tint]
 struct RoughConductor {
     Ggx ggx;
     Vec3f f0;  ///< reflectance at normal incidence
@@ -18,13 +18,13 @@ struct RoughConductor {
     Vec3f wo;
     float returned;  ///< lossless.at(roughness, wo.z)
 
-    /// What is reflected of light from all around.
+    /// Directional albedo for wo.
     PL_HD Vec3f albedo() const {
         const Vec3f single = fresnel_conductor(wo.z, f0) * returned;
         return single + (1.0f - returned) * several_tint();
     }
 
-    /// f cos, per steradian.
+    /// f cos theta_i, 1/sr.
     PL_HD Vec3f eval(Vec3f wi) const {
         if (!(wi.z > 0.0f)) return Vec3f{0.0f};
         const Vec3f m = half_vector(wo, wi);
@@ -37,7 +37,7 @@ struct RoughConductor {
         if (!(wi.z > 0.0f)) return 0.0f;
         return returned * ggx.reflection_pdf_sa(wo, half_vector(wo, wi)) + (1.0f - returned) * wi.z * kInvPi;
     }
-    /// `choice` in [0, 1) takes one of the two lobes. The direction may be below the horizon.
+    /// A unit direction, which may be below the horizon; `choice` in [0, 1) selects one of the two lobes.
     PL_HD Vec3f sample(Vec2f u, float choice) const {
         if (choice >= returned) return square_to_cosine_hemisphere(u);
         return reflect_at(wo, ggx.sample(wo, u));

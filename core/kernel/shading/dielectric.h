@@ -1,4 +1,4 @@
-// Glass: light is reflected or refracted, by a smooth surface or by the facets of a rough one.
+// Dielectrics: reflection and refraction by a smooth interface, or by GGX facets.
 #pragma once
 
 #include "core/kernel/shading/directional_albedo.h"
@@ -7,16 +7,17 @@
 
 namespace pl {
 
-/// Rough glass, local directions, wo.z > 0; wi.z < 0 passes. Radiance is carried: what passes is divided by eta^2.
-/// [Walter et al. 2007, eqs. 20, 21; Veach 1997, 5.2 for eta^2]. Divided by what single scattering returns of all light, so
-/// that glass that absorbs nothing loses nothing   [Turquin 2019, "Practical Multiple Scattering Compensation for
-/// Microfacet Models", for transmission]; that factor depends on wo alone, so the whole is not reciprocal.
+/// Rough dielectric; local directions, wo.z > 0, transmission for wi.z < 0. Paths transport radiance from light to
+/// camera: transmission includes the factor 1 / eta^2.   [Walter et al. 2007, eqs. 20, 21; Veach 1997, 5.2 for eta^2]
+/// The BSDF is divided by its directional albedo for single scattering, so that a lossless dielectric keeps all
+/// energy [Turquin 2019, "Practical Multiple Scattering Compensation for Microfacet Models"]; the factor depends on
+/// wo alone, so the BSDF is not reciprocal.
 struct RoughDielectric {
     Ggx ggx;
-    float eta;  ///< index of refraction beyond over that on the side of wo
+    float eta;  ///< relative index of refraction: far side over the side of wo
     Vec3f specular, transmission;
     Vec3f wo;
-    float returned;  ///< of all light, by single scattering
+    float returned;  ///< directional albedo for wo by single scattering
 
     PL_HD Vec3f eval(Vec3f wi) const {
         const Facet facet = facet_between(wi);
@@ -34,8 +35,8 @@ struct RoughDielectric {
         return (1.0f - facet.reflectance) * common * facet.cos_o * facet.cos_i *
                square(eta / (facet.cos_o - eta * facet.cos_i));
     }
-    /// Reflected where `choice` in [0, 1) is below the facet's reflectance. 0 if the facet sends it to the wrong side of the
-    /// surface, where other facets send light, too.
+    /// A unit direction, reflected if `choice` in [0, 1) is below the facet's Fresnel reflectance, else refracted. 0,
+    /// a sample of value 0, if it lies on the wrong side of the surface.
     PL_HD Vec3f sample(Vec2f u, float choice) const {
         const Vec3f m = ggx.sample(wo, u);
         const bool reflects = choice < fresnel_dielectric(clamp_to(glm::dot(wo, m), 0.0f, 1.0f), eta);
@@ -44,7 +45,7 @@ struct RoughDielectric {
     }
 
 private:
-    /// The facet that leads from wo to wi.
+    /// The facet that scatters wo into wi: the (generalized) half vector.
     struct Facet {
         Vec3f m{0.0f, 0.0f, 1.0f};
         float cos_o = 0.0f;  ///< wo.m, above 0
@@ -60,7 +61,7 @@ private:
         m *= (m.z >= 0.0f ? 1.0f : -1.0f) / std::sqrt(length2);
         const float cos_o = glm::dot(wo, m);
         const float cos_i = glm::dot(wi, m);
-        // A facet shows the same side to a direction as the surface does.
+        // Back-facing facets do not scatter: a facet and the surface show a direction the same side.
         if (!(cos_o > 0.0f) || !(cos_i * wi.z > 0.0f)) return {};
         return {m, cos_o, std::fabs(cos_i), fresnel_dielectric(min_of(cos_o, 1.0f), eta), true};
     }

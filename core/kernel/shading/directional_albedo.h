@@ -1,5 +1,5 @@
-// How much of the light from one direction a rough interface returns: tables over roughness and angle, made by
-// core/scene/directional_albedo.h, so that energy that single reflections lose can be given back.
+// Directional albedo of a rough interface by single scattering, tabulated over roughness and angle by
+// core/scene/directional_albedo.h; energy compensation for multiple scattering is based on it.
 #pragma once
 
 #include "core/kernel/base/math.h"
@@ -7,8 +7,8 @@
 
 namespace pl {
 
-/// One table in SceneView::directional_albedo: rows of roughness from 0 to 1, in each the values over the root of the
-/// cosine from 0 to 1, then the rows' means over directions, weighted with their cosines.
+/// One table of SceneView::directional_albedo, [roughness][sqrt(cos theta)], both from 0 to 1, followed by the
+/// cosine-weighted mean over directions of every row.
 struct AlbedoTable {
     static constexpr int kRoughnesses = 32;
     static constexpr int kCosines = 32;
@@ -30,7 +30,7 @@ struct AlbedoTable {
 private:
     struct Step {
         int below;
-        float share;  ///< of the next one
+        float share;  ///< weight of the next entry
     };
     static PL_HD Step step_of(float x, int count) {
         const float scaled = clamp_to(x, 0.0f, 1.0f) * static_cast<float>(count - 1);

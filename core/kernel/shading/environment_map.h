@@ -1,4 +1,4 @@
-// Light from all around as an image in latitude and longitude, and choosing directions by how much comes from each.
+// Environment map in latitude and longitude, importance sampled by its luminance.
 #pragma once
 
 #include "core/kernel/base/angles.h"
@@ -8,12 +8,11 @@
 
 namespace pl {
 
-/// The first row looks up (+y); unless it is turned, the middle column looks along -z, and those to its right towards
-/// +x.
+/// The first row is up (+y); without a turn the middle column is -z and the columns to its right approach +x.
 struct EnvironmentMap {
-    Span<const Vec3f> texels;      ///< radiance, row by row from the top; empty: there is no map
-    Span<const float> row_cdf;     ///< cumulative probabilities of the rows; multiples of 2^-24, the last one 1
-    Span<const float> column_cdf;  ///< [row * width + column], in each row as row_cdf
+    Span<const Vec3f> texels;      ///< [row][column], radiance, row 0 at the top; empty: no map
+    Span<const float> row_cdf;     ///< [row], marginal cumulative probabilities; multiples of 2^-24, the last one 1
+    Span<const float> column_cdf;  ///< [row][column], conditional cumulative probabilities, as row_cdf in each row
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     float turn = 0.0f;  ///< counter-clockwise about +y, in turns
@@ -21,14 +20,14 @@ struct EnvironmentMap {
     PL_HD bool empty() const { return texels.empty(); }
 };
 
-/// A direction in the image: u to the right, v down, both in [0, 1].
+/// Image coordinates of a unit direction: u to the right, v down, both in [0, 1].
 PL_HD inline Vec2f map_point(const EnvironmentMap& map, Vec3f direction) {
     const float u = 0.5f + turns_of(direction.x, -direction.z) + map.turn;
     const float across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
     return {u - std::floor(u), 2.0f * turns_of(across, direction.y)};
 }
 
-/// The texels around a point of the image.
+/// Bilinear taps at a point of the image.
 struct MapTaps {
     Taps x, y;
 };
@@ -36,7 +35,7 @@ PL_HD inline MapTaps map_taps(const EnvironmentMap& map, Vec2f point) {
     return {taps_at(point.x, map.width, true), taps_at(point.y, map.height, false)};
 }
 
-/// Radiance that arrives from a unit direction.
+/// Incident radiance from the direction of the taps.
 PL_HD inline Vec3f map_radiance(const EnvironmentMap& map, const MapTaps& at) {
     const auto texel = [&](std::uint32_t column, std::uint32_t row) { return map.texels[row * map.width + column]; };
     return bilinear(at.x, at.y, texel(at.x.low, at.y.low), texel(at.x.high, at.y.low), texel(at.x.low, at.y.high),
@@ -46,13 +45,13 @@ PL_HD inline Vec3f map_radiance(const EnvironmentMap& map, Vec3f direction) {
     return map_radiance(map, map_taps(map, map_point(map, direction)));
 }
 
-/// What entry `i` adds to the cumulative probabilities from `first` on.
+/// Probability of entry `i` of the distribution whose cumulative probabilities begin at `first`.
 PL_HD inline float cdf_share(Span<const float> cdf, std::uint32_t first, std::uint32_t i) {
     return cdf[first + i] - (i > 0 ? cdf[first + i - 1] : 0.0f);
 }
 
-/// Density over the unit square of sample_map_point(): bilinear between the middles of texels, as the radiance is, so
-/// that the two are nearly proportional; exact because tents around texels add up to that.
+/// Density of sample_map_point() over the unit square. Bilinear between the centers of texels, like the radiance, so
+/// the two are nearly proportional; exact, because the tents around texels sum to bilinear interpolation.
 PL_HD inline float map_density(const EnvironmentMap& map, const MapTaps& at) {
     const auto texel = [&](std::uint32_t column, std::uint32_t row) {
         return cdf_share(map.row_cdf, 0, row) * cdf_share(map.column_cdf, row * map.width, column);
@@ -62,7 +61,7 @@ PL_HD inline float map_density(const EnvironmentMap& map, const MapTaps& at) {
     return p * static_cast<float>(map.width) * static_cast<float>(map.height);
 }
 
-/// Per steradian: the image's rows get narrower by the sine of the angle from +y. 0 at the two poles.
+/// Density per steradian: rows shrink by `sine`, the sine of the angle from +y. 0 at the poles.
 PL_HD inline float map_pdf_sa(const EnvironmentMap& map, const MapTaps& at, float sine) {
     return sine > 0.0f ? map_density(map, at) * (0.5f * kInvPi * kInvPi) / sine : 0.0f;
 }
@@ -71,10 +70,10 @@ PL_HD inline float map_pdf_sa(const EnvironmentMap& map, Vec3f direction) {
     return map_pdf_sa(map, map_taps(map, map_point(map, direction)), sine);
 }
 
-/// The interval of cumulative probabilities that holds a number, and where in it.
+/// The interval of a discrete distribution that contains a uniform number.
 struct CdfStep {
     std::uint32_t entry;
-    float position;  ///< in [0, 1]
+    float position;  ///< of the number in the interval, in [0, 1]
 };
 PL_HD inline CdfStep find_in_cdf(Span<const float> cdf, std::uint32_t first, std::uint32_t count, float u) {
     const std::uint32_t low = find_interval(count, u, [&](std::uint32_t entry) { return cdf[first + entry]; });
@@ -82,7 +81,7 @@ PL_HD inline CdfStep find_in_cdf(Span<const float> cdf, std::uint32_t first, std
     return {low, (u - start) / (cdf[first + low] - start)};
 }
 
-/// A texel by its probability, then a tent around its middle that reaches into the neighbors; u in [0,1)^2.
+/// Samples a texel by its probability, then a tent around its center that extends into the neighbors; u in [0,1)^2.
 PL_HD inline Vec2f sample_map_point(const EnvironmentMap& map, Vec2f u) {
     const CdfStep row = find_in_cdf(map.row_cdf, 0, map.height, u.y);
     const CdfStep column = find_in_cdf(map.column_cdf, row.entry * map.width, map.width, u.x);
@@ -93,14 +92,14 @@ PL_HD inline Vec2f sample_map_point(const EnvironmentMap& map, Vec2f u) {
     return {x - std::floor(x), reflect_into<One>(y, height) / height};
 }
 
-/// A direction and the light that comes from there.
+/// A sample of a far light.
 struct FarSample {
     Vec3f wi{0.0f};  ///< unit
     Vec3f radiance{0.0f};
     float pdf_sa = 0.0f;
 };
 
-/// u in [0,1)^2; the map must not be empty.
+/// Samples a direction of the map, which must not be empty; u in [0,1)^2.
 PL_HD inline FarSample sample_map(const EnvironmentMap& map, Vec2f u) {
     const Vec2f point = sample_map_point(map, u);
     const SineCosine longitude = sine_cosine_of_turns(point.x - 0.5f - map.turn);

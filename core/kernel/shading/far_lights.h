@@ -1,4 +1,4 @@
-// Light from infinitely far away that depends on the direction: an image over all directions, and a sun.
+// Infinitely distant lights that depend on the direction: an environment map and a sun.
 #pragma once
 
 #include "core/kernel/base/frame.h"
@@ -6,12 +6,11 @@
 
 namespace pl {
 
-/// A disc of constant radiance. Its size is that of its chord: directions w with |w - direction|^2 < chord2 are in it,
-/// and it fills exactly pi chord2 steradians, because the map from the sphere to chords keeps areas (Lambert's
-/// azimuthal one).
+/// A disk of constant radiance: the directions w with |w - direction|^2 < chord2. It subtends exactly pi chord2
+/// steradians, because Lambert's azimuthal projection preserves areas.
 struct Sun {
-    Vec3f direction{0.0f, 1.0f, 0.0f};  ///< towards it, unit
-    float chord2 = 0.0f;                ///< 2 (1 - cos of half of its angle); 0: there is none
+    Vec3f direction{0.0f, 1.0f, 0.0f};  ///< unit, towards the sun
+    float chord2 = 0.0f;                ///< 2 (1 - cos(angular radius)); 0: no sun
     Vec3f radiance{0.0f};
 
     PL_HD bool empty() const { return chord2 == 0.0f; }
@@ -25,7 +24,7 @@ PL_HD inline float sun_pdf_sa(const Sun& sun, Vec3f direction) {
     return in_sun(sun, direction) ? kInvPi / sun.chord2 : 0.0f;
 }
 
-/// A direction of the disc, all equally probable; u in [0,1)^2.
+/// Uniform direction of the disk; u in [0,1)^2. Density: 1 / (pi chord2) per steradian.
 PL_HD inline Vec3f sample_sun(const Sun& sun, Vec2f u) {
     const Vec2f disk = square_to_disk(u);
     const float r2 = (disk.x * disk.x + disk.y * disk.y) * sun.chord2;
@@ -33,11 +32,11 @@ PL_HD inline Vec3f sample_sun(const Sun& sun, Vec2f u) {
     return make_frame(sun.direction).to_world({disk.x * across, disk.y * across, 1.0f - 0.5f * r2});
 }
 
-/// Both lights; either may be missing.
+/// Environment map and sun; either may be missing.
 struct FarLights {
     EnvironmentMap map;
     Sun sun;
-    float map_probability = 0.0f;  ///< that a sample is one of the map rather than of the sun
+    float map_probability = 0.0f;  ///< probability of sampling the map instead of the sun
 
     PL_HD bool empty() const { return map.empty() && sun.empty(); }
 };
@@ -56,7 +55,7 @@ PL_HD inline float far_pdf_sa(const FarLights& lights, Vec3f direction) {
     return pdf_sa;
 }
 
-/// `choice` in [0, 1) takes the map or the sun; u in [0,1)^2. The lights must not be empty.
+/// Samples the map or the sun, by `choice` in [0, 1); u in [0,1)^2. The lights must not be empty.
 PL_HD inline FarSample sample_far(const FarLights& lights, Vec2f u, float choice) {
     if (choice < lights.map_probability) {
         FarSample sample = sample_map(lights.map, u);
@@ -66,7 +65,7 @@ PL_HD inline FarSample sample_far(const FarLights& lights, Vec2f u, float choice
         return sample;
     }
     const Vec3f wi = sample_sun(lights.sun, u);
-    // Rounding may leave a direction on the rim just outside: then the sun's share is missing from both.
+    // Rounding may put a direction just outside of the rim; radiance and density then both exclude the sun.
     return {.wi = wi, .radiance = far_radiance(lights, wi), .pdf_sa = far_pdf_sa(lights, wi)};
 }
 

@@ -7,13 +7,13 @@
 
 namespace pl {
 
-/// cos(theta_i) of a direction that the surface can reflect; 0 for one below the true or the shading surface.
+/// cos(theta_i) at the shading normal; 0 below the geometric or the shading horizon.
 PL_HD inline float reflection_cosine(const SurfacePoint& surface, Vec3f wi) {
     if (glm::dot(wi, surface.geometric_normal) <= 0.0f) return 0.0f;
     return max_of(glm::dot(wi, surface.shading_normal), 0.0f);
 }
 
-/// BSDF times cosine, per steradian.
+/// BSDF times cos(theta_i), 1/sr.
 PL_HD inline Vec3f lambert_eval(Vec3f albedo, float cos_i) { return albedo * (cos_i * kInvPi); }
 
 /// Cosine-weighted direction around the shading normal; u in [0,1)^2. Density: lambert_pdf_sa.
@@ -21,8 +21,8 @@ PL_HD inline Vec3f lambert_sample(const SurfacePoint& surface, Vec2f u) {
     return make_frame(surface.shading_normal).to_world(square_to_cosine_hemisphere(u));
 }
 
-/// Density of lambert_sample per steradian. Directions between shading and geometric horizon have a density but
-/// no reflectance: they are zero-valued samples.
+/// Density of lambert_sample per steradian. Directions between the shading and the geometric horizon have a density
+/// but a BSDF of 0: samples of value 0.
 PL_HD inline float lambert_pdf_sa(const SurfacePoint& surface, Vec3f wi) {
     return cosine_hemisphere_pdf_sa(glm::dot(wi, surface.shading_normal));
 }

@@ -1,5 +1,5 @@
-// A tree over the lights of a scene that has many: from any point, lights that are near and face it are chosen more
-// often than others.   [Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting"]
+// Light tree: a hierarchy over many lights that samples them by distance and orientation to the shaded point. [Conty
+// Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting"]
 #pragma once
 
 #include "core/kernel/base/math.h"
@@ -7,48 +7,48 @@
 
 namespace pl {
 
-/// Some lights: a sphere around them and a cone around the normals of the sides that emit.
+/// Bounds of a set of lights: a sphere around them and a cone around the normals of their emitting sides.
 struct LightNode {
     Vec3f center{0.0f};
     float radius = 0.0f;
     Vec3f axis{0.0f, 0.0f, 1.0f};
-    float cos_spread = 1.0f;  ///< of the angle between the axis and the farthest normal; -1 where all sides emit
-    float power = 0.0f;       ///< area x luminance of the emission, as a share of that of all lights
-    std::uint32_t next = 0;   ///< of an inner node, its second child; the first one follows it. Of a leaf, its light
+    float cos_spread = 1.0f;  ///< cosine of the largest angle between axis and normal; -1 for all directions
+    float power = 0.0f;       ///< sum of area x luminance of the emission, as a share of all lights
+    std::uint32_t next = 0;   ///< inner node: its second child, the first one follows the parent; leaf: its light
     std::uint32_t is_leaf = 0;
 };
 
-/// How a light is found in the tree.
+/// The leaf of a light.
 struct LightPlace {
-    std::uint64_t trail = 0;  ///< bit i: whether the way down from level i goes to the second child
-    float pdf_area = 0.0f;  ///< density of its points once it is chosen, per unit area, times the share of all light
-                            ///< samples that choose among these lights
+    std::uint64_t trail = 0;  ///< bit i: the path from the root takes the second child at level i
+    /// Density of a point, given the light, per unit area, times the probability of sampling `lights`.
+    float pdf_area = 0.0f;
 };
-/// Levels of inner nodes that a trail can describe.
+/// Largest number of inner levels: the bits of a trail.
 inline constexpr int kMostLightLevels = 64;
 
 struct LightTree {
-    Span<const LightNode> nodes;      ///< the root first; empty where there are few lights
+    Span<const LightNode> nodes;      ///< root first, depth-first order; empty if lights are few
     Span<const LightPlace> of_light;  ///< [light]
 
     PL_HD bool empty() const { return nodes.empty(); }
 };
 
-/// A light, and the probability with which it is chosen.
+/// A light, and the probability of its choice.
 struct ChosenLight {
     std::uint32_t light = 0;
     float probability = 0.0f;
 };
 
-/// Cosine of the angle a - b, or 1 if it is negative; both in [0, pi], given by their cosines.
+/// cos(max(0, a - b)) of two angles in [0, pi], given by their cosines.
 PL_HD inline float cos_of_difference(float cos_a, float cos_b) {
     if (cos_a >= cos_b) return 1.0f;
     const float sin_product = (1.0f - cos_a * cos_a) * (1.0f - cos_b * cos_b);
     return cos_a * cos_b + std::sqrt(max_of(sin_product, 0.0f));
 }
 
-/// Estimate of the irradiance that a node's lights cause at a point that faces them: power over squared distance, times the
-/// largest cosine that any of them can have. 0 where all face away.   [Conty Estevez and Kulla 2018, section 5]
+/// Importance of a node: power over squared distance, times a bound on the emission cosines of its lights; 0 if all
+/// face away. Without the cosine at the receiver.   [Conty Estevez and Kulla 2018, section 5]
 PL_HD inline float light_importance(const LightNode& node, Vec3f from) {
     const Vec3f to_point = from - node.center;
     const float distance2 = glm::dot(to_point, to_point);
@@ -60,7 +60,8 @@ PL_HD inline float light_importance(const LightNode& node, Vec3f from) {
     return node.power * max_of(cos_light, 0.0f) / distance2;
 }
 
-/// Probability of going on to a node's first child. Where nothing is known of either, their powers decide.
+/// Probability of descending to the first child: its share of the children's importance, or of their power if both
+/// importances are 0.
 PL_HD inline float first_child_share(const LightTree& tree, std::uint32_t parent, Vec3f from) {
     const LightNode& first = tree.nodes[parent + 1];
     const LightNode& second = tree.nodes[tree.nodes[parent].next];
@@ -73,7 +74,7 @@ PL_HD inline float first_child_share(const LightTree& tree, std::uint32_t parent
     return a / (a + b);
 }
 
-/// Chooses a light for a point; u in [0,1).
+/// Samples a light for the point `from`; u in [0,1).
 PL_HD inline ChosenLight choose_light(const LightTree& tree, Vec3f from, float u) {
     constexpr float kAlmostOne = 1.0f - 0x1p-24f;
     ChosenLight chosen{.probability = 1.0f};
@@ -82,7 +83,7 @@ PL_HD inline ChosenLight choose_light(const LightTree& tree, Vec3f from, float u
         const float share = first_child_share(tree, node, from);
         const bool is_second = u >= share;
         const float part = is_second ? 1.0f - share : share;
-        // What is left of u is uniform again.
+        // The remainder of u is uniform again: it is reused.
         u = min_of((is_second ? u - share : u) / part, kAlmostOne);
         chosen.probability *= part;
         node = is_second ? tree.nodes[node].next : node + 1;
@@ -91,7 +92,7 @@ PL_HD inline ChosenLight choose_light(const LightTree& tree, Vec3f from, float u
     return chosen;
 }
 
-/// Probability with which choose_light() chooses a light for a point.
+/// Probability with which choose_light() returns this light.
 PL_HD inline float light_probability(const LightTree& tree, std::uint32_t light, Vec3f from) {
     float probability = 1.0f;
     std::uint64_t trail = tree.of_light[light].trail;

@@ -1,4 +1,4 @@
-// Choosing a point on a light, and the density of that choice.
+// Light sampling and its densities.
 #pragma once
 
 #include "core/kernel/base/warp.h"
@@ -6,13 +6,14 @@
 
 namespace pl {
 
-/// Density, per unit area, of choosing a point on this emitter: lights are chosen in proportion to area times
-/// luminance, points uniformly, so the area cancels.
+/// Density of a light sample on an emitter of this material, per unit area. Lights are chosen in proportion to area
+/// times luminance and points uniformly, so the area cancels.
 PL_HD inline float light_pdf_area(const SceneView& scene, const Material& material) {
     return scene.light_power > 0.0f ? luminance(material.emission) / scene.light_power : 0.0f;
 }
 
-/// The same density per steradian, seen from `from` along the unit direction `wi` that meets `on_light`.
+/// Converts a density per unit area at `on_light` to one per steradian at `from`, along the unit direction `wi`
+/// between them.
 PL_HD inline float per_steradian(float pdf_area, Vec3f from, const SurfacePoint& on_light, Vec3f wi) {
     const float cos_light = std::fabs(glm::dot(wi, on_light.geometric_normal));
     const Vec3f segment = on_light.position - from;
@@ -20,19 +21,19 @@ PL_HD inline float per_steradian(float pdf_area, Vec3f from, const SurfacePoint&
     return pdf_area * glm::dot(segment, segment) / cos_light;
 }
 
-/// Index of the light whose interval of the cumulative probabilities holds u in [0,1).
+/// Samples a light by power; u in [0,1). Returns its index.
 PL_HD inline std::uint32_t choose_light(const SceneView& scene, float u) {
     return find_interval(scene.lights.count, u,
                          [&](std::uint32_t light) { return scene.lights[light].cumulative_probability; });
 }
 
-/// The light that a triangle is, or one behind it if it is none.
+/// Index of the light of an emissive triangle; of the next light, or the number of lights, for other triangles.
 PL_HD inline std::uint32_t light_of(const SceneView& scene, std::uint32_t primitive) {
     return find_first(scene.lights.count,
                       [&](std::uint32_t light) { return scene.lights[light].primitive >= primitive; });
 }
 
-/// Density, per steradian, with which light samples at `from` take the direction `wi` that meets `on_light`.
+/// Density per steradian of light sampling at `from` for the direction `wi` that hits `on_light`.
 template <FeatureSet F = FeatureSet{}>
 PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const SurfacePoint& on_light, Vec3f wi) {
     if constexpr (F.has(Feature::ManyLights)) {
@@ -46,19 +47,19 @@ PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const Surfac
     return per_steradian(light_pdf_area(scene, scene.materials[on_light.material]), from, on_light, wi);
 }
 
-/// A point on a light, and the density of its choice per unit area.
+/// A sampled point on a light and its density per unit area.
 struct LightPoint {
     SurfacePoint surface;
     float pdf_area = 0.0f;
 };
 
-/// Barycentric weights of a uniform point; u in [0,1)^2.
+/// Barycentric weights of a uniform point of a triangle; u in [0,1)^2.
 PL_HD inline Vec3f sample_weights(Vec2f u) {
     const Vec2f b = square_to_triangle(u);
     return {1.0f - b.x - b.y, b.x, b.y};
 }
 
-/// A point on a light as seen from `from`; u in [0,1)^2.
+/// A uniform point on a light as seen from `from`; u in [0,1)^2.
 PL_HD inline SurfacePoint sample_on_light(const SceneView& scene, std::uint32_t light, Vec3f from, Vec2f u) {
     SurfacePoint point =
         make_surface_point<FeatureSet{}>(scene, scene.lights[light].primitive, sample_weights(u), Vec3f{0.0f});
@@ -69,7 +70,7 @@ PL_HD inline SurfacePoint sample_on_light(const SceneView& scene, std::uint32_t 
     return point;
 }
 
-/// Chooses a light for `from` and a point on it; u in [0,1)^3. The scene must have lights.
+/// Samples a light and a point on it for `from`; u in [0,1)^3. The scene must have lights.
 template <FeatureSet F = FeatureSet{}>
 PL_HD inline LightPoint sample_light(const SceneView& scene, Vec3f from, Vec3f u) {
     if constexpr (F.has(Feature::ManyLights)) {
@@ -83,22 +84,22 @@ PL_HD inline LightPoint sample_light(const SceneView& scene, Vec3f from, Vec3f u
     return {point, light_pdf_area(scene, scene.materials[point.material])};
 }
 
-/// A light sample seen from a surface that could reflect it.
+/// A light sample at a surface point (next-event estimation), without visibility.
 struct DirectLight {
-    SurfacePoint light;   ///< without a primitive: it is infinitely far away
+    SurfacePoint light;   ///< without a primitive: a far light
     Vec3f wi{0.0f};       ///< unit, from the surface to the light
     Vec3f emitted{0.0f};  ///< radiance of the light towards the surface
     float cos_i = 0.0f;
-    float pdf_sa = 0.0f;  ///< 0: this sample cannot contribute, whatever is in between
+    float pdf_sa = 0.0f;  ///< per steradian; 0: no contribution, even if visible
 };
 
-/// Radiance towards the surface from a point of a light, whose barycentric weights are `b`; none from a hole in it.
+/// Emitted radiance of a point on a light with barycentric weights `b`; 0 in a hole.
 template <FeatureSet F>
 PL_HD inline Vec3f light_emitted(const SceneView& scene, const SurfacePoint& light, Vec3f b) {
     return is_hole_at<F>(scene, light.primitive, b) ? Vec3f{0.0f} : emitted_at<F>(scene, light, b);
 }
 
-/// Density of choosing a direction because far lights shine from there.
+/// Density per steradian of light sampling for a direction of the far lights.
 PL_HD inline float far_light_pdf_sa(const SceneView& scene, Vec3f wi) {
     return scene.far_probability * far_pdf_sa(scene.far_lights, wi);
 }
@@ -113,8 +114,8 @@ PL_HD inline DirectLight sample_far_light(const SceneView& scene, const SurfaceP
     return sample;
 }
 
-/// Samples a light for a surface; u in [0,1)^3, `choice` in [0, 1) takes far lights or surfaces that emit. No
-/// visibility: the caller traces the shadow ray.
+/// Light sample for a surface point; u in [0,1)^3, `choice` in [0, 1) selects far lights or emissive triangles. The
+/// caller traces the shadow ray.
 template <FeatureSet F = FeatureSet{}, class B>
 PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
                                              Vec3f u, [[maybe_unused]] float choice = 0.0f) {
@@ -135,7 +136,7 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
     return sample;
 }
 
-/// What must be free for the sample to count.
+/// The shadow ray of a light sample.
 template <FeatureSet F>
 PL_HD inline Ray shadow_ray_to(const SurfacePoint& surface, const DirectLight& sample) {
     if constexpr (F.has(Feature::EnvironmentMap)) {
@@ -144,8 +145,8 @@ PL_HD inline Ray shadow_ray_to(const SurfacePoint& surface, const DirectLight& s
     return spawn_shadow_ray(surface, sample.light);
 }
 
-/// Balance heuristic for two strategies that draw one sample each; pdfs in the same measure, own pdf first.
-/// [Veach 1997, eq. 9.8]; written as a ratio so that huge densities cannot overflow.
+/// Balance heuristic for two strategies with one sample each; densities in the same measure. A ratio, so that huge
+/// densities cannot overflow.   [Veach 1997, eq. 9.8]
 PL_HD inline float balance_weight(float own_pdf, float other_pdf) {
     return own_pdf > 0.0f ? 1.0f / (1.0f + other_pdf / own_pdf) : 0.0f;
 }

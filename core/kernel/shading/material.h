@@ -1,4 +1,4 @@
-// Materials as the kernels see them: a diffuse reflector that may also emit.
+// Materials as the kernels see them: diffuse reflectance and emission. SurfaceLobes has the other lobes.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace pl {
 
 struct Material {
-    Vec3f albedo{0.0f};    ///< hemispherical reflectance
+    Vec3f albedo{0.0f};    ///< hemispherical reflectance, each channel in [0, 1]
     Vec3f emission{0.0f};  ///< radiance, W m^-2 sr^-1
     std::uint32_t two_sided_emission = 0;
 
@@ -16,7 +16,7 @@ struct Material {
     PL_HD bool emits() const { return !is_black(emission); }
 };
 
-/// Radiance leaving a surface towards the viewer, given the side that is seen.
+/// Emitted radiance of the front or back side.
 PL_HD inline Vec3f emitted_radiance(const Material& material, bool front) {
     return front || material.two_sided_emission != 0 ? material.emission : Vec3f{0.0f};
 }

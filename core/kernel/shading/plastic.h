@@ -1,4 +1,4 @@
-// Plastic: what a dielectric coat lets in reaches a Lambert reflector.
+// Plastic: a Lambert base under a dielectric coat.
 #pragma once
 
 #include "core/kernel/shading/directional_albedo.h"
@@ -7,24 +7,24 @@
 
 namespace pl {
 
-/// Local directions, wo.z > 0. The matte part is what the coat leaves, from both directions: the whole is reciprocal, and a
-/// white base returns all light.   [Kelemen and Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model with
-/// Importance Sampling", eq. 5]. A smooth coat (roughness 0) is a lobe of a single direction: then eval, pdf_sa and sample are
-/// those of the matte part alone.
+/// Local directions, wo.z > 0. The matte lobe is attenuated by the transmittance of the coat for both directions, so
+/// the BRDF is reciprocal and a white base conserves energy.   [Kelemen and Szirmay-Kalos 2001, "A Microfacet Based
+/// Coupled Specular-Matte BRDF Model with Importance Sampling", eq. 5]
+/// A smooth coat (roughness 0) is a delta lobe: eval, pdf_sa and sample then describe the matte lobe alone.
 struct Plastic {
     Ggx ggx;
-    Vec3f base;      ///< albedo of what is under the coat
-    Vec3f specular;  ///< tint of what the coat reflects
+    Vec3f base;      ///< albedo of the base
+    Vec3f specular;  ///< tint of the coat's reflection
     float eta;
     AlbedoTable coat;
     float roughness;
     Vec3f wo;
-    float coated;  ///< reflected by the coat, of light from wo
+    float coated;  ///< directional albedo of the coat for wo
 
     PL_HD bool smooth() const { return roughness == 0.0f; }
     PL_HD Vec3f albedo() const { return coated * specular + (1.0f - coated) * base; }
 
-    /// Chance that the coat is sampled.
+    /// Probability of sampling the coat instead of the base.
     PL_HD float coat_probability() const {
         const float by_coat = coated * max_component(specular);
         const float by_base = (1.0f - coated) * max_component(base);
@@ -53,7 +53,7 @@ struct Plastic {
         return reflect_at(wo, ggx.sample(wo, u));
     }
 
-    /// `coated` for any direction.
+    /// Directional albedo of the coat for any direction.
     PL_HD float reflected_by_coat(float cos_theta) const {
         return smooth() ? fresnel_dielectric(cos_theta, eta) : coat.at(roughness, cos_theta);
     }

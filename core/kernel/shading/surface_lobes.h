@@ -1,5 +1,4 @@
-// What a surface does to light besides reflecting it as Lambert's law says. Kept beside the materials: a scene without such
-// surfaces has none of it.
+// Lobes of non-diffuse surfaces. An array beside the materials, empty for scenes with diffuse surfaces only.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +9,18 @@ namespace pl {
 
 enum class SurfaceKind : std::uint32_t {
     Diffuse,     ///< Lambert
-    Conductor,   ///< reflects as a metal does, smooth or rough
-    Dielectric,  ///< reflects and refracts, smooth or rough: glass, water
-    Plastic,     ///< Lambert under a smooth or rough dielectric coat
+    Conductor,   ///< metal, smooth or rough
+    Dielectric,  ///< glass, water, smooth or rough: reflection and refraction
+    Plastic,     ///< Lambert base under a smooth or rough dielectric coat
 };
 
 struct SurfaceLobes {
     SurfaceKind kind = SurfaceKind::Diffuse;
-    float roughness = 0.0f;    ///< in [0, 1]: root of the width alpha of GGX; 0: lobes of a single direction
-    float ior = 1.5f;          ///< index of refraction inside over that outside
-    std::uint32_t table = 0;   ///< of directional albedos, see directional_albedo.h
-    Vec3f specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of what is reflected
-    Vec3f transmission{1.0f};  ///< dielectric: tint of what passes
+    float roughness = 0.0f;    ///< in [0, 1]: sqrt(alpha) of GGX; 0: delta lobes
+    float ior = 1.5f;          ///< index of refraction, inside over outside
+    std::uint32_t table = 0;   ///< offset in SceneView::directional_albedo, see AlbedoTable
+    Vec3f specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of the reflection
+    Vec3f transmission{1.0f};  ///< dielectric: tint of the transmission
 };
 
 }  // namespace pl

@@ -1,5 +1,4 @@
-// A material's numbers at one point of a surface, where images change them. `b` are the barycentric weights of the
-// point.
+// Material parameters at a surface point, with textures applied. `b` are the barycentric weights of the point.
 #pragma once
 
 #include "core/kernel/base/features.h"
@@ -7,12 +6,12 @@
 
 namespace pl {
 
-/// A roughness image never makes a surface a mirror: that is another lobe.
+/// Lower bound on textured roughness: at 0 the lobe would become a delta lobe.
 inline constexpr float kLeastTexturedRoughness = 0.03f;
 
 PL_HD inline Vec3f color_of(Vec4f texel) { return {texel.x, texel.y, texel.z}; }
 
-/// Image that multiplies reflectances there; white where there is none.
+/// Value of the albedo texture, at most 1 per channel; white without one.
 template <FeatureSet F>
 PL_HD inline Vec3f tint_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
     if constexpr (F.has(Feature::Textures)) {
@@ -27,7 +26,7 @@ PL_HD inline Vec3f tint_at(const SceneView& scene, const SurfacePoint& surface, 
     return Vec3f{1.0f};
 }
 
-/// Hemispherical reflectance of what is diffuse, or guided.
+/// Albedo of the diffuse, or guided, lobe.
 template <FeatureSet F>
 PL_HD inline Vec3f albedo_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
     const Vec3f albedo = scene.materials[surface.material].albedo;
@@ -35,7 +34,7 @@ PL_HD inline Vec3f albedo_at(const SceneView& scene, const SurfacePoint& surface
     return albedo;
 }
 
-/// What the surface does besides; the scene has lobes.
+/// Parameters of the other lobes. SceneView::lobes must not be empty.
 template <FeatureSet F>
 PL_HD inline SurfaceLobes lobes_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
     SurfaceLobes lobes = scene.lobes[surface.material];
@@ -53,7 +52,7 @@ PL_HD inline SurfaceLobes lobes_at(const SceneView& scene, const SurfacePoint& s
     return lobes;
 }
 
-/// Radiance that the surface emits towards its viewer.
+/// Emitted radiance towards wo.
 template <FeatureSet F>
 PL_HD inline Vec3f emitted_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
     const Vec3f emitted = emitted_radiance(scene.materials[surface.material], surface.front);
@@ -70,7 +69,7 @@ PL_HD inline Vec3f emitted_at(const SceneView& scene, const SurfacePoint& surfac
     return emitted;
 }
 
-/// Whether there is nothing at the point.
+/// Whether the triangle has a hole at `b`.
 template <FeatureSet F>
 PL_HD inline bool is_hole_at(const SceneView& scene, std::uint32_t primitive, Vec3f b) {
     if constexpr (F.has(Feature::CutOuts)) {
