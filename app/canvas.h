@@ -15,10 +15,10 @@ class Canvas {
 public:
     Canvas(int width, int height, Rgb background);
 
-    /// Outside of the picture nothing is drawn.
+    /// Clipped to the picture.
     void put(int x, int y, Rgb color);
     void fill(int x, int y, int width, int height, Rgb color);
-    /// (x, y) is the upper left corner. Lower case is drawn as upper case; what the font lacks as a box.
+    /// (x, y) is the upper left corner. Lower case is drawn as upper case, characters that the font lacks as a box.
     void text(int x, int y, std::string_view words, Rgb color, int scale = 2);
 
     static constexpr int kAdvance = 6;     ///< width of a character, in units of the scale

@@ -17,7 +17,7 @@ glm::dvec3 closest_on_segment(const glm::dvec3& p, const glm::dvec3& a, const gl
     return a + t * ab;
 }
 
-/// The foot of the perpendicular if it falls inside, else the best point of the three edges.
+/// The perpendicular foot if it falls inside, else the closest point of the three edges.
 glm::dvec3 closest_on_triangle(const glm::dvec3& p, const Corners& t, const glm::dvec3& normal) {
     const glm::dvec3 foot = p - glm::dot(p - t.a, normal) * normal;
     const auto inside = [&](const glm::dvec3& from, const glm::dvec3& to) {

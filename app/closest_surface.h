@@ -1,4 +1,4 @@
-// From any point to the surface nearest to it.
+// The surface point closest to any point in space.
 #pragma once
 
 #include "core/scene/description.h"
@@ -8,11 +8,11 @@ namespace pl {
 struct ClosestSurface {
     glm::vec3 position{0.0f};
     glm::vec3 normal{0.0f, 0.0f,
-                     1.0f};  ///< unit, to the side on which the point lies; the front if it lies in the plane
+                     1.0f};  ///< unit, on the side of the point; that of the front if it lies in the plane
     float distance = 0.0f;
 };
 
-/// Looks at every triangle of a valid scene.
+/// Tests every triangle of a valid scene.
 ClosestSurface closest_surface(const SceneDescription& scene, const glm::vec3& point);
 
 }  // namespace pl

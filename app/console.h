@@ -1,4 +1,4 @@
-// Where a subcommand's words go: results to standard output, messages to the log.
+// Output of a subcommand: results to standard output, messages to the log.
 #pragma once
 
 #include <string>
@@ -18,14 +18,14 @@ public:
     Log& log() { return log_; }
     bool json() const { return json_; }
 
-    /// Text for standard output, unless --json asks for events instead. -q leaves out `remark`s, never `result`s.
+    /// Text for standard output, unless --json replaces it by events. -q leaves out `remark`s, never `result`s.
     void result(const std::string& text);
     void remark(const std::string& text);
     /// One line of JSON for standard output, with --json only.
     void event(std::string_view kind, const Json& members);
     void warn_about(const SceneDescription& scene);
 
-    /// Throws Error(Runtime) if something could not be written to standard output.
+    /// Throws Error(Runtime) if a write to standard output failed.
     void finish();
 
 private:

@@ -1,4 +1,4 @@
-// `pathlight devices`: what can compute here, and why something cannot.
+// `pathlight devices`: the back ends on this machine, and the reasons why one is unavailable.
 #include <fmt/format.h>
 
 #include "app/commands.h"
@@ -12,7 +12,7 @@ namespace {
 struct DeviceLine {
     std::string backend;
     std::string device;  ///< empty if there is none
-    std::string extent;  ///< how much of it there is
+    std::string extent;  ///< threads, memory
     std::string reason;
     Json numbers;  ///< the extent, for programs
 };

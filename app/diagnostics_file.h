@@ -1,20 +1,21 @@
-// What went wrong in a picture, as a picture and as JSON.
+// --diagnostics FILE: the diagnostics of a picture as a picture and as JSON.
 #pragma once
 
 #include <filesystem>
 
 #include "app/events.h"
+#include "core/diagnose/diagnostics.h"
 #include "core/io/image.h"
-#include "core/session/diagnostics.h"
 #include "core/session/settings.h"
 
 namespace pl {
 
-/// What the passes counted, and where it was: `found` is null if nobody looked, its clamped records are null where tracing again meets none.
+/// Counts of the passes, and their places: `found` is null without a search. Clamped training samples are null there
+/// if tracing again does not repeat those of the passes.
 Json diagnostics_json(const Snapshot& snapshot, const DiagnosticsMap* found);
 
-/// By suffix. .png: the picture, dark, with marks in the colors of all_diagnostics(). .exr and .pfm: red counts invalid samples,
-/// green escaped paths, blue lookup misses and clamped records of each pixel.
+/// By suffix. .png: the picture, darkened, with marks in the colors of all_diagnostics(). .exr and .pfm: counts of each
+/// pixel, red invalid samples, green escaped paths, blue lookup misses and clamped training samples.
 void save_diagnostics(const std::filesystem::path& path, const Snapshot& snapshot, const DisplaySettings& display,
                       const DiagnosticsMap& map, ImageMetadata metadata);
 

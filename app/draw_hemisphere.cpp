@@ -19,13 +19,13 @@ constexpr int kLine = Canvas::kLineHeight * kTextScale;
 constexpr int kMargin = 24;
 constexpr int kBarHeight = 12;
 
-/// Values of the cells, and what to write beside them.
+/// Values of the cells, and their captions.
 struct Layer {
     std::string label;
     std::vector<float> values;
 };
 
-/// Where a disc goes.
+/// Place of a disc.
 struct Place {
     int x;  ///< left edge
     int y;  ///< top edge
@@ -39,7 +39,7 @@ std::string short_vector(const Vec3f& v) {
     return fmt::format("{:.3g}, {:.3g}, {:.3g}", positive_zeros.x, positive_zeros.y, positive_zeros.z);
 }
 
-/// Small values are what a hemisphere with a light in it is mostly made of, so colors go by the square root.
+/// Colors go by the square root: most cells of a hemisphere with a light in it have small values.
 Rgb value_color(float value, float largest) {
     return share_color(largest > 0.0f ? std::sqrt(std::max(value, 0.0f) / largest) : 0.0f);
 }
@@ -86,7 +86,7 @@ void draw_layer(Canvas& canvas, const Place& place, const DirectionCells& cells,
 }  // namespace
 
 Rgb share_color(float share) {
-    // Anchors of the viridis map: brightness rises evenly, also in gray.
+    // Anchors of the viridis map: brightness rises evenly, also without color.
     constexpr std::array<Rgb, 9> kAnchors{Rgb{68, 1, 84},    Rgb{71, 44, 122},  Rgb{59, 81, 139},
                                           Rgb{44, 113, 142}, Rgb{33, 144, 141}, Rgb{39, 173, 129},
                                           Rgb{92, 200, 99},  Rgb{170, 220, 50}, Rgb{253, 231, 37}};

@@ -4,14 +4,12 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
+#include "core/io/json_file.h"
 
 namespace pl {
 
-using Json = nlohmann::ordered_json;
-
-/// One line {"schema": "pathlight.event/1", "event": kind, ...members}, with its line feed. Bytes that are no UTF-8
-/// are replaced; numbers that are not finite become null.
+/// One line {"schema": "pathlight.event/1", "event": kind, ...members}, with its line feed. Invalid UTF-8 is
+/// replaced; numbers that are not finite become null.
 std::string event_line(std::string_view kind, const Json& members);
 
 /// One line of any object.

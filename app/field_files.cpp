@@ -9,11 +9,6 @@
 #include "core/io/field_file.h"
 
 namespace pl {
-void fit_to_run(LearnedField& field, const FieldSettings& settings) {
-    field.progress.precompute_seconds = 0.0;
-    field.settings.lookup = settings.lookup;
-    field.shape.lookup = settings.lookup;
-}
 
 FieldFiles::FieldFiles(const Options& given) {
     if (given.load_field.empty()) return;

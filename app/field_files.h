@@ -1,4 +1,4 @@
-// --load-field and --save-field: what was learned, from one run of the program to the next.
+// --load-field and --save-field: the learned field, from one run of the program to the next.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,22 @@
 
 namespace pl {
 
-/// What a loaded field takes from the present run: clocks that start at zero, and the way to look volumes up.
-void fit_to_run(LearnedField& field, const FieldSettings& settings);
-
 class FieldFiles {
 public:
-    /// Reads the field that the options ask for, if any. Throws Error(Input).
+    /// Reads the file of --load-field, if it is given. Throws Error(Input).
     explicit FieldFiles(const Options& given);
 
-    /// Null if none was asked for, or once a session has it.
+    /// Null without --load-field, and after take() or hand_over().
     const LearnedField* loaded() const { return loaded_ ? &*loaded_ : nullptr; }
     double load_seconds() const { return load_seconds_; }
 
-    /// What was loaded, for a session to come; null if nothing was. Throws Error(Input) if it was learned in another scene.
+    /// The loaded field, for a session to come; null without one. Throws Error(Input) if it was learned in another
+    /// scene.
     std::shared_ptr<const LearnedField> take(const SceneDescription& scene, const Options& options);
-    /// Gives the session what was loaded. Its clocks start at zero: they tell the time of this run.
-    /// Throws Error(Input) if it was learned in another scene.
+    /// Gives the loaded field to the session. Its clocks start at zero and count this run alone. Throws Error(Input)
+    /// if it was learned in another scene.
     void hand_over(Session& session, const Options& options, Console& console);
-    /// Writes what the session has learned if the options say so, with the time of all runs.
+    /// Writes the file of --save-field, if it is given, with the precomputation time of all runs.
     void save(const Session& session, const Options& options, Console& console) const;
 
 private:

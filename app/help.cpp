@@ -18,39 +18,42 @@ constexpr std::array kCommands{
     CommandInfo{Command::View, "view", "[SCENE]",
                 "Opens the viewer (default scene: cornell). The word 'view' may be left out."},
     CommandInfo{Command::Render, "render", "SCENE -o IMAGE", "Makes a picture without a display."},
-    CommandInfo{Command::Info, "info", "SCENE", "Tells what a scene holds and which kernel serves it."},
+    CommandInfo{Command::Info, "info", "SCENE",
+                "Prints the contents of a scene, the effects that it needs and the kernel that serves it."},
     CommandInfo{Command::Devices, "devices", "", "Lists the back ends, and why one is unavailable.", Inputs::Nothing},
     CommandInfo{Command::Inspect, "inspect", "SCENE (--at X,Y,Z[,NX,NY,NZ] | --pixel X,Y) -o FILE",
-                "Trains, then writes what was learned at a point.\n"
+                "Trains, then writes the learned hemisphere at a point.\n"
                 "Training takes --spp samples per pixel with method reinforcement; method precomputed\n"
-                "only computes its radiance map. The suffix decides what is written: .json, .csv (one\n"
+                "only computes its radiance map. The suffix decides the kind of file: .json, .csv (one\n"
                 "row per direction cell) or .png (the hemisphere as an equal-area disc)."},
     CommandInfo{
         Command::Compare, "compare", "IMAGE REFERENCE",
-        "Tells how far a picture is from another, in all metrics.\n"
+        "Measures the error of a picture against another, in all metrics.\n"
         "Both are linear: .exr or .pfm. REFERENCE may be a folder of 'pathlight reference': it then has to hold the\n"
-        "reference of just the scene, camera, size, lights and depth that an .exr of 'pathlight render' shows.",
+        "reference of the same scene, camera, size and depth as an .exr of 'pathlight render'.",
         Inputs::Pictures},
     CommandInfo{
         Command::Reference, "reference", "SCENE -o DIR",
-        "Makes a converged picture in two independent halves, found again by what it shows.\n"
-        "What was made before is gone on with: after an interruption, or for more samples. Paths are chosen by\n"
-        "method default with next-event estimation unless other is given; the converged picture is the same."},
+        "Renders a converged picture in two independent halves, stored by a hash of its scene, camera and size.\n"
+        "Continues a reference that is there: after an interruption, or for more samples. Renders by method default\n"
+        "with next-event estimation unless given otherwise; the converged picture is the same."},
     CommandInfo{
         Command::Bench, "bench", "SCENE... -o DIR",
         "Measures accuracy against time: methods x back ends x scenes x seeds.\n"
-        "Each run starts with nothing learned. Time is placing, precomputing, learning and rendering; loading,\n"
-        "building, uploading and measuring are not in it. An interrupted bench goes on with the same command.\n"
+        "Each run starts with an empty field. Time is placing, precomputing, learning and rendering; loading,\n"
+        "building, uploading and measuring are not in it. The same command continues an interrupted bench.\n"
         "'report' makes a page of the folder.",
         Inputs::Scenes},
     CommandInfo{Command::Report, "report", "DIR",
                 "Makes one HTML page of a bench folder, and its plots as SVG and PNG.\n"
-                "The page needs nothing else: it can be handed over.",
+                "The page is self-contained.",
                 Inputs::Folder},
-    CommandInfo{Command::SelfTest, "selftest", "",
-                "Renders scenes whose light is known in closed form, on every back end that is there.\n"
-                "Each line says what came out and how much of its tolerance that took. Exit with 5 if a check fails.",
-                Inputs::Nothing},
+    CommandInfo{
+        Command::SelfTest, "selftest", "",
+        "Renders scenes whose radiance has a closed form, on every back end that is available.\n"
+        "Each line has the expected and the measured value, and the share of the tolerance between them. Exit\n"
+        "with 5 if a check fails.",
+        Inputs::Nothing},
 };
 
 constexpr std::string_view kScene =

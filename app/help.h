@@ -1,4 +1,4 @@
-// What the program says about itself: help, version, lists of methods and views.
+// Help, version, lists of methods and views.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace pl {
 
-/// What a subcommand works on.
+/// Positional arguments of a subcommand.
 enum class Inputs { Nothing, Scene, Scenes, Pictures, Folder };
 
 struct CommandInfo {
@@ -26,7 +26,7 @@ const CommandInfo& info_of(Command command);
 /// Help of the whole program and of one subcommand. All texts end with a line feed.
 std::string program_help();
 std::string command_help(Command command);
-/// `verbose`: with the commit it was built from.
+/// `verbose`: with the commit of the build.
 std::string version_text(bool verbose);
 /// Registries as a table, or as one JSON object per line.
 std::string method_list(bool json);

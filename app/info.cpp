@@ -1,4 +1,4 @@
-// `pathlight info`: what a scene holds, and what it takes to render it.
+// `pathlight info`: the contents of a scene, the effects that it needs and the kernel that serves it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -31,7 +31,7 @@ std::vector<Effect> effects_of(FeatureSet needed, const SceneDescription& scene)
     return effects;
 }
 
-/// Everything that `info` tells.
+/// The content of the output.
 struct SceneReport {
     const SceneDescription& scene;
     const HostScene& packed;

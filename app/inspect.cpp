@@ -1,4 +1,4 @@
-// `pathlight inspect`: trains, then writes what was learned at a point.
+// `pathlight inspect`: trains, then writes the learned hemisphere at a point.
 #include <fmt/format.h>
 
 #include "app/closest_surface.h"
@@ -9,11 +9,11 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/parse_values.h"
-#include "app/picture_file.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
 #include "core/io/files.h"
+#include "core/io/picture_file.h"
 #include "core/scene/scene_hash.h"
 
 namespace pl {
@@ -50,7 +50,7 @@ std::int32_t volume_under(Session& session, const glm::ivec2& pixel) {
     const std::optional<PickedPoint> picked = session.pick(Vec2f(pixel) + 0.5f);
     if (!picked)
         throw Error(ErrorKind::Runtime, fmt::format("--pixel {},{}: nothing is seen there", pixel.x, pixel.y));
-    if (picked->volume == kNoVolume) fail_nothing(fmt::format("what pixel {},{} shows", pixel.x, pixel.y));
+    if (picked->volume == kNoVolume) fail_nothing(fmt::format("the surface at pixel {},{}", pixel.x, pixel.y));
     return picked->volume;
 }
 
@@ -62,7 +62,8 @@ void require_inside(const Options& options) {
                                                   options.render.width, options.render.height, pixel.x, pixel.y));
 }
 
-/// What was loaded is looked at as it is, unless more training is asked for. A radiance map is completed in any case.
+/// A loaded field is inspected as it is, unless limits ask for more training. A radiance map is completed in any
+/// case.
 bool is_trained(const Options& options) {
     return !options.load_field.empty() && info_of(options.render.method).learns && !options.spp &&
            !options.time_limit_seconds;
@@ -90,7 +91,7 @@ int run_inspect(const CommandLine& line, Console& console) {
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
-    // Before training: a place without a volume should not cost a minute.
+    // Before training, so that a place without a volume fails at once.
     const std::int32_t index = options.at ? volume_at(session, *options.at) : volume_under(session, *options.pixel);
 
     const RunOutcome outcome =

@@ -1,4 +1,4 @@
-// What was learned at a radiance volume, in files.
+// The learned hemisphere of a radiance volume, in files.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@ namespace pl {
 
 enum class InspectionKind { AsJson, AsCsv, AsPng };
 
-/// Kind by suffix. Throws Error(Usage) that lists the known ones.
+/// Kind by suffix. Throws Error(Usage) with the known suffixes.
 InspectionKind inspection_kind(const std::filesystem::path& path);
 
-/// Where the numbers come from.
+/// Origin of the numbers.
 struct InspectionSource {
     std::string scene;
     std::string scene_hash;

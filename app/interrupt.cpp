@@ -7,7 +7,7 @@
 namespace pl {
 namespace {
 
-// Signal handlers can reach nothing but globals.
+// Signal handlers reach globals only.
 StopFlag interrupted{false};
 static_assert(StopFlag::is_always_lock_free, "signal handlers may only touch lock-free atomics");
 

@@ -1,4 +1,4 @@
-// Ctrl+C: the first one asks for an end, the second one is the end.
+// Ctrl+C: the first one asks for an orderly end, the second one ends the program.
 #pragma once
 
 #include "core/session/backend.h"

@@ -1,4 +1,4 @@
-// The program: understands the command line, runs a subcommand, turns errors into messages and exit codes.
+// The program: parses the command line, runs a subcommand, turns errors into messages and exit codes.
 #include <cstdio>
 #include <exception>
 #include <new>

@@ -8,7 +8,7 @@
 namespace pl {
 namespace {
 
-/// Null if CUDA is not there, or if it is and something else keeps it from working.
+/// Null if CUDA is absent, or present but not working.
 std::unique_ptr<RenderBackend> cuda_if_possible() {
     if (!cuda_unavailable_reason().empty()) return nullptr;
     try {

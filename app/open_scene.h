@@ -14,8 +14,8 @@ struct LoadedScene {
     double load_seconds = 0.0;
 };
 
-/// A scene by name or path, its knobs turned; its warnings go to the log. Throws Error(Input), and Error(Usage) for knobs
-/// that are wrong.
+/// A scene by name or path, with its knobs set; its warnings go to the log. Throws Error(Input), and Error(Usage) for
+/// unknown knobs or values.
 LoadedScene open_scene(const std::string& name_or_path, const KnobValues& knobs, Console& console);
 
 }  // namespace pl

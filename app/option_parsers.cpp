@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kLookups{"kdtree", "linear", "grid"};  // by number
 
-/// A value and its word.
+/// A value and its name.
 template <class Value>
 struct Named {
     Value value;

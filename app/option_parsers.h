@@ -1,4 +1,4 @@
-// The values of options that take more than a line to read. Each throws Error(Usage) "expected ..., got '...'".
+// Parsers of option values that take more than a line. Each throws Error(Usage) "expected ..., got '...'".
 #pragma once
 
 #include <string>
@@ -43,7 +43,7 @@ void parse_knobs(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
 void parse_pixel(Options& options, const std::string& text);
 
-/// "precomputed or reinforcement": the methods that have something to show in views of what was learned.
+/// "precomputed or reinforcement": the methods with a learned field to show.
 std::string field_method_choices();
 
 std::string print_knobs(const Options& options);

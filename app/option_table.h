@@ -1,5 +1,5 @@
-// The words: every option once, with its text on the command line and in scene files, its meaning and its help. Parsing,
-// help, scene settings and "copy as command" all go by this table.
+// Every option once: its text on the command line and in scene files, its meaning and its help. Parsing, help, scene
+// settings and "copy as command" all use this table.
 #pragma once
 
 #include <span>
@@ -23,24 +23,25 @@ private:
 };
 
 struct OptionSpec {
-    std::string_view name;   ///< the word: "spp"
+    std::string_view name;   ///< "spp"
     std::string_view flags;  ///< all spellings, shortest first, aliases last: "-t,--threads"
-    std::string_view value;  ///< what stands for the value in the help; empty: a switch
+    std::string_view value;  ///< placeholder of the value in the help; empty: a switch
     std::string_view group;  ///< heading in the help; empty: not shown
     std::string_view help;
     CommandSet commands;          ///< where it may be given
-    bool repeatable = false;      ///< every one counts that is given, instead of the last one
+    bool repeatable = false;      ///< every occurrence counts, instead of the last one
     bool in_scene_files = false;  ///< may be a scene's setting
-    /// Throws Error(Usage) "expected ..., got ..." for a value that is wrong.
+    /// Throws Error(Usage) "expected ..., got ..." for an invalid value.
     void (*parse)(Options&, const std::string& text) = nullptr;
-    /// Text that parses to what the options have, empty if there is none; null: no part of a picture.
+    /// The value of the options as text that parses to it, empty if there is none; null for options that are no part
+    /// of a picture.
     std::string (*print)(const Options&) = nullptr;
 };
 
 /// In the order in which options are applied, whatever their order on the command line.
 std::span<const OptionSpec> option_table();
 
-/// Parses one option's value, with its name in front of complaints.
+/// Parses one option's value; puts its name in front of error messages.
 void apply_option(const OptionSpec& spec, Options& options, const std::string& text);
 
 }  // namespace pl

@@ -1,4 +1,4 @@
-// Options: what a person has asked for on the command line and in a scene file, as values.
+// Options as values: of the command line and of scene files.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ enum class Command : std::uint32_t {
     SelfTest
 };
 
-/// Which of the camera's parts were given; the rest is the scene's.
+/// The given parts of the camera; the other parts are the scene's.
 struct CameraChoice {
     std::optional<glm::vec3> eye;
     std::optional<glm::vec3> target;
@@ -37,7 +37,7 @@ struct CameraChoice {
     std::optional<float> focus_distance;
 };
 
-/// A place in the scene, and the side of a surface if a normal was given.
+/// A point in the scene; its normal, if given, selects a side of the surface.
 struct ScenePoint {
     glm::vec3 position{0.0f};
     std::optional<glm::vec3> normal;
@@ -45,7 +45,7 @@ struct ScenePoint {
 
 struct Options {
     std::string scene;                ///< name or path; empty if none was given
-    std::vector<std::string> inputs;  ///< of subcommands that take something else than one scene, in the order given
+    std::vector<std::string> inputs;  ///< positional arguments of subcommands that do not take one scene
     KnobValues knobs;                 ///< of the scene, in the order given
     std::string output;
 
@@ -64,23 +64,23 @@ struct Options {
     std::vector<std::string> backends;   ///< bench: empty: all that are available
     int seeds = 10;                      ///< bench: runs of each method, back end and scene
     std::uint32_t reference_spp = 4096;  ///< bench: samples per pixel in each half of references that it makes
-    std::string reference_folder;        ///< bench: empty: its own; render: empty: the target is one of noise
-    std::string gate;                    ///< bench: results to hold the new ones against
-    double tolerance_percent = 10.0;     ///< bench: how much slower than the gate's is not a failure
-    bool effects = false;                ///< bench: measure kernels of effects instead of methods
-    double measure_percent = 1.0;        ///< bench: of the charged time, what measuring may take
+    std::string reference_folder;        ///< bench: empty: its own; render: empty: --target-error is one of noise
+    std::string gate;                    ///< bench: earlier results to compare the new ones with
+    double tolerance_percent = 10.0;     ///< bench: slowdown against the gate's results that passes
+    bool effects = false;                ///< bench: compare kernels instead of methods
+    double measure_percent = 1.0;        ///< bench: time for measuring, relative to the charged time
 
-    bool flip = false;               ///< compare: also what an eye would see
-    double pixels_per_degree = 0.0;  ///< compare: of the display that FLIP supposes; 0: not given
+    bool flip = false;               ///< compare: also FLIP
+    double pixels_per_degree = 0.0;  ///< compare: of the display that FLIP assumes; 0: not given
 
-    std::string load_field;  ///< file to go on from
-    std::string save_field;  ///< file for what was learned
+    std::string load_field;  ///< file of a learned field to continue with
+    std::string save_field;  ///< file for the learned field
 
     std::optional<ScenePoint> at;
     std::optional<glm::ivec2> pixel;
 
     std::string stats_file;
-    std::string diagnostics_file;  ///< render: picture of where something went wrong
+    std::string diagnostics_file;  ///< render: picture of the places of diagnostics
     std::string log_file;
     bool json = false;
     bool quiet = false;
@@ -92,7 +92,7 @@ struct Options {
     bool software = false;  ///< viewer: no graphics card
     std::optional<glm::ivec2> window;
 
-    /// Samples per pixel after which to stop. 64 unless something else ends the rendering.
+    /// Limit of samples per pixel: 64 unless another limit ends the rendering.
     std::uint32_t spp_limit() const {
         constexpr std::uint32_t kDefaultSpp = 64;
         constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();

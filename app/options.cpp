@@ -13,7 +13,7 @@
 namespace pl {
 namespace {
 
-/// What the parser found, before it is understood.
+/// The parser's findings, before the options are applied.
 struct Found {
     std::vector<GivenOption> given;
     std::string scene;
@@ -87,7 +87,7 @@ void add_options(CLI::App& app, Command command, Found& found) {
     }
 }
 
-/// Fails for what the parser could not place.
+/// Fails for arguments that the parser could not place.
 void refuse(const CLI::App& app, Command command, const std::vector<std::string>& extras) {
     const auto unknown = std::find_if(extras.begin(), extras.end(), is_option);
     const std::string command_word(command_name(command));
@@ -105,14 +105,14 @@ Found parse(Command command, std::vector<std::string> arguments) {
     Found found;
     CLI::App app;
     add_options(app, command, found);
-    std::reverse(arguments.begin(), arguments.end());  // the order that the library wants
+    std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them in reverse
     try {
         app.parse(arguments);
     } catch (const CLI::ParseError& error) {
         fail(error.what());
     }
     if (const std::vector<std::string> extras = app.remaining(); !extras.empty()) refuse(app, command, extras);
-    // Specifications lie in one array, so their addresses are in the table's order.
+    // The specifications lie in one array, so their addresses are in the order of the table.
     std::stable_sort(found.given.begin(), found.given.end(),
                      [](const GivenOption& a, const GivenOption& b) { return a.spec < b.spec; });
     return found;

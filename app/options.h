@@ -1,4 +1,4 @@
-// From words to options: the command line, the settings of a scene file, and back to a command line.
+// From text to options: the command line and the settings of a scene file; and back to a command line.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace pl {
 
-/// One option that was given, as it was given.
+/// One option of the command line, with its text.
 struct GivenOption {
     const OptionSpec* spec = nullptr;
     std::string text;
@@ -20,27 +20,27 @@ struct GivenOption {
 struct CommandLine {
     Command command = Command::View;
     std::vector<GivenOption> given;     ///< in the order of option_table()
-    Options options;                    ///< what was given, over the defaults; final only after resolve_options()
+    Options options;                    ///< the defaults and the given options; final only after resolve_options()
     std::optional<std::string> answer;  ///< help, version or a list: print this and do nothing else
 };
 
-/// `arguments` are without the program's name. Throws Error(Usage): unknown subcommand or option (the nearest one is
-/// named), wrong value, something missing; Error(Input): the camera file.
+/// `arguments` are without the program's name. Throws Error(Usage) for an unknown subcommand or option (with the
+/// nearest known one), a wrong value or a missing argument; Error(Input) for the camera file.
 CommandLine parse_command_line(const std::vector<std::string>& arguments);
 
-/// Defaults, then the scene's camera and settings, then what was given. A field that was loaded brings its method and
-/// settings; of these only the lookup may be given otherwise. Throws Error(Usage) for options that do not go together,
-/// Error(Input) for settings of the scene that are wrong.
+/// Defaults, then the scene's camera and settings, then the given options. A loaded field brings its method and
+/// settings, of which only the lookup may be given otherwise. Throws Error(Usage) for options that exclude each
+/// other, Error(Input) for invalid settings of the scene.
 Options resolve_options(const CommandLine& line, const SceneDescription& scene, const LearnedField* loaded = nullptr);
 
-/// What resolve_options() gives for a scene opened without options.
+/// resolve_options() of a scene opened without options.
 Options scene_defaults(const std::string& scene_name, const SceneDescription& scene);
 
-/// The shell command that renders with these options: "pathlight render ...". Leaves out what equals `defaults`, for
-/// which scene_defaults() of the same scene is right.
+/// The shell command that renders with these options: "pathlight render ...". Leaves out options that equal
+/// `defaults`, which are scene_defaults() of the same scene.
 std::string command_text(const Options& options, const Options& defaults);
 
-/// A word as a shell reads it back, in quotes where it needs them.
+/// A word as a shell reads it back, in quotes if it needs them.
 std::string shell_word(const std::string& text);
 
 std::string_view command_name(Command command);

@@ -24,13 +24,6 @@ std::optional<T> read(std::string_view text) {
     return value;
 }
 
-template <class T>
-std::string print(T value) {
-    char buffer[64];
-    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
-    return error == std::errc{} ? std::string(buffer, end) : std::string();
-}
-
 std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
     for (;;) {
@@ -100,10 +93,6 @@ glm::ivec2 parse_size(std::string_view text) {
         fail_value(expected, text);
     return size;
 }
-
-std::string print_real(double value) { return print(value); }
-
-std::string print_float(float value) { return print(value); }
 
 std::string print_vector(const glm::vec3& v) {
     return fmt::format("{},{},{}", print_float(v.x), print_float(v.y), print_float(v.z));

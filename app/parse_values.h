@@ -1,5 +1,5 @@
-// Texts of the command line and of scene settings to values, and back. Complaints are Error(Usage) "expected ..., got
-// '...'"; the caller puts the option's name in front. Printed values read back as the same bits.
+// From texts of the command line and of scene settings to values, and back. Errors are Error(Usage) "expected ...,
+// got '...'"; the caller puts the option's name in front.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,20 @@
 
 #include <glm/glm.hpp>
 
+#include "core/base/number_text.h"
+
 namespace pl {
 
 [[noreturn]] void fail_value(std::string_view expected, std::string_view got);
 
 /// Whole number within [low, high].
 std::uint64_t parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high);
-/// Finite decimal number within [low, high]. `instead` ends what an error says was expected, such as ", or auto".
+/// Finite decimal number within [low, high]. `instead` names further values in the error message, such as ", or
+/// auto".
 double parse_real(std::string_view text, double low, double high, std::string_view instead = {});
 /// Finite number that fits a float.
 float parse_float(std::string_view text);
-/// Numbers between commas; `counts` are the lengths that are right.
+/// Numbers separated by commas; `counts` are the allowed lengths.
 std::vector<float> parse_floats(std::string_view text, std::initializer_list<std::size_t> counts,
                                 std::string_view expected);
 glm::vec3 parse_vector(std::string_view text);
@@ -30,9 +33,6 @@ glm::ivec2 parse_size(std::string_view text);
 
 inline constexpr int kMaxImageSide = 16384;
 
-/// Shortest text that reads back as the same number.
-std::string print_real(double value);
-std::string print_float(float value);
 std::string print_vector(const glm::vec3& v);
 
 }  // namespace pl

@@ -12,7 +12,7 @@ constexpr double kBarSeconds = 0.1;
 constexpr double kEventSeconds = 1.0;
 constexpr double kLineSeconds = 5.0;
 
-/// Time left at the pace so far; empty while that says nothing.
+/// Time left at the pace so far; empty while that is unreliable.
 std::string time_left(double share, double elapsed) {
     if (share < 0.01 || elapsed < 1.0 || share >= 1.0) return "";
     return fmt::format(", {} left", duration_text(elapsed * (1.0 - share) / share));
@@ -23,7 +23,7 @@ std::string time_left(double share, double elapsed) {
 ProgressDisplay::ProgressDisplay(Console& console, bool enabled)
     : console_(console), enabled_(enabled), next_seconds_(interval_seconds()) {}
 
-ProgressDisplay::~ProgressDisplay() { console_.log().clear_status(); }
+ProgressDisplay::~ProgressDisplay() { clear(); }
 
 double ProgressDisplay::interval_seconds() const {
     if (console_.json()) return kEventSeconds;
@@ -60,13 +60,6 @@ std::string progress_bar(double share, const std::string& text, int width) {
     std::string bar(length, ' ');
     std::fill_n(bar.begin(), static_cast<std::size_t>(filled), '#');
     return fmt::format("[{}] {}", bar, text);
-}
-
-std::string duration_text(double seconds) {
-    const auto whole = static_cast<long long>(std::ceil(std::clamp(seconds, 0.0, 1.0e9)));
-    if (whole < 60) return fmt::format("{} s", whole);
-    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-    return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
 }  // namespace pl

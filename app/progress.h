@@ -1,22 +1,15 @@
-// How far a rendering is: a bar on a terminal, else a line every few seconds, else events.
+// Progress of a rendering: a bar on a terminal, else a line every few seconds, else events.
 #pragma once
 
 #include <string>
 
 #include "app/console.h"
+#include "core/base/progress.h"
 #include "core/base/timer.h"
 
 namespace pl {
 
-/// A moment of a rendering.
-struct ProgressState {
-    std::string activity;   ///< "rendering", "precomputing"
-    double share = 0.0;     ///< of the whole, in [0, 1]
-    std::uint32_t spp = 0;  ///< samples per pixel so far
-    std::string detail;     ///< "12/64 spp, 3.1 M segments/s"
-};
-
-/// Shows what it is given as often as its medium can take it.
+/// Shows progress as often as its medium can take it.
 class ProgressDisplay {
 public:
     ProgressDisplay(Console& console, bool enabled);
@@ -25,6 +18,8 @@ public:
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
     void show(const ProgressState& state);
+    /// Takes the bar off the terminal.
+    void clear() { console_.log().clear_status(); }
 
 private:
     double interval_seconds() const;
@@ -37,8 +32,4 @@ private:
 
 /// "[#######       ] text", at most `width` characters.
 std::string progress_bar(double share, const std::string& text, int width);
-
-/// "12 s", "3:05 min", "2:10 h".
-std::string duration_text(double seconds);
-
 }  // namespace pl

@@ -8,12 +8,13 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/parse_values.h"
-#include "app/picture_file.h"
 #include "app/progress.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
+#include "core/diagnose/find_diagnostics.h"
 #include "core/io/files.h"
+#include "core/io/picture_file.h"
 #include "core/measure/picture_identity.h"
 #include "core/session/shown_range.h"
 
@@ -30,7 +31,7 @@ void require_outputs(const Options& options) {
     require_writable(options.diagnostics_file);
 }
 
-/// Throws Error(Usage) if diagnostics is looked for where there are no paths.
+/// Throws Error(Usage) for --diagnostics with a view that traces no paths.
 void require_paths(const Options& options) {
     if (!options.diagnostics_file.empty() && options.render.view != View::Beauty)
         throw Error(ErrorKind::Usage,
@@ -38,7 +39,7 @@ void require_paths(const Options& options) {
                                 info_of(options.render.view).name));
 }
 
-/// Empty without --target-error. Throws Error(Input) if a reference is asked for that is not there.
+/// Empty without --target-error. Throws Error(Input) if the reference of --reference is missing.
 std::optional<ErrorTarget> make_target(const Session& session, const Options& options) {
     if (!options.target_error) return std::nullopt;
     std::shared_ptr<const Reference> reference;
@@ -85,7 +86,7 @@ std::string target_text(const ErrorTarget* target) {
                        target->measured() ? fmt::format("{:.3g}", *target->measured()) : "unknown", target->target());
 }
 
-/// Throws Error(Threshold) if another limit came first and the picture is worse than it was to be.
+/// Throws Error(Threshold) if another limit ended the rendering before the target was met.
 void require_target(ErrorTarget* target, const RunOutcome& outcome) {
     if (target == nullptr || target->is_low_enough()) return;
     throw Error(ErrorKind::Threshold,
@@ -95,15 +96,16 @@ void require_target(ErrorTarget* target, const RunOutcome& outcome) {
                             name_of(outcome.ended_by)));
 }
 
-/// Writes where something went wrong, and puts it into the statistics. False if an interruption came first: then it is what
-/// was found by then.
-bool look_for_diagnostics(const DiagnosticsInput& source, const Snapshot& snapshot, const Options& options,
-                          const ImageMetadata& metadata, const InterruptGuard& interrupt, Console& console,
-                          Json& stats) {
+/// Writes the file of --diagnostics, and puts its counts into the statistics. False if an interruption ended the
+/// search: the file then has the findings until then.
+bool write_diagnostics(DiagnosticsInput source, const Snapshot& snapshot, const Options& options,
+                       const ImageMetadata& metadata, const InterruptGuard& interrupt, Console& console,
+                       Json& stats) {
     ProgressDisplay progress(console, !options.no_progress && !options.quiet);
-    const DiagnosticsMap found = find_diagnostics(source, options.threads, interrupt.flag(), [&](double share) {
-        progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
-    });
+    const DiagnosticsMap found =
+        find_diagnostics(std::move(source), options.threads, interrupt.flag(), [&](double share) {
+            progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
+        });
     save_diagnostics(options.diagnostics_file, snapshot, options.display, found, metadata);
     stats["diagnostics"] = diagnostics_json(snapshot, &found);
     console.remark(fmt::format("{}: {}\n", options.diagnostics_file, summary_of(found)));
@@ -153,19 +155,19 @@ int run_render(const CommandLine& line, Console& console) {
     std::optional<ErrorTarget> target = make_target(session, options);
     ErrorTarget* const aim = target ? &*target : nullptr;
     const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Rendered, aim);
-    if (aim != nullptr) aim->look_at_last(session);
+    if (aim != nullptr) aim->measure_last(session);
     const Snapshot snapshot = session.snapshot();
     Json stats = stats_json(session, snapshot, options, outcome, aim);
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
     save_picture(options.output, snapshot, options.display, metadata);
-    const bool has_looked =
+    const bool is_searched =
         options.diagnostics_file.empty() ||
-        look_for_diagnostics(session.diagnostics_input(), snapshot, options, metadata, interrupt, console, stats);
+        write_diagnostics(diagnostics_input(session), snapshot, options, metadata, interrupt, console, stats);
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, console);
-    if (outcome.interrupted() || !has_looked) return kExitInterrupted;
+    if (outcome.interrupted() || !is_searched) return kExitInterrupted;
     require_target(aim, outcome);
     return 0;
 }

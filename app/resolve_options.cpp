@@ -18,7 +18,7 @@ int scaled_side(int side, int to, int from) {
     return static_cast<int>(std::clamp(std::round(scaled), 1.0, static_cast<double>(kMaxImageSide)));
 }
 
-/// A width or height that was not given keeps the aspect of the size so far.
+/// A missing width or height follows from the aspect of the size so far.
 void settle_size(Options& options) {
     RenderSettings& render = options.render;
     const int width = options.width;
@@ -45,7 +45,7 @@ void settle_camera(Options& options) {
     if (camera.up == glm::vec3(0.0f)) throw Error(ErrorKind::Usage, "--up: expected a direction, got 0,0,0");
 }
 
-/// Applies one setting of a scene file; complaints name the file and the line.
+/// Applies one setting of a scene file; error messages name the file and the line.
 void apply_setting(const OptionSpec& spec, Options& options, const std::string& text, const SceneDescription& scene) {
     try {
         spec.parse(options, text);
@@ -63,12 +63,13 @@ void apply_scene(Options& options, const SceneDescription& scene) {
     settle_size(options);
 }
 
-/// The words of an option, as a person would give them.
+/// An option as it is typed.
 std::string words(const OptionSpec& spec, const std::string& value) {
     return fmt::format("--{} {}", spec.name, value);
 }
 
-/// What was given for a loaded field has to be what the field has. The lookup finds the same either way.
+/// Options given along with a loaded field must agree with it, except for the lookup, which finds the same volumes
+/// either way.
 void adopt_field(const CommandLine& line, const LearnedField& field, Options& options) {
     const Options asked = options;
     options.render.method = field.method;
@@ -84,7 +85,7 @@ void adopt_field(const CommandLine& line, const LearnedField& field, Options& op
     }
 }
 
-/// Only what is learned in the run can be saved.
+/// Throws Error(Usage) for --save-field if the run learns nothing.
 void require_learning(const Options& options) {
     const MethodInfo& method = info_of(options.render.method);
     const ViewInfo& view = info_of(options.render.view);
@@ -104,7 +105,7 @@ void check_combinations(Command command, const Options& options) {
     if (needs_field && !method.uses_field)
         throw Error(
             ErrorKind::Usage,
-            fmt::format("--view {}: shows what was learned, and --method {} learns nothing: expected --method {}",
+            fmt::format("--view {}: shows the learned field, and --method {} learns nothing: expected --method {}",
                         info_of(options.render.view).name, method.name, field_method_choices()));
     if (!options.save_field.empty()) require_learning(options);
 }
@@ -114,7 +115,7 @@ bool is_given(const CommandLine& line, std::string_view name) {
                        [&](const GivenOption& option) { return option.spec->name == name; });
 }
 
-/// Inspection is about what was learned, so it does not inherit a method that learns nothing.
+/// An inspection needs a learned field, so it does not inherit a method without one from the scene.
 void settle_inspection(const CommandLine& line, Options& options) {
     options.render.view = View::Beauty;
     if (info_of(options.render.method).uses_field) return;
@@ -124,7 +125,7 @@ void settle_inspection(const CommandLine& line, Options& options) {
     options.render.method = MethodId::Reinforcement;
 }
 
-/// Only pictures of light that are rendered for themselves end at an error that a scene asks for.
+/// A target error of the scene's settings applies to renderings of radiance only.
 void settle_target(const CommandLine& line, Options& options) {
     const bool renders = line.command == Command::Render;
     const bool has_error = options.render.view == View::Beauty;
@@ -138,13 +139,13 @@ void settle_target(const CommandLine& line, Options& options) {
         throw Error(ErrorKind::Usage, "--reference: expected --target-error X with it");
 }
 
-/// What a scene asks for to look well is no limit of a measurement.
+/// Limits of a scene's settings, made for a good picture, are no limits of a measurement.
 void forget_scene_limits(const CommandLine& line, Options& options) {
     if (!is_given(line, "time-limit")) options.time_limit_seconds.reset();
     if (!is_given(line, "spp")) options.spp.reset();
 }
 
-/// A reference is a picture of the light, whatever the scene prefers to show, and has its own default of samples.
+/// A reference shows radiance, whatever view the scene prefers, and has its own default of samples.
 void settle_reference(const CommandLine& line, Options& options) {
     options.render.view = View::Beauty;
     constexpr std::uint32_t kReferenceSpp = 4096;

@@ -40,7 +40,7 @@ private:
         return limit && watch_.seconds() >= *limit ? EndedBy::TimeLimit : EndedBy::Nothing;
     }
 
-    /// The largest one of the shares of all limits.
+    /// Share of the limit that is nearest.
     double share_done() const {
         double share = static_cast<double>(session_.passes()) / options_.spp_limit();
         if (options_.time_limit_seconds) share = std::max(share, watch_.seconds() / *options_.time_limit_seconds);

@@ -1,22 +1,22 @@
-// The loop of every subcommand without a window: passes until a limit is met or a person interrupts.
+// The loop of every subcommand without a window: passes until a limit is reached or the run is interrupted.
 #pragma once
 
 #include "app/console.h"
 #include "app/interrupt.h"
-#include "app/measure/error_target.h"
+#include "core/bench/error_target.h"
 #include "core/session/session.h"
 
 namespace pl {
 
 enum class Until {
-    Rendered,  ///< the limits of the options are met
-    Learned,   ///< the same, but a precomputed map is enough
+    Rendered,  ///< a limit of the options is reached
+    Learned,   ///< the same, but a complete precomputed map is enough
 };
 
 enum class EndedBy { Nothing, Spp, TimeLimit, TargetError, Learned, Interruption };
 
-/// "spp", "time-limit", "target-error": the option that it is the limit of; "learned", "interruption"; "nothing" if there
-/// was nothing to do.
+/// The option whose limit was reached: "spp", "time-limit", "target-error"; else "learned", "interruption", or
+/// "nothing" if there was no pass to render.
 std::string_view name_of(EndedBy end);
 
 struct RunOutcome {

@@ -3,13 +3,14 @@
 #include <cmath>
 
 #include "app/diagnostics_file.h"
+#include "core/bench/clocks_json.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/scene_hash.h"
 
 namespace pl {
 namespace {
 
-/// Mean over all pixels that have a value.
+/// Mean over all finite pixels.
 Json mean_radiance(const Snapshot& snapshot) {
     glm::dvec3 sum(0.0);
     std::size_t count = 0;
@@ -52,24 +53,6 @@ void add_counters(Json& stats, const PassCounters& counters) {
 }
 
 }  // namespace
-
-Json clocks_json(const Clocks& clocks, const Json& sums) {
-    Json json{{"load", clocks.load},    {"build", clocks.build},           {"upload", clocks.upload},
-              {"place", clocks.place},  {"precompute", clocks.precompute}, {"learn", clocks.learn},
-              {"render", clocks.render}};
-    json.update(sums);
-    return json;
-}
-
-Clocks clocks_from(const Json& json) {
-    return {.load = json.at("load"),
-            .build = json.at("build"),
-            .upload = json.value("upload", 0.0),
-            .place = json.at("place"),
-            .precompute = json.at("precompute"),
-            .learn = json.at("learn"),
-            .render = json.at("render")};
-}
 
 Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options, const RunOutcome& outcome,
                 const ErrorTarget* target) {

@@ -1,4 +1,4 @@
-// `pathlight view`: the window, with what it may not know itself: files, back ends, the command line.
+// `pathlight view`: the window, with back ends, scenes and the command line as the program knows them.
 #include "app/commands.h"
 #include "core/base/error.h"
 
@@ -10,15 +10,10 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "app/field_files.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
-#include "app/picture_file.h"
-#include "app/selftest/self_test.h"
-#include "app/viewer_references.h"
-#include "core/io/field_file.h"
 #include "core/io/load_scene.h"
 #include "cuda/availability.h"
 #include "ui/viewer.h"
@@ -26,7 +21,7 @@
 namespace pl {
 namespace {
 
-/// The scenes that were opened, for the functions that the viewer calls from any of its threads.
+/// The scenes opened so far, for the functions that the viewer calls on any of its threads.
 class OpenedScenes {
 public:
     void add(const std::string& name, std::shared_ptr<const SceneDescription> scene) {
@@ -43,17 +38,17 @@ private:
     std::map<std::string, std::shared_ptr<const SceneDescription>> scenes_;
 };
 
-/// The window needs a core for itself, where there are several.
+/// Leaves one core to the window where there are several.
 int viewer_threads(int asked) {
     return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 
-/// Knobs were given for the scene that was named with them, and are not those of others.
+/// Knobs of the command line belong to the scene that it names, not to scenes opened later.
 KnobValues knobs_of(const std::string& scene, const Options& opened) {
     return scene == opened.scene ? opened.knobs : KnobValues{};
 }
 
-/// `first_backend` is what the options' choice came to.
+/// `first_backend` is the back end that the options' choice selected.
 std::string command_of(const ViewerPicture& picture, const SceneDescription& scene, const Options& opened,
                        const std::string& first_backend) {
     const Options defaults = scene_defaults(picture.scene, scene);
@@ -69,26 +64,13 @@ std::string command_of(const ViewerPicture& picture, const SceneDescription& sce
     return command_text(shown, defaults);
 }
 
-ImageMetadata metadata_of(const ViewerPicture& picture, const Snapshot& snapshot, const std::string& command) {
-    ImageMetadata metadata{{"Software", "pathlight " PL_VERSION},
-                           {"scene", picture.scene},
-                           {"method", std::string(info_of(snapshot.slot.method).name)},
-                           {"view", std::string(info_of(snapshot.slot.view).name)},
-                           {"backend", picture.backend},
-                           {"spp", std::to_string(snapshot.passes)},
-                           {"command", command}};
-    if (!picture.edited_materials.empty())
-        metadata.emplace_back("edited materials", fmt::format("{}", fmt::join(picture.edited_materials, ", ")));
-    return metadata;
-}
-
 bool has_size(const CommandLine& line) {
     return std::any_of(line.given.begin(), line.given.end(), [](const GivenOption& given) {
         return given.spec->name == "size" || given.spec->name == "width" || given.spec->name == "height";
     });
 }
 
-/// Everything but the functions.
+/// All members but the functions.
 ViewerOptions viewer_options(const CommandLine& line, const Options& options, const LoadedScene& loaded) {
     ViewerOptions viewer;
     viewer.settings = options.render;
@@ -110,59 +92,45 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
     return viewer;
 }
 
-/// The first one is made here, so that one that is not there is told before a window opens.
-void add_backends(ViewerOptions& viewer, const Options& options) {
-    const int threads = viewer_threads(options.threads);
-    const auto made = std::make_shared<std::unique_ptr<RenderBackend>>(make_backend(options.backend, threads));
-    const std::string first = (*made)->info().name;
-    BackendChoice cuda{.name = "cuda", .device = "", .unavailable = cuda_unavailable_reason()};
-    if (cuda.unavailable.empty()) cuda.device = cuda_devices().front().name;
-    viewer.first_backend = first;
-    viewer.backends = {{.name = "cpu", .device = make_backend("cpu", threads)->info().device, .unavailable = ""},
-                       cuda};
-    viewer.make_backend = [made, first, threads](const std::string& name) {
-        return name == first && *made ? std::move(*made) : make_backend(name, threads);
-    };
-}
+/// Makes back ends for the viewer. The first one is made at once, so that its absence is told before a window opens.
+class ViewerBackends {
+public:
+    explicit ViewerBackends(const Options& options)
+        : threads_(viewer_threads(options.threads)), first_(make_backend(options.backend, threads_)),
+          first_name_(first_->info().name) {}
 
-/// What the viewer asks of the program. All arguments outlive it.
-void add_functions(ViewerOptions& viewer, OpenedScenes& scenes, const Options& options, Console& console) {
+    const std::string& first_name() const { return first_name_; }
+    std::unique_ptr<RenderBackend> make(const std::string& name) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (name == first_name_ && first_) return std::move(first_);
+        }
+        return make_backend(name, threads_);
+    }
+    BackendChoices choices() const {
+        BackendChoice cuda{.name = "cuda", .device = "", .unavailable = cuda_unavailable_reason()};
+        if (cuda.unavailable.empty()) cuda.device = cuda_devices().front().name;
+        return {{.name = "cpu", .device = make_backend("cpu", threads_)->info().device, .unavailable = ""}, cuda};
+    }
+
+private:
+    int threads_;
+    std::mutex mutex_;
+    std::unique_ptr<RenderBackend> first_;  ///< until it is asked for
+    std::string first_name_;
+};
+
+/// The viewer's calls into the program. All arguments outlive it.
+void add_functions(ViewerOptions& viewer, ViewerBackends& backends, OpenedScenes& scenes, const Options& options,
+                   Console& console) {
+    viewer.make_backend = [&](const std::string& name) { return backends.make(name); };
     viewer.load_scene = [&](const std::string& name) {
         const auto scene = open_scene(name, knobs_of(name, options), console).scene;
         scenes.add(name, scene);
         return scene;
     };
     viewer.command_line = [&](const ViewerPicture& picture) {
-        return command_of(picture, *scenes.find(picture.scene), options, viewer.first_backend);
-    };
-    viewer.save_image = [&](const std::filesystem::path& path, const Snapshot& snapshot,
-                            const ViewerPicture& picture) {
-        const std::string command = command_of(picture, *scenes.find(picture.scene), options, viewer.first_backend);
-        save_picture(path, snapshot, picture.display, metadata_of(picture, snapshot, command));
-    };
-    viewer.load_field = [&](const std::filesystem::path& path, const OpenScene& scene) {
-        const auto field = std::make_shared<LearnedField>(read_field(path));
-        try {
-            require_learned_in(*scene.description, *field);
-        } catch (const Error& error) {
-            throw Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
-        }
-        fit_to_run(*field, options.render.field);
-        return field;
-    };
-    viewer.save_field = write_field;
-    viewer.find_reference = [](const OpenScene& scene, const RenderSettings& settings) {
-        return find_viewer_reference(kViewerReferences, *scene.description, settings);
-    };
-    viewer.make_reference = [&](const OpenScene& scene, const RenderSettings& settings, const JobMonitor& monitor) {
-        return make_viewer_reference(kViewerReferences, scene.name, scene.description, settings,
-                                     viewer_threads(options.threads), monitor);
-    };
-    viewer.run_self_test = [&](const JobMonitor& monitor, const std::function<void(const SelfCheck&)>& told) {
-        (void)run_self_test(available_backends(), viewer_threads(options.threads), told, monitor.stop);
-    };
-    viewer.save_screen = [](const std::filesystem::path& path, const ScreenPixels& pixels) {
-        write_png8(path, {.width = pixels.width, .height = pixels.height, .rgb = pixels.rgb});
+        return command_of(picture, *scenes.find(picture.scene), options, backends.first_name());
     };
 }
 
@@ -175,9 +143,11 @@ int run_view(const CommandLine& line, Console& console) {
     OpenedScenes scenes;
     scenes.add(options.scene, loaded.scene);
 
+    ViewerBackends backends(options);
     ViewerOptions viewer = viewer_options(line, options, loaded);
-    add_backends(viewer, options);
-    add_functions(viewer, scenes, options, console);
+    viewer.first_backend = backends.first_name();
+    viewer.backends = backends.choices();
+    add_functions(viewer, backends, scenes, options, console);
     viewer.field = fields.take(*loaded.scene, options);
     try {
         return run_viewer(viewer);

@@ -54,13 +54,10 @@ private:
     void run(const Make& make) {
         constexpr int kNice = 10;  // on Linux about this thread and those that it starts: everything else comes first
         (void)setpriority(PRIO_PROCESS, 0, kNice);
-        const JobMonitor monitor{.stopped = [this] { return stopped_.load(); },
-                                 .progress =
-                                     [this](double share, const std::string& detail) {
-                                         const std::lock_guard lock(mutex_);
-                                         progress_ = {share, detail};
-                                     },
-                                 .stop = &stopped_};
+        const JobMonitor monitor{.stop = &stopped_, .progress = [this](double share, const std::string& detail) {
+                                     const std::lock_guard lock(mutex_);
+                                     progress_ = {share, detail};
+                                 }};
         Result result;
         try {
             result.value = make(monitor);

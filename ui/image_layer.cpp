@@ -1,6 +1,7 @@
 #include "ui/image_layer.h"
 
 #include "core/base/error.h"
+#include "core/diagnose/mark_diagnostics.h"
 
 namespace pl {
 
@@ -20,7 +21,7 @@ void ImageLayer::fill(const ViewerModel& model, const Key& key) {
     if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_.view());
     texture_.fill([&](std::uint32_t* out, std::size_t pitch) {
         write_picture(frame.picture, overlay, out, pitch);
-        if (key.diagnostics) mark_diagnostics(*key.diagnostics, out, pitch);
+        if (key.diagnostics) mark_diagnostics(*key.diagnostics, {out, pitch});
     });
 }
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/diagnose/find_diagnostics.h"
 #include "core/measure/paired_cost.h"
 #include "core/scene/pack_scene.h"
-#include "core/session/diagnostics.h"
 #include "core/session/shown_range.h"
 #include "ui/viewer.h"
 

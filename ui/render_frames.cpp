@@ -91,7 +91,7 @@ void RenderWorker::answer_diagnostics() {
     DiagnosticsAnswer answer{.generation = now_.generation};
     try {
         if (divider_ != 1) throw Error(ErrorKind::Usage, "the camera moves: let the picture come to rest first");
-        answer.source = session_->diagnostics_input();
+        answer.source = diagnostics_input(*session_);
     } catch (const std::exception& error) {  // a lost device is found out by the next pass, too
         answer.reason = error.what();
     }

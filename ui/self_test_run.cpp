@@ -13,7 +13,7 @@ std::string checks_text(std::size_t count) { return fmt::format("{} {}", count, 
 
 }  // namespace
 
-void SelfTestRun::start(decltype(ViewerOptions::run_self_test) run) {
+void SelfTestRun::start(Checks run) {
     if (job_) return;
     incoming_ = std::make_shared<Incoming>();
     checks_.clear();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/selftest/self_check.h"
 #include "ui/background_job.h"
 
 namespace pl {
@@ -14,8 +15,11 @@ class SelfTestRun {
 public:
     enum class Outcome { None, Running, Passed, Failed, Stopped, Broken };
 
-    /// Begins anew. `run` is ViewerOptions::run_self_test.
-    void start(decltype(ViewerOptions::run_self_test) run);
+    /// Runs the checks, and calls `told` after each of them.
+    using Checks = std::function<void(const JobMonitor&, const std::function<void(const SelfCheck&)>& told)>;
+
+    /// Begins anew, on a thread of its own.
+    void start(Checks run);
     void stop();
     bool is_running() const { return job_ != nullptr; }
     /// Once per frame of the window: takes what is there. True once, when the test is over.

@@ -1,5 +1,5 @@
-// The viewer: a window in which a session runs. File formats, back ends and the command line come in as functions,
-// so that this folder knows none of them.
+// The viewer: a window in which a session runs. The program around it makes back ends, opens scenes with their knobs and
+// writes the command line; the viewer does everything else itself.
 #pragma once
 
 #include <array>
@@ -13,9 +13,8 @@
 
 #include "core/measure/live_runs.h"
 #include "core/scene/description.h"
-#include "core/session/backend.h"
+#include "core/session/backend_factory.h"
 #include "core/session/learned_field.h"
-#include "core/session/self_check.h"
 #include "core/session/settings.h"
 #include "core/session/snapshot.h"
 
@@ -66,11 +65,10 @@ struct StoredReference {
     double noise_relmse = 0.0;           ///< of the mean of both
 };
 
-/// How work in the background is followed; both functions may be called from its threads at any time.
+/// Between work in the background and the window. `progress` may be called from any thread of the work.
 struct JobMonitor {
-    std::function<bool()> stopped;
+    const StopFlag* stop = nullptr;
     std::function<void(double share, const std::string& detail)> progress;
-    const StopFlag* stop = nullptr;  ///< says what `stopped` says, for work that takes a flag
 };
 
 /// 8-bit RGB, rows from the top without padding.
@@ -97,35 +95,20 @@ struct ViewerOptions {
     bool software = false;       ///< do not look for an accelerated renderer
     std::filesystem::path font;  ///< .ttf; the built-in font if it is missing
     std::filesystem::path screenshot_dir = ".";
-    std::optional<std::filesystem::path> script;    ///< scripted input, see ui/script.h
-    std::optional<std::filesystem::path> ui_trace;  ///< one JSON object per UI frame; percentiles on stderr
+    std::filesystem::path reference_dir = "references";  ///< of stored references; found and made there
+    std::optional<std::filesystem::path> script;         ///< scripted input, see ui/script.h
+    std::optional<std::filesystem::path> ui_trace;       ///< one JSON object per UI frame; percentiles on stderr
 
     /// In the order in which a key steps through them. One should be "cpu": it takes over when another fails.
     BackendChoices backends{{"cpu", "", ""}};
     std::string first_backend = "cpu";
-    /// Called on the render thread when a back end is first wanted. Throws if it is unavailable after all. Should leave
-    /// one hardware thread to the window where there are several.
-    std::function<std::unique_ptr<RenderBackend>(const std::string& name)> make_backend;
-    /// Throws Error(Input) with file and line. Called on a helper thread after the start.
+    /// Called on the render thread when a back end is first selected, and on threads of their own for references and the
+    /// self test. Throws Error(Unavailable). Should leave one hardware thread to the window where there are several.
+    BackendFactory make_backend;
+    /// A scene by name, with the program's knobs for it. Throws Error(Input) with file and line. Called on a helper thread
+    /// after the start.
     std::function<std::shared_ptr<const SceneDescription>(const std::string& name)> load_scene;
-    /// Writes .png (tone mapped) or .exr (linear) by suffix. Called on a helper thread.
-    std::function<void(const std::filesystem::path&, const Snapshot&, const ViewerPicture&)> save_image;
-    /// Throws Error(Input) for a file that is none, or of another scene. Both called on a helper thread.
-    std::function<std::shared_ptr<LearnedField>(const std::filesystem::path&, const OpenScene&)> load_field;
-    std::function<void(const std::filesystem::path&, const LearnedField&)> save_field;
-    /// Writes what the window shows, panels included.
-    std::function<void(const std::filesystem::path&, const ScreenPixels&)> save_screen;
-    /// The stored reference of just this picture, null if there is none. Throws Error(Input) for damaged files. Called
-    /// on a helper thread; so is what follows, on one of its own.
-    std::function<std::shared_ptr<const StoredReference>(const OpenScene&, const RenderSettings&)> find_reference;
-    /// Goes on with the stored reference until it is converged or the monitor says stop, and stores it. Null if there
-    /// are no samples in both halves yet.
-    std::function<std::shared_ptr<const StoredReference>(const OpenScene&, const RenderSettings&, const JobMonitor&)>
-        make_reference;
-    /// Runs the self test on every back end that is there, and calls `told` after each check. Throws what a back end throws. On
-    /// a thread of its own.
-    std::function<void(const JobMonitor&, const std::function<void(const SelfCheck&)>& told)> run_self_test;
-    /// The shell command that renders what is shown.
+    /// The shell command that renders the picture; may be empty. Called on any thread.
     std::function<std::string(const ViewerPicture&)> command_line;
 };
 

@@ -1,4 +1,5 @@
 // The part of ViewerModel that looks for diagnostics: where in the picture, and whether this machine computes right.
+#include "core/selftest/self_test.h"
 #include "ui/viewer_model.h"
 
 namespace pl {
@@ -42,11 +43,12 @@ void ViewerModel::take_diagnostics() {
 void ViewerModel::start_self_test() {
     window_.self_test = true;
     if (self_test_.is_running()) return;
-    if (!options_.run_self_test) {
-        say(LogLevel::Warning, "this build has no self test");
-        return;
-    }
-    self_test_.start(options_.run_self_test);
+    std::vector<std::string> backends;
+    for (const BackendChoice& choice : options_.backends)
+        if (choice.unavailable.empty()) backends.push_back(choice.name);
+    self_test_.start([backends, make = options_.make_backend](const JobMonitor& monitor, const auto& told) {
+        (void)run_self_test(backends, make, told, monitor.stop);
+    });
     hold_rendering();
 }
 

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "core/io/field_file.h"
 #include "ui/viewer_model.h"
+#include "ui/window_files.h"
 
 namespace pl {
 namespace {
@@ -78,7 +80,7 @@ void ViewerModel::save_screenshot() { save({".png"}); }
 void ViewerModel::save_picture() { save({".exr", ".png"}); }
 
 void ViewerModel::save(std::initializer_list<const char*> suffixes) {
-    if (!frame_ || !options_.save_image) {
+    if (!frame_) {
         say(LogLevel::Warning, "there is no picture to save yet");
         return;
     }
@@ -103,7 +105,8 @@ void ViewerModel::write_unsaved() {
     shown.backend = frame_->backend.name;
     for (const std::filesystem::path& path : std::exchange(unsaved_, {})) {
         push_job([this, path, shown, frame = frame_]() -> JobThread::Report {
-            options_.save_image(path, frame->snapshot, shown);
+            save_window_picture(path, frame->snapshot, shown,
+                                options_.command_line ? options_.command_line(shown) : "");
             return [this, path] { say(LogLevel::Info, "saved " + path.string()); };
         });
     }
@@ -115,23 +118,13 @@ std::filesystem::path ViewerModel::next_window_shot() {
 }
 
 void ViewerModel::save_window(ScreenPixels pixels, std::filesystem::path path) {
-    if (!options_.save_screen) {
-        say(LogLevel::Warning, "this build cannot save the window");
-        return;
-    }
     push_job([this, path, shared = std::make_shared<ScreenPixels>(std::move(pixels))]() -> JobThread::Report {
-        options_.save_screen(path, *shared);
+        save_window_pixels(path, *shared);
         return [this, path] { say(LogLevel::Info, "saved " + path.string()); };
     });
 }
 
-void ViewerModel::save_field() {
-    if (!options_.save_field) {
-        say(LogLevel::Warning, "this build cannot save what was learned");
-        return;
-    }
-    worker_.request_learned();
-}
+void ViewerModel::save_field() { worker_.request_learned(); }
 
 void ViewerModel::take_learned() {
     const std::optional<LearnedAnswer> answer = worker_.take_learned();
@@ -144,7 +137,7 @@ void ViewerModel::take_learned() {
     const std::string stem = fmt::format("{}-{}", file_stem(), info_of(answer->field->method).name);
     const std::filesystem::path path = names_.next(options_.screenshot_dir, stem, {suffix.c_str()}).string() + suffix;
     push_job([this, path, field = answer->field]() -> JobThread::Report {
-        options_.save_field(path, *field);
+        write_field(path, *field);
         return [this, text = fmt::format("saved {}: {}", path.string(), summary_of(*field))] {
             say(LogLevel::Info, text);
         };
@@ -172,12 +165,9 @@ void ViewerModel::load_last_field() {
 }
 
 void ViewerModel::load_field(const std::filesystem::path& path) {
-    if (!options_.load_field) {
-        say(LogLevel::Warning, "this build cannot load what was learned");
-        return;
-    }
     push_job([this, path, scene = open_scene()]() -> JobThread::Report {
-        const std::shared_ptr<LearnedField> field = options_.load_field(path, scene);
+        const std::shared_ptr<LearnedField> field =
+            load_window_field(path, *scene.description, options_.settings.field);
         return [this, field, path, scene] {
             if (scene.description != status_.scene)
                 say(LogLevel::Error, fmt::format("{}: the scene was changed meanwhile", path.string()));

@@ -1,6 +1,7 @@
 // The part of ViewerModel that finds references of the picture in the window, and makes them.
 #include <fmt/format.h>
 
+#include "ui/stored_reference.h"
 #include "ui/viewer_model.h"
 
 namespace pl {
@@ -15,11 +16,11 @@ std::optional<ReferenceJob::Progress> ViewerModel::reference_progress() const {
 
 /// Once for every picture that the window comes to show.
 void ViewerModel::look_for_reference() {
-    if (status_.picture == 0 || status_.picture == looked_for_ || !options_.find_reference) return;
+    if (status_.picture == 0 || status_.picture == looked_for_) return;
     looked_for_ = status_.picture;
     if (reference() != nullptr) return;
     push_job([this, scene = open_scene(), settings = asked_settings()]() -> JobThread::Report {
-        const auto found = options_.find_reference(scene, settings);
+        const auto found = find_stored_reference(options_.reference_dir, *scene.description, settings);
         if (!found) return {};
         return [this, found] { adopt_reference(found); };
     });
@@ -40,10 +41,6 @@ void ViewerModel::adopt_reference(const std::shared_ptr<const StoredReference>& 
 
 void ViewerModel::make_reference() {
     if (reference_job_) return;
-    if (!options_.make_reference) {
-        say(LogLevel::Warning, "this build cannot make references");
-        return;
-    }
     if (status_.picture == 0) {
         say(LogLevel::Info, "a reference needs a picture at rest: let it render first");
         return;
@@ -51,7 +48,7 @@ void ViewerModel::make_reference() {
     set_turns(false);
     reference_job_ = std::make_unique<ReferenceJob>(
         [this, scene = open_scene(), settings = asked_settings()](const JobMonitor& monitor) {
-            return options_.make_reference(scene, settings, monitor);
+            return make_stored_reference(options_.reference_dir, scene, settings, options_.make_backend, monitor);
         });
     hold_rendering();
     say(LogLevel::Info, "making the reference: Esc ends it, and keeps what is there");

@@ -1,12 +1,12 @@
-// `pathlight compare`: how far a picture is from another or from its reference, in all metrics.
+// `pathlight compare`: the error of a picture against another or against its reference, in all metrics.
 #include <charconv>
 
 #include <fmt/format.h>
 
 #include "app/commands.h"
-#include "app/measure/metrics_json.h"
-#include "app/measure/reference_store.h"
 #include "core/base/error.h"
+#include "core/bench/metrics_json.h"
+#include "core/bench/reference_store.h"
 #include "core/io/image.h"
 #include "core/measure/flip.h"
 #include "core/measure/metrics.h"
@@ -20,11 +20,11 @@ struct Picture {
     LinearImage image;
     ImageMetadata metadata;
 
-    /// Of what it shows; empty if it does not say so.
+    /// picture_hash() from its metadata; empty if it has none.
     std::string hash() const { return text_of(metadata, kPictureHashKey); }
 };
 
-/// Throws Error(Input) also for a picture with NaN or infinite pixels: its error is not known.
+/// Throws Error(Input) also for a picture with NaN or infinite pixels, whose error is undefined.
 Picture read_picture(const std::string& path) {
     Picture picture{.path = path, .image = {}, .metadata = {}};
     picture.image = read_linear(path, &picture.metadata);
@@ -39,7 +39,8 @@ Picture read_picture(const std::string& path) {
     return picture;
 }
 
-/// Throws Error(Input): another size, or a reference of something else. Warns of two pictures of different content.
+/// Throws Error(Input) if sizes differ or the reference is of another picture. Warns if two pictures differ in
+/// content.
 void check_pair(const Picture& picture, const Picture& reference, Console& console) {
     const LinearImage& a = picture.image;
     const LinearImage& b = reference.image;
@@ -56,11 +57,11 @@ void check_pair(const Picture& picture, const Picture& reference, Console& conso
         fmt::format("{} and {} were made of different scenes, cameras or depths", picture.path, reference.path));
 }
 
-/// The reference of what a picture shows, out of a folder.
+/// The reference of a picture, from a folder.
 Reference reference_for(const Picture& picture, const std::string& folder) {
     if (picture.hash().empty())
         throw Error(ErrorKind::Input,
-                    fmt::format("{}: does not say what it shows, so no reference in {} can be its own: expected an "
+                    fmt::format("{}: has no picture hash, so that its reference in {} cannot be found: expected an "
                                 ".exr of 'pathlight render' with --view beauty",
                                 picture.path, folder));
     int max_depth = 0;
@@ -78,7 +79,7 @@ struct Comparison {
     std::optional<double> flip;
 };
 
-/// Pixels per degree that FLIP supposes; empty if it is not asked for.
+/// Pixels per degree for FLIP; empty without --flip.
 std::optional<double> flip_resolution(const Options& options) {
     if (options.pixels_per_degree > 0.0 && !options.flip)
         throw Error(ErrorKind::Usage, "--pixels-per-degree: expected --flip with it");
@@ -86,7 +87,7 @@ std::optional<double> flip_resolution(const Options& options) {
     return options.pixels_per_degree > 0.0 ? options.pixels_per_degree : kFlipPixelsPerDegree;
 }
 
-/// `resolution` is that of FLIP.
+/// `resolution` is for FLIP, in pixels per degree.
 Comparison compare(const Picture& picture, const ReferenceHalves& halves, Pixels mean,
                    std::optional<double> resolution) {
     Comparison result{.metrics = measure_error(picture.image.pixels, halves), .flip = {}};

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/interrupt.h"
 #include "app/make_backend.h"
-#include "app/measure/make_reference.h"
 #include "app/open_scene.h"
+#include "app/progress.h"
+#include "core/bench/make_reference.h"
 
 namespace pl {
 
@@ -15,7 +17,16 @@ int run_reference(const CommandLine& line, Console& console) {
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds);
     const ReferenceStore store(options.output);
-    const ReferenceOutcome outcome = make_reference(session, options, store, interrupt, console);
+    ProgressDisplay progress(console, !options.no_progress && !options.quiet);
+    const ReferenceOutcome outcome =
+        make_reference(session,
+                       {.scene = options.scene,
+                        .spp = options.spp_limit(),
+                        .seconds = options.time_limit_seconds,
+                        .stop = interrupt.flag(),
+                        .show = [&](const ProgressState& state) { progress.show(state); }},
+                       store);
+    progress.clear();
 
     const auto& [first, second] = outcome.reference.halves;
     const Noise noise = outcome.reference.noise();
@@ -29,9 +40,9 @@ int run_reference(const CommandLine& line, Console& console) {
                            {"interrupted", outcome.interrupted}});
     if (noise.invalid > 0)
         console.log().warning(
-            fmt::format("{} pixels are NaN or infinite: no picture can be scored there", noise.invalid));
+            fmt::format("{} pixels are NaN or infinite: pictures are not scored there", noise.invalid));
     if (outcome.interrupted) {
-        console.log().warning("interrupted: the same command goes on from here");
+        console.log().warning("interrupted: the same command continues from here");
         return kExitInterrupted;
     }
     return 0;

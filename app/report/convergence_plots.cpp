@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kBandPoints = 32;
 
-/// Samples per pixel at which any run of a cell was measured. Not all were at the same ones: points are left out where
-/// measuring would take too long.
+/// Samples per pixel at which any run of a cell was measured. Runs differ: points are left out where measuring would
+/// take too long.
 std::set<std::uint32_t> steps_of(const std::vector<const BenchRun*>& runs) {
     std::set<std::uint32_t> steps;
     for (const BenchRun* run : runs)
@@ -29,7 +29,7 @@ Curve seconds_over_samples(const RunSeries& series) {
     return curve;
 }
 
-/// Geometric mean over curves; empty unless all reach over it.
+/// Geometric mean over curves; empty unless the range of each holds `cost`.
 std::optional<double> mean_at(const std::vector<Curve>& curves, double cost) {
     const auto interval = error_interval_at(curves, cost);
     return interval && interval->value > 0.0 ? std::optional(interval->value) : std::nullopt;

@@ -1,8 +1,8 @@
 // The plots of a bench: error over time and over samples, scene by scene.
 #pragma once
 
-#include "app/measure/bench_results.h"
 #include "app/report/plot.h"
+#include "core/bench/bench_results.h"
 
 namespace pl {
 
@@ -12,8 +12,8 @@ struct NamedPlot {
     Plot plot;
 };
 
-/// Two plots of every scene. Points are geometric means over runs where all of them were measured, bands the 95 %
-/// intervals at equal time or equal samples; below kFewestRuns runs there are none.
+/// Two plots of every scene. Points are geometric means where all runs are measured, bands the 95 % intervals at
+/// equal time or equal samples; no bands below kFewestRuns runs.
 std::vector<NamedPlot> convergence_plots(const BenchResults& results);
 
 /// Names of the scenes of a bench in the order of its plan.

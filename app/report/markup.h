@@ -1,4 +1,4 @@
-// Texts inside of HTML and SVG, and bytes inside of texts.
+// Text escaped for HTML and SVG, and bytes as base64.
 #pragma once
 
 #include <string>

@@ -135,7 +135,7 @@ std::string warnings(const BenchResults& results) {
     return text;
 }
 
-/// JSON inside of a script element: a closing tag within it would end it.
+/// JSON for a script element, which a closing tag in it would end.
 std::string script_json(const Json& json) {
     std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))

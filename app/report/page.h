@@ -1,10 +1,10 @@
-// The page of a bench: one HTML file that needs nothing else, for handing over.
+// The page of a bench: one self-contained HTML file.
 #pragma once
 
 #include <string>
 
-#include "app/measure/bench_results.h"
 #include "app/report/convergence_plots.h"
+#include "core/bench/bench_results.h"
 
 namespace pl {
 

@@ -5,14 +5,14 @@
 
 #include <fmt/format.h>
 
-#include "app/picture_file.h"
 #include "app/report/convergence_plots.h"
 #include "app/report/markup.h"
+#include "core/io/picture_file.h"
 
 namespace pl {
 namespace {
 
-/// The middle of a picture, unscaled: shrinking would average the noise away that is to be seen.
+/// The middle of a picture, unscaled: scaling would average away the noise.
 LinearImage middle_of(const LinearImage& image) {
     const int width = std::min(image.width, kMostSide);
     const int height = std::min(image.height, kMostSide);
@@ -35,7 +35,7 @@ std::string data_url(const LinearImage& image, float exposure_ev) {
     return "data:image/png;base64," + base64(encode_png8(display_image(snapshot, {.exposure_ev = exposure_ev})));
 }
 
-/// Brings all but the brightest twentieth of the reference below white.
+/// Exposure that brings all but the brightest twentieth of the reference below white.
 float exposure_for(const LinearImage& reference) {
     std::vector<double> luminances;
     for (const glm::vec3& pixel : reference.pixels)

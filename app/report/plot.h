@@ -1,18 +1,18 @@
-// A plot as data: what the SVG and the PNG writer draw, each in its way, from the same numbers.
+// A plot as data, which the SVG and the PNG writer draw.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "app/canvas.h"
-#include "core/measure/log_axis.h"
+#include "core/plot/log_axis.h"
 
 namespace pl {
 
 struct PlotPoint {
     double x = 0.0;
     double y = 0.0;
-    std::string note;  ///< told where the pointer is over it
+    std::string note;  ///< shown when the pointer is on the point
 };
 
 struct BandPoint {
@@ -21,7 +21,7 @@ struct BandPoint {
     double high = 0.0;
 };
 
-/// Color tells the method, line style the back end.
+/// One curve: its color stands for the method, its line style for the back end.
 struct PlotSeries {
     std::string name;
     Rgb color{};
@@ -57,7 +57,7 @@ struct PlotLayout {
     }
 };
 
-/// Told apart also by most people who see few colors.   [Okabe and Ito 2008]
+/// Colors that most people with color blindness can tell apart.   [Okabe and Ito 2008]
 Rgb method_color(const std::string& method);
 
 std::string svg_plot(const Plot& plot);

@@ -64,7 +64,7 @@ private:
                      kInk, kScale);
     }
 
-    /// Column by column between the lines through the bounds.
+    /// Fills the columns between the lines through the bounds.
     void draw_band(const PlotSeries& series) {
         for (std::size_t i = 1; i < series.band.size(); ++i) {
             const BandPoint& a = series.band[i - 1];
@@ -92,7 +92,7 @@ private:
         for (const PlotPoint& point : series.line) canvas_.fill(x(point.x) - 3, y(point.y) - 3, 7, 7, series.color);
     }
 
-    /// Returns how long the line is by now, so that dashes go on around corners.
+    /// Returns the length of the line so far, so that dashes continue around corners.
     double stroke(int x0, int y0, int x1, int y1, const PlotSeries& series, double drawn) {
         const int steps = std::max({std::abs(x1 - x0), std::abs(y1 - y0), 1});
         const double step_length = std::hypot(x1 - x0, y1 - y0) / steps;

@@ -1,4 +1,4 @@
-// `pathlight report`: one page, plots as SVG and PNG, of what a bench has left.
+// `pathlight report`: a page of a bench folder, and its plots as SVG and PNG.
 #include <fmt/format.h>
 
 #include "app/commands.h"

@@ -1,4 +1,4 @@
-// Means over square blocks of pixels, and how far they may be off.
+// Means over square blocks of pixels, with their standard errors.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace pl {
 
-/// Sums over blocks of kBlockSide x kBlockSide pixels, of which the error of their mean follows. Threads may add to different blocks.
+/// Sums over blocks of kBlockSide x kBlockSide pixels, for the mean over all pixels and its standard error. Threads
+/// may add to different blocks.
 class BlockMeans {
 public:
     explicit BlockMeans(std::size_t blocks) : sums_(blocks, 0.0), counts_(blocks, 0.0) {}

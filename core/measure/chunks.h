@@ -1,4 +1,4 @@
-// Sums over pixels by several threads, the same to the last bit for any number of them.
+// Sums over pixels by several threads, the same to the bit for any number of threads.
 #pragma once
 
 #include <vector>

@@ -7,7 +7,7 @@
 namespace pl {
 namespace {
 
-/// Straight line in log-log through two points, at `x`.
+/// Line through two points in log-log, at `x`.
 double interpolate(double x, double x0, double y0, double x1, double y1) {
     if (x0 == x1) return y1;
     const double share = std::log(x / x0) / std::log(x1 / x0);

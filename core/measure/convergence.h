@@ -1,4 +1,4 @@
-// Error against time of one run, and what several runs say together: error at a time, time to an error, slope.
+// Error against time of one run, and statistics over several runs: error at a time, time to an error, slope.
 #pragma once
 
 #include <optional>
@@ -9,19 +9,19 @@
 
 namespace pl {
 
-/// A point of a run: what was spent, and what error was left.
+/// A point of a run: the cost so far and the error at it.
 struct CurvePoint {
     double cost = 0.0;   ///< charged seconds, or samples per pixel
-    double error = 0.0;  ///< a squared error; points where it is not positive are below what the reference resolves
+    double error = 0.0;  ///< squared; not positive where it is below the resolution of the reference
 };
 
 /// By ascending cost. Errors of one run are strongly correlated: statistics are over runs, never over points.
 using Curve = std::vector<CurvePoint>;
 
-/// Error at a cost, along straight lines in log-log. Empty outside of what was measured: nothing is extrapolated.
+/// Error at a cost, interpolated linearly in log-log. Empty outside of the measured range: nothing is extrapolated.
 std::optional<double> error_at(const Curve& curve, double cost);
 
-/// Cost from which on the error stays at `target` or below, interpolated alike. Empty if the last point is above it:
+/// Cost from which on the error stays at or below `target`, interpolated alike. Empty if the last point is above it:
 /// the run is censored at its last cost.
 std::optional<double> cost_to_reach(const Curve& curve, double target);
 
@@ -29,17 +29,17 @@ std::optional<double> cost_to_reach(const Curve& curve, double target);
 /// three points lie there.
 double log_slope(const Curve& curve, double decades = 1.0);
 
-/// When several runs reached a target.
+/// Cost at which several runs reach a target.
 struct TimeToTarget {
-    Interval cost;  ///< of the runs that did, a geometric mean; NaN if none did
+    Interval cost;  ///< geometric mean over the runs that reach it; NaN if none does
     std::size_t reached = 0;
-    std::size_t censored = 0;  ///< that did not: counted, never dropped in silence
-    double more_than = 0.0;    ///< the least last cost of those; the true mean is above `cost` if there are any
+    std::size_t censored = 0;  ///< runs that do not reach it
+    double more_than = 0.0;    ///< the least last cost of censored runs; with any, the true mean is above `cost`
 };
 
 TimeToTarget time_to_target(std::span<const Curve> runs, double target);
 
-/// Geometric mean of the error at a cost over all runs; empty unless all of them were measured around it.
+/// Geometric mean of the error at a cost over all runs; empty unless the cost lies within the measured range of each.
 std::optional<Interval> error_interval_at(std::span<const Curve> runs, double cost);
 
 /// Mean slope over runs.

@@ -22,7 +22,7 @@ constexpr double kFeatureWidthDegrees = 0.082;
 
 using Plane = std::vector<double>;
 
-/// One number per pixel and what it takes to walk over them.
+/// One number per pixel, with the size of the picture.
 struct Grid {
     int width;
     int height;
@@ -55,7 +55,7 @@ struct Kernel {
     }
 };
 
-/// Along rows or columns; the border's pixels go on for ever.
+/// Convolution along rows or columns; pixels of the border repeat beyond it.
 Plane filtered(const Plane& plane, const Grid& grid, const Kernel& kernel, bool along_rows) {
     Plane result(plane.size(), 0.0);
     const int length = along_rows ? grid.width : grid.height;
@@ -90,7 +90,7 @@ Vec3d from_opponents(const Vec3d& color) {
     return kFromXyz * (Vec3d(y + color.y / 500.0, y, y - color.z / 200.0) * kWhite);
 }
 
-/// CIELAB, with colors less vivid where it is dark.   [Hunt 1952]
+/// CIELAB with the Hunt effect: colors are less vivid where it is dark.   [Hunt 1952]
 Vec3d to_hunt_lab(const Vec3d& rgb) {
     const auto curve = [](double t) {
         constexpr double kDelta = 6.0 / 29.0;
@@ -102,13 +102,13 @@ Vec3d to_hunt_lab(const Vec3d& rgb) {
     return {lightness, vividness * 500.0 * (curve(n.x) - curve(n.y)), vividness * 200.0 * (curve(n.y) - curve(n.z))};
 }
 
-/// City block between lightness and color, a power of it.   [Abasi et al. 2020]
+/// HyAB: city-block distance between lightness and color, raised to a power.   [Abasi et al. 2020]
 double color_distance(const Vec3d& a, const Vec3d& b) {
     const Vec3d d = a - b;
     return std::pow(std::fabs(d.x) + std::hypot(d.y, d.z), kColorExponent);
 }
 
-/// The largest distance, that of green and blue, becomes 1; all above the knee share the last twentieth.
+/// The largest distance, from green to blue, becomes 1; distances above the knee share the last twentieth.
 double compressed(double distance) {
     static const double largest = color_distance(to_hunt_lab({0.0, 1.0, 0.0}), to_hunt_lab({0.0, 0.0, 1.0}));
     const double knee = kKneeInput * largest;
@@ -124,7 +124,7 @@ struct Gaussian {
 /// The eye's contrast sensitivity by opponent color, as sums of Gaussians.   [section 4.1, table 1]
 const std::vector<Gaussian> kSensitivity[3] = {{{1.0, 0.0047}}, {{1.0, 0.0053}}, {{34.1, 0.04}, {13.5, 0.025}}};
 
-/// What the eye leaves of a channel.
+/// A channel filtered by the contrast sensitivity of the eye.
 Plane seen(const Plane& plane, const Grid& grid, int channel, double pixels_per_degree) {
     constexpr double kWidest = 0.04;
     const int radius = static_cast<int>(std::ceil(3.0 * std::sqrt(kWidest / (2.0 * kPi * kPi)) * pixels_per_degree));
@@ -146,7 +146,7 @@ Plane seen(const Plane& plane, const Grid& grid, int channel, double pixels_per_
     return result;
 }
 
-/// How strong edges and points are around each pixel.
+/// Strength of edges and points around each pixel.
 struct Features {
     Plane edges;
     Plane points;
@@ -172,7 +172,7 @@ Features features_of(const Plane& lightness, const Grid& grid, double pixels_per
     return {strength(slope), strength(bend)};
 }
 
-/// A picture as the eye takes it in.
+/// A picture in the terms of the metric: filtered colors and features.
 struct Impression {
     std::vector<Vec3d> colors;
     Features features;

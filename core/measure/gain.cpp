@@ -16,7 +16,7 @@ std::vector<double> numbers_of(std::span<const RunEnd> runs, Number number) {
     return values;
 }
 
-/// From when on the mean error of `method` stays below that of `base`, looked at from the end.
+/// The time from which on the mean error of `method` stays below that of `base`.
 std::optional<double> ahead_from(std::span<const Curve> base, std::span<const Curve> method, const CostRange& range) {
     std::optional<double> since;
     const std::vector<double> times = log_spaced(range.first, range.last, 200);
@@ -29,7 +29,7 @@ std::optional<double> ahead_from(std::span<const Curve> base, std::span<const Cu
     return since;
 }
 
-/// "3.4x", with the digits that a ratio deserves.
+/// "3.4x", with as many digits as the ratio is worth.
 std::string times(double ratio) {
     return ratio < 9.95 ? fmt::format("{:.1f}x", ratio) : fmt::format("{:.0f}x", ratio);
 }

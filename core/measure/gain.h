@@ -1,4 +1,4 @@
-// What a method gains or loses against another, in the three numbers that multiply, and in one sentence.
+// Gain of a method over a baseline: the three factors of it, and a sentence.
 #pragma once
 
 #include <optional>
@@ -17,35 +17,38 @@ struct RunEnd {
     double seconds = 0.0;  ///< charged, set-up included
 
     double error_samples() const { return error * samples; }  ///< variance of one sample
-    double error_seconds() const { return error * seconds; }  ///< falls with efficiency, not with patience
+    double error_seconds() const {
+        return error * seconds;
+    }  ///< inverse efficiency: does not depend on the length of the run
 };
 
-/// All ratios are above 1 where they count for the method.
+/// Ratios above 1 are in favor of the method.
 struct Gain {
-    Interval samples;      ///< how many times fewer samples it needs
-    Interval cost;         ///< how many times less a sample costs; mostly below 1
-    Interval net;          ///< how many times faster it reaches the same error: the product of both
+    Interval samples;      ///< samples of the baseline over those of the method, for the same error
+    Interval cost;         ///< cost of a sample, baseline over method; mostly below 1
+    Interval net;          ///< time to the same error, baseline over method: the product of both
     std::size_t runs = 0;  ///< of the side with fewer
     std::optional<double>
-        ahead_from_seconds;               ///< from when on its error stays below; empty if it does not at the end
-    double compared_until_seconds = 0.0;  ///< as long as both were measured
+        ahead_from_seconds;               ///< its error stays below from then on; empty if it is above at the end
+    double compared_until_seconds = 0.0;  ///< end of the range that both were measured in
 };
 
-/// Welch's intervals on logarithms over independent runs. `base` is the method compared with.
+/// Welch's intervals on logarithms over independent runs. `base` is the baseline.
 Gain gain_over(std::span<const RunEnd> base, std::span<const RunEnd> method, std::span<const Curve> base_curves,
                std::span<const Curve> method_curves);
 
-/// Is the interval finite, and without 1?
+/// Whether the interval is finite and excludes 1.
 bool is_decided(const Interval& ratio);
 
-/// "needs 3.4x fewer samples than default, each costs 2.0x more: 1.7x faster to the same error (95 %: 1.5 to 1.9), ahead
-/// from 2.6 s on". Says as plainly when it is slower, when that is undecided, and when the runs are too few.
+/// "needs 3.4x fewer samples than default, each costs 2.0x more: 1.7x faster to the same error (95 %: 1.5 to 1.9),
+/// ahead from 2.6 s on". Says as plainly when the method is slower, when that is undecided, and when the runs are too
+/// few.
 std::string headline(const Gain& gain, const std::string& base_name);
 
 /// Times from `first` to `last` in equal steps of their logarithm, both included.
 std::vector<double> log_spaced(double first, double last, int count);
 
-/// The stretch of costs in which all runs were measured; empty if there is none.
+/// The range of costs in which all runs were measured; empty if there is none.
 struct CostRange {
     double first = 0.0;
     double last = 0.0;

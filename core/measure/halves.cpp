@@ -29,7 +29,7 @@ struct PartSums {
     }
 };
 
-/// Takes apart row by row, one row of blocks after the other.
+/// Adds the pixels of one row of blocks after the other.
 class PartsTaker {
 public:
     PartsTaker(const PictureHalves& picture, const ReferenceHalves& reference, std::size_t width)

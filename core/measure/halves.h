@@ -1,5 +1,5 @@
-// What two independent halves of a picture and of its reference tell: which part of the error is noise, and which part stays
-// however long one renders. The number of threads changes no result.
+// Noise and bias from two independent halves of a picture and of its reference. The number of threads changes no
+// result.
 #pragma once
 
 #include <initializer_list>
@@ -11,31 +11,31 @@
 namespace pl {
 
 /// A picture as two disjoint halves of its samples, each an unbiased estimate of the same mean. Passes of learning
-/// methods may be split too: each pass is unbiased given the ones before, so they are uncorrelated.
+/// methods may be split, too: each pass is unbiased given the passes before it, so the halves are uncorrelated.
 struct PictureHalves {
     Pixels first;
     Pixels second;
-    double first_weight = 1.0;  ///< samples in the first half, in any unit; positive, as the other one
+    double first_weight = 1.0;  ///< samples in the first half, in any unit; both weights are positive
     double second_weight = 1.0;
 };
 
-/// What a film was read as; both halves have to be there.
+/// The halves of a film reading, which must both have samples.
 PictureHalves halves_of(const FilmHalves& halves);
 
-/// The part of the samples that each half holds.
+/// Share of the samples in each half.
 struct HalfShares {
     double first;
     double second;
 
     explicit HalfShares(const PictureHalves& halves)
         : first(halves.first_weight / (halves.first_weight + halves.second_weight)), second(1.0 - first) {}
-    /// Of a pixel of the picture, out of those of its halves.
+    /// Value of a pixel from those of its halves.
     Vec3d mean(const Vec3d& a, const Vec3d& b) const { return first * a + second * b; }
-    /// Has the variance of mean() as its mean: (a-b)^2 / 4 for equal halves.
+    /// Unbiased estimate of the variance of mean(): (a-b)^2 / 4 for equal halves.
     Vec3d variance(const Vec3d& a, const Vec3d& b) const { return first * second * (a - b) * (a - b); }
 };
 
-/// What makes a square relative, by channel.
+/// Denominator of relative squared errors, by channel.
 inline Vec3d relative_weight(const Vec3d& scale) { return Vec3d(1.0) / (scale * scale + Vec3d(kEpsilon)); }
 inline double channel_mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3.0; }
 
@@ -43,30 +43,31 @@ inline double channel_mean(const Vec3d& v) { return (v.x + v.y + v.z) / 3.0; }
 void require_same_sizes(std::initializer_list<Pixels> pictures);
 void require_full_rows(std::size_t pixels, int width);
 
-/// A value and how far it may be off.
+/// A value with its standard error.
 struct Estimate {
     double value = 0.0;
-    double error = 0.0;  ///< standard error; infinite where too few blocks tell
+    double error = 0.0;  ///< standard error; infinite with too few blocks
 
-    /// Two standard errors or more from zero.
+    /// At least two standard errors from zero.
     bool is_seen() const;
 };
 
-/// The squared error of a picture taken apart. All but `signed_bias` in units of Metrics::relmse.
+/// Decomposition of the squared error of a picture. All but `signed_bias` in units of Metrics::relmse.
 struct ErrorParts {
     double error = 0.0;      ///< (x-r1)(x-r2): variance and bias together
     double error_off = 0.0;  ///< standard error of that
     double variance = 0.0;   ///< HalfShares::variance()
-    Estimate squared_bias;   ///< (a-r1)(b-r2): no noise enters twice, so all that is left is bias; may be negative
-    Estimate signed_bias;    ///< luminance of x-r over the mean luminance of r
+    Estimate
+        squared_bias;  ///< (a-r1)(b-r2): the noises of all factors are independent, so the mean is the squared bias; may be negative
+    Estimate signed_bias;          ///< luminance of x-r over the mean luminance of r
     double reference_noise = 0.0;  ///< (r1-r2)^2 / 4, of the mean of the halves
     std::size_t pixels = 0;
-    std::size_t invalid = 0;  ///< not finite somewhere
+    std::size_t invalid = 0;  ///< pixels that are not finite in a half of the picture or of the reference
 };
 
 /// Standard errors are those of means over blocks of kBlockSide x kBlockSide pixels, because neighboring pixels share
-/// what was learned. For one run they are too small where all pixels share a table: the true ones need several seeds.
-/// Throws Error(Input) if sizes differ or `width` does not divide them.
+/// learned radiance. For one run they are too small where many pixels share a volume: the true ones need several
+/// seeds. Throws Error(Input) if sizes differ or `width` does not divide them.
 ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& reference, int width, int threads = 1);
 inline constexpr int kBlockSide = 16;
 

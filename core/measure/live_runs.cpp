@@ -2,28 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <thread>
-#include <tuple>
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
-#include "core/kernel/base/half.h"
 #include "core/measure/picture_identity.h"
+#include "core/measure/picture_memory.h"
 
 namespace pl {
 namespace {
 
-/// Runs whose figures are kept. A day of trying out makes a few hundred; what is dropped is the oldest of another picture.
+/// Runs that are kept. A day of use makes a few hundred; beyond, the oldest run of another picture is dropped.
 constexpr std::size_t kMostRuns = 500;
 
-/// How far the charged time grows until it is told again without a new point.
-constexpr double kToldAnew = 1.25;
+/// Growth of the charged time after which a new set is made even without a new point.
+constexpr double kRenewedAfter = 1.25;
 
-/// From one point to the next: twelve in a decade.
+/// Between points: twelve per decade.
 const double kPointRatio = std::pow(10.0, 1.0 / 12.0);
 
-/// What was spent on this picture, and not on what a warm one found there.
+/// Clocks of this film alone: a warm one does not count placement and precomputation of earlier ones.
 Clocks own_clocks(Clocks clocks, const FilmOrigin& origin) {
     if (!origin.warm) return clocks;
     clocks.place = std::max(clocks.place - origin.place_seconds, 0.0);
@@ -31,57 +29,11 @@ Clocks own_clocks(Clocks clocks, const FilmOrigin& origin) {
     return clocks;
 }
 
-/// The part of the clocks that grows with samples: were the ladder one of all charged time, what comes soon after a long
-/// precomputation would be missed.
+/// The clocks that grow with samples. Points spaced by all charged time would miss what comes soon after a long
+/// precomputation.
 double passing_seconds(const Clocks& clocks) { return clocks.learn + clocks.render; }
 
-/// A picture that may be dropped for memory. Those that are needed least come first: those of another picture from the
-/// oldest run on, then those whose neighbors in time are closest to each other; the last one of a run comes at the end.
-struct Droppable {
-    bool shows_the_present = false;
-    std::size_t run = 0;
-    std::size_t point = 0;
-    double gap = 0.0;  ///< logarithm of the time between its neighbors
-
-    bool operator<(const Droppable& other) const {
-        const auto key = [](const Droppable& d) {
-            return std::make_tuple(d.shows_the_present, d.shows_the_present ? 0 : d.run, d.gap, d.run, d.point);
-        };
-        return key(*this) < key(other);
-    }
-};
-
-void add_droppable(std::vector<Droppable>& pictures, const LiveRun& run, std::size_t index, bool present) {
-    std::vector<std::size_t> kept;
-    for (std::size_t i = 0; i < run.points.size(); ++i)
-        if (run.points[i].picture) kept.push_back(i);
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-        double gap = std::numeric_limits<double>::infinity();
-        if (k + 1 < kept.size()) {
-            const double before = charged_seconds(run.points[kept[k > 0 ? k - 1 : 0]].clocks);
-            gap = std::log(charged_seconds(run.points[kept[k + 1]].clocks) / before);
-        }
-        pictures.push_back({.shows_the_present = present, .run = index, .point = kept[k], .gap = gap});
-    }
-}
-
 }  // namespace
-
-HalfPicture half_picture(int width, int height, Pixels pixels) {
-    HalfPicture picture{.width = width, .height = height, .rgb = {}};
-    picture.rgb.reserve(3 * pixels.size());
-    for (const Vec3f& pixel : pixels)
-        for (const float value : {pixel.x, pixel.y, pixel.z}) picture.rgb.push_back(to_half(value));
-    return picture;
-}
-
-std::vector<Vec3f> pixels_of(const HalfPicture& picture) {
-    std::vector<Vec3f> pixels(picture.rgb.size() / 3);
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        pixels[i] = {from_half(picture.rgb[3 * i]), from_half(picture.rgb[3 * i + 1]),
-                     from_half(picture.rgb[3 * i + 2])};
-    return pixels;
-}
 
 LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details)
     : LiveRuns(picture_bytes_cap, std::move(details), Allowance{}) {}
@@ -89,7 +41,7 @@ LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details)
 LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details, const Allowance& allowance)
     : picture_bytes_cap_(picture_bytes_cap), details_(std::move(details)), allowance_(allowance),
       budget_(allowance.share) {
-    publish();
+    update_current();
 }
 
 void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
@@ -114,10 +66,10 @@ void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
                 }
         });
     }
-    // What comes now is also taken apart, which takes about as long again.
+    // Points to come are decomposed as well (take_apart), which takes about as long again.
     if (caught_up > 0) budget_.expect_more(2.0 * watch.seconds() / caught_up);
     catching_up_seconds_ += watch.seconds();
-    publish();
+    update_current();
 }
 
 bool LiveRuns::observe(const Session& session) {
@@ -127,14 +79,14 @@ bool LiveRuns::observe(const Session& session) {
     const bool is_measured = session.settings().view == View::Beauty;
     changed = work_on(is_measured ? origin.number : 0) || changed;
     changed = (is_measured && is_due(session, origin) && add_point(session, origin)) || changed;
-    // Points get rare, and the share that measuring took is told of all that is charged.
+    // Points get rare, and viewers show the share of measuring in the charged time.
     const double told = current_->charged_seconds;
-    changed = changed || (told > 0.0 && charged_seconds_ > kToldAnew * told);
-    if (changed) publish();
+    changed = changed || (told > 0.0 && charged_seconds_ > kRenewedAfter * told);
+    if (changed) update_current();
     return changed;
 }
 
-/// Forgets what hardly began. The films of the old generation are gone, so nothing can be added to its runs.
+/// Forgets runs of one point. The films of the old generation are gone, so nothing can be added to its runs.
 bool LiveRuns::leave_generation(std::uint64_t next) {
     generation_ = next;
     const std::size_t before = runs_.size();
@@ -232,13 +184,13 @@ std::optional<LivePoint> LiveRuns::measure(const Session& session, const FilmOri
 void LiveRuns::forget(std::uint64_t number) {
     std::erase_if(runs_, [&](const std::shared_ptr<const LiveRun>& run) { return run->number == number; });
     if (const auto track = tracks_.find(number); track != tracks_.end()) track->second.next_seconds = 0.0;
-    publish();
+    update_current();
 }
 
 void LiveRuns::forget_all() {
     runs_.clear();
     for (auto& [number, track] : tracks_) track.next_seconds = 0.0;
-    publish();
+    update_current();
 }
 
 bool LiveRuns::has_reference(std::uint64_t picture) const {
@@ -253,7 +205,7 @@ std::optional<std::size_t> LiveRuns::find(std::uint64_t number) const {
     return std::nullopt;
 }
 
-/// Puts a changed copy in the place of a run: what was published stays as it was.
+/// Replaces a run by a changed copy: sets handed out stay as they are.
 template <class Change>
 void LiveRuns::change(std::size_t index, Change&& change) {
     LiveRun copy = *runs_[index];
@@ -278,10 +230,7 @@ void LiveRuns::limit_pictures(std::uint64_t present) {
     std::size_t bytes = picture_bytes();
     if (bytes <= picture_bytes_cap_) return;
     while (bytes > picture_bytes_cap_) {
-        std::vector<Droppable> pictures;
-        for (std::size_t i = 0; i < runs_.size(); ++i)
-            add_droppable(pictures, *runs_[i], i, runs_[i]->label.picture == present);
-        const Droppable first = *std::min_element(pictures.begin(), pictures.end());
+        const PicturePlace first = least_needed_picture(runs_, present);
         bytes -= runs_[first.run]->points[first.point].picture->bytes();
         change(first.run, [&](LiveRun& run) { run.points[first.point].picture = nullptr; });
     }
@@ -294,7 +243,7 @@ std::size_t LiveRuns::picture_bytes() const {
     return bytes;
 }
 
-void LiveRuns::publish() {
+void LiveRuns::update_current() {
     current_ = std::make_shared<const LiveRunSet>(
         LiveRunSet{.runs = runs_,
                    .picture_bytes = picture_bytes(),

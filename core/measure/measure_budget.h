@@ -1,9 +1,9 @@
-// Keeps measuring a small share of what is measured.
+// Keeps the time for measuring a small share of the measured time.
 #pragma once
 
 namespace pl {
 
-/// Seconds spent on measuring, held against the seconds that were charged to what was measured.
+/// Seconds spent on measuring, compared with the seconds charged to the runs.
 class MeasureBudget {
 public:
     static constexpr double kDefaultShare = 0.01;
@@ -11,7 +11,7 @@ public:
     /// An infinite share allows everything.
     explicit MeasureBudget(double share = kDefaultShare) : share_(share) {}
 
-    /// Whether so many more measurements, each as long as the last one, would leave the whole within the share.
+    /// Whether so many more measurements, each as long as the last one, keep within the share.
     bool allows(double charged_seconds, int measurements = 1) const {
         return !(spent_seconds_ + measurements * last_seconds_ > share_ * charged_seconds);
     }
@@ -19,11 +19,11 @@ public:
         spent_seconds_ += seconds;
         last_seconds_ = seconds;
     }
-    /// What the first measurement may take; of no concern once there was one.
+    /// Estimate for the first measurement; unused once there was one.
     void guess(double seconds) {
         if (spent_seconds_ == 0.0) last_seconds_ = seconds;
     }
-    /// From now on a measurement takes so much longer than the last one.
+    /// Measurements to come take so much longer than the last one.
     void expect_more(double seconds) { last_seconds_ += seconds; }
     double spent_seconds() const { return spent_seconds_; }
 

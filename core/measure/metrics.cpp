@@ -24,7 +24,7 @@ std::size_t trimmed_count(std::size_t pixels) {
     return pixels - kept;
 }
 
-/// A sum whose largest terms are kept apart, so that one of them, however large, costs the others no digit.
+/// A sum that keeps its largest terms apart, so that one of them, however large, costs the others no digit.
 class TrimmedSum {
 public:
     explicit TrimmedSum(std::size_t most_left_out) : most_left_out_(most_left_out) {
@@ -50,7 +50,7 @@ public:
         for (const double term : other.largest_) add(term);
     }
 
-    /// Without the `left_out` largest terms; at most as many as were kept apart.
+    /// Without the `left_out` largest terms, at most as many as are kept apart.
     double sum(std::size_t left_out) const {
         std::vector<double> descending = largest_;
         std::sort(descending.begin(), descending.end(), std::greater<>());
@@ -69,14 +69,14 @@ public:
     explicit ErrorSums(std::size_t pixels)
         : squares_(trimmed_count(pixels)), relative_squares_(trimmed_count(pixels)) {}
 
-    /// `square` is (x-r)^2 by channel, or what stands for it.
+    /// `square` is (x-r)^2 by channel, or its unbiased estimate.
     void add(const Vec3d& x, const Vec3d& r, const Vec3d& square) {
         double plain = 0.0;
         double relative = 0.0;
         for (int c = 0; c < 3; ++c) {
             const double distance = std::fabs(x[c] - r[c]);
             plain += square[c];
-            // One division for three: of floats, the product of all is far from the ends of a double.
+            // One division instead of three: the product of three floats is far from the limits of a double.
             const double of_square = r[c] * r[c] + kEpsilon;
             const double of_value = std::fabs(r[c]) + kEpsilon;
             const double of_both = std::fabs(x[c]) + of_value;

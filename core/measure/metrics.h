@@ -1,4 +1,4 @@
-// How far a picture is from a reference: metrics on linear radiance, before any tone mapping. Definitions are here and
+// Metrics of a picture against a reference, on linear radiance before any tone mapping. The definitions are here and
 // nowhere else; exports repeat kEpsilon with their numbers.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace pl {
 /// Keeps relative metrics finite where the reference is black. In relMSE it is added to the square, in the others to
 /// the value.
 inline constexpr double kEpsilon = 0.01;
-/// Share of the pixels, the worst ones, that the trimmed metrics leave out.
+/// Share of the pixels, the worst ones, that trimmed metrics leave out.
 inline constexpr double kTrimmedShare = 0.001;
 
 /// Means over channels and over all pixels that are finite in picture and reference. All are 0 if no pixel is.
@@ -27,8 +27,8 @@ struct Metrics {
     double bias = 0.0;                  ///< luminance of x-r, with its sign
     double relative_bias = 0.0;         ///< the same over the mean luminance of the reference; 0 if that is 0
     double psnr_db = 0.0;               ///< 10 log10(1 / mse): peak 1, the display's white; infinite where mse is 0
-    std::size_t pixels = 0;             ///< that count
-    std::size_t invalid = 0;            ///< NaN or infinite in the picture: counted, and in none of the means
+    std::size_t pixels = 0;             ///< that are finite in both
+    std::size_t invalid = 0;            ///< NaN or infinite in the picture: in none of the means
     std::size_t invalid_reference = 0;  ///< NaN or infinite in the reference alone
 };
 
@@ -43,13 +43,14 @@ struct ReferenceHalves {
 /// Throws Error(Input) if the numbers of pixels differ. The number of threads does not change the result.
 Metrics measure_error(Pixels picture, Pixels reference, int threads = 1);
 
-/// The same against two halves: squares are products (x-r1)(x-r2), unbiased by the noise of the reference and possibly
-/// negative near zero, which is left as it is; rmse is then 0 and psnr infinite. All else compares with the halves' mean.
+/// The same against two halves: squares are products (x-r1)(x-r2), unbiased by the noise of the reference and
+/// possibly negative near zero, which is not corrected; rmse is then 0 and psnr infinite. The other metrics use the
+/// mean of the halves.
 Metrics measure_error(Pixels picture, const ReferenceHalves& reference, int threads = 1);
 
-/// Without a branch: asked of four pictures for every pixel.
+/// Without a branch: called for four pictures at every pixel.
 inline bool is_finite(const Vec3f& pixel) {
-    const Vec3f zero = 0.0f * pixel;  // NaN where it is not
+    const Vec3f zero = 0.0f * pixel;  // NaN where a component is not finite
     return zero.x + zero.y + zero.z == 0.0f;
 }
 inline double luminance_of(const Vec3d& radiance) {

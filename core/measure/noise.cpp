@@ -8,7 +8,7 @@
 namespace pl {
 namespace {
 
-/// Sums over the windows around the pixels of one row after the other; pixels that are not finite are left out.
+/// Sums over the windows around the pixels of one row after the other, without pixels that are not finite.
 class WindowSums {
 public:
     WindowSums(const PictureHalves& halves, std::uint32_t width, std::uint32_t height)
@@ -56,6 +56,23 @@ private:
     std::uint32_t last_row_ = kNone;
 };
 
+/// Means over all pixels, from sums over ranges of them.
+Noise mean_of(const std::vector<Noise>& ranges, const BlockMeans& blocks) {
+    Noise noise;
+    for (const Noise& sums : ranges) {
+        noise.mse += sums.mse;
+        noise.relmse += sums.relmse;
+        noise.pixels += sums.pixels;
+        noise.invalid += sums.invalid;
+    }
+    if (noise.pixels > 0) {
+        noise.mse /= static_cast<double>(noise.pixels);
+        noise.relmse /= static_cast<double>(noise.pixels);
+        noise.relmse_off = blocks.finish().error;
+    }
+    return noise;
+}
+
 }  // namespace
 
 Noise estimate_noise(const PictureHalves& halves, int width, int threads) {
@@ -87,19 +104,7 @@ Noise estimate_noise(const PictureHalves& halves, int width, int threads) {
         }
     };
     constexpr std::uint32_t kRowChunk = 2 * kBlockSide;  // no block belongs to two threads
-    Noise noise;
-    for (const Noise& sums : sums_of_chunks(rows, kRowChunk, threads, Noise{}, add)) {
-        noise.mse += sums.mse;
-        noise.relmse += sums.relmse;
-        noise.pixels += sums.pixels;
-        noise.invalid += sums.invalid;
-    }
-    if (noise.pixels > 0) {
-        noise.mse /= static_cast<double>(noise.pixels);
-        noise.relmse /= static_cast<double>(noise.pixels);
-        noise.relmse_off = blocks.finish().error;
-    }
-    return noise;
+    return mean_of(sums_of_chunks(rows, kRowChunk, threads, Noise{}, add), blocks);
 }
 
 }  // namespace pl

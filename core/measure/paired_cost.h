@@ -1,4 +1,4 @@
-// What one kind of pass costs against another, from passes in turns: both see the same machine.
+// Cost of one kind of pass relative to another, from passes in turns: both see the same state of the machine.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace pl {
 
-/// Pairs of passes, one of each kind. Every second pair begins with the other kind, so that a machine that slowly grows
-/// faster or slower favors neither. The first pair is a warm-up and does not count. The number of pairs is fixed before: an
-/// interval that decides when to stop would be too narrow.
+/// Pairs of passes, one of each kind. Every second pair begins with the other kind, so that a slow drift of the
+/// machine favors neither. The first pair is a warm-up and does not count. The number of pairs is fixed beforehand: a
+/// stopping rule that looks at the interval would make it too narrow.
 class PairedCost {
 public:
     static constexpr std::size_t kPairs = 32;
@@ -22,13 +22,13 @@ public:
         Interval ratio;  ///< other over base; infinite below two pairs
     };
 
-    /// Is the next pass one of the other kind?
+    /// Whether the next pass is one of the other kind.
     bool next_is_other() const { return is_second_ != other_first_; }
     bool done() const { return base_.size() >= kPairs; }
 
-    /// The next pass took so long.
+    /// Adds the time of the next pass.
     void add(double seconds);
-    /// The pair under way was disturbed: it begins again.
+    /// Discards the pair under way, for a disturbance: it begins again.
     void drop_pair() { is_second_ = false; }
 
     Result result() const;

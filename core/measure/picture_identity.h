@@ -1,4 +1,4 @@
-// What decides a converged picture, and nothing else: references are found by it, and pictures of other light refused.
+// The identity of a converged picture: references are found by it, and pictures of other light refused.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace pl {
 
-/// The name of the hash in metadata of pictures and in manifests.
+/// Key of the hash in metadata of pictures and in manifests.
 inline constexpr const char* kPictureHashKey = "picture_hash";
 
-/// Over the scene's light (scene_hash), the camera, the size and the maximal depth. Not over method, next-event
-/// estimation, seed, field or back end: they change the noise, never the mean.
+/// Over the scene's light (scene_hash), the camera, the size and the maximal depth; not over method, next-event
+/// estimation, seed, field or back end, which change the noise and never the mean.
 std::uint64_t picture_key(const SceneDescription& scene, const RenderSettings& settings);
 /// The same as 16 hexadecimal digits.
 std::string picture_hash(const SceneDescription& scene, const RenderSettings& settings);

@@ -13,14 +13,14 @@ public:
     RunRecorder(const RunLimits& limits, const ReferenceHalves& reference, const RunObserver& observer)
         : limits_(limits), reference_(reference), observer_(observer), budget_(limits.measure_share) {}
 
-    /// After every sample per pixel; true when the run is over.
+    /// After every pass; true when the run is over.
     bool observe(const Session& session) {
         const std::uint32_t spp = session.passes();
         const double charged = charged_seconds(session.clocks());
         bool over = spp >= limits_.spp || (limits_.seconds && charged >= *limits_.seconds);
         const bool due = spp >= next_;
         if (due) next_ = next_ladder_step(spp);
-        // The last point is still to be paid for besides this one.
+        // The budget must cover the last point besides this one.
         if (!over && !(due && budget_.allows(charged, 2))) return false;
         const Stopwatch watch;
         const Snapshot snapshot = session.snapshot_with_halves();

@@ -1,5 +1,5 @@
-// One run of one method, measured while it converges: error and noise at log-spaced points, and what they cost. Measuring
-// is between passes, so it is on none of the clocks that are charged.
+// One run of one method, measured while it converges: error, noise and cost at log-spaced points. Measurements are
+// made between passes, so they are on none of the charged clocks.
 #pragma once
 
 #include <functional>
@@ -13,19 +13,20 @@
 
 namespace pl {
 
-/// What a method is charged for: placing volumes, precomputing, learning and rendering. Loading and building are the
-/// same for all methods, and not in it.
+/// Seconds that count for a method: placing volumes, precomputing, learning and rendering. Loading and building are
+/// the same for all methods and do not count.
 double charged_seconds(const Clocks& clocks);
 
-/// Threads to measure with: those that wait meanwhile, or all where a device renders.
+/// Threads for measuring: as many as the back end renders with, which wait meanwhile, or all if a device renders.
 int measuring_threads(const Session& session);
 
-/// When a run ends: at the first limit that is met, after at least one sample per pixel.
+/// Limits of a run: it ends at the first one that is reached, after at least one sample per pixel.
 struct RunLimits {
     std::uint32_t spp = 64;
     std::optional<double> seconds{};       ///< charged
-    std::optional<double> target_error{};  ///< Metrics::relmse, looked at where it is measured
-    /// Of the charged time, what measuring may take; points are left out for it, but for the first and the last one.
+    std::optional<double> target_error{};  ///< Metrics::relmse, compared at measured points
+    /// Time for measuring relative to the charged time; points are left out to keep within it, except for the first
+    /// and the last one.
     double measure_share = MeasureBudget::kDefaultShare;
 };
 
@@ -33,7 +34,7 @@ struct RunPoint {
     std::uint32_t spp = 0;
     Clocks clocks;
     Metrics metrics;
-    /// The picture's own noise as relmse, from two halves of its passes, and the bias that they leave. Empty below two
+    /// Noise as relmse, estimated from two halves of the passes, and the bias by the same halves. Empty below two
     /// samples.
     std::optional<double> noise{};
     std::optional<Estimate> squared_bias{};
@@ -43,7 +44,7 @@ struct RunPoint {
 
 struct RunSeries {
     std::vector<RunPoint> points;
-    double measure_seconds = 0.0;  ///< spent on measuring, without observers: not charged
+    double measure_seconds = 0.0;  ///< for measuring, without observers; not charged
 
     Curve error_over_time() const;
     Curve error_over_samples() const;
@@ -52,7 +53,7 @@ struct RunSeries {
 /// 2, 4, 6, 8, 12, 16, 24, ...: the next step above `spp`. About seven in a decade, all even.
 std::uint32_t next_ladder_step(std::uint32_t spp);
 
-/// What a run tells while it goes on; all may be empty.
+/// Watches a run; both members may be empty.
 struct RunObserver {
     /// After each measured point, with the picture. Its time is not charged either.
     std::function<void(const RunPoint&, const Snapshot&)> on_point{};
@@ -60,8 +61,8 @@ struct RunObserver {
     std::function<void(const Session&)> on_work{};
 };
 
-/// Renders in a fresh session until a limit is met. Empty if `stop` was raised before: half a run measures nothing.
-/// Throws Error(Input) unless the reference has the session's size.
+/// Renders in a fresh session until a limit is reached. Empty if `stop` is raised before: half a run measures
+/// nothing. Throws Error(Input) unless the reference has the size of the session.
 std::optional<RunSeries> record_run(Session& session, const RunLimits& limits, const ReferenceHalves& reference,
                                     const StopFlag* stop = nullptr, const RunObserver& observer = {});
 

@@ -62,7 +62,7 @@ MeanAndVariance summarize(std::span<const double> values) {
     return result;
 }
 
-/// NaN in place of the logarithm of what has none.
+/// Logarithms of positive values, NaN for others.
 std::vector<double> logarithms(std::span<const double> values) {
     std::vector<double> logs;
     for (const double value : values) logs.push_back(value > 0.0 ? std::log(value) : kNone);

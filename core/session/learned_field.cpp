@@ -15,6 +15,12 @@ void require_learned_in(const SceneDescription& scene, const LearnedField& field
                                 field.scene_hash));
 }
 
+void fit_to_run(LearnedField& field, const FieldSettings& settings) {
+    field.progress.precompute_seconds = 0.0;
+    field.settings.lookup = settings.lookup;
+    field.shape.lookup = settings.lookup;
+}
+
 std::string summary_of(const LearnedField& field) {
     return fmt::format("{}, {} volumes, {} directions, {} passes, {} records", info_of(field.method).name,
                        field.volumes->normals.size(), field.shape.cells.count(), field.progress.passes,

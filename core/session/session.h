@@ -7,9 +7,9 @@
 
 #include "core/scene/enclosure.h"
 #include "core/session/backend.h"
-#include "core/session/diagnostics.h"
 #include "core/session/edits.h"
 #include "core/session/learned_field.h"
+#include "core/session/pass_replay.h"
 #include "core/session/served_kernel.h"
 #include "core/session/shown_range.h"
 
@@ -53,8 +53,8 @@ public:
     /// The current film as a window shows it.
     ShownFilm show_film(const DisplaySettings& display);
 
-    /// What it takes to look for diagnostics in the current picture. Throws Error(Usage) if the view shows no paths.
-    DiagnosticsInput diagnostics_input() const;
+    /// The passes of the current picture, for tracing their paths again. Throws Error(Usage) if the view shows no paths.
+    PassReplay pass_replay() const;
 
     /// What the current method learned at a volume. Throws Error(Usage) if it learns nothing.
     VolumeInspection inspect_volume(std::int32_t volume) const;

@@ -1,4 +1,4 @@
-// The part of Session that knows what may have gone wrong in a picture.
+// The part of Session that diagnostics rest on: whether an escaped path was lost, and the passes to trace again.
 #include <algorithm>
 
 #include "core/base/error.h"
@@ -7,7 +7,7 @@
 
 namespace pl {
 
-/// Only once a path has escaped it matters whether there is a way out. Light from far away says that there is meant to be
+/// Whether the scene has an opening matters only once a path has escaped. Light from far away says that it is meant to have
 /// one.
 void Session::note_escapes(const PassCounters& counters) {
     if (counters.path.escaped == 0 || is_closed_) return;
@@ -19,30 +19,29 @@ void Session::note_escapes(const PassCounters& counters) {
     is_closed_ = enclosure_->contains(settings_.camera.eye);
 }
 
-DiagnosticsInput Session::diagnostics_input() const {
+PassReplay Session::pass_replay() const {
     if (settings_.view != View::Beauty)
         throw Error(ErrorKind::Usage, "view '" + std::string(info_of(settings_.view).name) +
-                                          "' has no paths in which something could go wrong: show 'beauty'");
+                                          "' has no paths to diagnose: show 'beauty'");
     const FilmState& state = film();
     const MethodInfo& method = info_of(settings_.method);
-    DiagnosticsInput source{.width = settings_.width,
-                            .height = settings_.height,
-                            .counted = counted_diagnostics(summary()),
-                            .samples = state.passes,
-                            .next_pixel = state.next_pixel,
-                            .scene = packed_,
-                            .path = path_settings(),
-                            .camera = make_camera(settings_.camera, settings_.width, settings_.height),
-                            .is_closed = is_closed_.value_or(false)};
+    PassReplay source{.width = settings_.width,
+                      .height = settings_.height,
+                      .samples = state.passes,
+                      .next_pixel = state.next_pixel,
+                      .scene = packed_,
+                      .path = path_settings(),
+                      .camera = make_camera(settings_.camera, settings_.width, settings_.height),
+                      .is_closed = is_closed_.value_or(false)};
     if (state.counters.invalid_samples > 0) source.invalid = backend_->invalid_samples(slot());
     if (!method.uses_field) return source;
     if (!volumes_ || !backend_->has_field(settings_.method)) return source;  // nothing was rendered yet
     if (method.learns) {
-        // Its samples were the last publications, unless another back end had some of them.
+        // The field's last updates came from these passes, unless another back end rendered some of them.
         source.first_sample =
             static_cast<std::uint32_t>(std::max(field().passes, std::uint64_t{state.passes}) - state.passes);
         source.has_moving_tables = true;
-        source.has_clamped_records =
+        source.repeats_training =
             is_complete_at_next_vertex(settings_.field.learning, settings_.next_event);
     }
     source.volumes = volumes_;

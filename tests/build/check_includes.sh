@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # check_includes.sh ROOT: does every file keep to the arrows of the architecture? Prints each breach, exits 1 if any.
-#   app -> ui -> core/session -> core/scene, core/fields -> core/kernel;  core/io -> core/scene, and learned_field.h
+#   app -> ui -> core/bench, core/selftest, core/diagnose -> core/session -> core/scene, core/fields -> core/kernel;
+#   core/io -> core/scene, and the records of a session that it writes
 # and what core/kernel may not contain, since it is compiled for devices too.
 set -u
 cd "$1" || exit 2
@@ -19,10 +20,14 @@ core/scene:   core/scene core/base core/kernel
 core/fields:  core/fields core/scene core/base core/kernel
 core/session: core/session core/scene core/fields core/base core/kernel
 core/measure: core/measure core/session core/scene core/fields core/base core/kernel
-core/io:      core/io core/session/learned_field.h core/scene core/base core/kernel
+core/io:      core/io core/session/learned_field.h core/session/settings.h core/session/snapshot.h core/session/shown_range.h core/scene core/base core/kernel
+core/diagnose: core/diagnose core/session core/scene core/fields core/base core/kernel
+core/selftest: core/selftest core/session core/scene core/base core/kernel
+core/bench:   core/bench core/measure core/io core/session core/scene core/fields core/base core/kernel
+core/plot:    core/plot core/base
 cpu:          cpu core/session/backend.h core/session/film_slots.h core/scene core/fields core/base core/kernel
 cuda:         cuda core/session/backend.h core/session/film_slots.h core/scene core/fields core/base core/kernel
-ui:           ui core/session core/measure core/scene core/fields core/base core/kernel
+ui:           ui core/bench core/selftest core/diagnose core/plot core/io core/session core/measure core/scene core/fields core/base core/kernel
 app:          app ui cpu cuda core
 '
 

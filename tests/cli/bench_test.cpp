@@ -142,7 +142,7 @@ TEST_CASE("a bench goes on: nothing that was finished is done again or lost") {
         if (name.find("warm-up") == std::string::npos) CHECK(read_all(folder / ("b/runs/" + name)) == text);
     CHECK(errors_in(folder / "b").size() == 9);
     check_refused(2, bench(folder / "b", {"--spp", "9"}), "/scenes/0/settings/spp \"8\", got \"9\"");
-    check_refused(2, bench(folder / "b", {"--method", "default"}), "planned otherwise");
+    check_refused(2, bench(folder / "b", {"--method", "default"}), "of another plan");
     write_all(folder / "b/runs/cornell-default-cpu-seed-1.json", "{\"schema\": \"pathlight.run/1\"}");
     check_refused(3, bench(folder / "b"), "cornell-default-cpu-seed-1.json");
 }

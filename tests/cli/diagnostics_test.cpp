@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/diagnose/diagnostics.h"
 #include "core/io/image.h"
 #include "core/kernel/film/frame_pixel.h"
-#include "core/session/diagnostics.h"
 #include "tests/cli/refusal.h"
 
 namespace pl::test {
@@ -71,7 +71,8 @@ TEST_CASE("diagnostics: a PNG is dark but for the marks, and tells what they are
     const ByteImage image = read_png8(folder / "t.png", &metadata);
     std::uint64_t marked = 0;
     for (std::size_t i = 0; i < image.rgb.size(); i += 3)
-        marked += pack_pixel(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]) == info_of(Diagnostic::Invalid).color;
+        marked += pack_pixel(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]) ==
+                  info_of(DiagnosticKind::InvalidSample).color;
     CHECK(marked >= stats["diagnostics"]["found"]["invalid_samples"]["pixels"]);
     CHECK(std::any_of(metadata.begin(), metadata.end(), [](const auto& entry) {
         return entry.first == "diagnostics" && entry.second.find(" invalid in ") != std::string::npos;

@@ -189,7 +189,7 @@ TEST_CASE("fields that do not fit are refused with the right exit code, and no p
          {"view", "cornell", "--backend", "cpu", "--load-field", folder / "f"},
          "f: the field was learned in another"},
         {3, {"view", "door", "--backend", "cpu", "--load-field", folder / "gone"}, "gone: cannot be read"},
-        {2, {"view", "door", "--save-field", folder / "g"}, "--save-field: the viewer saves what was learned when"},
+        {2, {"view", "door", "--save-field", folder / "g"}, "--save-field: the viewer saves the learned field when"},
         {1,
          render(folder / "a.pfm",
                 {"--method", "reinforcement", "--save-field", folder / "gone/g", "--time-limit", "1000000"}),

@@ -104,7 +104,7 @@ TEST_CASE("130: an interrupted reference keeps what it has, and goes on") {
     running.send(SIGINT);
     const ProgramResult result = running.wait();
     CHECK(result.code == 130);
-    CHECK_THAT(result.err, contains("goes on from here"));
+    CHECK_THAT(result.err, contains("continues from here"));
     CHECK(manifest_in(folder / "refs").at("complete") == false);
     const std::uint32_t kept = std::max(samples_in(folder / "refs")[0], samples_in(folder / "refs")[1]);
     CHECK(kept > 0);
@@ -148,7 +148,7 @@ TEST_CASE("a picture is scored against its own reference, found by what it shows
     render(scene, "deep.exr", {"--max-depth", "3"});
     check_refused(3, {"compare", folder / "deep.exr", folder / "refs"}, "differs in depth");
     render(scene, "normals.exr", {"--view", "normal"});
-    check_refused(3, {"compare", folder / "normals.exr", folder / "refs"}, "does not say what it shows");
+    check_refused(3, {"compare", folder / "normals.exr", folder / "refs"}, "has no picture hash");
     fs::create_directory(folder / "empty");
     check_refused(3, {"compare", folder / "x.exr", folder / "empty"}, "holds no reference");
 }

@@ -100,7 +100,7 @@ private:
     GuiMemory memory_;
 };
 
-/// A model whose files are not there: scenes come from memory, and what is saved goes nowhere.
+/// A model without files: scenes come from memory, and no folder can be written to or read from.
 ModelBench make_bench() {
     ModelBench bench(32);
     ViewerOptions& options = bench.options;
@@ -111,12 +111,8 @@ ModelBench make_bench() {
         if (name.size() % 2 == 0) throw Error(ErrorKind::Input, name + ":1: expected a scene");
         return small_scene();
     };
-    options.save_image = [](const auto&...) {};
-    options.save_screen = [](const auto&...) {};
-    options.save_field = [](const auto&...) {};
-    options.load_field = [](const std::filesystem::path& path, const OpenScene&) -> std::shared_ptr<LearnedField> {
-        throw Error(ErrorKind::Input, path.string() + ": expected a field");
-    };
+    options.screenshot_dir = "/dev/null/pictures";
+    options.reference_dir = "/dev/null/references";
     options.command_line = [](const ViewerPicture&) { return std::string("pathlight"); };
     return bench;
 }

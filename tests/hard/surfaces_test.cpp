@@ -3,9 +3,9 @@
 #include <array>
 #include <optional>
 
-#include "app/selftest/form_factors.h"
 #include "core/kernel/integrator/trace_path.h"
 #include "core/kernel/methods/default.h"
+#include "core/selftest/form_factors.h"
 #include "tests/catch.hpp"
 #include "tests/kernel/walk.h"
 #include "tests/statistical/rules.h"

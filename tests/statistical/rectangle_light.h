@@ -1,7 +1,7 @@
 // A rectangular lamp over or beside a gray floor: radiance of the floor in closed form.
 #pragma once
 
-#include "app/selftest/form_factors.h"
+#include "core/selftest/form_factors.h"
 #include "tests/statistical/scenes.h"
 
 namespace pl::test {

@@ -129,7 +129,7 @@ void add_diagnostics_badges(BadgeRow& row, const ViewerModel& model) {
             row.add(fmt::format("{} {}", short_number(static_cast<double>(count)), diagnostics.label),
                     color_of(diagnostics));
     }
-    if (map->found == DiagnosticCounts{}) row.add("no diagnostics found", colors::kGood);
+    if (map->found == DiagnosticCounts{}) row.add("nothing wrong found", colors::kGood);
     row.add(fmt::format("after {} spp", map->samples), colors::kText);
     if (!map->is_complete)
         row.add(fmt::format("looked at the last {}", map->traced), colors::kWarning);

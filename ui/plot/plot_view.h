@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/measure/log_axis.h"
+#include "core/plot/log_axis.h"
 #include "ui/overlays/draw_list.h"
 
 namespace pl {

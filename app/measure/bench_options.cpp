@@ -1,0 +1,81 @@
+#include "app/measure/bench_options.h"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "app/make_backend.h"
+#include "app/open_scene.h"
+#include "core/base/error.h"
+
+namespace pl {
+namespace {
+
+/// Every option of `bench` that decides its numbers, as text.
+Json options_json(const Options& options) {
+    Json json = Json::object();
+    for (const OptionSpec& spec : option_table())
+        if (spec.print != nullptr && spec.commands.has(Command::Bench) && spec.name != "seed")
+            json[std::string(spec.name)] = spec.print(options);
+    return json;
+}
+
+BenchScene open_bench_scene(const CommandLine& given, const std::string& input, Console& console) {
+    CommandLine line = given;
+    line.options.scene = input;
+    const LoadedScene loaded = open_scene(input, given.options.knobs, console);
+    const Options options = resolve_options(line, *loaded.scene);
+    return {.name = loaded.scene->source.stem().string(),
+            .source = options.scene,
+            .description = loaded.scene,
+            .load_seconds = loaded.load_seconds,
+            .settings = options.render,
+            .limits = {.spp = options.spp_limit(),
+                       .seconds = options.time_limit_seconds,
+                       .target_error = options.target_error,
+                       .measure_share = 0.01 * options.measure_percent},
+            .options = options_json(options),
+            .reference = {}};
+}
+
+std::vector<BenchScene> open_scenes(const CommandLine& line, Console& console) {
+    std::vector<BenchScene> scenes;
+    std::set<std::string> names;
+    for (const std::string& input : line.options.inputs) {
+        scenes.push_back(open_bench_scene(line, input, console));
+        const std::string& name = scenes.back().name;
+        if (!names.insert(name).second)
+            throw Error(ErrorKind::Usage,
+                        fmt::format("'bench' tells scenes apart by name: expected each once, got '{}' twice", name));
+    }
+    return scenes;
+}
+
+}  // namespace
+
+BenchPlan make_bench_plan(const CommandLine& line, Console& console) {
+    BenchPlan plan{.scenes = open_scenes(line, console),
+                   .methods = line.options.methods,
+                   .backend_names = line.options.backends,
+                   .backends = {},
+                   .first_seed = line.options.render.seed,
+                   .seeds = line.options.seeds};
+    if (plan.methods.empty())
+        for (const MethodInfo& info : all_methods()) plan.methods.push_back(info.id);
+    if (plan.backend_names.empty()) plan.backend_names = available_backends();
+    for (const std::string& name : plan.backend_names) plan.backends[name] = make_backend(name, line.options.threads);
+    return plan;
+}
+
+std::string repeating_command(const CommandLine& line) {
+    std::string text = "pathlight bench";
+    for (const std::string& input : line.options.inputs) text += fmt::format(" {}", shell_word(input));
+    for (const GivenOption& given : line.given) {
+        if (given.spec->name == "output" || given.spec->name == "gate") continue;
+        text += fmt::format(" --{}", given.spec->name);
+        if (!given.spec->value.empty()) text += fmt::format(" {}", shell_word(given.text));
+    }
+    return text + " -o DIR";
+}
+
+}  // namespace pl

@@ -1,0 +1,46 @@
+#include "app/options/groups.h"
+
+#include "app/camera_file.h"
+
+namespace pl {
+namespace {
+
+using enum Command;
+
+// clang-format off
+constexpr auto kOptions = std::to_array<OptionSpec>({
+    {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
+     .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical, "
+             "\"aperture_radius\": r, \"focus_distance\": d}; overrides the scene's camera, and the options "
+             "below override both",
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
+    {.name = "eye", .flags = "--eye", .value = "X,Y,Z", .group = kCamera, .help = "Position of the camera",
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.eye = parse_vector(text); },
+     .print = [](const Options& o) { return print_vector(o.render.camera.eye); }},
+    {.name = "target", .flags = "--target", .value = "X,Y,Z", .group = kCamera,
+     .help = "Point in the middle of the picture",
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.target = parse_vector(text); },
+     .print = [](const Options& o) { return print_vector(o.render.camera.target); }},
+    {.name = "up", .flags = "--up", .value = "X,Y,Z", .group = kCamera,
+     .help = "Direction that points up in the picture",
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.up = parse_vector(text); },
+     .print = [](const Options& o) { return print_vector(o.render.camera.up); }},
+    {.name = "fov", .flags = "--fov", .value = "DEG", .group = kCamera, .help = "Full vertical angle of view",
+     .commands = kPaths, .parse = parse_fov,
+     .print = [](const Options& o) { return print_float(o.render.camera.fov_deg); }},
+    {.name = "aperture", .flags = "--aperture", .value = "R", .group = kCamera,
+     .help = "Radius of the lens; 0 is a pinhole, which is sharp everywhere",
+     .commands = kPaths, .parse = parse_aperture,
+     .print = [](const Options& o) { return print_float(o.render.camera.aperture_radius); }},
+    {.name = "focus", .flags = "--focus", .value = "D", .group = kCamera,
+     .help = "Distance of the plane in focus, along the view",
+     .commands = kPaths, .parse = parse_focus,
+     .print = [](const Options& o) { return print_float(o.render.camera.focus_distance); }},
+});
+// clang-format on
+
+}  // namespace
+
+std::span<const OptionSpec> camera_options() { return kOptions; }
+
+}  // namespace pl

@@ -1,0 +1,82 @@
+#include "app/options/groups.h"
+
+#include "core/base/error.h"
+
+namespace pl {
+namespace {
+
+using enum Command;
+
+void refuse_save_field(Options&, const std::string&) {
+    throw Error(ErrorKind::Usage, "the viewer saves the learned field when Ctrl+Shift+S is pressed");
+}
+
+// clang-format off
+constexpr auto kOptions = std::to_array<OptionSpec>({
+    {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,
+     .help = "Number of radiance volumes (default: what the budget holds, at most 1000)",
+     .commands = kPaths, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.render.field.volumes = static_cast<int>(parse_whole(text, 1, 1000000)); },
+     .print = [](const Options& o) {
+         return o.render.field.volumes == 0 ? "" : std::to_string(o.render.field.volumes);
+     }},
+    {.name = "field-budget", .flags = "--field-budget", .value = "MB", .group = kField,
+     .help = "Memory of one method's learned field (default 16)",
+     .commands = kPaths, .in_scene_files = true, .parse = parse_field_budget,
+     .print = [](const Options& o) { return print_real(o.render.field.budget_megabytes); }},
+    {.name = "refine", .flags = "--refine", .value = "SHARE|auto", .group = kField,
+     .help = "Volumes that reinforcement may add, as a share of those placed, 0 to 1: after 8 and 16 passes it "
+             "divides volumes that many paths look up and whose neighbors disagree; within the budget, unless "
+             "--volumes is given. auto (default): up to 1, also after 48, 96 and so on, as far as there are "
+             "training samples enough for them; 0 with --volumes",
+     .commands = kPaths, .in_scene_files = true, .parse = parse_refine,
+     .print = [](const Options& o) { return print_refine(o.render.field.refine_share); }},
+    {.name = "bins", .flags = "--bins", .value = "N", .group = kField,
+     .help = "Directions per volume, a square number from 4 to 1024 (default 256)",
+     .commands = kPaths, .in_scene_files = true, .parse = parse_bins,
+     .print = [](const Options& o) { return std::to_string(o.render.field.bins); }},
+    {.name = "bsdf-fraction", .flags = "--bsdf-fraction", .value = "X|learned", .group = kField,
+     .help = "Share of directions sampled from the BSDF instead of the field, 0.1 to 1; learned (default): "
+             "each volume learns its own, precomputed takes 0.5",
+     .commands = kPaths, .in_scene_files = true, .parse = parse_bsdf_fraction,
+     .print = [](const Options& o) { return print_bsdf_fraction(o.render.mixture); }},
+    {.name = "learning-rate", .flags = "--learning-rate", .value = "NAME", .group = kField,
+     .help = "Step of an update: forgetful (default; early training samples lose their weight), mean "
+             "(1/(1+visits)), power (n^-0.7), or floor (mean, but at least 0.05)",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_learning_rate,
+     .print = [](const Options& o) { return std::string(name_of(o.render.field.rate)); }},
+    {.name = "learn-target", .flags = "--learn-target", .value = "NAME", .group = kField,
+     .help = "Target of reinforcement's training samples: expected-sarsa (default, mean over the next "
+             "direction), sarsa (the next direction as sampled), or monte-carlo (the radiance that the path "
+             "brings)",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_learn_target,
+     .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.target)); }},
+    {.name = "learn-from", .flags = "--learn-from", .value = "NAME", .group = kField,
+     .help = "With next-event estimation, light in reinforcement's training samples: all (default), or "
+             "indirect: only light that light samples do not bring",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_learn_from,
+     .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.light)); }},
+    {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,
+     .help = "Search for the volume of a point: grid (default), kdtree, or linear, which is slow; all find the "
+             "same one",
+     .commands = kPaths, .parse = parse_lookup,
+     .print = [](const Options& o) { return std::string(lookup_name(o.render.field.lookup)); }},
+    {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kField,
+     .help = "Continue with a field that was saved for this scene: it brings method, volumes, bins and learned "
+             "radiance. Timings count this run only. 'inspect' then trains only if --spp or --time-limit is "
+             "given",
+     .commands = kSampling, .parse = parse_text<&Options::load_field>,
+     .print = [](const Options& o) { return o.load_field; }},
+    {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kField,
+     .help = "Write the learned field, also when interrupted; a run that loads it continues exactly there",
+     .commands = kFiles, .parse = parse_text<&Options::save_field>},
+    {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kHidden, .help = "",
+     .commands = CommandSet(View), .parse = refuse_save_field},
+});
+// clang-format on
+
+}  // namespace
+
+std::span<const OptionSpec> field_options() { return kOptions; }
+
+}  // namespace pl

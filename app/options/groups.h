@@ -1,0 +1,80 @@
+// Options of the table, group by group: option_table() joins them in this order.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/option_parsers.h"
+#include "app/option_table.h"
+#include "app/parse_values.h"
+
+namespace pl {
+
+/// Files to write.
+std::span<const OptionSpec> output_options();
+/// Place of an inspection, method, comparisons of a bench.
+std::span<const OptionSpec> comparison_options();
+/// View, back end, size, seed, estimator, display.
+std::span<const OptionSpec> picture_options();
+/// Limits of a rendering, thresholds of a comparison.
+std::span<const OptionSpec> limit_options();
+std::span<const OptionSpec> camera_options();
+std::span<const OptionSpec> field_options();
+/// Messages and the window.
+std::span<const OptionSpec> program_options();
+
+using Text = const std::string&;
+
+/// Subcommands that options have in common.
+inline constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Info, Command::Devices,
+                                        Command::Inspect, Command::Compare, Command::Reference, Command::Bench,
+                                        Command::Report, Command::SelfTest);
+inline constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Info, Command::Inspect,
+                                       Command::Reference, Command::Bench);
+inline constexpr CommandSet kThreaded(Command::View, Command::Render, Command::Info, Command::Inspect,
+                                      Command::Reference, Command::Bench, Command::SelfTest);
+inline constexpr CommandSet kOneMethod(Command::View, Command::Render, Command::Info, Command::Inspect,
+                                       Command::Reference);
+inline constexpr CommandSet kPaths(Command::View, Command::Render, Command::Inspect, Command::Reference,
+                                   Command::Bench);
+inline constexpr CommandSet kSampling(Command::View, Command::Render, Command::Inspect);
+inline constexpr CommandSet kPictures(Command::View, Command::Render);
+inline constexpr CommandSet kHeadless(Command::Render, Command::Info, Command::Devices, Command::Inspect,
+                                      Command::Compare, Command::Reference, Command::Bench, Command::Report,
+                                      Command::SelfTest);
+inline constexpr CommandSet kFiles(Command::Render, Command::Inspect);
+inline constexpr CommandSet kWorking(Command::Render, Command::Inspect, Command::Reference, Command::Bench);
+
+/// Headings of the help.
+inline constexpr std::string_view kOutput = "Output";
+inline constexpr std::string_view kPicture = "Picture";
+inline constexpr std::string_view kStop = "Limits (the first one that is reached ends the run)";
+inline constexpr std::string_view kCompared = "Comparison";
+inline constexpr std::string_view kOutcome = "Outcome";
+inline constexpr std::string_view kCamera = "Camera";
+inline constexpr std::string_view kField = "Learned field";
+inline constexpr std::string_view kPlace = "Place";
+inline constexpr std::string_view kMessages = "Messages";
+inline constexpr std::string_view kViewer = "Viewer";
+inline constexpr std::string_view kHidden = "";
+
+/// Parsers for members of Options that take any text, a switch, a side of a picture.
+template <auto kMember>
+void parse_text(Options& options, const std::string& text) {
+    options.*kMember = text;
+}
+
+template <auto kMember>
+void parse_flag(Options& options, const std::string&) {
+    options.*kMember = true;
+}
+
+template <auto kMember>
+void parse_side(Options& options, const std::string& text) {
+    options.*kMember = static_cast<int>(parse_whole(text, 1, kMaxImageSide));
+}
+
+}  // namespace pl

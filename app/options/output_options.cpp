@@ -1,0 +1,36 @@
+#include "app/options/groups.h"
+
+namespace pl {
+namespace {
+
+using enum Command;
+
+// clang-format off
+constexpr auto kOptions = std::to_array<OptionSpec>({
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "FILE", .group = kOutput,
+     .help = "File to write; its suffix decides the kind: .exr and .pfm linear, .png tone mapped (inspect: "
+             ".json, .csv, .png)",
+     .commands = kFiles, .parse = parse_text<&Options::output>,
+     .print = [](const Options& o) { return o.output; }},
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
+     .help = "Folder of references; it may hold those of other pictures",
+     .commands = CommandSet(Reference), .parse = parse_text<&Options::output>},
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
+     .help = "Folder of this bench; an interrupted bench continues",
+     .commands = CommandSet(Bench), .parse = parse_text<&Options::output>},
+    {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
+     .help = "Write counts and timings as JSON",
+     .commands = kFiles, .parse = parse_text<&Options::stats_file>},
+    {.name = "diagnostics", .flags = "--diagnostics", .value = "FILE", .group = kOutput,
+     .help = "Locate invalid samples, escaped paths, lookup misses and clamped training samples by tracing the "
+             "paths again: .png marks their pixels in the picture, .exr and .pfm hold their counts per pixel; "
+             "--stats has both as numbers",
+     .commands = CommandSet(Render), .parse = parse_text<&Options::diagnostics_file>},
+});
+// clang-format on
+
+}  // namespace
+
+std::span<const OptionSpec> output_options() { return kOptions; }
+
+}  // namespace pl

@@ -1,0 +1,90 @@
+#include "app/options/groups.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/scene/needed_effects.h"
+
+namespace pl {
+namespace {
+
+using enum Command;
+
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+// clang-format off
+constexpr auto kOptions = std::to_array<OptionSpec>({
+    {.name = "view", .flags = "--view", .value = "NAME", .group = kPicture,
+     .help = "Quantity in the picture: beauty, direct, radiance-map, voronoi, normal, albedo, depth; heat maps "
+             "of the learned field: visits, irradiance, entropy, bsdf-share, change, unvisited (see "
+             "--list-views)",
+     .commands = kPictures, .in_scene_files = true, .parse = parse_view,
+     .print = [](const Options& o) { return std::string(info_of(o.render.view).name); }},
+    {.name = "backend", .flags = "--backend", .value = "NAME", .group = kPicture,
+     .help = "Back end: auto, cpu, cuda",
+     .commands = kOneMethod, .in_scene_files = true, .parse = parse_backend,
+     .print = [](const Options& o) { return o.backend; }},
+    {.name = "backend", .flags = "--backend", .value = "NAME", .group = kCompared,
+     .help = "Back end to test: cpu, cuda (default: all that are available)",
+     .commands = CommandSet(SelfTest), .parse = parse_backend},
+    {.name = "threads", .flags = "-t,--threads", .value = "N", .group = kPicture,
+     .help = "CPU threads (default: all); the picture does not depend on their number",
+     .commands = kThreaded, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.threads = static_cast<int>(parse_whole(text, 1, 1024)); },
+     .print = [](const Options& o) { return o.threads == 0 ? "" : std::to_string(o.threads); }},
+    {.name = "size", .flags = "--size", .value = "WxH", .group = kPicture,
+     .help = "Picture size in pixels (default 512x512, or the scene's)",
+     .commands = kPaths, .in_scene_files = true, .parse = parse_picture_size,
+     .print = [](const Options& o) { return fmt::format("{}x{}", o.render.width, o.render.height); }},
+    {.name = "width", .flags = "--width", .value = "N", .group = kPicture,
+     .help = "Picture width; alone, the height keeps the scene's aspect",
+     .commands = kPaths, .in_scene_files = true, .parse = parse_side<&Options::width>},
+    {.name = "height", .flags = "--height", .value = "N", .group = kPicture,
+     .help = "Picture height; alone, the width keeps the scene's aspect",
+     .commands = kPaths, .in_scene_files = true, .parse = parse_side<&Options::height>},
+    {.name = "seed", .flags = "--seed", .value = "N", .group = kPicture,
+     .help = "Seed of the random numbers (default 1): same seed, same bits",
+     .commands = kPaths, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.render.seed = parse_whole(text, 0, kNoLimit); },
+     .print = [](const Options& o) { return std::to_string(o.render.seed); }},
+    {.name = "max-depth", .flags = "--max-depth", .value = "N", .group = kPicture,
+     .help = "Most vertices on a path (default 64), a safety net: Russian roulette ends paths",
+     .commands = kPaths, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.render.max_depth = static_cast<int>(parse_whole(text, 1, 65536)); },
+     .print = [](const Options& o) { return std::to_string(o.render.max_depth); }},
+    {.name = "nee", .flags = "--nee", .value = "on|off", .group = kPicture,
+     .help = "Next-event estimation: also sample lights, weighted by multiple importance sampling (default "
+             "off)",
+     .commands = kWithScene, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.render.next_event = parse_switch(text); },
+     .print = [](const Options& o) { return std::string(o.render.next_event ? "on" : "off"); }},
+    {.name = "roulette", .flags = "--roulette", .value = "NAME", .group = kPicture,
+     .help = "Russian roulette and splitting: spare (default): by the albedo, but the learned radiance may "
+             "spare a path or split it; albedo: by the albedo alone; field: by the learned radiance alone",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_roulette,
+     .print = [](const Options& o) { return std::string(name_of(o.render.roulette)); }},
+    {.name = "force-effects", .flags = "--force-effects", .value = "NAME,..", .group = kPicture,
+     .help = "Use a kernel compiled for these effects, too, although the scene lacks them: it is slower, and "
+             "the picture stays the same to the bit. Names as 'info' prints them, or all",
+     .commands = kWithScene, .parse = parse_forced_effects,
+     .print = [](const Options& o) { return fmt::format("{}", fmt::join(effect_names(o.render.forced_effects), ",")); }},
+    {.name = "knob", .flags = "--knob", .value = "NAME=VALUE", .group = kPicture,
+     .help = "Set a knob of the scene; may be given several times ('info' lists them)",
+     .commands = kWithScene, .repeatable = true, .parse = parse_knobs, .print = print_knobs},
+    {.name = "exposure", .flags = "--exposure", .value = "EV", .group = kPicture,
+     .help = "Display only: factor 2^EV (default 0)",
+     .commands = kPictures, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.display.exposure_ev = static_cast<float>(parse_real(text, -64, 64)); },
+     .print = [](const Options& o) { return print_float(o.display.exposure_ev); }},
+    {.name = "tonemap", .flags = "--tonemap", .value = "NAME", .group = kPicture,
+     .help = "Display only: clamp (default), reinhard, aces",
+     .commands = kPictures, .in_scene_files = true, .parse = parse_tone_curve,
+     .print = [](const Options& o) { return std::string(tone_curve_name(o.display.curve)); }},
+});
+// clang-format on
+
+}  // namespace
+
+std::span<const OptionSpec> picture_options() { return kOptions; }
+
+}  // namespace pl

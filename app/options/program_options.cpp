@@ -1,0 +1,44 @@
+#include "app/options/groups.h"
+
+namespace pl {
+namespace {
+
+using enum Command;
+
+// clang-format off
+constexpr auto kOptions = std::to_array<OptionSpec>({
+    {.name = "json", .flags = "--json", .value = "", .group = kMessages,
+     .help = "One JSON object per line on standard output instead of text",
+     .commands = kEverywhere, .parse = parse_flag<&Options::json>},
+    {.name = "quiet", .flags = "-q,--quiet", .value = "", .group = kMessages, .help = "Errors only",
+     .commands = kEverywhere, .parse = parse_flag<&Options::quiet>},
+    {.name = "verbose", .flags = "-v,--verbose", .value = "", .group = kMessages, .help = "More messages",
+     .commands = kEverywhere, .parse = [](Options& o, Text) { ++o.verbosity; }},
+    {.name = "log-file", .flags = "--log-file", .value = "FILE", .group = kMessages,
+     .help = "Append all messages to a file as well",
+     .commands = kEverywhere, .parse = parse_text<&Options::log_file>},
+    {.name = "no-progress", .flags = "--no-progress", .value = "", .group = kMessages,
+     .help = "No progress bar, no progress lines",
+     .commands = kWorking, .parse = parse_flag<&Options::no_progress>},
+    {.name = "headless", .flags = "--headless,--no-gui", .value = "", .group = kHidden, .help = "",
+     .commands = kHeadless, .parse = [](Options&, Text) {}},
+
+    {.name = "window", .flags = "--window", .value = "WxH", .group = kViewer, .help = "Window size (default 1440x900)",
+     .commands = CommandSet(View), .parse = parse_window},
+    {.name = "software", .flags = "--software", .value = "", .group = kViewer,
+     .help = "Draw the window without a graphics card",
+     .commands = CommandSet(View), .parse = parse_flag<&Options::software>},
+    {.name = "script", .flags = "--script", .value = "FILE", .group = kViewer,
+     .help = "Feed the window with input from a file; needs no display",
+     .commands = CommandSet(View), .parse = parse_text<&Options::script>},
+    {.name = "ui-trace", .flags = "--ui-trace", .value = "FILE", .group = kViewer,
+     .help = "Write the time of every frame of the window",
+     .commands = CommandSet(View), .parse = parse_text<&Options::ui_trace>},
+});
+// clang-format on
+
+}  // namespace
+
+std::span<const OptionSpec> program_options() { return kOptions; }
+
+}  // namespace pl

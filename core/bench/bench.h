@@ -1,0 +1,59 @@
+// A bench: accuracy against time, for methods x back ends x scenes x seeds. Makes the references that are missing and the
+// runs that its folder does not hold yet.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/base/progress.h"
+#include "core/bench/bench_folder.h"
+#include "core/bench/bench_plan.h"
+#include "core/bench/bench_results.h"
+
+namespace pl {
+
+struct BenchSettings {
+    BenchPlan plan;
+    std::filesystem::path folder;
+    std::filesystem::path
+        reference_folder;                ///< every reference has to be there; empty: the bench's own, made as needed
+    std::uint32_t reference_spp = 4096;  ///< samples per pixel in each half of a reference that is made
+    std::string command;                 ///< that repeats the bench
+    std::string commit;                  ///< of this program
+};
+
+/// Watches a bench; all members may be empty.
+struct BenchObserver {
+    const StopFlag* stop = nullptr;
+    std::function<void(const ProgressState&)> show{};  ///< after each piece of work
+    std::function<void(const BenchRun&)> on_run{};     ///< after each finished run
+};
+
+class Bench {
+public:
+    /// Throws Error(Input) if a reference folder is given and lacks one.
+    Bench(BenchSettings settings, BenchObserver observer);
+
+    /// Goes on where the folder's earlier runs end. When stopped, the results are those of the runs that are finished, and
+    /// not complete. Throws Error(Usage) if the folder holds a bench of another plan.
+    BenchResults run();
+
+private:
+    void find_references();
+    bool make_references();
+    Json references_json() const;
+    void save_reference_pictures() const;
+    std::vector<PlannedRun> remaining_runs() const;
+    bool make_runs();
+    std::optional<RunSeries> record(const BenchRun& run, const PlannedRun& planned,
+                                    const std::function<void(const Session&)>& on_work) const;
+    bool make_run(const PlannedRun& planned, const std::function<void(const Session&)>& on_work);
+    bool is_stopped() const { return observer_.stop != nullptr && *observer_.stop; }
+
+    BenchSettings settings_;
+    BenchObserver observer_;
+    BenchFolder folder_;
+};
+
+}  // namespace pl

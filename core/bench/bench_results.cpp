@@ -1,0 +1,204 @@
+#include "core/bench/bench_results.h"
+
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/bench/metrics_json.h"
+#include "core/io/files.h"
+
+namespace pl {
+namespace {
+
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json optional_json(const std::optional<double>& value) { return value ? number_json(*value) : Json(nullptr); }
+
+Json cell_json(const BenchCell& cell) {
+    return {{"scene", cell.scene}, {"method", cell.method}, {"backend", cell.backend}};
+}
+
+Json targets_json(const CellSummary& summary, const std::vector<double>& targets) {
+    Json rows = Json::array();
+    for (const double target : targets) {
+        const TimeToTarget time = time_to_target(summary.over_time, target);
+        rows.push_back({{"relmse", target},
+                        {"seconds", interval_json(time.cost)},
+                        {"reached", time.reached},
+                        {"censored", time.censored},
+                        {"more_than_seconds", time.censored > 0 ? Json(time.more_than) : Json(nullptr)}});
+    }
+    return rows;
+}
+
+Json summary_json(const BenchSummary& summary) {
+    Json cells = Json::array();
+    for (const CellSummary& cell : summary.cells) {
+        Json row = cell_json(cell.cell);
+        row.update({{"runs", cell.ends.size()},
+                    {"relmse", interval_json(cell.final_error)},
+                    {"relmse_trimmed", interval_json(cell.final_trimmed)},
+                    {"seconds", interval_json(cell.seconds)},
+                    {"seconds_per_sample", interval_json(cell.seconds_per_sample)},
+                    {"setup_seconds", interval_json(cell.setup_seconds)},
+                    {"slope", interval_json(cell.slope)},
+                    {"relative_bias", interval_json(cell.signed_bias_interval)},
+                    {"noise", number_json(cell.noise)},
+                    {"warm_up_seconds", cell.warm_up_seconds},
+                    {"measure_share", number_json(cell.measure_share)},
+                    {"invalid_samples", cell.invalid_samples},
+                    {"runs_below_reference", cell.below_reference},
+                    {"time_to", targets_json(cell, summary.targets(cell.cell.scene))}});
+        cells.push_back(row);
+    }
+    return cells;
+}
+
+Json comparisons_json(const BenchSummary& summary) {
+    Json rows = Json::array();
+    for (const Comparison& comparison : summary.comparisons) {
+        Json row = cell_json(comparison.cell);
+        const Gain& gain = comparison.gain;
+        row.update({{"base", comparison.base_method},
+                    {"runs", gain.runs},
+                    {"samples", interval_json(gain.samples)},
+                    {"cost", interval_json(gain.cost)},
+                    {"net", interval_json(gain.net)},
+                    {"ahead_from_seconds", optional_json(gain.ahead_from_seconds)},
+                    {"compared_until_seconds", gain.compared_until_seconds},
+                    {"headline", headline(gain, comparison.base_method)}});
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
+
+std::string series_csv(const std::vector<BenchRun>& runs) {
+    std::string text =
+        "scene,method,backend,seed,warm_up,spp,load_s,build_s,upload_s,place_s,precompute_s,learn_s,render_s,"
+        "charged_s,mse,relmse,relmse_trimmed,mape,smape,bias,relative_bias,psnr_db,noise,squared_bias,"
+        "squared_bias_error,paths,segments,zero_contribution_paths,invalid_samples,invalid_pixels\n";
+    for (const BenchRun& run : runs)
+        for (const RunPoint& point : run.series.points) {
+            const Clocks& t = point.clocks;
+            const Metrics& m = point.metrics;
+            text += fmt::format("{},{},{},{},{},{}", run.cell.scene, run.cell.method, run.cell.backend, run.seed,
+                                run.warm_up ? 1 : 0, point.spp);
+            for (const double value :
+                 {t.load, t.build, t.upload, t.place, t.precompute, t.learn, t.render, charged_seconds(t), m.mse,
+                  m.relmse, m.relmse_trimmed, m.mape, m.smape, m.bias, m.relative_bias, m.psnr_db,
+                  point.noise.value_or(NAN), point.squared_bias ? point.squared_bias->value : NAN,
+                  point.squared_bias ? point.squared_bias->error : NAN})
+                text.append(1, ',').append(csv_number(value));
+            text += fmt::format(",{},{},{},{},{}\n", point.counters.paths, point.counters.path.segments,
+                                point.counters.zero_contribution_paths, point.counters.invalid_samples, m.invalid);
+        }
+    return text;
+}
+
+std::string summary_csv(const BenchSummary& summary) {
+    std::string text = "scene,method,backend,runs,relmse,relmse_low,relmse_high,seconds,seconds_per_sample,"
+                       "setup_seconds,slope,slope_low,slope_high,base,samples_factor,cost_factor,net_factor,net_low,"
+                       "net_high,ahead_from_seconds\n";
+    for (const CellSummary& cell : summary.cells) {
+        text += fmt::format("{},{},{},{}", cell.cell.scene, cell.cell.method, cell.cell.backend, cell.ends.size());
+        for (const double value : {cell.final_error.value, cell.final_error.low, cell.final_error.high,
+                                   cell.seconds.value, cell.seconds_per_sample.value, cell.setup_seconds.value,
+                                   cell.slope.value, cell.slope.low, cell.slope.high})
+            text.append(1, ',').append(csv_number(value));
+        std::string gain_columns = ",,,,,,,";
+        for (const Comparison& comparison : summary.comparisons) {
+            if (comparison.cell != cell.cell) continue;
+            const Gain& gain = comparison.gain;
+            gain_columns = fmt::format(",{}", comparison.base_method);
+            for (const double value : {gain.samples.value, gain.cost.value, gain.net.value, gain.net.low,
+                                       gain.net.high, gain.ahead_from_seconds.value_or(NAN)})
+                gain_columns.append(1, ',').append(csv_number(value));
+        }
+        text += gain_columns + "\n";
+    }
+    return text;
+}
+
+std::string summary_markdown(const BenchSummary& summary) {
+    std::string text = "| scene | back end | method | runs | relMSE at the end | seconds | ms per sample | slope |\n"
+                       "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    for (const CellSummary& cell : summary.cells) {
+        const std::size_t runs = cell.ends.size();
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.3g} | {} |\n", cell.cell.scene, cell.cell.backend,
+                            cell.cell.method, runs, interval_text(cell.final_error, runs),
+                            interval_text(cell.seconds, runs), 1e3 * cell.seconds_per_sample.value,
+                            interval_text(cell.slope, runs));
+    }
+    text += "\n";
+    for (const Comparison& comparison : summary.comparisons)
+        text += fmt::format("* {}, {}: {} {}\n", comparison.cell.scene, comparison.cell.backend,
+                            comparison.cell.method, headline(comparison.gain, comparison.base_method));
+    return text;
+}
+
+}  // namespace
+
+std::vector<std::string> commits_of(const std::vector<BenchRun>& runs) {
+    std::set<std::string> commits;
+    for (const BenchRun& run : runs) commits.insert(run.commit);
+    return {commits.begin(), commits.end()};
+}
+
+Json interval_json(const Interval& interval) {
+    return Json::array({number_json(interval.value), number_json(interval.low), number_json(interval.high)});
+}
+
+std::string interval_text(const Interval& interval, std::size_t runs) {
+    if (!std::isfinite(interval.value)) return "unknown";
+    if (runs < kFewestRuns || !std::isfinite(interval.low) || !std::isfinite(interval.high))
+        return fmt::format("{:.3g}", interval.value);
+    return fmt::format("{:.3g} ({:.3g} to {:.3g})", interval.value, interval.low, interval.high);
+}
+
+std::vector<std::string> method_order(const Json& plan) { return plan.at("methods").get<std::vector<std::string>>(); }
+
+void write_results(const BenchFolder& folder, const BenchResults& results) {
+    Json runs = Json::array();
+    for (const BenchRun& run : results.runs) runs.push_back(run_json(run));
+    write_json_file(folder.path() / "results.json",
+                    {{"schema", kResultsSchema},
+                     {"version", PL_VERSION},
+                     {"commits", commits_of(results.runs)},
+                     {"complete", results.complete},
+                     {"command", results.command},
+                     {"date", results.date},
+                     {"definitions",
+                      {{"metrics", metric_definitions()},
+                       {"charged_seconds", "place + precompute + learn + render, on the steady clock of the host"},
+                       {"noise", "relmse of the picture's own noise, from two halves of its passes"},
+                       {"intervals", "95 %, Student on logarithms over runs; ratios by Welch"}}},
+                     {"plan", results.plan},
+                     {"references", results.references},
+                     {"summary", summary_json(results.summary)},
+                     {"comparisons", comparisons_json(results.summary)},
+                     {"runs", runs}});
+    write_text_file_atomic(folder.path() / "series.csv", series_csv(results.runs));
+    write_text_file_atomic(folder.path() / "summary.csv", summary_csv(results.summary));
+    write_text_file_atomic(folder.path() / "summary.md", summary_markdown(results.summary));
+}
+
+BenchResults read_results(const std::filesystem::path& file) {
+    const Json json = read_json_file(file, kResultsSchema);
+    return read_members(file, [&] {
+        BenchResults results{.plan = json.at("plan"),
+                             .command = json.at("command"),
+                             .date = json.at("date"),
+                             .references = json.at("references"),
+                             .runs = {},
+                             .summary = {},
+                             .complete = json.at("complete")};
+        for (const Json& run : json.at("runs")) results.runs.push_back(run_from_json(run));
+        results.summary = summarize(results.runs, method_order(results.plan));
+        return results;
+    });
+}
+
+}  // namespace pl

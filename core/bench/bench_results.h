@@ -1,0 +1,33 @@
+// The exports of a bench: results.json with all figures, tables for spreadsheets and for people.
+#pragma once
+
+#include "core/bench/bench_folder.h"
+#include "core/bench/bench_summary.h"
+
+namespace pl {
+
+struct BenchResults {
+    Json plan;
+    std::string command;  ///< the shell command that repeats the bench
+    std::string date;     ///< of its end, UTC
+    Json references;      ///< by scene: samples per pixel of the halves, and their noise
+    std::vector<BenchRun> runs;
+    BenchSummary summary;   ///< of the runs
+    bool complete = false;  ///< all planned runs are in
+};
+
+/// Writes results.json, series.csv, summary.csv and summary.md.
+void write_results(const BenchFolder& folder, const BenchResults& results);
+/// Reads results.json of write_results(). Throws Error(Input).
+BenchResults read_results(const std::filesystem::path& file);
+
+/// Commits of the programs that made the runs: several if another build continued the bench.
+std::vector<std::string> commits_of(const std::vector<BenchRun>& runs);
+/// [value, low, high]; numbers that are not finite are null.
+Json interval_json(const Interval& interval);
+/// "0.0123 (0.0120 to 0.0126)"; without the interval below kFewestRuns runs, "unknown" if there is no value.
+std::string interval_text(const Interval& interval, std::size_t runs);
+/// The methods of a plan, in its order.
+std::vector<std::string> method_order(const Json& plan);
+
+}  // namespace pl

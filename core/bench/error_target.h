@@ -1,0 +1,51 @@
+// Rendering until a picture is good enough: by its error against a reference, or without one by its own noise.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/bench/reference_store.h"
+#include "core/measure/measure_budget.h"
+#include "core/session/session.h"
+
+namespace pl {
+
+/// Measures a picture from time to time; the measurements stay within their share of the charged time.
+class ErrorTarget {
+public:
+    /// `target` is a relMSE: of the error against the reference, or, if that is null, of the noise as estimated from the
+    /// picture's two halves (Noise::relmse).
+    ErrorTarget(double target, std::shared_ptr<const Reference> reference)
+        : target_(target), reference_(std::move(reference)) {}
+
+    /// To be called after each pass. Noise is not trusted below kFewestSamples: a picture whose paths have not found the
+    /// light yet is black and without noise.
+    bool is_met(const Session& session);
+    /// Measures the finished picture, whatever the budget.
+    void measure_last(const Session& session);
+    /// By the last measurement.
+    bool is_low_enough() const { return measured_ && *measured_ <= target_; }
+
+    double target() const { return target_; }
+    /// The last measurement; empty if there is none, if the film lacks a second half or has no finite pixel.
+    std::optional<double> measured() const { return measured_; }
+    bool has_reference() const { return reference_ != nullptr; }
+    /// "noise" or "error".
+    const char* word() const { return has_reference() ? "error" : "noise"; }
+    /// Share of the time to the target that is over, if errors fall as 1 / samples.
+    double share_done() const;
+
+    static constexpr std::uint32_t kFewestSamples = 16;
+
+private:
+    void measure(const Session& session);
+
+    double target_;
+    std::shared_ptr<const Reference> reference_;
+    MeasureBudget budget_;
+    std::optional<double> measured_;
+    std::uint32_t measured_passes_ = 0;
+    std::uint32_t next_passes_ = 2;
+};
+
+}  // namespace pl

@@ -1,0 +1,15 @@
+// Metrics as JSON, with the constants of their definitions.
+#pragma once
+
+#include "core/io/json_file.h"
+#include "core/measure/metrics.h"
+
+namespace pl {
+
+/// psnr_db is null for equal pictures, whose value is infinite.
+Json metrics_json(const Metrics& metrics);
+
+/// Definitions by name, for people who read exports.
+Json metric_definitions();
+
+}  // namespace pl

@@ -1,0 +1,77 @@
+// References on disk: converged pictures in two independent halves, found by the hash of everything that decides their
+// light, so that a picture of other light is never taken for a reference.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/io/image.h"
+#include "core/io/json_file.h"
+#include "core/measure/noise.h"
+#include "core/session/settings.h"
+
+namespace pl {
+
+/// Everything that a picture and its reference have in common.
+struct PictureContent {
+    std::string picture_hash;  ///< picture_hash(): decides; the rest is for messages
+    std::string scene_hash;
+    int width = 0;
+    int height = 0;
+    int max_depth = 0;
+};
+
+PictureContent content_of(const SceneDescription& scene, const RenderSettings& settings);
+
+/// One half, with an .exr file of its own.
+struct ReferenceHalf {
+    LinearImage image;
+    std::uint32_t spp = 0;
+    std::uint32_t parts = 0;  ///< stretches of passes, each with random numbers of its own
+    double seconds = 0.0;
+};
+
+struct Reference {
+    std::string name;  ///< of its files: scene and hash
+    PictureContent content;
+    std::array<ReferenceHalf, 2> halves;
+
+    ReferenceHalves pixels() const { return {halves[0].image.pixels, halves[1].image.pixels}; }
+    Noise noise() const;  ///< of the mean of both halves, weighted equally
+    bool has_samples() const { return halves[0].spp > 0 && halves[1].spp > 0; }
+};
+
+/// A folder of references: NAME-HASH.json, the manifest, beside NAME-HASH-1.exr and NAME-HASH-2.exr.
+class ReferenceStore {
+public:
+    explicit ReferenceStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    const std::filesystem::path& folder() const { return folder_; }
+
+    /// The reference of this content; its halves may hold different numbers of samples, none included. Throws
+    /// Error(Input) for files that are damaged or whose content is not the one that their name says.
+    std::optional<Reference> find(const PictureContent& content) const;
+    /// The same, but throws Error(Input) if it is missing or without samples; the message names the pictures that the folder
+    /// has references of.
+    Reference require(const PictureContent& content) const;
+
+    /// Writes one half; a later run continues from it.
+    void save_half(const Reference& reference, std::size_t half) const;
+    /// Writes the manifest for people and programs: `about` and the figures of both halves.
+    std::filesystem::path save_manifest(const Reference& reference, const Json& about) const;
+
+private:
+    std::filesystem::path half_path(const std::string& name, std::size_t half) const;
+    ReferenceHalf load_half(const std::filesystem::path& path, const PictureContent& content) const;
+    std::string other_contents(const PictureContent& content) const;
+
+    std::filesystem::path folder_;
+};
+
+inline constexpr std::string_view kReferenceSchema = "pathlight.reference/1";
+/// Metadata of a half: "1" or "2".
+inline constexpr const char* kReferenceHalfKey = "reference_half";
+
+}  // namespace pl

@@ -1,0 +1,65 @@
+// Diagnostics: defects of paths and of the learned field by kind, their counts in a picture, and their map over its pixels. A
+// pass pays one comparison for each training sample, whether it is clamped; the other counts it keeps anyway.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/session/snapshot.h"
+
+namespace pl {
+
+enum class DiagnosticKind : std::uint32_t {
+    InvalidSample,  ///< NaN, infinite or negative: left out of the film
+    EscapedPath,    ///< left the scene although closed surfaces surround the camera
+    LookupMiss,     ///< a surface point that no radiance volume serves
+    ClampedSample,  ///< a training sample brighter than the pending sums can hold
+};
+inline constexpr std::size_t kDiagnosticCount = 4;
+
+constexpr std::size_t index_of(DiagnosticKind kind) { return static_cast<std::size_t>(kind); }
+
+struct DiagnosticInfo {
+    DiagnosticKind id;
+    std::string_view name;     ///< in files
+    std::string_view label;    ///< on screen, behind a number
+    std::string_view meaning;  ///< one sentence, for tooltips
+    std::uint32_t color;       ///< of its marks, opaque ARGB
+};
+/// In the order of importance: of several kinds at a pixel the first one is shown.
+std::span<const DiagnosticInfo> all_diagnostics();
+const DiagnosticInfo& info_of(DiagnosticKind kind);
+
+/// Occurrences by kind.
+using DiagnosticCounts = std::array<std::uint64_t, kDiagnosticCount>;
+
+/// Counts of a picture's own passes, and of the probes that filled the radiance map it samples from.
+DiagnosticCounts counted_diagnostics(const Snapshot& snapshot);
+
+/// Occurrences by kind and pixel, as find_diagnostics() locates them.
+struct DiagnosticsMap {
+    using Pixel = std::array<std::uint32_t, kDiagnosticCount>;
+
+    int width = 0;
+    int height = 0;
+    std::uint32_t samples = 0;       ///< of each pixel in the picture
+    std::uint32_t traced = 0;        ///< of these, the newest ones, whose paths were traced again
+    bool is_complete = false;        ///< every counted occurrence was located, or every sample was traced again
+    bool has_moving_tables = false;  ///< the paths were traced with a field that had learned more since
+    bool knows_clamped = false;      ///< clamped training samples could be located
+    DiagnosticCounts counted{};      ///< by the passes themselves
+    DiagnosticCounts found{};        ///< sums over the pixels, once the search is over
+    std::vector<Pixel> pixels{};     ///< [row][column]
+
+    std::uint64_t count(DiagnosticKind kind) const;
+    std::size_t pixel_count(DiagnosticKind kind) const;
+};
+
+/// "12 invalid in 7 pixels, 3 escaped in 3 pixels", for people.
+std::string summary_of(const DiagnosticsMap& map);
+
+}  // namespace pl

@@ -1,0 +1,51 @@
+#include "core/diagnose/replay_path.h"
+
+#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/trace_path.h"
+#include "core/kernel/methods/default.h"
+#include "core/kernel/methods/targets/expected_sarsa.h"
+
+namespace pl {
+namespace {
+
+/// Samples directions as every guided method does; counts clamped training samples instead of adding them to the field.
+template <GuidingField Field>
+struct CountingMethod : Guided<Field, ExpectedSarsa> {
+    std::uint32_t* clamped = nullptr;  ///< null where training samples differ from those of the pass
+
+    void record(const TrainingSample<Field>& sample) const {
+        if (clamped == nullptr || !sample.entry.is_trained()) return;
+        *clamped += this->field.is_clamped(sample.target) ? 1u : 0u;
+    }
+};
+
+/// The kernel of all features traces the same bits as the one that rendered the pass.
+template <class M>
+PathDefects trace_again(const PassReplay& passes, const M& method, std::uint32_t pixel, std::uint32_t sample) {
+    const SceneView scene = passes.scene->view();
+    const PixelGrid grid{static_cast<std::uint32_t>(passes.width), static_cast<std::uint32_t>(passes.height), sample};
+    auto state = begin_path<kEveryFeature, M>(passes.camera, passes.path, grid, pixel);
+    PathCounters counters;
+    trace_path<kEveryFeature>(PathContext<M>{scene, method, passes.path}, BvhIntersector{scene}, state, counters);
+    return {.escapes = static_cast<std::uint32_t>(counters.escaped),
+            .lookup_misses = static_cast<std::uint32_t>(counters.method.lookup_misses)};
+}
+
+}  // namespace
+
+PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel,
+                        std::uint32_t sample) {
+    if (!passes.volumes) return trace_again(passes, DefaultMethod{}, pixel, sample);
+    return visit_field(field, [&](const auto& view) {
+        std::uint32_t clamped = 0;
+        CountingMethod<std::remove_cvref_t<decltype(view)>> method;
+        method.field = view;
+        method.mixture = passes.mixture;
+        if (passes.repeats_training) method.clamped = &clamped;
+        PathDefects defects = trace_again(passes, method, pixel, sample);
+        defects.clamped_samples = clamped;
+        return defects;
+    });
+}
+
+}  // namespace pl

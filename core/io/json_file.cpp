@@ -1,0 +1,33 @@
+#include "core/io/json_file.h"
+
+#include <fmt/format.h>
+
+#include "core/io/files.h"
+
+namespace pl {
+
+Json read_json_file(const std::filesystem::path& path, std::string_view schema) {
+    const std::string text = read_text_file(path);
+    return read_members(path, [&] {
+        Json json = Json::parse(text);
+        const std::string found = json.at("schema").get<std::string>();
+        if (found != schema)
+            throw Error(ErrorKind::Input,
+                        fmt::format("{}: expected schema {}, got {}", path.string(), schema, found));
+        return json;
+    });
+}
+
+void write_json_file(const std::filesystem::path& path, const Json& json) {
+    write_text_file_atomic(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder))
+        throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be made: {}", folder.string(),
+                                                    error ? error.message() : "there is a file of this name"));
+}
+
+}  // namespace pl

@@ -1,0 +1,36 @@
+// JSON files that the program writes for itself and reads again.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+
+namespace pl {
+
+/// Members stay in the order in which they were written.
+using Json = nlohmann::ordered_json;
+
+/// Throws Error(Input): missing, not JSON, not of this "schema".
+Json read_json_file(const std::filesystem::path& path, std::string_view schema);
+
+/// The file appears under its name only when it is complete.
+void write_json_file(const std::filesystem::path& path, const Json& json);
+
+/// Makes the folder and those above it. Throws Error(Runtime).
+void make_folder(const std::filesystem::path& folder);
+
+/// The result of `read`; missing members and wrong types become an Error(Input) that names the file.
+template <class Read>
+auto read_members(const std::filesystem::path& path, Read&& read) {
+    try {
+        return read();
+    } catch (const Json::exception& error) {
+        throw Error(ErrorKind::Input, path.string() + ": " + error.what());
+    }
+}
+
+}  // namespace pl

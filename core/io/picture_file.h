@@ -1,0 +1,23 @@
+// Picture files of snapshots: linear values, or display values.
+#pragma once
+
+#include <filesystem>
+
+#include "core/io/image.h"
+#include "core/session/settings.h"
+#include "core/session/snapshot.h"
+
+namespace pl {
+
+/// Display values of a picture: scaled by shown_range(), tone mapped, sRGB. Exposure and curve apply to radiance
+/// only: views of data, such as normals, are shown as they are, and heat maps in the colors of heat_color().
+ByteImage display_image(const Snapshot& snapshot, const DisplaySettings& display);
+
+/// Writes .exr or .pfm linear, .png as display_image(). Throws Error: Usage for another suffix, Runtime.
+void save_picture(const std::filesystem::path& path, const Snapshot& snapshot, const DisplaySettings& display,
+                  const ImageMetadata& metadata);
+
+/// Throws Error(Runtime) unless a file of this name can be made or replaced. Leaves no trace.
+void require_writable(const std::filesystem::path& path);
+
+}  // namespace pl

@@ -1,0 +1,68 @@
+// The runs of a viewer as data: points over time with their errors, noise and pictures.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/measure/half_picture.h"
+#include "core/measure/halves.h"
+#include "core/session/snapshot.h"
+
+namespace pl {
+
+/// Labels of a run: everything that tells its curve from those of others.
+struct RunLabel {
+    MethodId method = MethodId::Default;
+    std::string backend;
+    bool next_event = false;
+    /// Began with learned radiance, whose cost is not among the seconds of this run.
+    bool warm = false;
+    std::uint64_t seed = 0;     ///< runs that differ in nothing else are repetitions
+    std::uint64_t picture = 0;  ///< picture_key(): runs of different keys show different light and are never compared
+    std::string details;        ///< other settings that differ from the defaults, in words
+};
+
+struct LivePoint {
+    std::uint32_t spp = 0;
+    Clocks clocks;  ///< of this run; charged_seconds() is the axis of plots
+    PassCounters counters;
+    double noise = 0.0;      ///< Noise::relmse, from the halves of the film: needs no reference
+    double noise_off = 0.0;  ///< standard error of noise over the blocks of this picture; seeds may differ by more
+    /// Against the reference of the same picture; empty without one. Of a point measured before its reference was
+    /// there: from half floats (three digits), and without the three members below.
+    std::optional<Metrics> metrics{};
+    std::optional<double> relmse_off{};  ///< standard error of Metrics::relmse, like noise_off
+    std::optional<Estimate> squared_bias{};
+    std::optional<Estimate> signed_bias{};
+    std::shared_ptr<const HalfPicture> picture{};  ///< null once it was dropped for memory
+};
+
+/// All passes of one method into one film from empty on; a run continues when its method is selected again.
+struct LiveRun {
+    std::uint64_t number = 0;  ///< FilmOrigin::number of its film: unique within a session
+    RunLabel label;
+    std::vector<LivePoint> points;  ///< at least one
+    bool in_progress = false;       ///< the session renders it
+};
+
+/// All runs at one moment; immutable, so that threads may share it.
+struct LiveRunSet {
+    std::vector<std::shared_ptr<const LiveRun>> runs;  ///< in the order of their first points
+    std::size_t picture_bytes = 0;
+    std::size_t picture_bytes_cap = 0;
+    double measure_seconds = 0.0;  ///< for measuring; charged to no run
+    double charged_seconds = 0.0;  ///< to all runs so far, forgotten ones included
+};
+
+/// A converged picture in two halves.
+struct LiveReference {
+    std::uint64_t picture = 0;  ///< its picture_key()
+    int width = 0;
+    int height = 0;
+    std::vector<Vec3f> first;
+    std::vector<Vec3f> second;
+};
+
+}  // namespace pl

@@ -1,0 +1,43 @@
+// Small scenes whose radiance is known in closed form, for the self test. Built in memory, without files.
+#pragma once
+
+#include "core/scene/description.h"
+
+namespace pl {
+
+/// A closed box that emits and reflects uniformly: radiance emission / (1 - albedo) at every point in every
+/// direction.
+SceneDescription furnace(glm::vec3 emission, float albedo);
+
+/// A block without absorption under a uniform sky of radiance 1: it is invisible.
+SceneDescription lossless_block(const MaterialDescription& material);
+
+/// A gray floor under, or beside, a black rectangular lamp of radiance 1; the camera sees one point of the floor.
+struct LampScene {
+    SceneDescription scene;
+    double floor_radiance = 0.0;  ///< at that point
+};
+
+/// The lamp is parallel to the floor.   [Howell, Catalog of Radiation Transfer Configuration Factors, B-3]
+LampScene lamp_over_floor();
+/// The lamp stands on the floor at a right angle.   [Howell, B-4]
+LampScene lamp_beside_floor();
+/// A lamp so small and distant that irradiance follows the inverse-square law; relative error below 1e-6.
+LampScene tiny_lamp();
+
+/// A floor of this albedo under a sky of radiance a + b y; its exitant radiance is albedo (a + 2 b / 3).
+SceneDescription floor_under_linear_sky(float albedo, float a, float b);
+
+/// The unit cube with albedo 0.5 whose ceiling emits 1; the camera sees the middle of the floor.
+SceneDescription cube_under_ceiling();
+/// Exitant radiance there, and the error bound of that number.   [solved by collocation, 6 x 64 x 64 patches]
+inline constexpr double kCubeFloorRadiance = 0.19760;
+inline constexpr double kCubeFloorError = 1.0e-5;
+
+/// Two plates that face each other, emitting 1 and 0.25 with albedos 0.7 and 0.4, between four perfect mirrors, which
+/// make them infinite.
+SceneDescription plates_between_mirrors();
+/// Exitant radiance of the first plate: (e1 + rho1 e2) / (1 - rho1 rho2).
+inline constexpr double kPlateRadiance = (1.0 + 0.7 * 0.25) / (1.0 - 0.7 * 0.4);
+
+}  // namespace pl

@@ -1,0 +1,21 @@
+// One result of the self test, as a command line or a window shows it.
+#pragma once
+
+#include <string>
+
+namespace pl {
+
+/// One scene, one way to render it, one number with an expected value.
+struct SelfCheck {
+    std::string backend;    ///< "cpu"
+    std::string name;       ///< "lamp over a floor: reinforcement"
+    std::string criterion;  ///< the condition, in words
+    double expected = 0.0;
+    double measured = 0.0;
+    double tolerance = 0.0;   ///< largest difference of the two; 0: they have to be equal
+    double used_share = 0.0;  ///< difference over tolerance; without tolerance 0 if the check passes, else infinite
+    bool passed = false;
+    double seconds = 0.0;
+};
+
+}  // namespace pl

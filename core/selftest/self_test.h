@@ -1,0 +1,27 @@
+// The self test: scenes whose radiance has a closed form, rendered by a back end on this machine. Prints nothing: the command
+// line and the viewer show its checks.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/selftest/self_check.h"
+#include "core/session/backend_factory.h"
+
+namespace pl {
+
+/// Runs every check on a back end that nothing else uses; needs no files. Calls `told` after each check. Ends early, with
+/// the checks done by then, when `stop` is raised. A statistical check passes only if its samples could have shown an error
+/// of the size that its criterion names, and fails by chance once in a million. Throws what the back end throws.
+std::vector<SelfCheck> run_self_test(const std::shared_ptr<RenderBackend>& backend,
+                                     const std::function<void(const SelfCheck&)>& told = {},
+                                     const StopFlag* stop = nullptr);
+
+/// The same on new back ends of these names, one after the other. Also throws what `make` throws.
+std::vector<SelfCheck> run_self_test(const std::vector<std::string>& backends, const BackendFactory& make,
+                                     const std::function<void(const SelfCheck&)>& told = {},
+                                     const StopFlag* stop = nullptr);
+
+}  // namespace pl

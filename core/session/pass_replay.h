@@ -1,0 +1,35 @@
+// The passes of a picture as data: enough to trace any of their paths again, elsewhere and later.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/session/backend.h"
+
+namespace pl {
+
+/// Taken out of a session at one moment; see Session::pass_replay(). May move to another thread.
+struct PassReplay {
+    int width = 0;
+    int height = 0;
+    std::uint32_t first_sample = 0;  ///< number of the first pass
+    std::uint32_t samples = 0;       ///< complete passes
+    std::uint32_t next_pixel = 0;    ///< of the pass under way: pixels before it have one more sample
+    /// Invalid samples of each pixel, as the film counts them; empty if there are none. [row][column]
+    std::vector<std::uint32_t> invalid{};
+
+    std::shared_ptr<const HostScene> scene{};
+    PathSettings path{};
+    Camera camera{};
+    bool is_closed = false;  ///< closed surfaces surround the camera
+
+    std::shared_ptr<const HostVolumes> volumes{};  ///< null for methods without a field, for which the rest is unset
+    FieldShape shape{};
+    HostField field{};
+    MixtureSettings mixture{};
+    bool has_moving_tables = false;  ///< updates have changed the tables since the passes sampled from them
+    bool repeats_training = false;   ///< a path traced again makes the training samples that it made in its pass
+};
+
+}  // namespace pl
