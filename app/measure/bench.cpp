@@ -122,11 +122,11 @@ private:
         const std::vector<PlannedRun> runs = remaining_runs();
         ProgressDisplay progress(console_, !line_.options.no_progress && !line_.options.quiet);
         for (std::size_t i = 0; i < runs.size(); ++i) {
-            const auto show = [&](const Session& session) {
-                const double share = share_done(session, plan_.scenes[runs[i].scene].options);
+            const auto show = [&](const Session& session, FilmSlot slot) {
+                const double share = share_done(session, slot, plan_.scenes[runs[i].scene].options);
                 progress.show({.activity = "bench",
                                .share = (static_cast<double>(i) + share) / static_cast<double>(runs.size()),
-                               .spp = session.passes(),
+                               .spp = session.passes(slot),
                                .detail = fmt::format("run {} of {}: {}, seed {}{}", i + 1, runs.size(),
                                                      plan_.cell_of(runs[i]).title(), runs[i].seed,
                                                      runs[i].warm_up ? " (warm-up)" : "")});
@@ -136,14 +136,14 @@ private:
         return true;
     }
 
-    static double share_done(const Session& session, const Options& options) {
-        double share = static_cast<double>(session.passes()) / options.spp_limit();
+    static double share_done(const Session& session, FilmSlot slot, const Options& options) {
+        double share = static_cast<double>(session.passes(slot)) / options.spp_limit();
         if (options.time_limit_seconds)
-            share = std::max(share, charged_seconds(session.clocks()) / *options.time_limit_seconds);
+            share = std::max(share, charged_seconds(session.clocks(slot)) / *options.time_limit_seconds);
         return std::min(share, 1.0);
     }
 
-    bool make_run(const PlannedRun& planned, const std::function<void(const Session&)>& show) {
+    bool make_run(const PlannedRun& planned, const std::function<void(const Session&, FilmSlot)>& show) {
         const BenchScene& scene = plan_.scenes[planned.scene];
         RenderSettings settings = scene.options.render;
         settings.method = planned.method;
@@ -163,7 +163,7 @@ private:
                 folder_.save_picture(run.cell, point,
                                      {.width = snapshot.width, .height = snapshot.height, .pixels = snapshot.pixels});
             };
-        auto series = record_run(session,
+        auto series = record_run(session, slot_of(settings),
                                  {.spp = scene.options.spp_limit(),
                                   .seconds = scene.options.time_limit_seconds,
                                   .target_error = scene.options.target_error,

@@ -19,9 +19,9 @@ public:
 
     /// After each sample per pixel: whether the target is met as far as was looked at. Noise is not trusted below
     /// kFewestSamples: a picture that has not found its light yet is black without any noise.
-    bool is_met(const Session& session);
+    bool is_met(const Session& session, FilmSlot slot);
     /// Looks once more, whatever it takes: at the end of a rendering.
-    void look_at_last(const Session& session);
+    void look_at_last(const Session& session, FilmSlot slot);
     /// When it was last looked at.
     bool is_low_enough() const { return measured_ && *measured_ <= target_; }
 
@@ -37,7 +37,7 @@ public:
     static constexpr std::uint32_t kFewestSamples = 16;
 
 private:
-    void measure(const Session& session);
+    void measure(const Session& session, FilmSlot slot);
 
     double target_;
     std::shared_ptr<const Reference> reference_;

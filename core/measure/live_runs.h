@@ -84,7 +84,7 @@ class LiveRuns {
 public:
     /// Words for what a session's settings are besides those in RunLabel; asked at each point, because some may change
     /// while a picture stays.
-    using Details = std::function<std::string(const Session&)>;
+    using Details = std::function<std::string(const Session&, FilmSlot)>;
 
     /// What measuring may take of the time that is charged.
     struct Allowance {
@@ -103,11 +103,11 @@ public:
     /// Throws Error(Input) if the halves do not have the size that is told.
     void set_reference(std::shared_ptr<const LiveReference> reference);
 
-    /// After each piece of work; true if current() is another set now. A point is added after the first pass that is a
+    /// After each piece of work on a film; true if current() is another set now. A point is added after the first pass that is a
     /// twelfth of a decade of rendering and learning behind the last point, if there are two halves and if measuring
     /// stays within its share of the time charged to all runs together. A run whose picture is emptied before its second
     /// point is forgotten: that is what moving the camera leaves behind.
-    bool observe(const Session& session);
+    bool observe(const Session& session, FilmSlot slot);
 
     /// A run that the session works on begins anew with its next point.
     void forget(std::uint64_t number);
@@ -125,10 +125,11 @@ private:
 
     bool leave_generation(std::uint64_t next);
     bool work_on(std::uint64_t number);
-    bool is_due(const Session& session, const FilmOrigin& origin);
-    bool add_point(const Session& session, const FilmOrigin& origin);
-    RunLabel label_of(const Session& session, const FilmOrigin& origin) const;
-    std::optional<LivePoint> measure(const Session& session, const FilmOrigin& origin, std::uint64_t picture) const;
+    bool is_due(const Session& session, FilmSlot slot, const FilmOrigin& origin);
+    bool add_point(const Session& session, FilmSlot slot, const FilmOrigin& origin);
+    RunLabel label_of(const Session& session, FilmSlot slot, const FilmOrigin& origin) const;
+    std::optional<LivePoint> measure(const Session& session, FilmSlot slot, const FilmOrigin& origin,
+                                     std::uint64_t picture) const;
     bool has_reference(std::uint64_t picture) const;
     ReferenceHalves reference_halves() const;
     std::optional<std::size_t> find(std::uint64_t number) const;

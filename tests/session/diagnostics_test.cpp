@@ -1,4 +1,5 @@
-// Where diagnostics was: tracing again finds as much as the passes counted, at the pixels that have it.
+// Diagnostics by pixel: tracing again finds as many invalid samples, escapes, lookup misses and clamped training samples as the
+// passes counted.
 #include <algorithm>
 
 #include "core/base/error.h"
@@ -26,24 +27,24 @@ SceneDescription overflowing_room() {
 
 Session session_after(const SceneDescription& scene, const RenderSettings& settings, std::uint32_t passes) {
     Session session = make_session(scene, settings);
-    while (session.passes() < passes) session.advance();
+    while (session.passes(slot_of(session)) < passes) session.advance(slot_of(session));
     return session;
 }
 
 }  // namespace
 
-TEST_CASE("Diagnostic: pixels of invalid samples are those that the film knows, by every method") {
+TEST_CASE("Diagnostics: pixels of invalid samples are those of the film, for every method") {
     const SceneDescription scene = overflowing_room();
     for (const MethodId method : {MethodId::Default, MethodId::Precomputed, MethodId::Reinforcement}) {
         RenderSettings settings = small_settings(scene, {method, false});
         settings.max_depth = 2;
         Session session = session_after(scene, settings, 3);
-        const Snapshot snapshot = session.snapshot();
+        const Snapshot snapshot = session.snapshot(slot_of(session));
         const std::uint64_t invalid = snapshot.counters.invalid_samples;
         INFO(info_of(method).name << ", " << invalid);
         REQUIRE(invalid > 100);
         REQUIRE(invalid < snapshot.counters.paths / 2);
-        const DiagnosticsMap map = find_diagnostics(session.diagnostics_input(), 2);
+        const DiagnosticsMap map = find_diagnostics(session.diagnostics_input(slot_of(session)), 2);
         CHECK(map.is_complete);
         CHECK(map.count(Diagnostic::Invalid) == invalid);
         std::size_t nothing_else = 0;
@@ -58,14 +59,14 @@ TEST_CASE("Diagnostic: pixels of invalid samples are those that the film knows, 
     }
 }
 
-TEST_CASE("Diagnostic: paths that are traced again escape as often as they did, to the path") {
+TEST_CASE("Diagnostics: paths that are traced again escape as often as they did, to the path") {
     const SceneDescription scene = shipped_scene("cornell");
     for (const bool next_event : {false, true})
         for (const MethodId method : {MethodId::Default, MethodId::Precomputed}) {
             const Session session = session_after(scene, small_settings(scene, {method, next_event}), 3);
-            const std::uint64_t escaped = session.summary().counters.path.escaped;
+            const std::uint64_t escaped = session.summary(slot_of(session)).counters.path.escaped;
             REQUIRE(escaped > 100);
-            DiagnosticsInput source = session.diagnostics_input();
+            DiagnosticsInput source = session.diagnostics_input(slot_of(session));
             CHECK_FALSE(source.is_closed);
             const DiagnosticsMap open = find_diagnostics(source, 1);
             CHECK(open.count(Diagnostic::Escaped) == 0);
@@ -81,12 +82,12 @@ TEST_CASE("Diagnostic: paths that are traced again escape as often as they did, 
         }
 }
 
-TEST_CASE("Diagnostic: a pass under way is part of the picture") {
+TEST_CASE("Diagnostics: a pass under way is part of the picture") {
     const SceneDescription scene = shipped_scene("cornell");
     Session session = session_after(scene, small_settings(scene, {MethodId::Default, false}, 256, 256), 1);
     StopFlag stop{true};
-    REQUIRE(session.advance(&stop) == Progress::Stopped);
-    DiagnosticsInput source = session.diagnostics_input();
+    REQUIRE(session.advance(slot_of(session), &stop) == Progress::Stopped);
+    DiagnosticsInput source = session.diagnostics_input(slot_of(session));
     source.next_pixel = 5000;  // as if it had come so far
     source.is_closed = true;
     source.counted[static_cast<std::size_t>(Diagnostic::Escaped)] = ~std::uint64_t{0};
@@ -101,21 +102,21 @@ TEST_CASE("Diagnostic: a pass under way is part of the picture") {
     CHECK(more_before > 100);
 }
 
-TEST_CASE("Diagnostic: points that no volume serves are found again") {
+TEST_CASE("Diagnostics: points that no volume serves are found again") {
     const SceneDescription scene = shipped_scene("cornell");
     RenderSettings settings = small_settings(scene, {MethodId::Precomputed, false});
     settings.field.volumes = 1;  // fewer than there are sides of surfaces
     const Session session = session_after(scene, settings, 3);
-    const std::uint64_t misses = session.summary().counters.path.method.lookup_misses;
+    const std::uint64_t misses = session.summary(slot_of(session)).counters.path.method.lookup_misses;
     REQUIRE(misses > 100);
-    const DiagnosticsMap map = find_diagnostics(session.diagnostics_input(), 2);
+    const DiagnosticsMap map = find_diagnostics(session.diagnostics_input(slot_of(session)), 2);
     CHECK(map.count(Diagnostic::LookupMiss) == misses);
 }
 
-TEST_CASE("Diagnostic: records are clamped where tables hold too much, and nowhere else") {
+TEST_CASE("Diagnostics: training samples are clamped where tables hold too much, and nowhere else") {
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}), 3);
-    DiagnosticsInput source = session.diagnostics_input();
+    DiagnosticsInput source = session.diagnostics_input(slot_of(session));
     CHECK(source.has_clamped_records);
     CHECK(source.has_moving_tables);
     CHECK(source.first_sample == 0);
@@ -131,10 +132,11 @@ TEST_CASE("Diagnostic: records are clamped where tables hold too much, and nowhe
     CHECK(find_diagnostics(source, 2).count(Diagnostic::ClampedRecord) > 1000);
 }
 
-TEST_CASE("Diagnostic: for records alone the search looks at sixteen samples, for what was counted at all") {
+TEST_CASE(
+    "Diagnostics: for clamped training samples alone the search traces sixteen samples, else as many as it takes") {
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}, 12, 8), 20);
-    DiagnosticsInput source = session.diagnostics_input();
+    DiagnosticsInput source = session.diagnostics_input(slot_of(session));
     ++source.counted[static_cast<std::size_t>(Diagnostic::ClampedRecord)];
     const DiagnosticsMap some = find_diagnostics(source, 1);
     CHECK(some.is_complete);
@@ -145,22 +147,23 @@ TEST_CASE("Diagnostic: for records alone the search looks at sixteen samples, fo
     CHECK(all.traced == 20);
 }
 
-TEST_CASE("Diagnostic: a view without paths has none, and so has a session that has not begun") {
+TEST_CASE("Diagnostics: a view without paths has none, and so has a session that has not begun") {
     const SceneDescription scene = shipped_scene("cornell");
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
-    const DiagnosticsMap empty = find_diagnostics(make_session(scene, settings).diagnostics_input(), 2);
+    const DiagnosticsMap empty =
+        find_diagnostics(make_session(scene, settings).diagnostics_input(slot_of(settings)), 2);
     CHECK(empty.is_complete);
     CHECK(empty.traced == 0);
     settings.view = View::Normal;
-    CHECK_THROWS_AS(make_session(scene, settings).diagnostics_input(), Error);
+    CHECK_THROWS_AS(make_session(scene, settings).diagnostics_input(slot_of(settings)), Error);
 }
 
-TEST_CASE("Diagnostic: the search can be stopped, and keeps what it found") {
+TEST_CASE("Diagnostics: the search can be stopped, and keeps what it found") {
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}), 5);
     StopFlag stop{false};
     double seen = 0.0;
-    DiagnosticsInput source = session.diagnostics_input();
+    DiagnosticsInput source = session.diagnostics_input(slot_of(session));
     ++source.counted[static_cast<std::size_t>(Diagnostic::ClampedRecord)];
     const DiagnosticsMap map = find_diagnostics(source, 2, &stop, [&](double share) {
         seen = share;
@@ -171,22 +174,23 @@ TEST_CASE("Diagnostic: the search can be stopped, and keeps what it found") {
     CHECK_FALSE(map.is_complete);
 }
 
-TEST_CASE("Diagnostic: a closed room is known as soon as a path has left, and not for a camera outside") {
+TEST_CASE("Diagnostics: a closed room is known as soon as a path has left, and not for a camera outside") {
     const SceneDescription scene = shipped_scene("cornell");
-    CHECK_FALSE(session_after(scene, small_settings(scene, {MethodId::Default, false}), 1).summary().is_closed);
+    const RenderSettings in_cornell = small_settings(scene, {MethodId::Default, false});
+    CHECK_FALSE(session_after(scene, in_cornell, 1).summary(slot_of(in_cornell)).is_closed);
     SceneDescription room = furnace_scene(0.5f, 0.5f);
     Session session = session_after(room, small_settings(room, {MethodId::Default, false}), 1);
-    CHECK(session.summary().counters.path.escaped == 0);
-    CHECK_FALSE(session.summary().is_closed);
+    CHECK(session.summary(slot_of(session)).counters.path.escaped == 0);
+    CHECK_FALSE(session.summary(slot_of(session)).is_closed);
     CameraDescription outside = room.camera;
     outside.eye = glm::vec3{0.0f, 0.0f, 9.0f};
     session.apply(EditCamera{outside});
-    session.advance();
-    CHECK(session.summary().counters.path.escaped > 0);
-    CHECK_FALSE(session.summary().is_closed);
+    session.advance(slot_of(session));
+    CHECK(session.summary(slot_of(session)).counters.path.escaped > 0);
+    CHECK_FALSE(session.summary(slot_of(session)).is_closed);
 }
 
-TEST_CASE("Diagnostic: clamped records of the passes count, and of a map those that made it") {
+TEST_CASE("Diagnostics: clamped training samples of the passes count, and those of the probes of a map") {
     Snapshot snapshot{};
     snapshot.slot.method = MethodId::Reinforcement;
     snapshot.counters.path.method.clamped_records = 3;
@@ -199,7 +203,7 @@ TEST_CASE("Diagnostic: clamped records of the passes count, and of a map those t
     CHECK(clamped() == 5);
 }
 
-TEST_CASE("Diagnostic: marks are rings around what they mark, of the first kind that is there, but not in a crowd") {
+TEST_CASE("Diagnostics: marks are rings around sparse pixels, in the color of the first kind at a pixel") {
     constexpr int kSide = 16;
     DiagnosticsMap map{.width = kSide, .height = kSide, .pixels = std::vector<DiagnosticsMap::Pixel>(kSide * kSide)};
     map.pixels[0] = {0, 1, 1, 0};
