@@ -46,7 +46,7 @@ void FieldFiles::hand_over(Session& session, const Options& options, Console& co
 
 void FieldFiles::save(const Session& session, const Options& options, Console& console) const {
     if (options.save_field.empty()) return;
-    LearnedField field = session.export_field();
+    LearnedField field = session.export_field(options.render.method);
     field.progress.precompute_seconds += earlier_precompute_seconds_;
     write_field(options.save_field, field);
     console.remark(fmt::format("{}: {}\n", options.save_field, summary_of(field)));

@@ -96,17 +96,18 @@ int run_inspect(const CommandLine& line, Console& console) {
 
     const RunOutcome outcome =
         is_trained(options) ? RunOutcome{} : run_passes(session, options, interrupt, console, Until::Learned);
-    const VolumeInspection volume = session.inspect_volume(index);
+    const FilmSlot slot = slot_of(options.render);
+    const VolumeInspection volume = session.inspect_volume(slot.method, index);
     save_inspection(options.output, volume,
                     {.scene = options.scene,
                      .scene_hash = scene_hash(*loaded.scene),
                      .method = std::string(info_of(options.render.method).name),
-                     .spp = session.passes(),
+                     .spp = session.passes(slot),
                      .seed = options.render.seed,
                      .partial = outcome.interrupted()});
     if (!options.stats_file.empty())
         write_text_file_atomic(options.stats_file,
-                               stats_json(session, session.snapshot(), options, outcome).dump(2) + "\n");
+                               stats_json(session, session.snapshot(slot), options, outcome).dump(2) + "\n");
     fields.save(session, options, console);
     report(volume, options, outcome.interrupted(), console);
     return outcome.interrupted() ? kExitInterrupted : 0;

@@ -51,16 +51,17 @@ std::optional<ErrorTarget> make_target(const Session& session, const Options& op
 
 void announce(const Session& session, Console& console) {
     const BackendInfo backend = session.backend();
+    const FilmSlot slot = slot_of(session.settings());
     console.log().detail(fmt::format("{} on {} ({} threads, rays by {})", backend.name, backend.device,
                                      backend.threads, backend.intersector));
-    console.log().detail(fmt::format("kernel {}", session.served_kernel().name));
+    console.log().detail(fmt::format("kernel {}", session.served_kernel(slot).name));
     console.event("start", {{"scene", session.scene().source.string()},
-                            {"method", info_of(session.settings().method).name},
-                            {"view", info_of(session.settings().view).name},
+                            {"method", info_of(slot.method).name},
+                            {"view", info_of(slot.view).name},
                             {"backend", backend.name},
                             {"width", session.settings().width},
                             {"height", session.settings().height},
-                            {"kernel", session.served_kernel().name}});
+                            {"kernel", session.served_kernel(slot).name}});
 }
 
 ImageMetadata metadata_of(const Session& session, const Snapshot& snapshot, const Json& stats,
@@ -151,19 +152,20 @@ int run_render(const CommandLine& line, Console& console) {
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
     announce(session, console);
+    const FilmSlot slot = slot_of(options.render);
 
     std::optional<ErrorTarget> target = make_target(session, options);
     ErrorTarget* const aim = target ? &*target : nullptr;
     const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Rendered, aim);
-    if (aim != nullptr) aim->measure_last(session);
-    const Snapshot snapshot = session.snapshot();
+    if (aim != nullptr) aim->measure_last(session, slot);
+    const Snapshot snapshot = session.snapshot(slot);
     Json stats = stats_json(session, snapshot, options, outcome, aim);
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
     save_picture(options.output, snapshot, options.display, metadata);
     const bool is_searched =
         options.diagnostics_file.empty() ||
-        write_diagnostics(diagnostics_input(session), snapshot, options, metadata, interrupt, console, stats);
+        write_diagnostics(diagnostics_input(session, slot), snapshot, options, metadata, interrupt, console, stats);
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, console);

@@ -14,12 +14,13 @@ class Passes {
 public:
     Passes(Session& session, const Options& options, const InterruptGuard& interrupt, Until until,
            ErrorTarget* target)
-        : session_(session), options_(options), interrupt_(interrupt), until_(until), target_(target) {}
+        : session_(session), slot_(slot_of(options.render)), options_(options), interrupt_(interrupt), until_(until),
+          target_(target) {}
 
     RunOutcome run(ProgressDisplay& progress) {
         EndedBy end = limit_met(false);
         while (end == EndedBy::Nothing) {
-            const Progress done = session_.advance(interrupt_.flag());
+            const Progress done = session_.advance(slot_, interrupt_.flag());
             if (done == Progress::Stopped) return {EndedBy::Interruption, watch_.seconds()};
             end = limit_met(done == Progress::Rendered);
             if (end == EndedBy::Nothing && interrupt_.raised()) end = EndedBy::Interruption;
@@ -30,19 +31,24 @@ public:
 
 private:
     EndedBy limit_met(bool has_new_sample) const {
-        if (until_ == Until::Learned && session_.settings().method == MethodId::Precomputed)
-            return session_.field_status() && session_.field_status()->precomputed_share >= 1.0 ? EndedBy::Learned
-                                                                                                : EndedBy::Nothing;
-        if (session_.passes() == 0) return EndedBy::Nothing;
-        if (has_new_sample && target_ != nullptr && target_->is_met(session_)) return EndedBy::TargetError;
-        if (session_.passes() >= options_.spp_limit()) return EndedBy::Spp;
+        if (until_ == Until::Learned && slot_.method == MethodId::Precomputed)
+            return precomputed_share().value_or(0.0) >= 1.0 ? EndedBy::Learned : EndedBy::Nothing;
+        if (session_.passes(slot_) == 0) return EndedBy::Nothing;
+        if (has_new_sample && target_ != nullptr && target_->is_met(session_, slot_)) return EndedBy::TargetError;
+        if (session_.passes(slot_) >= options_.spp_limit()) return EndedBy::Spp;
         const auto limit = options_.time_limit_seconds;
         return limit && watch_.seconds() >= *limit ? EndedBy::TimeLimit : EndedBy::Nothing;
     }
 
+    /// Empty before there are volumes.
+    std::optional<double> precomputed_share() const {
+        const std::optional<FieldStatus> field = session_.field_status(slot_.method);
+        return field ? std::optional(field->precomputed_share) : std::nullopt;
+    }
+
     /// Share of the limit that is nearest.
     double share_done() const {
-        double share = static_cast<double>(session_.passes()) / options_.spp_limit();
+        double share = static_cast<double>(session_.passes(slot_)) / options_.spp_limit();
         if (options_.time_limit_seconds) share = std::max(share, watch_.seconds() / *options_.time_limit_seconds);
         if (target_ != nullptr) share = std::max(share, target_->share_done());
         return std::min(share, 1.0);
@@ -50,8 +56,8 @@ private:
 
     std::string limit_text() const {
         const bool has_limit = options_.spp || !(options_.time_limit_seconds || options_.target_error);
-        std::string text = has_limit ? fmt::format("{}/{} spp", session_.passes(), options_.spp_limit())
-                                     : fmt::format("{} spp", session_.passes());
+        std::string text = has_limit ? fmt::format("{}/{} spp", session_.passes(slot_), options_.spp_limit())
+                                     : fmt::format("{} spp", session_.passes(slot_));
         text += fmt::format(", {}", duration_text(watch_.seconds()));
         if (target_ != nullptr && target_->measured())
             text += fmt::format(", {} {:.2g} of {:.2g}", target_->word(), *target_->measured(), target_->target());
@@ -59,16 +65,18 @@ private:
     }
 
     ProgressState state() const {
-        const double precomputed = session_.field_status() ? session_.field_status()->precomputed_share : 1.0;
-        if (precomputed < 1.0 && session_.passes() == 0)
+        const double precomputed = precomputed_share().value_or(1.0);
+        if (precomputed < 1.0 && session_.passes(slot_) == 0)
             return {.activity = "precomputing",
                     .share = precomputed,
                     .spp = 0,
                     .detail = fmt::format("{}", duration_text(watch_.seconds()))};
-        return {.activity = "rendering", .share = share_done(), .spp = session_.passes(), .detail = limit_text()};
+        return {
+            .activity = "rendering", .share = share_done(), .spp = session_.passes(slot_), .detail = limit_text()};
     }
 
     Session& session_;
+    const FilmSlot slot_;
     const Options& options_;
     const InterruptGuard& interrupt_;
     Until until_;

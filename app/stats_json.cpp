@@ -58,7 +58,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
                 const ErrorTarget* target) {
     const RenderSettings& settings = session.settings();
     const BackendInfo backend = session.backend();
-    const FeatureSet needed = session.needed_features();
+    const FeatureSet needed = session.needed_features(snapshot.slot);
     Json stats{{"schema", "pathlight.stats/1"},
                {"version", PL_VERSION},
                {"scene", options.scene},
@@ -83,7 +83,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
     stats["field"] = field_json(snapshot.field);
     stats["effects_needed"] = effect_names(needed);
     if (settings.forced_effects != FeatureSet{}) stats["effects_forced"] = effect_names(settings.forced_effects);
-    stats["effects_compiled"] = effect_names(session.served_kernel().compiled);
+    stats["effects_compiled"] = effect_names(session.served_kernel(snapshot.slot).compiled);
     stats["kernel"] = snapshot.kernel;
     return stats;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/published_frame.h"
+#include "ui/worker/published_frame.h"
 
 namespace pl {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "ui/published_frame.h"
+#include "ui/worker/published_frame.h"
 
 namespace pl {
 

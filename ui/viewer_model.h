@@ -17,7 +17,7 @@
 #include "ui/numbered_names.h"
 #include "ui/overlays/direction_disc.h"
 #include "ui/plot/plot_drag.h"
-#include "ui/render_worker.h"
+#include "ui/worker/render_worker.h"
 #include "ui/self_test_run.h"
 #include "ui/viewer.h"
 

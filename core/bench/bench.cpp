@@ -20,9 +20,9 @@ std::string utc_date() {
 }
 
 /// Share of a run that is over, by whichever limit is nearer.
-double share_done(const Session& session, const RunLimits& limits) {
-    double share = static_cast<double>(session.passes()) / limits.spp;
-    if (limits.seconds) share = std::max(share, charged_seconds(session.clocks()) / *limits.seconds);
+double share_done(const Session& session, FilmSlot slot, const RunLimits& limits) {
+    double share = static_cast<double>(session.passes(slot)) / limits.spp;
+    if (limits.seconds) share = std::max(share, charged_seconds(session.clocks(slot)) / *limits.seconds);
     return std::min(share, 1.0);
 }
 
@@ -126,12 +126,12 @@ bool Bench::make_runs() {
     save_reference_pictures();
     const std::vector<PlannedRun> runs = remaining_runs();
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        const auto show = [&](const Session& session) {
+        const auto show = [&](const Session& session, FilmSlot slot) {
             if (!observer_.show) return;
-            const double share = share_done(session, settings_.plan.scenes[runs[i].scene].limits);
+            const double share = share_done(session, slot, settings_.plan.scenes[runs[i].scene].limits);
             observer_.show({.activity = "bench",
                             .share = (static_cast<double>(i) + share) / static_cast<double>(runs.size()),
-                            .spp = session.passes(),
+                            .spp = session.passes(slot),
                             .detail = fmt::format("run {} of {}: {}, seed {}{}", i + 1, runs.size(),
                                                   settings_.plan.cell_of(runs[i]).title(), runs[i].seed,
                                                   runs[i].warm_up ? " (warm-up)" : "")});
@@ -143,7 +143,7 @@ bool Bench::make_runs() {
 
 /// Renders and measures; empty if stopped. Pictures are kept of the first seed.
 std::optional<RunSeries> Bench::record(const BenchRun& run, const PlannedRun& planned,
-                                       const std::function<void(const Session&)>& on_work) const {
+                                       const OnWork& on_work) const {
     const BenchScene& scene = settings_.plan.scenes[planned.scene];
     RenderSettings settings = scene.settings;
     settings.method = planned.method;
@@ -155,10 +155,10 @@ std::optional<RunSeries> Bench::record(const BenchRun& run, const PlannedRun& pl
             folder_.save_picture(run.cell, point,
                                  {.width = snapshot.width, .height = snapshot.height, .pixels = snapshot.pixels});
         };
-    return record_run(session, scene.limits, scene.reference->pixels(), observer_.stop, observer);
+    return record_run(session, slot_of(settings), scene.limits, scene.reference->pixels(), observer_.stop, observer);
 }
 
-bool Bench::make_run(const PlannedRun& planned, const std::function<void(const Session&)>& on_work) {
+bool Bench::make_run(const PlannedRun& planned, const OnWork& on_work) {
     const BackendInfo backend = settings_.plan.backends.at(planned.backend)->info();
     BenchRun run{.cell = settings_.plan.cell_of(planned),
                  .seed = planned.seed,

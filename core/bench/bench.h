@@ -46,9 +46,10 @@ private:
     void save_reference_pictures() const;
     std::vector<PlannedRun> remaining_runs() const;
     bool make_runs();
+    using OnWork = std::function<void(const Session&, FilmSlot)>;
     std::optional<RunSeries> record(const BenchRun& run, const PlannedRun& planned,
-                                    const std::function<void(const Session&)>& on_work) const;
-    bool make_run(const PlannedRun& planned, const std::function<void(const Session&)>& on_work);
+                                    const OnWork& on_work) const;
+    bool make_run(const PlannedRun& planned, const OnWork& on_work);
     bool is_stopped() const { return observer_.stop != nullptr && *observer_.stop; }
 
     BenchSettings settings_;

@@ -23,10 +23,11 @@ struct Candidate {
     std::vector<double> seconds{};  ///< of each turn, charged
 
     double turn() {
-        const double before = session.clocks().render;
-        const std::uint32_t target = session.passes() + kPassesPerTurn;
-        while (session.passes() < target) session.advance();
-        return session.clocks().render - before;
+        const FilmSlot slot = slot_of(session.settings());
+        const double before = session.clocks(slot).render;
+        const std::uint32_t target = session.passes(slot) + kPassesPerTurn;
+        while (session.passes(slot) < target) session.advance(slot);
+        return session.clocks(slot).render - before;
     }
 };
 
@@ -70,14 +71,15 @@ private:
         const auto make = [&] { return Session(make_(cell.backend), scene.description, settings); };
         std::vector<Candidate> candidates;
         candidates.push_back({.set = {}, .session = make()});
-        const FeatureSet needed = candidates.front().session.needed_features();
-        candidates.front().set = candidates.front().session.served_kernel().compiled;
+        const FilmSlot slot = slot_of(settings);
+        const FeatureSet needed = candidates.front().session.needed_features(slot);
+        candidates.front().set = candidates.front().session.served_kernel(slot).compiled;
         for (const FeatureSet set : kCompiledSets) {
             if (!set.covers(needed) || set == candidates.front().set) continue;
             settings.forced_effects = set;
             Candidate larger{.set = set, .session = make()};
             // Some methods are compiled for fewer feature sets.
-            if (larger.session.served_kernel().compiled == set) candidates.push_back(std::move(larger));
+            if (larger.session.served_kernel(slot).compiled == set) candidates.push_back(std::move(larger));
         }
         return candidates;
     }
@@ -86,12 +88,12 @@ private:
         std::vector<double> ratios;
         for (std::size_t i = 0; i < candidate.seconds.size(); ++i)
             ratios.push_back(candidate.seconds[i] / needed.seconds[i]);
-        const Snapshot end = candidate.session.summary();
+        const Snapshot end = candidate.session.summary(slot_of(candidate.session.settings()));
         const double segments_per_turn =
             static_cast<double>(end.counters.path.segments) / static_cast<double>(candidate.seconds.size() + 1);
         const double fastest = *std::min_element(candidate.seconds.begin(), candidate.seconds.end());
         costs_.push_back({.cell = plan_.cell_of(cell),
-                          .kernel = candidate.session.served_kernel().name,
+                          .kernel = candidate.session.served_kernel(slot_of(candidate.session.settings())).name,
                           .effects = effect_names(candidate.set),
                           .is_needed = &candidate == &needed,
                           .ratio = geometric_interval(ratios),

@@ -8,32 +8,33 @@
 
 namespace pl {
 
-bool ErrorTarget::is_met(const Session& session) {
-    const std::uint32_t passes = session.passes();
+bool ErrorTarget::is_met(const Session& session, FilmSlot slot) {
+    const std::uint32_t passes = session.passes(slot);
     const std::uint32_t fewest = has_reference() ? 1 : kFewestSamples;
-    if (passes < std::max(next_passes_, fewest) || !budget_.allows(charged_seconds(session.clocks()))) return false;
+    if (passes < std::max(next_passes_, fewest) || !budget_.allows(charged_seconds(session.clocks(slot))))
+        return false;
     next_passes_ = passes + std::max(passes / 10, 1u);
-    measure(session);
+    measure(session, slot);
     return is_low_enough();
 }
 
-void ErrorTarget::measure_last(const Session& session) {
-    if (session.passes() != measured_passes_) measure(session);
+void ErrorTarget::measure_last(const Session& session, FilmSlot slot) {
+    if (session.passes(slot) != measured_passes_) measure(session, slot);
 }
 
 double ErrorTarget::share_done() const {
     return measured_ && *measured_ > 0.0 ? std::min(target_ / *measured_, 1.0) : 0.0;
 }
 
-void ErrorTarget::measure(const Session& session) {
+void ErrorTarget::measure(const Session& session, FilmSlot slot) {
     const Stopwatch watch;
     const int threads = measuring_threads(session);
     measured_ = std::nullopt;
-    measured_passes_ = session.passes();
+    measured_passes_ = session.passes(slot);
     if (reference_ != nullptr) {
-        const Metrics metrics = measure_error(session.snapshot().pixels, reference_->pixels(), threads);
+        const Metrics metrics = measure_error(session.snapshot(slot).pixels, reference_->pixels(), threads);
         if (metrics.pixels > 0) measured_ = metrics.relmse;
-    } else if (const Snapshot snapshot = session.snapshot_with_halves(); snapshot.halves.are_both_there()) {
+    } else if (const Snapshot snapshot = session.snapshot_with_halves(slot); snapshot.halves.are_both_there()) {
         const Noise noise = estimate_noise(halves_of(snapshot.halves), snapshot.width, threads);
         if (noise.pixels > 0) measured_ = noise.relmse;
     }

@@ -20,9 +20,9 @@ public:
 
     /// To be called after each pass. Noise is not trusted below kFewestSamples: a picture whose paths have not found the
     /// light yet is black and without noise.
-    bool is_met(const Session& session);
+    bool is_met(const Session& session, FilmSlot slot);
     /// Measures the finished picture, whatever the budget.
-    void measure_last(const Session& session);
+    void measure_last(const Session& session, FilmSlot slot);
     /// By the last measurement.
     bool is_low_enough() const { return measured_ && *measured_ <= target_; }
 
@@ -38,7 +38,7 @@ public:
     static constexpr std::uint32_t kFewestSamples = 16;
 
 private:
-    void measure(const Session& session);
+    void measure(const Session& session, FilmSlot slot);
 
     double target_;
     std::shared_ptr<const Reference> reference_;

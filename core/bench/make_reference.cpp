@@ -67,14 +67,15 @@ private:
     void render_part(std::size_t index) {
         ReferenceHalf& half = reference_.halves[index];
         session_.apply(EditSeed{part_seed(seed_, index, half.parts)});
+        const FilmSlot slot = slot_of(session_.settings());
         const std::uint32_t wanted = plan_.spp - half.spp;
         const Stopwatch watch;
         do {
-            session_.advance();
-            show(half.spp + session_.passes(), index);
-        } while (session_.passes() == 0 ||
-                 (session_.passes() < wanted && !is_stopped() && watch.seconds() < part_seconds()));
-        add(half, session_.snapshot(), watch.seconds());
+            session_.advance(slot);
+            show(half.spp + session_.passes(slot), index);
+        } while (session_.passes(slot) == 0 ||
+                 (session_.passes(slot) < wanted && !is_stopped() && watch.seconds() < part_seconds()));
+        add(half, session_.snapshot(slot), watch.seconds());
     }
 
     static void add(ReferenceHalf& half, const Snapshot& part, double seconds) {

@@ -89,8 +89,8 @@ private:
 
 }  // namespace
 
-DiagnosticsInput diagnostics_input(const Session& session) {
-    return {.passes = session.pass_replay(), .counted = counted_diagnostics(session.summary())};
+DiagnosticsInput diagnostics_input(const Session& session, FilmSlot slot) {
+    return {.passes = session.pass_replay(slot), .counted = counted_diagnostics(session.summary(slot))};
 }
 
 DiagnosticsMap find_diagnostics(DiagnosticsInput source, int threads, const StopFlag* stop,

@@ -15,7 +15,7 @@ struct DiagnosticsInput {
 };
 
 /// Of the session's current picture. Throws Error(Usage) if its view shows no paths.
-DiagnosticsInput diagnostics_input(const Session& session);
+DiagnosticsInput diagnostics_input(const Session& session, FilmSlot slot);
 
 /// Invalid samples come from the film; for the other kinds the passes are traced again, newest first, by replay_path().
 /// Ends when every counted occurrence is located (clamped training samples: after 16 samples per pixel, since the field

@@ -72,13 +72,13 @@ void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
     update_current();
 }
 
-bool LiveRuns::observe(const Session& session) {
-    const FilmOrigin origin = session.film_origin();
+bool LiveRuns::observe(const Session& session, FilmSlot slot) {
+    const FilmOrigin origin = session.film_origin(slot);
     if (origin.number == 0) return false;
     bool changed = origin.generation != generation_ && leave_generation(origin.generation);
-    const bool is_measured = session.settings().view == View::Beauty;
+    const bool is_measured = slot.view == View::Beauty;
     changed = work_on(is_measured ? origin.number : 0) || changed;
-    changed = (is_measured && is_due(session, origin) && add_point(session, origin)) || changed;
+    changed = (is_measured && is_due(session, slot, origin) && add_point(session, slot, origin)) || changed;
     // Points get rare, and viewers show the share of measuring in the charged time.
     const double told = current_->charged_seconds;
     changed = changed || (told > 0.0 && charged_seconds_ > kRenewedAfter * told);
@@ -109,28 +109,28 @@ bool LiveRuns::work_on(std::uint64_t number) {
     return changed;
 }
 
-bool LiveRuns::is_due(const Session& session, const FilmOrigin& origin) {
+bool LiveRuns::is_due(const Session& session, FilmSlot slot, const FilmOrigin& origin) {
     Track& track = tracks_[origin.number];
-    const double charged = charged_seconds(own_clocks(session.clocks(), origin));
+    const double charged = charged_seconds(own_clocks(session.clocks(slot), origin));
     charged_seconds_ += charged - track.charged_seconds;
     track.charged_seconds = charged;
-    if (session.passes() == track.passes) return false;  // a part of a pass
-    track.passes = session.passes();
-    const double passing = passing_seconds(session.clocks());
+    if (session.passes(slot) == track.passes) return false;  // a part of a pass
+    track.passes = session.passes(slot);
+    const double passing = passing_seconds(session.clocks(slot));
     const auto pixels = static_cast<double>(film_pixels(session.settings().width, session.settings().height));
     budget_.guess((reference_ ? 2.0 : 1.0) * allowance_.guessed_seconds_per_pixel * pixels /
                   measuring_threads(session));
-    if (session.passes() < 2 || passing < track.next_seconds || !budget_.allows(charged_seconds_)) return false;
+    if (session.passes(slot) < 2 || passing < track.next_seconds || !budget_.allows(charged_seconds_)) return false;
     track.next_seconds = passing * kPointRatio;
     return true;
 }
 
-bool LiveRuns::add_point(const Session& session, const FilmOrigin& origin) {
+bool LiveRuns::add_point(const Session& session, FilmSlot slot, const FilmOrigin& origin) {
     const Stopwatch watch;
     const std::optional<std::size_t> known = find(origin.number);
-    RunLabel label = known ? runs_[*known]->label : label_of(session, origin);
-    if (known && details_) label.details = details_(session);
-    std::optional<LivePoint> point = measure(session, origin, label.picture);
+    RunLabel label = known ? runs_[*known]->label : label_of(session, slot, origin);
+    if (known && details_) label.details = details_(session, slot);
+    std::optional<LivePoint> point = measure(session, slot, origin, label.picture);
     if (point) {
         if (!known)
             runs_.push_back(std::make_shared<const LiveRun>(
@@ -146,21 +146,21 @@ bool LiveRuns::add_point(const Session& session, const FilmOrigin& origin) {
     return point.has_value();
 }
 
-RunLabel LiveRuns::label_of(const Session& session, const FilmOrigin& origin) const {
-    return {.method = session.settings().method,
+RunLabel LiveRuns::label_of(const Session& session, FilmSlot slot, const FilmOrigin& origin) const {
+    return {.method = slot.method,
             .backend = session.backend().name,
             .next_event = session.settings().next_event,
             .warm = origin.warm,
             .seed = session.settings().seed,
             .picture = picture_key(session.scene(), session.settings()),
-            .details = details_ ? details_(session) : std::string()};
+            .details = details_ ? details_(session, slot) : std::string()};
 }
 
 /// Empty if a half holds no valid sample at all.
-std::optional<LivePoint> LiveRuns::measure(const Session& session, const FilmOrigin& origin,
+std::optional<LivePoint> LiveRuns::measure(const Session& session, FilmSlot slot, const FilmOrigin& origin,
                                            std::uint64_t picture) const {
     const int threads = measuring_threads(session);
-    const Snapshot snapshot = session.snapshot_with_halves();
+    const Snapshot snapshot = session.snapshot_with_halves(slot);
     if (!snapshot.halves.are_both_there()) return std::nullopt;
     const PictureHalves halves = halves_of(snapshot.halves);
     const Noise noise = estimate_noise(halves, snapshot.width, threads);

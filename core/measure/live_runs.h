@@ -20,7 +20,7 @@ class LiveRuns {
 public:
     /// Words for settings of a session besides those in RunLabel; called at each point, because some may change while
     /// a picture stays.
-    using Details = std::function<std::string(const Session&)>;
+    using Details = std::function<std::string(const Session&, FilmSlot)>;
 
     /// Time for measuring.
     struct Allowance {
@@ -44,7 +44,7 @@ public:
     /// a twelfth of a decade of rendering and learning behind the last point, if the film has two halves and
     /// measuring keeps within its share of the time charged to all runs together. A run whose film is cleared before
     /// its second point is forgotten: such runs are left over from camera moves.
-    bool observe(const Session& session);
+    bool observe(const Session& session, FilmSlot slot);
 
     /// If the session renders the run, it begins anew with its next point.
     void forget(std::uint64_t number);
@@ -62,10 +62,11 @@ private:
 
     bool leave_generation(std::uint64_t next);
     bool work_on(std::uint64_t number);
-    bool is_due(const Session& session, const FilmOrigin& origin);
-    bool add_point(const Session& session, const FilmOrigin& origin);
-    RunLabel label_of(const Session& session, const FilmOrigin& origin) const;
-    std::optional<LivePoint> measure(const Session& session, const FilmOrigin& origin, std::uint64_t picture) const;
+    bool is_due(const Session& session, FilmSlot slot, const FilmOrigin& origin);
+    bool add_point(const Session& session, FilmSlot slot, const FilmOrigin& origin);
+    RunLabel label_of(const Session& session, FilmSlot slot, const FilmOrigin& origin) const;
+    std::optional<LivePoint> measure(const Session& session, FilmSlot slot, const FilmOrigin& origin,
+                                     std::uint64_t picture) const;
     bool has_reference(std::uint64_t picture) const;
     ReferenceHalves reference_halves() const;
     std::optional<std::size_t> find(std::uint64_t number) const;

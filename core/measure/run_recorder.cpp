@@ -14,16 +14,16 @@ public:
         : limits_(limits), reference_(reference), observer_(observer), budget_(limits.measure_share) {}
 
     /// After every pass; true when the run is over.
-    bool observe(const Session& session) {
-        const std::uint32_t spp = session.passes();
-        const double charged = charged_seconds(session.clocks());
+    bool observe(const Session& session, FilmSlot slot) {
+        const std::uint32_t spp = session.passes(slot);
+        const double charged = charged_seconds(session.clocks(slot));
         bool over = spp >= limits_.spp || (limits_.seconds && charged >= *limits_.seconds);
         const bool due = spp >= next_;
         if (due) next_ = next_ladder_step(spp);
         // The budget must cover the last point besides this one.
         if (!over && !(due && budget_.allows(charged, 2))) return false;
         const Stopwatch watch;
-        const Snapshot snapshot = session.snapshot_with_halves();
+        const Snapshot snapshot = session.snapshot_with_halves(slot);
         const RunPoint& point = series_.points.emplace_back(measure(snapshot, measuring_threads(session)));
         over = over || (limits_.target_error && point.metrics.relmse <= *limits_.target_error);
         budget_.spend(watch.seconds());
@@ -94,14 +94,15 @@ std::uint32_t next_ladder_step(std::uint32_t spp) {
     return step;
 }
 
-std::optional<RunSeries> record_run(Session& session, const RunLimits& limits, const ReferenceHalves& reference,
-                                    const StopFlag* stop, const RunObserver& observer) {
+std::optional<RunSeries> record_run(Session& session, FilmSlot slot, const RunLimits& limits,
+                                    const ReferenceHalves& reference, const StopFlag* stop,
+                                    const RunObserver& observer) {
     RunRecorder recorder(limits, reference, observer);
     for (;;) {
-        const Progress progress = session.advance(stop);
+        const Progress progress = session.advance(slot, stop);
         if (progress == Progress::Stopped || (stop != nullptr && *stop)) return std::nullopt;
-        if (progress == Progress::Rendered && recorder.observe(session)) return recorder.take();
-        if (observer.on_work) observer.on_work(session);
+        if (progress == Progress::Rendered && recorder.observe(session, slot)) return recorder.take();
+        if (observer.on_work) observer.on_work(session, slot);
     }
 }
 

@@ -58,12 +58,13 @@ struct RunObserver {
     /// After each measured point, with the picture. Its time is not charged either.
     std::function<void(const RunPoint&, const Snapshot&)> on_point{};
     /// After each piece of work.
-    std::function<void(const Session&)> on_work{};
+    std::function<void(const Session&, FilmSlot)> on_work{};
 };
 
 /// Renders in a fresh session until a limit is reached. Empty if `stop` is raised before: half a run measures
 /// nothing. Throws Error(Input) unless the reference has the size of the session.
-std::optional<RunSeries> record_run(Session& session, const RunLimits& limits, const ReferenceHalves& reference,
-                                    const StopFlag* stop = nullptr, const RunObserver& observer = {});
+std::optional<RunSeries> record_run(Session& session, FilmSlot slot, const RunLimits& limits,
+                                    const ReferenceHalves& reference, const StopFlag* stop = nullptr,
+                                    const RunObserver& observer = {});
 
 }  // namespace pl

@@ -63,9 +63,10 @@ private:
     /// The picture after so many samples per pixel; empty when stopped.
     Snapshot render(const SceneDescription& scene, const RenderSettings& settings, std::uint32_t passes) {
         Session session(backend_, std::make_shared<const SceneDescription>(scene), settings);
-        while (session.passes() < passes)
-            if (session.advance(stop_) == Progress::Stopped) return {};
-        return session.snapshot();
+        const FilmSlot slot = slot_of(settings);
+        while (session.passes(slot) < passes)
+            if (session.advance(slot, stop_) == Progress::Stopped) return {};
+        return session.snapshot(slot);
     }
 
     /// Runs one check unless stopped. `measure` fills in all members but name, criterion and time.

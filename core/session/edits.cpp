@@ -6,8 +6,6 @@ namespace {
 struct Table {
     Invalidation operator()(const EditCamera&) const { return {.films = true}; }
     Invalidation operator()(const EditSize&) const { return {.films = true}; }
-    Invalidation operator()(const EditMethod&) const { return {}; }
-    Invalidation operator()(const EditView&) const { return {}; }
     Invalidation operator()(const EditSeed&) const { return {.films = true, .tables = true}; }
     Invalidation operator()(const EditEstimator&) const { return {.films = true, .tables = true}; }
     Invalidation operator()(const EditMixture&) const { return {.films = true}; }
@@ -15,13 +13,13 @@ struct Table {
     Invalidation operator()(const EditScene&) const {
         return {.films = true, .tables = true, .volumes = true, .scene = true};
     }
-    // Volumes go where same_placement() says so, which is about the scene and not about the edit.
+    // Volumes: where same_placement() asks for it, which depends on the scene and not on the edit.
     Invalidation operator()(const EditMaterial&) const { return {.films = true, .tables = true}; }
     Invalidation operator()(const EditEffects&) const { return {}; }
     Invalidation operator()(const EditBackend& edit) const { return {.tables = edit.abandon_old}; }
     Invalidation operator()(const EditRestart&) const { return {.films = true}; }
     Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }
-    // What it replaces it clears itself, before what it brings is there.
+    // Tables and volumes it replaces itself: to clear them here would clear the new ones.
     Invalidation operator()(const EditLearned&) const { return {.films = true}; }
 };
 

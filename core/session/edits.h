@@ -1,4 +1,4 @@
-// What a person may change while a session runs, and the one table that says what each change clears.
+// The changes that a running session accepts, and the one table of what each of them clears.
 #pragma once
 
 #include <memory>
@@ -18,12 +18,6 @@ struct EditSize {
     int width;
     int height;
 };
-struct EditMethod {
-    MethodId method;
-};
-struct EditView {
-    View view;
-};
 struct EditSeed {
     std::uint64_t seed;
 };
@@ -31,7 +25,7 @@ struct EditEstimator {
     int max_depth;
     bool next_event;
     RouletteRule roulette = RouletteRule::Spare;
-};  ///< what paths may do
+};  ///< length, light sampling and roulette of paths
 struct EditMixture {
     MixtureSettings mixture;
 };
@@ -41,37 +35,36 @@ struct EditField {
 struct EditScene {
     std::shared_ptr<const SceneDescription> scene;
 };
-/// Another material in the place of one, as a whole. The hierarchy stays. Volumes that it moves are placed anew: then this
-/// clears them too, see same_placement().
+/// Replaces one material as a whole. The hierarchy stays. Clears the placement, too, where volumes would move: see
+/// same_placement().
 struct EditMaterial {
     std::uint32_t index;
     MaterialDescription material;
 };
-/// Effects that kernels must be able to do, needed or not: no picture changes by it.
+/// Effects that kernels have to cover, needed or not. Changes no picture.
 struct EditEffects {
     FeatureSet forced;
 };
-/// Another back end goes on with what was learned. The pictures of the old one are parked with it, for the way back.
+/// Another back end goes on with the learned fields. The films of the old one are parked with it, for its return.
 struct EditBackend {
     std::shared_ptr<RenderBackend> backend;
-    bool abandon_old = false;  ///< the old one is broken: what it held is lost
-    bool forget_old = false;   ///< the old one has failed: what it learned moves, but it is not kept for the way back
+    bool abandon_old = false;  ///< the old one is broken: its tables are lost
+    bool forget_old = false;   ///< the old one has failed: its tables move, but it is not parked
 };
-struct EditRestart {};  ///< clear the pictures, keep what was learned
-struct EditForget {};   ///< clear the pictures and what was learned
-/// Go on from what was learned elsewhere, with its method. It empties the tables of the others and replaces the volumes.
+struct EditRestart {};  ///< clear the films, keep the fields
+struct EditForget {};   ///< clear films and fields
+/// Go on from a field that was learned elsewhere. Empties the tables of other methods and replaces the volumes.
 struct EditLearned {
     std::shared_ptr<const LearnedField> field;
 };
 
-using SessionEdit =
-    std::variant<EditCamera, EditSize, EditMethod, EditView, EditSeed, EditEstimator, EditMixture, EditField,
-                 EditScene, EditMaterial, EditEffects, EditBackend, EditRestart, EditForget, EditLearned>;
+using SessionEdit = std::variant<EditCamera, EditSize, EditSeed, EditEstimator, EditMixture, EditField, EditScene,
+                                 EditMaterial, EditEffects, EditBackend, EditRestart, EditForget, EditLearned>;
 
-/// What has to go when an edit is applied. Display settings are not here: they are no part of a session.
+/// The parts of a session that an edit clears. Display settings clear nothing: they are no part of a session.
 struct Invalidation {
-    bool films = false;    ///< all accumulated pictures
-    bool tables = false;   ///< everything learned
+    bool films = false;    ///< all films
+    bool tables = false;   ///< the learned tables of all methods
     bool volumes = false;  ///< placement of the volumes
     bool scene = false;    ///< packed scene and hierarchy
 

@@ -1,4 +1,4 @@
-// The films that a back end keeps, by method and view, in memory of its own kind.
+// The films that a back end keeps, by method and view, in its own kind of memory.
 #pragma once
 
 #include <array>

@@ -22,7 +22,7 @@ KernelRange range_of(const RenderSettings& settings) {
 FeatureSet needed_features(const HostScene& scene, const RenderSettings& settings) {
     const FeatureSet needed = needed_effects(scene).with(needed_effects(settings.camera));
     if (settings.next_event) return needed.with(Feature::NextEventEstimation);
-    // Who samples no lights does not choose among them.
+    // Without light sampling there is no choice among many lights.
     return settings.view == View::Direct ? needed : needed.without(Feature::ManyLights);
 }
 

@@ -1,4 +1,4 @@
-// Which of the compiled kernels serves a scene and its settings.
+// The compiled kernel that serves a scene and its settings.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace pl {
 
-/// Effects that a scene, its camera and the settings call for.
+/// Effects that a scene, its camera and the settings need.
 FeatureSet needed_features(const HostScene& scene, const RenderSettings& settings);
 
-/// What passes run with, whose kernels cover the needed effects and the forced ones.
+/// The kernel of a film's passes: it covers the needed effects and the forced ones.
 struct ServedKernel {
     FeatureSet served{};    ///< needed and forced
-    FeatureSet compiled{};  ///< what the kernel can do: the smallest compiled set of its range that covers them
+    FeatureSet compiled{};  ///< effects of the kernel: the smallest compiled set of its range that covers them
     std::string name{};     ///< "cpu/reinforcement/next-event-estimation", as shown to people
 };
 ServedKernel served_kernel(std::string_view backend, const HostScene& scene, const RenderSettings& settings);
-/// The same where it is known what is needed.
+/// The same for needed effects that are known.
 ServedKernel served_kernel(std::string_view backend, FeatureSet needed, const RenderSettings& settings);
 
 }  // namespace pl

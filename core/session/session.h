@@ -1,162 +1,142 @@
 // A session: settings, scene, back end, films and learned fields. Viewer, command line, tests and benchmarks drive
-// the same one. Not thread safe: one thread owns it.
+// the same one. It has no current film: every call names the method and view it is about. Not thread safe: one thread
+// owns it.
 #pragma once
 
 #include <array>
 #include <memory>
 
-#include "core/scene/enclosure.h"
 #include "core/session/backend.h"
 #include "core/session/edits.h"
 #include "core/session/learned_field.h"
 #include "core/session/pass_replay.h"
+#include "core/session/placement.h"
 #include "core/session/served_kernel.h"
+#include "core/session/session_films.h"
+#include "core/session/session_scene.h"
 #include "core/session/shown_range.h"
 
 namespace pl {
 
-/// What one call of Session::advance did.
+/// Outcome of one call of Session::advance.
 enum class Progress {
-    Precomputed,  ///< a slice of the radiance map; the picture has not changed
+    Precomputed,  ///< a slice of the radiance map; the film has not changed
     Rendered,     ///< one more sample per pixel
-    Stopped,      ///< the stop flag was seen; the next call goes on where this one ended
+    Stopped,      ///< the stop flag was seen; the next call resumes there
 };
 
-/// A film on its way to a window, and what its darkest and lightest colors stand for.
+/// A film on its way to a window, with the range of values that its colors stand for.
 struct ShownFilm {
     DisplayFrame frame;
     ShownRange range;
 };
 
+/// The film that a front end's settings ask for.
+inline FilmSlot slot_of(const RenderSettings& settings) { return {settings.method, settings.view}; }
+
 class Session {
 public:
-    /// The scene must be valid. `load_seconds` goes into the clocks.
+    /// The scene must be valid. `load_seconds` goes into the clocks. Of the settings, `method` and `view` have no meaning
+    /// here.
     Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
             const RenderSettings& settings, double load_seconds = 0.0);
 
-    /// Applies a change and clears what invalidated_by() says. Throws Error if a back end fails; if it is the new one
-    /// of EditBackend, the session stays with the old one, unchanged, and the new one has to be given everything anew
-    /// when it is tried again. EditLearned throws as import_field() does, EditMaterial Error(Input) for what
+    /// Applies a change and clears the parts that invalidated_by() names. Throws Error if a back end fails; if it is the
+    /// new one of EditBackend, the session stays with the old one, unchanged, and a second try sends the new one
+    /// everything again. EditLearned throws as import_field() does, EditMaterial Error(Input) for materials that
     /// validate_material() refuses; then nothing has changed.
     void apply(const SessionEdit& edit);
 
-    /// Does the next piece of work: a slice of precomputation if the method still needs it, else one sample for
-    /// every pixel, followed by publication if the method learns.
-    Progress advance(const StopFlag* stop = nullptr);
+    /// Does the next piece of work on a film: a slice of precomputation if the method still needs it, else one sample for
+    /// every pixel, followed by an update of the field if the method learns.
+    Progress advance(FilmSlot slot, const StopFlag* stop = nullptr);
 
-    /// Copy of the current film and all statistics.
-    Snapshot snapshot() const;
-    /// The same, and the film's two halves: they tell its noise.
-    Snapshot snapshot_with_halves() const;
-    /// The same without the pixels: costs nothing.
-    Snapshot summary() const;
-    /// The current film as a window shows it.
-    ShownFilm show_film(const DisplaySettings& display);
+    /// Copy of a film and all statistics.
+    Snapshot snapshot(FilmSlot slot) const;
+    /// The same, and the film's two halves, from which its noise is estimated.
+    Snapshot snapshot_with_halves(FilmSlot slot) const;
+    /// The same without the pixels: copies next to nothing.
+    Snapshot summary(FilmSlot slot) const;
+    /// A film as a window shows it; black before the first pass.
+    ShownFilm show_film(FilmSlot slot, const DisplaySettings& display);
 
-    /// The passes of the current picture, for tracing their paths again. Throws Error(Usage) if the view shows no paths.
-    PassReplay pass_replay() const;
+    /// The passes of a film, to trace its paths again. Throws Error(Usage) if the view traces no paths.
+    PassReplay pass_replay(FilmSlot slot) const;
 
-    /// What the current method learned at a volume. Throws Error(Usage) if it learns nothing.
-    VolumeInspection inspect_volume(std::int32_t volume) const;
-    /// What the current method has learned. Throws Error(Usage) if it has no tables.
-    LearnedField export_field() const;
-    /// Goes on from a learned field: takes its settings and volumes, and empties all pictures and the tables of other
-    /// methods. Throws Error(Input) if it was learned in another scene or does not fit together.
+    /// The hemisphere that a method learned at a volume. Throws Error(Usage) if it has no tables.
+    VolumeInspection inspect_volume(MethodId method, std::int32_t volume) const;
+    /// The learned field of a method. Throws Error(Usage) if it has no tables.
+    LearnedField export_field(MethodId method) const;
+    /// Goes on from a learned field: takes its settings and volumes, and empties all films and the tables of other
+    /// methods. Throws Error(Input) if it was learned in another scene or if its parts disagree.
     void import_field(LearnedField field);
     /// Volume that serves a point; kNoVolume if none. Places the volumes if they are not placed yet.
     std::int32_t find_volume_at(Vec3f position, Vec3f normal);
-    /// First surface under a point of the film, in pixels of the current size; empty where nothing is hit.
+    /// First surface under a point of the film, in pixels of the present size; empty where rays hit nothing.
     std::optional<PickedPoint> pick(Vec2f film);
 
+    /// As given and edited; `method` and `view` are those of the constructor.
     const RenderSettings& settings() const { return settings_; }
-    const SceneDescription& scene() const { return *scene_; }
-    std::shared_ptr<const SceneDescription> shared_scene() const { return scene_; }
-    std::shared_ptr<const HostScene> packed_scene() const { return packed_; }
+    /// The settings of one film.
+    RenderSettings settings_for(FilmSlot slot) const;
+    const SceneDescription& scene() const { return *scene_.description(); }
+    std::shared_ptr<const SceneDescription> shared_scene() const { return scene_.description(); }
+    std::shared_ptr<const HostScene> packed_scene() const { return scene_.packed(); }
     BackendInfo backend() const { return backend_->info(); }
     RenderBackend& backend_access() { return *backend_; }
-    FeatureSet needed_features() const;
-    ServedKernel served_kernel() const;
-    std::uint32_t passes() const { return film().passes; }
-    std::optional<FieldStatus> field_status() const;
-    /// Of the placement that all methods share; nothing before the volumes are placed.
-    Refinement refinement() const { return refinement_; }
-    /// Of the current film and method; cheap, unlike a snapshot.
-    Clocks clocks() const;
-    /// Of the current film. A picture that is resumed keeps its origin; one that was emptied gets another.
-    FilmOrigin film_origin() const { return film().origin; }
+    FeatureSet needed_features(FilmSlot slot) const;
+    ServedKernel served_kernel(FilmSlot slot) const;
+    std::uint32_t passes(FilmSlot slot) const { return films_[slot].passes; }
+    /// Empty for methods without a field, and before the volumes are placed.
+    std::optional<FieldStatus> field_status(MethodId method) const;
+    /// Of the placement that all methods share.
+    Refinement refinement() const { return placement_.refinement(); }
+    /// Of a film and its method; cheap, unlike a snapshot.
+    Clocks clocks(FilmSlot slot) const;
+    /// A film that is resumed keeps its origin; one that was emptied gets another.
+    FilmOrigin film_origin(FilmSlot slot) const { return films_[slot].origin; }
 
 private:
-    struct FilmState {
-        FilmOrigin origin;
-        bool allocated = false;
-        std::uint32_t passes = 0;      ///< complete ones
-        std::uint32_t next_pixel = 0;  ///< where the running pass goes on
-        PassCounters counters{};
-        double render_seconds = 0.0;
-        double learn_seconds = 0.0;
-    };
-    using FilmStates = std::array<FilmState, FilmSlot::kCount>;
-    /// A back end that was left, with its pictures and the scene that it knows.
-    struct ParkedBackend {
-        std::shared_ptr<RenderBackend> backend;
-        FilmStates films{};
-        std::shared_ptr<const HostScene> scene;
-    };
-
-    FilmSlot slot() const { return {settings_.method, settings_.view}; }
     std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(settings_.width * settings_.height); }
     std::uint32_t probe_count() const;
-    const FilmState& film() const { return films_[static_cast<std::size_t>(slot().index())]; }
-    FilmState& film() { return films_[static_cast<std::size_t>(slot().index())]; }
-    FieldProgress& field() { return fields_[static_cast<std::size_t>(settings_.method)]; }
-    const FieldProgress& field() const { return fields_[static_cast<std::size_t>(settings_.method)]; }
+    FieldProgress& field(MethodId method) { return fields_[static_cast<std::size_t>(method)]; }
+    const FieldProgress& field(MethodId method) const { return fields_[static_cast<std::size_t>(method)]; }
 
-    void load_scene();
-    void begin_film(FilmSlot slot);
-    void take_pixels(Snapshot& snapshot, FilmReading film) const;
+    void upload_scene();
+    void replace_scene(const EditScene& edit);
     void change_material(const EditMaterial& edit);
     void switch_backend(const EditBackend& edit);
-    ParkedBackend unpark(const std::shared_ptr<RenderBackend>& backend);
-    void ensure_volumes();
-    std::shared_ptr<const HostVolumes> with_lookup(HostVolumes volumes, Lookup lookup) const;
-    void ensure_tables();
-    void ensure_film(FilmSlot slot);
     void clear_films();
     void clear_tables();
-    bool needs_precompute() const;
-    Progress precompute_slice(const StopFlag* stop);
+
+    void ensure_volumes() { placement_.ensure(*backend_, *scene_.packed(), settings_.field); }
+    void ensure_tables(MethodId method);
+    void ensure_film(FilmSlot slot);
+    void begin_film(FilmSlot slot);
+    void take_pixels(Snapshot& snapshot, FilmReading film) const;
+
+    bool needs_precompute(FilmSlot slot) const;
+    Progress precompute_slice(FilmSlot slot, const StopFlag* stop);
     Progress render_slot(FilmSlot slot, const StopFlag* stop);
-    Progress render_pass(FilmSlot slot, FilmState& state, const StopFlag* stop);
-    void render_part(FilmSlot slot, FilmState& state, std::uint32_t end, const StopFlag* stop);
-    std::uint32_t end_of_part(FilmSlot slot, const FilmState& state) const;
-    void finish_learning_part(FilmState& state);
-    void finish_learning_pass(FilmState& state);
-    void refine_if_due();
-    void split_volumes(std::size_t most);
-    void replace_volumes(RefinedPlacement refined, HostField learned);
-    void clear_cell_films();
-    void note_escapes(const PassCounters& counters);
-    PathSettings path_settings() const;
-    MixtureSettings mixture_of(MethodId method) const;
+    Progress render_pass(FilmSlot slot, const StopFlag* stop);
+    void render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop);
+    std::uint32_t end_of_part(FilmSlot slot) const;
+    void finish_learning_part(FilmSlot slot);
+    void finish_learning_pass(FilmSlot slot);
+    void note_escapes(FilmSlot slot, const PassCounters& counters);
+
+    void refine_if_due(MethodId method);
+    void split_volumes(MethodId method, std::size_t most);
+    void replace_volumes(MethodId learner, RefinedPlacement refined, HostField learned);
 
     std::shared_ptr<RenderBackend> backend_;
-    std::vector<ParkedBackend> parked_;
-    std::shared_ptr<const SceneDescription> scene_;
     RenderSettings settings_;
-    std::shared_ptr<const HostScene> packed_;
-    std::optional<Enclosure> enclosure_;  ///< of the scene, once a path has escaped
-    std::optional<bool> is_closed_;       ///< it contains the camera; unknown before a path has escaped
-    std::shared_ptr<const HostVolumes> volumes_;
-    Refinement refinement_;  ///< of volumes_; forgotten with what was learned
-    FieldShape shape_;
-    FilmStates films_{};
+    SessionScene scene_;
+    Placement placement_;
+    SessionFilms films_;
     std::array<FieldProgress, kMethodCount> fields_{};
     double load_seconds_ = 0.0;
-    double build_seconds_ = 0.0;
     double upload_seconds_ = 0.0;
-    double place_seconds_ = 0.0;
-    std::uint64_t films_begun_ = 0;
-    std::uint64_t film_generation_ = 0;
 };
 
 }  // namespace pl

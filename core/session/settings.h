@@ -1,4 +1,4 @@
-// What a person can set. Plain values with defaults; every front end fills the same structs.
+// The settings of a rendering. Plain values with defaults; every front end fills the same structs.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,9 @@
 
 namespace pl {
 
-/// Everything that decides the numbers of a rendering, besides the scene and the back end.
+/// Everything besides the scene and the back end that decides the values of a film.
 struct RenderSettings {
+    /// The film that a front end shows, see slot_of(): a session renders whichever it is asked for.
     MethodId method = MethodId::Default;
     View view = View::Beauty;
     int width = 512;
@@ -26,10 +27,10 @@ struct RenderSettings {
     RouletteRule roulette = RouletteRule::Spare;
     MixtureSettings mixture{};
     FieldSettings field{};
-    FeatureSet forced_effects{};  ///< needed or not, the kernel can do these, too; no picture changes by it
+    FeatureSet forced_effects{};  ///< effects that kernels cover besides the needed ones; no picture changes by it
 };
 
-/// Display only: never touches what was accumulated or learned.
+/// Display only: no film or field depends on it.
 struct DisplaySettings {
     float exposure_ev = 0.0f;
     ToneCurve curve = ToneCurve::Clamp;

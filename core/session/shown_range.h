@@ -1,4 +1,4 @@
-// The numbers that a data view's darkest and lightest colors stand for, in windows and 8-bit files alike.
+// The range of values that the colors of a data view stand for, in windows and 8-bit files alike.
 #pragma once
 
 #include <string>
@@ -15,21 +15,20 @@ struct ShownRange {
     float scale() const;  ///< brings values into [0, 1]
 };
 
-/// Does a view show radiance? Exposure and tone curve are for these: other views are shown as they are.
+/// Does a view show radiance? Exposure and tone curve apply to these only.
 bool shows_radiance(View view);
 
-/// Exposure and curve as far as they apply to a view: data views such as normals are shown as they are.
+/// Exposure and curve as far as they apply to a view: data views such as normals have neither.
 DisplaySettings display_of(View view, const DisplaySettings& asked);
 
 /// Does a view's range end at the largest value of its picture?
 bool ends_at_largest(View view);
-/// Fixed where what is shown has bounds (shares, entropy), else up to the largest finite value of the picture (depth and
-/// the other heat maps). 0 to 1 for views that show colors. `largest` as RenderBackend::largest_value() gives it; it is
-/// looked at only where ends_at_largest().
+/// Fixed for bounded values (shares, entropy), else up to the largest finite value of the picture (depth and the other heat
+/// maps). 0 to 1 for views that show colors. `largest` is RenderBackend::largest_value(), used only if ends_at_largest().
 ShownRange shown_range(View view, int bins, float largest);
 ShownRange shown_range(const Snapshot& snapshot);
 
-/// How a film of this view is shown.
+/// Scale, curve and colors of a film of this view.
 FrameStyle frame_style(View view, const DisplaySettings& asked, const ShownRange& range);
 
 /// "0 to 8 bits"; empty for views that show colors.

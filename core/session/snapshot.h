@@ -1,45 +1,46 @@
-// Immutable copies of what a session has produced: what display, saving and inspection read.
+// Copies of a session's films, statistics and learned values, for display, files and inspection.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/fields/inspect_field.h"
 #include "core/session/backend.h"
 #include "core/session/settings.h"
 
 namespace pl {
 
-/// Seconds by what they were spent on. Waiting, display and saving are in none of them.
+/// Seconds of each kind of work. Waiting, display and saving are in none of them.
 struct Clocks {
-    double load = 0.0;        ///< reading and checking files; set by whoever loads
+    double load = 0.0;        ///< reading and checking files
     double build = 0.0;       ///< packing the scene, building the hierarchy
-    double upload = 0.0;      ///< sending the scene to a back end; in a switch of back ends, also what was learned
-    double place = 0.0;       ///< placing volumes, building their tree, sending both; 0 where nothing uses them
+    double upload = 0.0;      ///< sending the scene to a back end; in a switch of back ends, also volumes and tables
+    double place = 0.0;       ///< placing volumes, building their tree, sending both; 0 for films without volumes
     double precompute = 0.0;  ///< filling the precomputed radiance map
-    double learn = 0.0;       ///< publishing learned tables
-    double render = 0.0;      ///< passes, including the records they make
+    double learn = 0.0;       ///< updates of learned tables
+    double render = 0.0;      ///< passes, including their training samples
 
     double total() const { return load + build + upload + place + precompute + learn + render; }
 };
 
-/// How a picture began: what tells one run of a method from the next.
+/// The beginning of a film, which tells one run of a method from the next.
 struct FilmOrigin {
     std::uint64_t number = 0;      ///< of one session, counting up; 0 before the first piece of work
-    std::uint64_t generation = 0;  ///< grows when all pictures are emptied
+    std::uint64_t generation = 0;  ///< grows when all films are emptied
     bool warm = false;             ///< its method had learned something before the first sample
-    double place_seconds = 0.0;    ///< of the clocks, what had been spent before
+    double place_seconds = 0.0;    ///< on the clocks before the film began
     double precompute_seconds = 0.0;
-    FeatureSet forced{};  ///< effects that any of its passes was forced to be able to do: they cost time
+    FeatureSet forced{};  ///< effects that any of its passes had to cover without need: they take time
 };
 
-/// What is known about the learned field of the session's method.
+/// Size and progress of a method's learned field.
 struct FieldStatus {
     int volumes = 0;
     int added_volumes = 0;  ///< of these, by refining
     int bins = 0;
     std::size_t bytes = 0;
-    std::uint64_t passes = 0;  ///< publications
+    std::uint64_t passes = 0;  ///< updates
     std::uint64_t records = 0;
     std::uint64_t clamped_records = 0;
     std::uint64_t lookup_misses = 0;
@@ -54,26 +55,14 @@ struct Snapshot {
     FilmHalves halves{};        ///< only of Session::snapshot_with_halves()
     std::uint32_t passes = 0;   ///< samples per pixel
     PassCounters counters;      ///< of this film
-    /// Closed surfaces surround the camera, so that paths that escaped were lost. Known once one has (in
-    /// large scenes after the first pass); false before, and where there is light from far away.
+    /// Closed surfaces surround the camera, so that paths that escaped were lost. Known once a path has escaped (in large
+    /// scenes after the first pass); false before, and in scenes with light from far away.
     bool is_closed = false;
     Clocks clocks;
     std::optional<FieldStatus> field;
     int bins = 0;  ///< directions per volume; 0 before volumes are placed
     CameraDescription camera;
     std::string kernel;
-};
-
-/// The hemisphere that a method learned at one volume.
-struct VolumeInspection {
-    std::int32_t volume = kNoVolume;
-    Vec3f position{0.0f};
-    Vec3f normal{0.0f, 0.0f, 1.0f};
-    int side = 0;                    ///< cells are side x side, DirectionCells layout
-    std::vector<float> radiance;     ///< learned incident radiance Q, luminance
-    std::vector<float> probability;  ///< of sampling the cell from the table
-    std::vector<std::uint32_t> visits;
-    float mean_radiance = 0.0f;  ///< irradiance / pi
 };
 
 /// The first surface under a pixel.

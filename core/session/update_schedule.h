@@ -1,4 +1,4 @@
-// When what the passes of a picture recorded becomes the tables that later paths are guided by.
+// When the pending training samples of a picture's passes update the tables that guide later paths.
 #pragma once
 
 #include <algorithm>
@@ -7,24 +7,24 @@
 
 namespace pl {
 
-/// Most passes that go by without a publication: what sums of a cell can hold is no concern then.
+/// Most passes between two updates: so few that the sums of a cell cannot overflow.
 inline constexpr std::uint32_t kMostPassesWithoutUpdate = 16;
 
-/// Fewest paths that are worth a publication.
+/// Fewest paths before an update.
 inline constexpr std::uint32_t kFewestPathsBeforeUpdate = 1024;
 
-/// The first pass that is learned from is the dearest: nothing is known yet. It publishes on its way, after as many paths as
-/// there are volumes and whenever they have doubled, so that at least half of it is guided. Returns where a part of the pass
-/// ends that is under way after `done` of its `count` paths.
+/// The first pass of a learner begins without guiding. Tables are updated within it, after as many paths as there are volumes
+/// and whenever their number has doubled, so that at least half of its paths are guided. Returns the end of the part of the
+/// pass that is under way after `done` of its `count` paths.
 constexpr std::uint32_t end_of_first_part(std::uint32_t done, std::uint32_t count, std::uint32_t volumes) {
     std::uint64_t end = std::bit_ceil(std::uint64_t{std::max(volumes, kFewestPathsBeforeUpdate)});
     while (end <= done) end *= 2;
     return static_cast<std::uint32_t>(std::min(end, std::uint64_t{count}));
 }
 
-/// After each of the first sixteen passes, then whenever about an eighth has come to what was known: tables are never far behind, and
-/// publishing, which costs the same for any number of records, does not grow with the passes of small pictures. `passes` are
-/// complete ones since the picture was last emptied, so a camera that moves is followed at once. Records wait in their sums.
+/// Updates follow each of the first sixteen passes, then every addition of about an eighth to the passes: tables are never far
+/// behind, and updates, whose cost does not depend on the number of training samples, stay rare in small pictures. `passes`
+/// are complete ones since the film was last emptied, so that tables follow a moving camera at once.
 constexpr bool is_updated_after(std::uint32_t passes) {
     const std::uint32_t interval = std::clamp(std::bit_floor(passes) / 8, 1u, kMostPassesWithoutUpdate);
     return passes % interval == 0;

@@ -86,8 +86,9 @@ Picture render(std::shared_ptr<const SceneDescription> scene, const RenderSettin
                int threads) {
     const std::clock_t start = std::clock();
     Session session(make_cpu_backend({.threads = threads}), std::move(scene), settings);
-    while (session.passes() < passes) session.advance();
-    const Snapshot snapshot = session.snapshot();
+    const FilmSlot slot = slot_of(session.settings());
+    while (session.passes(slot) < passes) session.advance(slot);
+    const Snapshot snapshot = session.snapshot(slot);
     return {snapshot.pixels, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC,
             static_cast<double>(snapshot.counters.zero_contribution_paths) /
                 static_cast<double>(snapshot.counters.paths)};

@@ -34,7 +34,7 @@ double seconds_to_first_picture(const std::string& name, int threads) {
     const auto scene = std::make_shared<const SceneDescription>(load_scene(name, kAssets));
     Session session(make_cpu_backend({.threads = threads}), scene,
                     {.width = 1280, .height = 720, .camera = scene->camera});
-    while (session.advance() != Progress::Rendered) continue;
+    while (session.advance(slot_of(session.settings())) != Progress::Rendered) continue;
     return watch.seconds();
 }
 

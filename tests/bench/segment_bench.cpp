@@ -36,9 +36,9 @@ public:
 
     void render_pass() {
         std::clock_t start = std::clock();
-        while (session_.advance() != Progress::Rendered) start = std::clock();
+        while (session_.advance(slot_of(session_.settings())) != Progress::Rendered) start = std::clock();
         const double ns = 1e9 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-        const Snapshot now = session_.summary();
+        const Snapshot now = session_.summary(slot_of(session_.settings()));
         const auto segments = static_cast<double>(now.counters.path.segments - last_.counters.path.segments);
         const double render = now.clocks.render - last_.clocks.render;
         const double learn = now.clocks.learn - last_.clocks.learn;
@@ -52,7 +52,7 @@ public:
     }
     std::uint32_t checksum() const {
         std::uint32_t sum = 0;
-        for (const Vec3f& pixel : session_.snapshot().pixels)
+        for (const Vec3f& pixel : session_.snapshot(slot_of(session_.settings())).pixels)
             for (int i = 0; i < 3; ++i) sum = 31u * sum + std::bit_cast<std::uint32_t>(pixel[i]);
         return sum;
     }

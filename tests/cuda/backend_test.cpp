@@ -113,8 +113,8 @@ TEST_CASE("Frames of every view have the bits of the CPU back end") {
         for (const ToneCurve curve : {ToneCurve::Clamp, ToneCurve::Reinhard, ToneCurve::Aces})
             for (const float ev : {-2.0f, 0.0f, 1.5f}) {
                 INFO(view.name << ", curve " << static_cast<int>(curve) << ", exposure " << ev);
-                const ShownFilm expected = cpu.show_film({.exposure_ev = ev, .curve = curve});
-                const ShownFilm got = cuda.show_film({.exposure_ev = ev, .curve = curve});
+                const ShownFilm expected = cpu.show_film(slot_of(settings), {.exposure_ev = ev, .curve = curve});
+                const ShownFilm got = cuda.show_film(slot_of(settings), {.exposure_ev = ev, .curve = curve});
                 CHECK(got.range.high == expected.range.high);
                 CHECK(pixels_of(got.frame) == pixels_of(expected.frame));
                 CHECK(pixels_of(got.frame) == pixels_of(got.frame));  // asked twice
@@ -134,8 +134,8 @@ TEST_CASE("A frame is that of its moment, however long it is on its way, and out
         for (int i = 0; i < 5; ++i) {
             render_passes(cpu, 1);
             render_passes(cuda, 1);
-            expected.push_back(pixels_of(cpu.show_film({}).frame));
-            frames.push_back(cuda.show_film({}).frame);
+            expected.push_back(pixels_of(cpu.show_film(slot_of(settings), {}).frame));
+            frames.push_back(cuda.show_film(slot_of(settings), {}).frame);
             if (i == 2) frames[0] = {};  // its memory serves a later one
         }
         render_passes(cuda, 1);
@@ -165,8 +165,8 @@ TEST_CASE("Launches of any size, stopped and resumed, give the same bits") {
 
     Session session = make_cuda_session(scene, settings);
     StopFlag stop = true;
-    CHECK(session.advance(&stop) == Progress::Stopped);
-    CHECK(session.passes() == 0);
+    CHECK(session.advance(slot_of(session), &stop) == Progress::Stopped);
+    CHECK(session.passes(slot_of(session)) == 0);
     render_passes(session, 2);
     CHECK(same_state(state_of(session), expected));
 }
@@ -181,8 +181,8 @@ TEST_CASE("A field moves to the device and back in mid-learning without changing
         const std::shared_ptr<RenderBackend> cpu = make_cpu_backend({.threads = 2});
         const std::shared_ptr<RenderBackend> other_cpu = make_cpu_backend({.threads = 1});
         const std::shared_ptr<RenderBackend> cuda = make_cuda_backend();
-        session.advance();
-        expected.advance();
+        session.advance(slot_of(session));
+        expected.advance(slot_of(expected));
         session.apply(EditBackend{cuda});
         expected.apply(EditBackend{other_cpu});
         CHECK(same_bits(state_of(session).tables, state_of(expected).tables));

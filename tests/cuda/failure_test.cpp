@@ -24,14 +24,14 @@ std::string use(const SceneDescription& scene, const RenderSettings& settings) {
     try {
         Session session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
         render_passes(session, 2);
-        session.apply(EditView{View::Voronoi});
-        render_passes(session, 1);
-        session.snapshot();
-        session.show_film({.curve = ToneCurve::Aces}).frame.pixels();
-        session.apply(EditView{View::Depth});
-        render_passes(session, 1);
-        session.show_film({}).frame.pixels();
-        session.export_field();
+        const FilmSlot cells{settings.method, View::Voronoi};
+        render_passes(session, cells, 1);
+        session.snapshot(cells);
+        session.show_film(cells, {.curve = ToneCurve::Aces}).frame.pixels();
+        const FilmSlot depth{settings.method, View::Depth};
+        render_passes(session, depth, 1);
+        session.show_film(depth, {}).frame.pixels();
+        session.export_field(settings.method);
     } catch (const Error& error) {
         CHECK(error.kind() == ErrorKind::Unavailable);
         return error.what();
@@ -94,7 +94,7 @@ TEST_CASE("The CPU takes over: what was learned is kept if it can be fetched, el
         render_passes(session, 2);
         const HostTables before = state_of(session).tables;
         shim::fail("cudaLaunchKernel", cudaErrorLaunchFailure, 0, lost);
-        CHECK_THROWS_AS(session.advance(), Error);
+        CHECK_THROWS_AS(session.advance(slot_of(session)), Error);
 
         const std::shared_ptr<RenderBackend> cpu = make_cpu_backend({.threads = 1});
         if (lost) CHECK_THROWS_AS(session.apply(EditBackend{cpu}), Error);
@@ -102,8 +102,8 @@ TEST_CASE("The CPU takes over: what was learned is kept if it can be fetched, el
         CHECK(session.backend().name == "cpu");
         CHECK(same_bits(state_of(session).tables.visits, before.visits) != lost);
         render_passes(session, 2);
-        CHECK(session.passes() == 2);
-        CHECK(session.field_status()->passes == (lost ? 2 : 4));
+        CHECK(session.passes(slot_of(session)) == 2);
+        CHECK(session.field_status(session.settings().method)->passes == (lost ? 2 : 4));
     }
     shim::reset();
     CHECK(shim::live_objects() == 0);

@@ -25,7 +25,8 @@ SceneDescription overflowing_room() {
 
 Session session_after(const SceneDescription& scene, const RenderSettings& settings, std::uint32_t passes) {
     Session session = make_session(scene, settings);
-    while (session.passes() < passes) session.advance();
+    const FilmSlot slot = slot_of(settings);
+    while (session.passes(slot) < passes) session.advance(slot);
     return session;
 }
 
@@ -37,12 +38,12 @@ TEST_CASE("Find diagnostics: invalid samples are located where the film counts t
         RenderSettings settings = small_settings(scene, {method, false});
         settings.max_depth = 2;
         Session session = session_after(scene, settings, 3);
-        const Snapshot snapshot = session.snapshot();
+        const Snapshot snapshot = session.snapshot(slot_of(session.settings()));
         const std::uint64_t invalid = snapshot.counters.invalid_samples;
         INFO(info_of(method).name << ", " << invalid);
         REQUIRE(invalid > 100);
         REQUIRE(invalid < snapshot.counters.paths / 2);
-        const DiagnosticsMap map = find_diagnostics(diagnostics_input(session), 2);
+        const DiagnosticsMap map = find_diagnostics(diagnostics_input(session, slot_of(session.settings())), 2);
         CHECK(map.is_complete);
         CHECK(map.count(DiagnosticKind::InvalidSample) == invalid);
         std::size_t nothing_else = 0;
@@ -62,9 +63,9 @@ TEST_CASE("Find diagnostics: paths that are traced again escape as often as in t
     for (const bool next_event : {false, true})
         for (const MethodId method : {MethodId::Default, MethodId::Precomputed}) {
             const Session session = session_after(scene, small_settings(scene, {method, next_event}), 3);
-            const std::uint64_t escaped = session.summary().counters.path.escaped;
+            const std::uint64_t escaped = session.summary(slot_of(session.settings())).counters.path.escaped;
             REQUIRE(escaped > 100);
-            DiagnosticsInput source = diagnostics_input(session);
+            DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
             CHECK_FALSE(source.passes.is_closed);
             const DiagnosticsMap open = find_diagnostics(source, 1);
             CHECK(open.count(DiagnosticKind::EscapedPath) == 0);
@@ -84,8 +85,8 @@ TEST_CASE("Find diagnostics: a pass under way is part of the picture") {
     const SceneDescription scene = shipped_scene("cornell");
     Session session = session_after(scene, small_settings(scene, {MethodId::Default, false}, 256, 256), 1);
     StopFlag stop{true};
-    REQUIRE(session.advance(&stop) == Progress::Stopped);
-    DiagnosticsInput source = diagnostics_input(session);
+    REQUIRE(session.advance(slot_of(session.settings()), &stop) == Progress::Stopped);
+    DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
     source.passes.next_pixel = 5000;  // as if it had come so far
     source.passes.is_closed = true;
     source.counted[index_of(DiagnosticKind::EscapedPath)] = ~std::uint64_t{0};
@@ -105,16 +106,16 @@ TEST_CASE("Find diagnostics: lookup misses are located, all of them") {
     RenderSettings settings = small_settings(scene, {MethodId::Precomputed, false});
     settings.field.volumes = 1;  // fewer than there are sides of surfaces
     const Session session = session_after(scene, settings, 3);
-    const std::uint64_t misses = session.summary().counters.path.method.lookup_misses;
+    const std::uint64_t misses = session.summary(slot_of(session.settings())).counters.path.method.lookup_misses;
     REQUIRE(misses > 100);
-    const DiagnosticsMap map = find_diagnostics(diagnostics_input(session), 2);
+    const DiagnosticsMap map = find_diagnostics(diagnostics_input(session, slot_of(session.settings())), 2);
     CHECK(map.count(DiagnosticKind::LookupMiss) == misses);
 }
 
 TEST_CASE("Find diagnostics: training samples are clamped where the field is too bright, and nowhere else") {
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}), 3);
-    DiagnosticsInput source = diagnostics_input(session);
+    DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
     CHECK(source.passes.repeats_training);
     CHECK(source.passes.has_moving_tables);
     CHECK(source.passes.first_sample == 0);
@@ -134,7 +135,7 @@ TEST_CASE(
     "Find diagnostics: clamped training samples alone end the search after sixteen passes, other kinds after all") {
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}, 12, 8), 20);
-    DiagnosticsInput source = diagnostics_input(session);
+    DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
     ++source.counted[index_of(DiagnosticKind::ClampedSample)];
     const DiagnosticsMap some = find_diagnostics(source, 1);
     CHECK(some.is_complete);
@@ -148,11 +149,11 @@ TEST_CASE(
 TEST_CASE("Find diagnostics: a view without paths has none, nor has a session before its first pass") {
     const SceneDescription scene = shipped_scene("cornell");
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
-    const DiagnosticsMap empty = find_diagnostics(diagnostics_input(make_session(scene, settings)), 2);
+    const DiagnosticsMap empty = find_diagnostics(diagnostics_input(make_session(scene, settings), slot_of(settings)), 2);
     CHECK(empty.is_complete);
     CHECK(empty.traced == 0);
     settings.view = View::Normal;
-    CHECK_THROWS_AS(diagnostics_input(make_session(scene, settings)), Error);
+    CHECK_THROWS_AS(diagnostics_input(make_session(scene, settings), slot_of(settings)), Error);
 }
 
 TEST_CASE("Find diagnostics: a search that is stopped keeps its findings") {
@@ -160,7 +161,7 @@ TEST_CASE("Find diagnostics: a search that is stopped keeps its findings") {
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}), 5);
     StopFlag stop{false};
     double seen = 0.0;
-    DiagnosticsInput source = diagnostics_input(session);
+    DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
     ++source.counted[index_of(DiagnosticKind::ClampedSample)];
     const DiagnosticsMap map = find_diagnostics(source, 2, &stop, [&](double share) {
         seen = share;

@@ -35,7 +35,7 @@ RenderSettings settings_of(const SceneDescription& scene, const std::string& met
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::uint32_t add_picture(std::uint32_t sum, const Session& session) {
-    for (const Vec3f& pixel : session.snapshot().pixels)
+    for (const Vec3f& pixel : session.snapshot(slot_of(session.settings())).pixels)
         for (int i = 0; i < 3; ++i) sum = 31u * sum + std::bit_cast<std::uint32_t>(pixel[i]);
     return sum;
 }
@@ -53,7 +53,8 @@ void serve(const std::string& method, bool forced) {
                                                 settings_of(*scene, method, forced));
         }
         double start = processor_seconds();
-        while (session->advance() != Progress::Rendered) start = processor_seconds();  // placing, precomputing
+        const FilmSlot slot = slot_of(session->settings());
+        while (session->advance(slot) != Progress::Rendered) start = processor_seconds();  // placing, precomputing
         std::cout << processor_seconds() - start << std::endl;
     }
     std::cout << (session ? add_picture(sum, *session) : sum) << std::endl;

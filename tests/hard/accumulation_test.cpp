@@ -113,9 +113,9 @@ TEST_CASE("Another size and back is a fresh start", "[hard]") {
     const State before = state_of(session);
     session.apply(EditSize{7, 90});
     render_passes(session, 2);
-    CHECK(session.snapshot().pixels.size() == 7 * 90);
+    CHECK(session.snapshot(slot_of(session)).pixels.size() == 7 * 90);
     session.apply(EditSize{settings.width, settings.height});
-    CHECK(session.passes() == 0);
+    CHECK(session.passes(slot_of(session)) == 0);
     render_passes(session, 3);
     CHECK(same_film(before, state_of(session)));
 }
@@ -128,8 +128,8 @@ TEST_CASE("Numbers of samples that split a run anywhere make the same picture", 
         render_passes(whole, 20);
         const StopFlag stop{true};
         for (int i = 0; i < 20; ++i) {
-            CHECK(parts.advance(&stop) == Progress::Stopped);
-            parts.snapshot_with_halves();  // a look changes nothing
+            CHECK(parts.advance(slot_of(parts), &stop) == Progress::Stopped);
+            parts.snapshot_with_halves(slot_of(parts));  // a look changes nothing
             render_passes(parts, 1);
         }
         INFO(estimator);

@@ -76,7 +76,7 @@ TEST_CASE("Pictures of one pixel, one row, one column and odd sizes have every p
         settings.max_depth = 3;
         Session session = make_session(scene, settings, 2);
         render_passes(session, 2);
-        const Snapshot picture = session.snapshot();
+        const Snapshot picture = session.snapshot(slot_of(session));
         INFO(width << " x " << height);
         CHECK(picture.pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
         CHECK(picture.counters.paths == 2 * picture.pixels.size());

@@ -100,7 +100,7 @@ inline Snapshot picture_of(const SceneDescription& scene, Estimator estimator, i
     settings.max_depth = max_depth;
     Session session = make_session(scene, settings);
     render_passes(session, passes);
-    return session.snapshot();
+    return session.snapshot(slot_of(session));
 }
 
 /// Farthest that a channel of a pixel is from a value; infinite for NaN.

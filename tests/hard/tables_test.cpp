@@ -79,7 +79,7 @@ TEST_CASE("Tables full of zeros, infinities, NaN or huge numbers leave the pictu
         session.apply(EditRestart{});
         render_passes(session, 16);
         INFO("tables of " << value);
-        const Snapshot picture = session.snapshot();
+        const Snapshot picture = session.snapshot(slot_of(session));
         CHECK(count_broken(picture) == 0);
         CHECK(pixels_mean(picture, {1.0}, 0.06));
         CHECK(count_not_finite(tables_of(session.backend_access().download_field(MethodId::Reinforcement)).row_cdf) == 0);
@@ -123,6 +123,6 @@ TEST_CASE("The smallest and the largest fields go together with every rate", "[h
                 Session session = make_session(scene, settings);
                 render_passes(session, 4);
                 CAPTURE(volumes, bins, static_cast<int>(rate));
-                CHECK(count_broken(session.snapshot()) == 0);
+                CHECK(count_broken(session.snapshot(slot_of(session))) == 0);
             }
 }

@@ -27,18 +27,20 @@ struct Recording {
     SceneDescription scene = furnace_scene(kEmission, kAlbedo);
     Session session;
     LiveRuns runs;
+    FilmSlot slot;
 
     explicit Recording(std::size_t cap = kPlenty, LiveRuns::Allowance allowance = kAlways,
                        MethodId method = MethodId::Default)
-        : session(make_session(scene, quick_learner(scene, {method, false}, kSide, 1))), runs(cap, {}, allowance) {}
+        : session(make_session(scene, quick_learner(scene, {method, false}, kSide, 1))),
+          runs(cap, {}, allowance), slot{method, View::Beauty} {}
 
     /// So many samples per pixel more, observed one by one; how often the set changed.
     int render(std::uint32_t passes) {
         int changes = 0;
-        const std::uint32_t target = session.passes() + passes;
-        while (session.passes() < target) {
-            session.advance();
-            changes += runs.observe(session) ? 1 : 0;
+        const std::uint32_t target = session.passes(slot) + passes;
+        while (session.passes(slot) < target) {
+            session.advance(slot);
+            changes += runs.observe(session, slot) ? 1 : 0;
         }
         return changes;
     }
@@ -92,7 +94,7 @@ TEST_CASE("the charged time is told while no point is due") {
     REQUIRE(recording.last().points.size() == 1);
     const double told = recording.runs.current()->charged_seconds;
     const double spent = recording.runs.current()->measure_seconds;
-    while (charged_seconds(recording.session.clocks()) < 3.0 * told) recording.render(1);
+    while (charged_seconds(recording.session.clocks(recording.slot)) < 3.0 * told) recording.render(1);
     CHECK(recording.last().points.size() == 1);
     CHECK(recording.runs.current()->charged_seconds > 2.0 * told);
     CHECK(recording.runs.current()->measure_seconds == spent);
@@ -139,7 +141,7 @@ TEST_CASE("a set that was handed out never changes") {
 TEST_CASE("another method is another run, and the way back goes on with the first one") {
     Recording recording;
     recording.record(2);
-    recording.session.apply(EditMethod{MethodId::Reinforcement});
+    recording.slot.method = MethodId::Reinforcement;
     recording.record(2);
     REQUIRE(recording.count() == 2);
     CHECK_FALSE(recording.run(0).in_progress);
@@ -149,7 +151,7 @@ TEST_CASE("another method is another run, and the way back goes on with the firs
     CHECK(recording.run(1).points.front().clocks.place > 0.0);
     CHECK(recording.run(0).points.front().clocks.place == 0.0);
     const std::size_t points = recording.run(0).points.size();
-    recording.session.apply(EditMethod{MethodId::Default});
+    recording.slot.method = MethodId::Default;
     recording.record(2);
     REQUIRE(recording.count() == 2);
     CHECK(recording.run(0).in_progress);
@@ -208,14 +210,14 @@ TEST_CASE(
     const std::shared_ptr<RenderBackend> second = make_cpu_backend({.threads = 1});
     Session session(first, std::make_shared<const SceneDescription>(scene),
                     quick_learner(scene, {MethodId::Reinforcement, false}, kSide, 1));
-    CHECK(session.clocks().upload > 0.0);
+    CHECK(session.clocks(slot_of(session)).upload > 0.0);
     LiveRuns runs(kPlenty, {}, kAlways);
     const auto render_on = [&](const std::shared_ptr<RenderBackend>& backend) {
         session.apply(EditBackend{.backend = backend});
         for (int points = 0; points < 3;) {
-            session.advance();
+            session.advance(slot_of(session));
             const std::size_t before = points_of(*runs.current());
-            runs.observe(session);
+            runs.observe(session, slot_of(session));
             points += points_of(*runs.current()) > before ? 1 : 0;
         }
         return runs.current();
@@ -238,12 +240,12 @@ TEST_CASE("other views are not measured, and interrupt no run") {
     Recording recording;
     recording.record(2);
     const std::size_t points = recording.run(0).points.size();
-    recording.session.apply(EditView{View::Normal});
+    recording.slot.view = View::Normal;
     recording.render(50);
     CHECK(recording.count() == 1);
     CHECK(recording.run(0).points.size() == points);
     CHECK_FALSE(recording.run(0).in_progress);
-    recording.session.apply(EditView{View::Beauty});
+    recording.slot.view = View::Beauty;
     recording.record(2);
     CHECK(recording.count() == 1);
     CHECK(recording.run(0).in_progress);
@@ -267,7 +269,7 @@ TEST_CASE("the share of measuring is one of all runs together") {
     REQUIRE(never.count() == 1);
     CHECK(never.run(0).points.size() == 1);  // nothing was known of what it would cost
     CHECK(never.runs.current()->measure_seconds > 0.0);
-    never.session.apply(EditMethod{MethodId::Reinforcement});
+    never.slot.method = MethodId::Reinforcement;
     never.render(50);
     CHECK(never.count() == 1);
     CHECK_FALSE(never.run(0).in_progress);
@@ -333,7 +335,7 @@ TEST_CASE("pictures keep within their memory, the figures stay") {
     for (std::size_t i = 1; i < kept.size(); ++i) CHECK(kept[i] - kept[i - 1] < longest + 2.0 * mean);
 
     // Another method of the same picture shares the room, one of another picture takes it.
-    recording.session.apply(EditMethod{MethodId::Reinforcement});
+    recording.slot.method = MethodId::Reinforcement;
     recording.record(3);
     CHECK(pictures_of(recording.run(0)) > 0);
     CHECK(pictures_of(recording.run(1)) > 0);
@@ -373,15 +375,15 @@ TEST_CASE("words for other settings are those of the newest point") {
     int asked = 0;
     LiveRuns runs(
         kPlenty,
-        [&](const Session& s) {
+        [&](const Session& s, FilmSlot slot) {
             ++asked;
-            return s.passes() < 20 ? std::string("as begun")
-                                   : "--max-depth " + std::to_string(s.settings().max_depth);
+            return s.passes(slot) < 20 ? std::string("as begun")
+                                       : "--max-depth " + std::to_string(s.settings().max_depth);
         },
         kAlways);
-    while (session.passes() < 50) {
-        session.advance();
-        runs.observe(session);
+    while (session.passes(slot_of(session)) < 50) {
+        session.advance(slot_of(session));
+        runs.observe(session, slot_of(session));
     }
     CHECK(asked == static_cast<int>(runs.current()->runs.at(0)->points.size()));
     CHECK(runs.current()->runs.at(0)->label.details == "--max-depth 64");

@@ -36,7 +36,7 @@ struct FurnaceRun {
     std::optional<RunSeries> record_within(const RunLimits& limits, const RunObserver& observer = {},
                                            const StopFlag* stop = nullptr) const {
         Session session = make_session(scene, settings);
-        return record_run(session, limits, {truth, truth}, stop, observer);
+        return record_run(session, slot_of(settings), limits, {truth, truth}, stop, observer);
     }
 };
 

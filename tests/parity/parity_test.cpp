@@ -92,7 +92,7 @@ TEST_CASE("Views of both back ends are equal but for rounding") {
             render_passes(cpu, 4);
             render_passes(cuda, 4);
             // A ray through an edge may land on its other side: that shows in a few pixels.
-            CHECK(differing_share(cpu.snapshot().pixels, cuda.snapshot().pixels) < 0.005);
+            CHECK(differing_share(cpu.snapshot(slot_of(cpu)).pixels, cuda.snapshot(slot_of(cuda)).pixels) < 0.005);
         }
     }
 }
@@ -105,10 +105,10 @@ TEST_CASE("Frames are made of films as the host would make them, to the bit") {
         settings.view = view.id;
         Session cuda = make_cuda_session(scene, settings);
         render_passes(cuda, 3);
-        const Snapshot film = cuda.snapshot();
+        const Snapshot film = cuda.snapshot(slot_of(cuda));
         for (const ToneCurve curve : {ToneCurve::Clamp, ToneCurve::Reinhard, ToneCurve::Aces}) {
             const DisplaySettings display{.exposure_ev = 1.5f, .curve = curve};
-            const ShownFilm shown = cuda.show_film(display);
+            const ShownFilm shown = cuda.show_film(slot_of(settings), display);
             CHECK(shown.range.high == shown_range(film).high);
             const FrameStyle style = frame_style(view.id, display, shown.range);
             const ToneTable table(style.curve);
@@ -169,7 +169,7 @@ TEST_CASE("A material that is changed on the device gives the bits of a new sess
         session.apply(EditMaterial{0, coated.materials[0]});
         render_passes(session, 2);
         CHECK(same_state(state_of(fresh), state_of(session)));
-        CHECK(session.served_kernel().name == fresh.served_kernel().name);
+        CHECK(session.served_kernel(slot_of(session)).name == fresh.served_kernel(slot_of(fresh)).name);
         // Changed while another back end renders.
         session.apply(EditMaterial{0, scene.materials[0]});
         session.apply(EditBackend{std::shared_ptr<RenderBackend>(make_cpu_backend({.threads = 1}))});

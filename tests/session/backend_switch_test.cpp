@@ -1,5 +1,5 @@
-// Another back end takes over: what was learned moves exactly, pictures wait with the back end that has them, and one
-// that fails leaves the session as it was.
+// Another back end takes over: learned tables move exactly, films are parked with their back end, and a back end that fails
+// leaves the session unchanged.
 #include <functional>
 
 #include "tests/catch.hpp"
@@ -56,7 +56,7 @@ TEST_CASE("Another back end goes on with the same tables, on a picture of its ow
 
         session.apply(EditBackend{second});
         CHECK(session.backend().threads == 7);
-        CHECK(session.passes() == 0);
+        CHECK(session.passes(slot_of(session)) == 0);
         CHECK(same_bits(state_of(session).tables, parked.tables));
         reference.apply(EditRestart{});  // a picture of its own
         for (int pass = 0; pass < 2; ++pass) {
@@ -68,17 +68,17 @@ TEST_CASE("Another back end goes on with the same tables, on a picture of its ow
         const State on_second = state_of(session);
         session.apply(EditBackend{first});
         CHECK(same_film(parked, state_of(session)));
-        CHECK(same_events(parked.snapshot.counters, session.snapshot().counters));
+        CHECK(same_events(parked.snapshot.counters, session.snapshot(slot_of(session)).counters));
         CHECK(same_bits(state_of(session).tables, on_second.tables));
         render_passes(session, 1);
-        CHECK(session.passes() == 3);
+        CHECK(session.passes(slot_of(session)) == 3);
         session.apply(EditBackend{second});
         CHECK(same_film(on_second, state_of(session)));
-        CHECK(session.passes() == 2);
+        CHECK(session.passes(slot_of(session)) == 2);
     }
 }
 
-// The picture is started over at the end, so that all of it comes from what was moved about.
+// The picture is started over at the end, so that all of it comes from the moved tables.
 TEST_CASE("A radiance map is the same however often the back end changes in the middle of it") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, {MethodId::Precomputed, true});
@@ -89,7 +89,7 @@ TEST_CASE("A radiance map is the same however often the back end changes in the 
     for (int run = 0; run < 5000 && moved < 5; ++run) {
         const std::array backends{cpu_backend(1), cpu_backend(2), cpu_backend(3)};
         Session session = session_on(backends[0], scene, settings);
-        for (std::size_t next = 1; session.passes() == 0; ++next) {
+        for (std::size_t next = 1; session.passes(slot_of(session)) == 0; ++next) {
             advance_interrupted(session, random.next());
             moved += slice_is_partial(session) ? 1 : 0;
             session.apply(EditBackend{backends[next % backends.size()]});
@@ -102,7 +102,7 @@ TEST_CASE("A radiance map is the same however often the back end changes in the 
 }
 
 // The pass is in part when the back end changes and comes back: the picture and the sums are whole again at its end.
-TEST_CASE("A pass that waited with its back end is finished with the same bits") {
+TEST_CASE("A pass that was parked with its back end is finished with the same bits") {
     const SceneDescription scene = shipped_scene("door");
     for (const Estimator estimator : kEstimators) {
         INFO(estimator);
@@ -116,7 +116,7 @@ TEST_CASE("A pass that waited with its back end is finished with the same bits")
             const auto first = cpu_backend(2);
             const auto second = cpu_backend(1);
             Session session = session_on(first, scene, settings);
-            while (session.passes() < 2) {
+            while (session.passes(slot_of(session)) < 2) {
                 advance_interrupted(session, random.next());
                 if (!pass_is_partial(session)) continue;
                 ++moved;
@@ -126,44 +126,44 @@ TEST_CASE("A pass that waited with its back end is finished with the same bits")
                 session.apply(EditBackend{first});
                 CHECK(same_state(before, state_of(session)));
             }
-            while (session.passes() < 3) session.advance();
+            while (session.passes(slot_of(session)) < 3) session.advance(slot_of(session));
             CHECK(same_state(state_of(whole), state_of(session)));
         }
         CHECK(moved >= 3);
     }
 }
 
-TEST_CASE("All methods move, and what is cleared is cleared everywhere") {
+TEST_CASE("The tables of all methods move, and a cleared film or table is cleared on every back end") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, {MethodId::Precomputed, false});
     const auto first = cpu_backend(1);
     Session session = session_on(first, scene, settings);
+    RenderSettings fresh_settings = settings;
+    fresh_settings.method = MethodId::Reinforcement;
+    const FilmSlot learning = slot_of(fresh_settings);
     render_passes(session, 1);
-    session.apply(EditMethod{MethodId::Reinforcement});
-    render_passes(session, 2);
+    render_passes(session, learning, 2);
     std::array<HostTables, kMethodCount> tables;
     for (const MethodInfo& method : all_methods())
-        tables[static_cast<std::size_t>(method.id)] = tables_of(first->download_field(method.id));
+        tables[static_cast<std::size_t>(method.id)] = first->download_field(method.id);
     const auto second = cpu_backend(2);
     session.apply(EditBackend{second});
     for (const MethodInfo& method : all_methods()) {
         CHECK(second->has_field(method.id) == method.uses_field);
-        CHECK(same_bits(tables[static_cast<std::size_t>(method.id)], tables_of(second->download_field(method.id))));
+        CHECK(same_bits(tables[static_cast<std::size_t>(method.id)], second->download_field(method.id)));
     }
 
     session.apply(EditForget{});
     session.apply(EditBackend{first});
-    CHECK(session.passes() == 0);
-    render_passes(session, 1);
-    RenderSettings fresh_settings = settings;
-    fresh_settings.method = MethodId::Reinforcement;
+    CHECK(session.passes(learning) == 0);
+    render_passes(session, learning, 1);
     Session fresh = session_on(cpu_backend(2), scene, fresh_settings);
     render_passes(fresh, 1);
-    CHECK(same_state(state_of(fresh), state_of(session)));
+    CHECK(same_state(state_of(fresh), state_of(session, learning)));
 }
 
-// Volumes are placed again by the next pass, not before: until then the parked back end has tables that fit nothing.
-TEST_CASE("A field that was given up on one back end is not carried on by another") {
+// Volumes are placed again by the next pass, not before: until then the tables of the parked back end belong to no placement.
+TEST_CASE("A field that was cleared on one back end is not carried on by another") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
     const auto first = cpu_backend(1);
@@ -181,7 +181,7 @@ TEST_CASE("A field that was given up on one back end is not carried on by anothe
     check_like_fresh(session, scene, other, 2);
 }
 
-TEST_CASE("Another scene reaches the back ends that wait") {
+TEST_CASE("Another scene reaches parked back ends") {
     const SceneDescription scene = shipped_scene("door");
     SceneDescription brighter = scene;
     for (MaterialDescription& material : brighter.materials) material.emission *= 2.0f;
@@ -225,7 +225,7 @@ TEST_CASE("A back end that cannot take over leaves the session as it was") {
     }
 }
 
-TEST_CASE("A lost back end is abandoned with what it held, and the next one starts like a new session") {
+TEST_CASE("A lost back end is abandoned with its tables, and the next one starts like a new session") {
     const SceneDescription scene = shipped_scene("door");
     for (const Estimator estimator : kEstimators) {
         INFO(estimator);
@@ -234,7 +234,7 @@ TEST_CASE("A lost back end is abandoned with what it held, and the next one star
         Session session = session_on(lost, scene, settings);
         render_passes(session, 2);
         lost->failure = Failure::Pass;
-        CHECK_THAT(unavailable([&] { session.advance(); }), contains("gone"));
+        CHECK_THAT(unavailable([&] { session.advance(slot_of(session)); }), contains("gone"));
         lost->failure = Failure::Download;
         const auto next = cpu_backend(2);
         if (info_of(estimator.method).uses_field)
@@ -242,9 +242,9 @@ TEST_CASE("A lost back end is abandoned with what it held, and the next one star
         const SessionEdit abandon = EditBackend{.backend = next, .abandon_old = true};
         CHECK(invalidated_by(abandon) == Invalidation{.tables = true});
         session.apply(abandon);
-        CHECK(session.passes() == 0);
+        CHECK(session.passes(slot_of(session)) == 0);
         CHECK_FALSE(next->has_field(estimator.method));
-        CHECK(lost.use_count() == 1);  // nobody will touch it again
+        CHECK(lost.use_count() == 1);  // the session has let go of it
         render_passes(session, 2);
         Session fresh = session_on(cpu_backend(1), scene, settings);
         render_passes(fresh, 2);
@@ -260,5 +260,5 @@ TEST_CASE("Changing to the back end that runs already changes nothing") {
     const State before = state_of(session);
     session.apply(EditBackend{backend});
     CHECK(same_state(before, state_of(session)));
-    CHECK(session.passes() == 2);
+    CHECK(session.passes(slot_of(session)) == 2);
 }

@@ -1,5 +1,5 @@
-// What decides a bit: scene, settings and seed. Not the number of threads, the size of batches, when a pass was stopped,
-// what was rendered in between, or which compiled superset of effects ran.
+// Every bit is decided by scene, settings and seed: not by the number of threads, the size of batches, the moment at which a
+// pass was stopped, other films in between, or the compiled superset of effects.
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "tests/catch.hpp"
@@ -48,7 +48,7 @@ TEST_CASE("Threads, batches, intersectors and stops do not change a bit of a sce
         CHECK(same_state(one, render(scene, settings, {.threads = 2, .intersector = IntersectorChoice::Bvh})));
         Session stopped = make_session(scene, settings, 2);
         StopFlag stop = true;
-        CHECK(stopped.advance(&stop) == Progress::Stopped);
+        CHECK(stopped.advance(slot_of(stopped), &stop) == Progress::Stopped);
         render_passes(stopped, one.snapshot.passes);
         CHECK(same_state(one, state_of(stopped)));
     }
@@ -69,7 +69,7 @@ TEST_CASE(
                 .tables));
         Session stopped = make_session(scene, settings, 2);
         StopFlag stop = true;
-        CHECK(stopped.advance(&stop) == Progress::Stopped);
+        CHECK(stopped.advance(slot_of(stopped), &stop) == Progress::Stopped);
         render_passes(stopped, expected.snapshot.passes);
         CHECK(same_state(expected, state_of(stopped)));
     }
@@ -91,8 +91,8 @@ TEST_CASE("A seed changes films and tables") {
     }
 }
 
-// Small batches, so that a flag is seen soon. No seed decides when stops come, and what has to come out does not depend
-// on it; runs are repeated until some stops have left work in part.
+// Small batches, so that a flag is seen soon. The moments of the stops are not reproducible, and the results must not depend on
+// them; runs are repeated until some stops have left work in part.
 TEST_CASE("Work that is stopped and resumed at any moment does not change a bit") {
     const SceneDescription scene = shipped_scene("door");
     const CpuSettings cpu{.threads = 2, .batch_paths = 32};
@@ -107,12 +107,12 @@ TEST_CASE("Work that is stopped and resumed at any moment does not change a bit"
         int partial_slices = 0;
         for (int run = 0; run < 5000 && (partial_passes < 3 || partial_slices < wanted_slices); ++run) {
             Session session(make_cpu_backend(cpu), std::make_shared<const SceneDescription>(scene), settings);
-            while (session.passes() < 3) {
+            while (session.passes(slot_of(session)) < 3) {
                 advance_interrupted(session, random.next());
                 partial_passes += pass_is_partial(session) ? 1 : 0;
                 partial_slices += slice_is_partial(session) ? 1 : 0;
             }
-            while (session.passes() < 4) session.advance();
+            while (session.passes(slot_of(session)) < 4) session.advance(slot_of(session));
             CHECK(same_state(uninterrupted, state_of(session)));
         }
         CHECK(partial_passes >= 3);
@@ -127,34 +127,27 @@ TEST_CASE("A flag that is set from the beginning starts nothing and loses nothin
         const RenderSettings settings = small_settings(scene, estimator);
         Session session = make_session(scene, settings, 2);
         const StopFlag stop{true};
-        for (int i = 0; i < 3; ++i) CHECK(session.advance(&stop) == Progress::Stopped);
-        CHECK(session.passes() == 0);
+        for (int i = 0; i < 3; ++i) CHECK(session.advance(slot_of(session), &stop) == Progress::Stopped);
+        CHECK(session.passes(slot_of(session)) == 0);
         render_passes(session, 4);
         CHECK(same_state(render(scene, settings, {.threads = 2}), state_of(session)));
     }
 }
 
-TEST_CASE("Switching methods and views back and forth resumes each where it was") {
+TEST_CASE("Films of methods and views in turns each resume where they were") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, {MethodId::Default, false});
     Session session = make_session(scene, settings, 2);
-    const auto go_on_with = [&](MethodId method, std::uint32_t passes) {
-        session.apply(EditMethod{method});
-        render_passes(session, passes);
-    };
     for (const MethodId method : {MethodId::Reinforcement, MethodId::Default, MethodId::Precomputed,
                                   MethodId::Default, MethodId::Reinforcement, MethodId::Precomputed}) {
-        go_on_with(method, 2);
-        session.apply(EditView{View::Normal});
-        render_passes(session, 1);
-        session.apply(EditView{View::Beauty});
+        render_passes(session, {method, View::Beauty}, 2);
+        render_passes(session, {method, View::Normal}, 1);
     }
     for (const MethodInfo& method : all_methods()) {
         INFO(method.name);
         RenderSettings alone = settings;
         alone.method = method.id;
-        session.apply(EditMethod{method.id});
-        CHECK(same_state(render(scene, alone, {.threads = 2}), state_of(session)));
+        CHECK(same_state(render(scene, alone, {.threads = 2}), state_of(session, slot_of(alone))));
     }
 }
 
@@ -181,13 +174,13 @@ std::vector<Vec3f> render_with(Session& session, FeatureSet set, bool next_event
     return backend.read_film(slot).mean;
 }
 
-/// How many pictures were compared: of a scene that needs nothing there are five sets without light samples, four with.
+/// Number of pictures compared: for a scene without effects there are five sets without light sampling, four with.
 int compare_supersets(const SceneDescription& scene) {
     int compared = 0;
     for (const Estimator estimator : kEstimators) {
         Session session = make_session(scene, small_settings(scene, estimator));
-        render_passes(session, 2);  // something to be guided by
-        const FeatureSet needed = session.needed_features();
+        render_passes(session, 2);  // so that paths are guided
+        const FeatureSet needed = session.needed_features(slot_of(session));
         const std::vector<Vec3f> expected =
             render_with(session, kCompiledSets[smallest_superset(needed)], estimator.next_event);
         for (const FeatureSet set : kCompiledSets) {
@@ -212,11 +205,11 @@ TEST_CASE("Every compiled superset of the needed effects makes the same picture 
     int compared = 0;
     for (const std::string& name : list_scenes(PL_SOURCE_DIR "/assets"))
         compared += compare_supersets(shipped_scene(name));
-    // Ten shipped scenes need nothing.
+    // Ten shipped scenes need no effect.
     CHECK(compared >= 10 * 3 * (5 + 4));
 }
 
-// An effect that is there must change the picture, or the test above compares nothing.
+// An effect that a scene has must change its picture, or the test above proves nothing.
 TEST_CASE("Each effect changes the picture of a scene that needs it") {
     const SceneDescription plain = shipped_scene("cornell");
     SceneDescription sky = plain;

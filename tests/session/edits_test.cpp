@@ -1,6 +1,7 @@
-// What each edit clears, and that it clears no more: the table of core/session/edits.h, one case per edit, on real
-// sessions in which all three methods have rendered and learned.
+// The parts that each edit clears, and no others: the table of core/session/edits.h, one case per edit, on real sessions in
+// which every method has rendered and learned.
 #include <algorithm>
+#include <set>
 
 #include "tests/catch.hpp"
 #include "tests/session/same_bits.h"
@@ -14,28 +15,23 @@ namespace {
 
 constexpr std::uint32_t kPasses = 2;
 
-/// Odd rows and columns are for the tests of pictures; here only what is kept counts.
+/// Even sizes suffice: these tests compare sessions, not pixels.
 RenderSettings tiny_settings(const SceneDescription& scene) {
     return small_settings(scene, {MethodId::Default, false}, 40, 30);
 }
 
-/// What can be lost, seen from outside.
+/// The parts that an edit may clear, seen from outside.
 struct Contents {
     std::array<State, kMethodCount> methods;
     std::shared_ptr<const HostScene> scene;
     double place_seconds = 0.0;  ///< measured anew by every placement
 };
 
-/// Looks at all methods and comes back to the one that was set.
 Contents contents_of(Session& session) {
-    const MethodId current = session.settings().method;
     session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f});  // places volumes if there are none
-    Contents contents{{}, session.packed_scene(), session.snapshot().clocks.place};
-    for (const MethodInfo& method : all_methods()) {
-        session.apply(EditMethod{method.id});
-        contents.methods[static_cast<std::size_t>(method.id)] = state_of(session);
-    }
-    session.apply(EditMethod{current});
+    Contents contents{{}, session.packed_scene(), session.snapshot(slot_of(session)).clocks.place};
+    for (const MethodInfo& method : all_methods())
+        contents.methods[static_cast<std::size_t>(method.id)] = state_of(session, {method.id, View::Beauty});
     return contents;
 }
 
@@ -43,10 +39,7 @@ Contents contents_of(Session& session) {
 Session used_session(const SceneDescription& scene, const RenderSettings& settings,
                      const std::shared_ptr<RenderBackend>& backend = make_cpu_backend({.threads = 2})) {
     Session session(backend, std::make_shared<const SceneDescription>(scene), settings);
-    for (const MethodInfo& method : all_methods()) {
-        session.apply(EditMethod{method.id});
-        render_passes(session, kPasses);
-    }
+    for (const MethodInfo& method : all_methods()) render_passes(session, {method.id, View::Beauty}, kPasses);
     return session;
 }
 
@@ -87,8 +80,6 @@ std::vector<Case> all_cases(const RenderSettings& settings) {
     return {
         {"camera", EditCamera{camera}, {.films = true}},
         {"size", EditSize{50, 20}, {.films = true}},
-        {"method", EditMethod{MethodId::Precomputed}, {}},
-        {"view", EditView{View::Albedo}, {}},
         {"seed", EditSeed{7}, {.films = true, .tables = true}},
         {"depth", EditEstimator{10, false}, {.films = true, .tables = true}},
         {"light samples", EditEstimator{64, true}, {.films = true, .tables = true}},
@@ -97,6 +88,7 @@ std::vector<Case> all_cases(const RenderSettings& settings) {
         {"scene",
          EditScene{std::make_shared<const SceneDescription>(brighter)},
          {.films = true, .tables = true, .volumes = true, .scene = true}},
+        {"effects", EditEffects{kEveryFeature}, {}},
         {"back end", EditBackend{make_cpu_backend({.threads = 1})}, {}},
         {"restart", EditRestart{}, {.films = true}},
         {"forget", EditForget{}, {.films = true, .tables = true}},
@@ -122,6 +114,14 @@ RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
 
 }  // namespace
 
+TEST_CASE("Every kind of edit has a case") {
+    std::set<std::size_t> kinds;
+    for (const Case& c : all_cases(tiny_settings(shipped_scene("door")))) kinds.insert(c.edit.index());
+    kinds.insert(SessionEdit(EditMaterial{}).index());  // materials_test.cpp
+    kinds.insert(SessionEdit(EditLearned{}).index());   // learned_field_test.cpp
+    CHECK(kinds.size() == std::variant_size_v<SessionEdit>);
+}
+
 TEST_CASE("Every edit clears what the table says and keeps the rest") {
     const SceneDescription scene = shipped_scene("door");
     for (const Case& c : all_cases(tiny_settings(scene))) {
@@ -134,8 +134,7 @@ TEST_CASE("Every edit clears what the table says and keeps the rest") {
         REQUIRE_FALSE(all_tables_empty(before));
 
         session.apply(c.edit);
-        session.apply(EditView{View::Beauty});
-        session.apply(EditBackend{backend});  // pictures wait with the back end that has them
+        session.apply(EditBackend{backend});  // films are parked with their back end
         const Contents after = contents_of(session);
         CHECK(all_films_empty(after) == c.cleared.films);
         CHECK(all_films_kept(before, after) == !c.cleared.films);
@@ -146,7 +145,7 @@ TEST_CASE("Every edit clears what the table says and keeps the rest") {
     }
 }
 
-TEST_CASE("An edit that clears what was learned leaves a session like a new one") {
+TEST_CASE("An edit that clears tables leaves a session like a new one") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = tiny_settings(scene);
     for (const Case& c : all_cases(settings)) {
@@ -161,9 +160,9 @@ TEST_CASE("An edit that clears what was learned leaves a session like a new one"
             fresh_settings.method = method.id;
             Session fresh = make_session(new_scene, fresh_settings, 2);
             render_passes(fresh, kPasses);
-            session.apply(EditMethod{method.id});
-            render_passes(session, kPasses);
-            CHECK(same_state(state_of(fresh), state_of(session)));
+            const FilmSlot slot = slot_of(fresh_settings);
+            render_passes(session, slot, kPasses);
+            CHECK(same_state(state_of(fresh), state_of(session, slot)));
         }
     }
 }
@@ -177,7 +176,6 @@ TEST_CASE("An edit that clears the films leaves default path tracing like a new 
         INFO(c.name);
         Session session = used_session(scene, settings);
         session.apply(c.edit);
-        session.apply(EditMethod{MethodId::Default});
         render_passes(session, kPasses);
         Session fresh = make_session(scene, edited(settings, c.edit), 2);
         render_passes(fresh, kPasses);
@@ -185,25 +183,25 @@ TEST_CASE("An edit that clears the films leaves default path tracing like a new 
     }
 }
 
-// What a moved camera keeps is used at once: the first pass is guided by what the old view taught.
-TEST_CASE("A moved camera goes on with what was learned") {
+// The first pass after a camera edit is guided by the field that was learned from the old view.
+TEST_CASE("A moved camera keeps the learned field") {
     const SceneDescription scene = shipped_scene("door");
     RenderSettings settings = tiny_settings(scene);
     settings.method = MethodId::Reinforcement;
     Session session = make_session(scene, settings, 2);
     render_passes(session, 8);
-    const std::uint64_t records = session.field_status()->records;
+    const std::uint64_t records = session.field_status(session.settings().method)->records;
     CameraDescription camera = settings.camera;
     camera.eye.x += 0.1f;
     session.apply(EditCamera{camera});
-    CHECK(session.field_status()->records == records);
-    CHECK(session.field_status()->passes == 8);
+    CHECK(session.field_status(session.settings().method)->records == records);
+    CHECK(session.field_status(session.settings().method)->passes == 8);
     render_passes(session, 1);
-    CHECK(session.field_status()->records > records);
+    CHECK(session.field_status(session.settings().method)->records > records);
     settings.camera = camera;
     Session fresh = make_session(scene, settings, 2);
     render_passes(fresh, 1);
-    CHECK_FALSE(same_bits(fresh.snapshot().pixels, session.snapshot().pixels));
+    CHECK_FALSE(same_bits(fresh.snapshot(slot_of(fresh)).pixels, session.snapshot(slot_of(session)).pixels));
 }
 
 TEST_CASE("A pass that was stopped is forgotten with its film") {
@@ -211,7 +209,7 @@ TEST_CASE("A pass that was stopped is forgotten with its film") {
     Session session = make_session(scene, tiny_settings(scene), 2);
     render_passes(session, 1);
     StopFlag stop{true};
-    REQUIRE(session.advance(&stop) == Progress::Stopped);
+    REQUIRE(session.advance(slot_of(session), &stop) == Progress::Stopped);
     session.apply(EditRestart{});
     render_passes(session, 1);
     Session fresh = make_session(scene, tiny_settings(scene), 2);

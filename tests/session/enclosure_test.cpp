@@ -1,4 +1,4 @@
-// What is inside closed surfaces: by borders, by parity, for whatever is put together of quads.
+// Points inside and outside of closed surfaces: borders, parity, and shapes made of quads.
 #include "core/scene/enclosure.h"
 #include "tests/catch.hpp"
 #include "tests/statistical/scenes.h"
@@ -84,7 +84,7 @@ TEST_CASE("Enclosure: each surface counts alone, and one that is open does not s
     CHECK_FALSE(enclosure.contains(glm::vec3{-0.5f}));
 }
 
-TEST_CASE("Enclosure: nothing encloses nothing") {
+TEST_CASE("Enclosure: an empty scene encloses no point") {
     CHECK_FALSE(Enclosure(SceneDescription{}).contains(glm::vec3{0.0f}));
 }
 

@@ -1,4 +1,4 @@
-// A back end that works until it is told to fail: what a lost device looks like to a session.
+// A back end that works until a test makes it fail, as a lost device does.
 #pragma once
 
 #include "core/base/error.h"

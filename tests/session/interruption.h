@@ -1,10 +1,10 @@
-// Work that is stopped at some moment, so that sessions can be looked at in the middle of a pass.
+// Work that is stopped at some moment, so that tests can examine sessions in the middle of a pass.
 #pragma once
 
 #include <chrono>
 #include <thread>
 
-#include "core/session/session.h"
+#include "tests/statistical/sessions.h"
 
 namespace pl::test {
 
@@ -15,20 +15,20 @@ inline Progress advance_interrupted(Session& session, float delay) {
         std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(4000.0f * delay * delay)));
         stop = true;
     });
-    const Progress progress = session.advance(&stop);
+    const Progress progress = session.advance(slot_of(session), &stop);
     other.join();
     return progress;
 }
 
 /// Whether the film's pass is done in part.
 inline bool pass_is_partial(const Session& session) {
-    const Snapshot snapshot = session.snapshot();
+    const Snapshot snapshot = session.snapshot(slot_of(session));
     return snapshot.counters.paths % snapshot.pixels.size() != 0;
 }
 
 /// Whether a slice of the radiance map is done in part.
 inline bool slice_is_partial(const Session& session) {
-    const std::optional<FieldStatus> field = session.field_status();
+    const std::optional<FieldStatus> field = session.field_status(session.settings().method);
     return session.settings().method == MethodId::Precomputed && field &&
            field->records % static_cast<std::uint64_t>(field->volumes * field->bins) != 0;
 }

@@ -1,4 +1,4 @@
-// Models of ten thousand and of a million triangles: they load, their memory is what is stated, and every method renders
+// Models of ten thousand and of a million triangles: they load, their memory is within the stated limits, and every method renders
 // them without an invalid sample.
 #include <cmath>
 
@@ -14,6 +14,7 @@
 #include "tests/bumpy_ball.h"
 #include "tests/catch.hpp"
 #include "tests/io/temporary_folder.h"
+#include "tests/statistical/sessions.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -43,9 +44,9 @@ void render_with_every_method(const std::shared_ptr<const SceneDescription>& sce
     Session session(make_cpu_backend(), scene, settings);
     for (const MethodInfo& method : all_methods()) {
         INFO(method.name);
-        session.apply(EditMethod{method.id});
-        while (session.advance() != Progress::Rendered) continue;
-        const Snapshot picture = session.snapshot();
+        const FilmSlot slot{method.id, View::Beauty};
+        while (session.advance(slot) != Progress::Rendered) continue;
+        const Snapshot picture = session.snapshot(slot);
         CHECK(picture.counters.invalid_samples == 0);
         CHECK(picture.counters.path.segments > 64 * 64);
         double sum = 0.0;
@@ -54,7 +55,7 @@ void render_with_every_method(const std::shared_ptr<const SceneDescription>& sce
     }
 }
 
-/// What a process of its own takes to load a model from its file and to pack it.
+/// Processor time and memory of a process that loads a model from its file and packs it.
 struct LoadCost {
     double processor_seconds = 0.0;
     double peak_bytes = 0.0;
@@ -92,7 +93,7 @@ LoadCost cost_of_loading(std::size_t rows) {
             static_cast<double>(packed)};
 }
 
-/// Time grows as n log n, with a fifth to spare; memory as n, and its peak is at most three times what is packed.
+/// Time grows as n log n, with a fifth to spare; memory as n, and its peak is at most three times the packed scene.
 void check_growth(std::size_t small_rows, std::size_t large_rows) {
     const LoadCost small = cost_of_loading(small_rows);
     const LoadCost large = cost_of_loading(large_rows);
@@ -108,29 +109,29 @@ void check_growth(std::size_t small_rows, std::size_t large_rows) {
 
 }  // namespace
 
-TEST_CASE("A model of ten thousand triangles takes the memory that is stated and renders with every method") {
+TEST_CASE("A model of ten thousand triangles takes the stated memory and renders with every method") {
     const TemporaryFolder folder;
     const auto scene = ball(folder, 51);
     CHECK(bytes_per_triangle(pack_scene(*scene)) < kMostBytesPerTriangle);
     render_with_every_method(scene);
 }
 
-TEST_CASE("A model of a million triangles takes the memory that is stated and renders with every method", "[merge]") {
+TEST_CASE("A model of a million triangles takes the stated memory and renders with every method", "[merge]") {
     const TemporaryFolder folder;
     const auto scene = ball(folder, 501);
     CHECK(bytes_per_triangle(pack_scene(*scene)) < kMostBytesPerTriangle);
     render_with_every_method(scene);
 }
 
-// The clock of whoever opens a file, on two cores that do nothing else.
+// Wall-clock time from opening the file, on two idle cores.
 TEST_CASE("A model of a million triangles is on screen within five seconds", "[nightly]") {
     const TemporaryFolder folder;
     const std::filesystem::path path = write_bumpy_ball(folder.path(), 501);
     const Stopwatch watch;
     const auto scene = std::make_shared<const SceneDescription>(load_scene(path.string(), folder.path()));
     Session session(make_cpu_backend(), scene, {.width = 1280, .height = 720, .camera = scene->camera});
-    while (session.advance() != Progress::Rendered) continue;
-    CHECK(session.snapshot().passes == 1);
+    while (session.advance(slot_of(session)) != Progress::Rendered) continue;
+    CHECK(session.snapshot(slot_of(session)).passes == 1);
     INFO(watch.seconds() << " s");
     CHECK(watch.seconds() < 5.0);
 }

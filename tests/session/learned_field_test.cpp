@@ -1,5 +1,5 @@
-// What was learned, taken from one session to another, also through a file: going on is the same as never having moved.
-// And what the views show of it.
+// Learned fields that move from one session to another, also through a file: the session goes on as if the field had never
+// moved. And the views of a field.
 #include <algorithm>
 #include <numeric>
 
@@ -26,8 +26,8 @@ std::vector<Estimator> learning_estimators() {
 }
 
 bool same_field_status(const Session& a, const Session& b) {
-    const std::optional<FieldStatus> x = a.field_status();
-    const std::optional<FieldStatus> y = b.field_status();
+    const std::optional<FieldStatus> x = a.field_status(a.settings().method);
+    const std::optional<FieldStatus> y = b.field_status(b.settings().method);
     return x && y && x->volumes == y->volumes && x->bins == y->bins && x->passes == y->passes &&
            x->records == y->records && x->clamped_records == y->clamped_records &&
            x->lookup_misses == y->lookup_misses && x->precomputed_share == y->precomputed_share;
@@ -42,8 +42,8 @@ TEST_CASE("A field that moved to another session goes on with the same bits") {
         const RenderSettings settings = small_settings(scene, estimator);
         Session first = make_session(scene, settings, 2);
         render_passes(first, 3);
-        const LearnedField field = first.export_field();
-        // The other one would have had another field, and has used it.
+        const LearnedField field = first.export_field(first.settings().method);
+        // The other session has rendered with a field of its own, of another size.
         RenderSettings other = settings;
         other.field = {};
         other.field.volumes = 20;
@@ -54,7 +54,7 @@ TEST_CASE("A field that moved to another session goes on with the same bits") {
         first.apply(EditRestart{});
         second.import_field(through_file(field));
         CHECK((second.settings().field == settings.field));
-        CHECK(second.passes() == 0);
+        CHECK(second.passes(slot_of(second)) == 0);
         CHECK(same_field_status(first, second));
         for (int pass = 0; pass < 2; ++pass) {
             render_passes(first, 1);
@@ -65,7 +65,7 @@ TEST_CASE("A field that moved to another session goes on with the same bits") {
     }
 }
 
-// Stops come when they come; what has to come out does not depend on it.
+// The moments of the stops are not reproducible; the result must not depend on them.
 TEST_CASE("A radiance map that moves in the middle of a slice is completed with the same bits") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, {MethodId::Precomputed, false});
@@ -77,11 +77,11 @@ TEST_CASE("A radiance map that moves in the middle of a slice is completed with 
     int moved = 0;
     for (int run = 0; run < 5000 && moved < 5; ++run) {
         auto session = std::make_unique<Session>(make_cpu_backend(cpu), shared_scene, settings);
-        while (session->passes() == 0) {
+        while (session->passes(slot_of(*session)) == 0) {
             advance_interrupted(*session, random.next());
             if (!slice_is_partial(*session)) continue;
             ++moved;
-            const LearnedField field = session->export_field();
+            const LearnedField field = session->export_field(session->settings().method);
             CHECK(field.progress.next_probe > 0);
             session = std::make_unique<Session>(make_cpu_backend(cpu), shared_scene, settings);
             session->import_field(through_file(field));
@@ -99,38 +99,34 @@ TEST_CASE("An imported field empties all pictures and the tables of other method
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
     Session session = make_session(scene, settings, 2);
     render_passes(session, 2);
-    const LearnedField field = session.export_field();
-    session.apply(EditMethod{MethodId::Precomputed});
-    render_passes(session, 1);
-    session.apply(EditMethod{MethodId::Default});
-    render_passes(session, 1);
+    const LearnedField field = session.export_field(session.settings().method);
+    render_passes(session, {MethodId::Precomputed, View::Beauty}, 1);
+    render_passes(session, {MethodId::Default, View::Beauty}, 1);
 
-    session.import_field(field);
+    session.apply(EditLearned{std::make_shared<const LearnedField>(field)});
     for (const MethodInfo& method : all_methods()) {
-        session.apply(EditMethod{method.id});
-        CHECK(session.passes() == 0);
+        CHECK(session.passes({method.id, View::Beauty}) == 0);
         const bool is_owner = method.id == MethodId::Reinforcement;
         CHECK(session.backend_access().has_field(method.id) == is_owner);
         if (is_owner) CHECK(same_bits(tables_of(session.backend_access().download_field(method.id)), tables_of(field.field)));
     }
     // The others start as in a new session.
-    session.apply(EditMethod{MethodId::Precomputed});
-    render_passes(session, 1);
     settings.method = MethodId::Precomputed;
+    render_passes(session, slot_of(settings), 1);
     Session fresh = make_session(scene, settings, 2);
     render_passes(fresh, 1);
-    CHECK(same_state(state_of(fresh), state_of(session)));
+    CHECK(same_state(state_of(fresh), state_of(session, slot_of(settings))));
 }
 
 TEST_CASE("A field that does not belong to the session is refused and changes nothing") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
     Session session = make_session(scene, settings, 2);
-    CHECK_THAT(error_message(ErrorKind::Usage, [&] { session.export_field(); }),
+    CHECK_THAT(error_message(ErrorKind::Usage, [&] { session.export_field(session.settings().method); }),
                contains("'reinforcement' has learned nothing"));
     render_passes(session, 2);
     const State before = state_of(session);
-    const LearnedField good = session.export_field();
+    const LearnedField good = session.export_field(session.settings().method);
 
     LearnedField other_scene = good;
     other_scene.scene_hash = "0000000000000000";
@@ -151,38 +147,38 @@ TEST_CASE("A field that does not belong to the session is refused and changes no
     render_passes(undisturbed, 3);
     CHECK(same_state(state_of(undisturbed), state_of(session)));
 
-    session.apply(EditMethod{MethodId::Default});
-    CHECK_THAT(error_message(ErrorKind::Usage, [&] { session.export_field(); }), contains("'default'"));
+    CHECK_THAT(error_message(ErrorKind::Usage, [&] { session.export_field(MethodId::Default); }),
+               contains("'default'"));
 }
 
-// With a share of 1 no direction comes from the tables, and two vertices see no roulette that asks them: only the
-// numbers decide. Paths that met the numbers again that taught the tables would be too dark by a fifth in the first
-// pass (cornell, 60 volumes), since their directions seem likelier than they are.
-TEST_CASE("A picture that starts over what was learned draws new numbers") {
+// With a BSDF fraction of 1 no direction comes from the tables, and paths of two vertices meet no roulette that uses them: only
+// the random numbers matter. Paths that drew the same numbers as the training samples of the tables would be too dark by a
+// fifth in the first pass (cornell, 60 volumes), since their directions seem likelier than they are.
+TEST_CASE("A picture that starts over with a learned field draws new random numbers") {
     const SceneDescription scene = shipped_scene("door");
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
     settings.mixture = {.learned = 0, .bsdf_fraction = 1.0f};
     settings.max_depth = 2;
     Session session = make_session(scene, settings, 2);
     render_passes(session, 1);
-    const std::vector<Vec3f> first = session.snapshot().pixels;
-    const LearnedField field = session.export_field();
+    const std::vector<Vec3f> first = session.snapshot(slot_of(session)).pixels;
+    const LearnedField field = session.export_field(session.settings().method);
 
     session.apply(EditRestart{});
     render_passes(session, 1);
-    CHECK_FALSE(same_bits(first, session.snapshot().pixels));
+    CHECK_FALSE(same_bits(first, session.snapshot(slot_of(session)).pixels));
     Session other = make_session(scene, settings, 2);
     other.import_field(field);
     render_passes(other, 1);
-    CHECK_FALSE(same_bits(first, other.snapshot().pixels));
+    CHECK_FALSE(same_bits(first, other.snapshot(slot_of(other)).pixels));
 
-    // What forgets the tables may draw the same ones: it is a new session.
+    // With empty tables it may draw the same numbers, like a new session.
     session.apply(EditForget{});
     render_passes(session, 1);
-    CHECK(same_bits(first, session.snapshot().pixels));
+    CHECK(same_bits(first, session.snapshot(slot_of(session)).pixels));
 }
 
-TEST_CASE("Heat maps show numbers of the tables as they are after the last pass") {
+TEST_CASE("Heat maps show values of the tables after the last pass") {
     const SceneDescription scene = shipped_scene("cornell");
     for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
         RenderSettings settings = small_settings(scene, {method, false});
@@ -208,26 +204,26 @@ TEST_CASE("Heat maps show numbers of the tables as they are after the last pass"
     }
 }
 
-TEST_CASE("The range of entropy is that of the field's bins, also for a method that learns nothing") {
+TEST_CASE("The range of entropy is that of the field's bins, also for a method without a field") {
     const SceneDescription scene = shipped_scene("cornell");
     for (const MethodInfo& method : all_methods()) {
         RenderSettings settings = small_settings(scene, {method.id, false});
         settings.view = View::Entropy;
         Session session = make_session(scene, settings, 2);
         render_passes(session, 1);
-        const Snapshot snapshot = session.snapshot();
+        const Snapshot snapshot = session.snapshot(slot_of(session));
         CHECK(legend(snapshot) == "0 to 6 bits");
         float least = 6.0f;
         for (const Vec3f pixel : snapshot.pixels) {
             REQUIRE((pixel.x >= 0.0f && pixel.x <= 6.00001f));
             if (pixel.x > 0.0f) least = std::min(least, pixel.x);
         }
-        // Uniform where nothing was learned, else not everywhere.
+        // Uniform without training samples.
         CHECK((least < 5.9f) == method.uses_field);
     }
 }
 
-TEST_CASE("Views tell the range of what they show") {
+TEST_CASE("Views tell the range of their values") {
     Snapshot snapshot;
     snapshot.bins = 256;
     const auto shown = [&](View view, const std::vector<float>& values) {

@@ -1,5 +1,5 @@
-// A material that is changed while a session runs: the session goes on like a new one of the changed scene, and keeps what
-// does not depend on it.
+// A material that is changed while a session runs: the session goes on like a new one of the changed scene, and keeps the parts
+// that do not depend on materials.
 #include <cmath>
 #include <functional>
 
@@ -83,10 +83,7 @@ std::vector<Change> all_changes() {
 Session used_session(const SceneDescription& scene, const RenderSettings& settings,
                      const std::shared_ptr<RenderBackend>& backend) {
     Session session(backend, std::make_shared<const SceneDescription>(scene), settings);
-    for (const MethodInfo& method : all_methods()) {
-        session.apply(EditMethod{method.id});
-        render_passes(session, kPasses);
-    }
+    for (const MethodInfo& method : all_methods()) render_passes(session, {method.id, View::Beauty}, kPasses);
     return session;
 }
 
@@ -97,10 +94,10 @@ void check_like_fresh(Session& session, const SceneDescription& scene) {
         settings.method = method.id;
         Session fresh = make_session(scene, settings, 2);
         render_passes(fresh, kPasses);
-        session.apply(EditMethod{method.id});
-        render_passes(session, kPasses);
-        CHECK(same_state(state_of(fresh), state_of(session)));
-        CHECK(fresh.served_kernel().name == session.served_kernel().name);
+        const FilmSlot slot = slot_of(settings);
+        render_passes(session, slot, kPasses);
+        CHECK(same_state(state_of(fresh), state_of(session, slot)));
+        CHECK(fresh.served_kernel(slot).name == session.served_kernel(slot).name);
     }
 }
 
@@ -117,17 +114,17 @@ TEST_CASE("Material edit: the session goes on like a new one of the changed scen
     for (const Change& change : all_changes()) {
         INFO(change.text);
         Session session = used_session(change.before, tiny_settings(change.before), make_cpu_backend({.threads = 2}));
-        const double placed = session.clocks().place;
+        const double placed = session.clocks(slot_of(session)).place;
         session.apply(change.edit);
-        CHECK(session.passes() == 0);
+        CHECK(session.passes(slot_of(session)) == 0);
         CHECK(scene_hash(session.scene()) == scene_hash(change.after()));
         CHECK(scene_hash(session.scene()) != scene_hash(change.before));
-        CHECK((session.clocks().place == placed) == change.keeps_volumes);
+        CHECK((session.clocks(slot_of(session)).place == placed) == change.keeps_volumes);
         check_like_fresh(session, change.after());
     }
 }
 
-TEST_CASE("Material edit: and back again it is like a new one of the scene that was") {
+TEST_CASE("Material edit: changed back, the session is like a new one of the first scene") {
     for (const Change& change : all_changes()) {
         INFO(change.text);
         Session session = used_session(change.before, tiny_settings(change.before), make_cpu_backend({.threads = 2}));
@@ -151,17 +148,17 @@ TEST_CASE("Material edit: repacking gives the bits of packing anew") {
     CHECK_FALSE(same_triangles(pack_scene(shipped_scene("door")), pack_scene(shipped_scene("cornell"))));
 }
 
-TEST_CASE("Material edit: effects are looked for anew") {
+TEST_CASE("Material edit: the needed effects follow") {
     const Change change = make_change("cornell", "white", false, [](MaterialDescription& m) {
         m.kind = SurfaceKind::Plastic;
         m.roughness = 0.3f;
     });
     Session session = make_session(change.before, tiny_settings(change.before), 2);
-    CHECK_FALSE(session.needed_features().has_any(kLobeFeatures));
+    CHECK_FALSE(session.needed_features(slot_of(session)).has_any(kLobeFeatures));
     session.apply(change.edit);
-    CHECK(session.needed_features().covers(features(Feature::Plastic, Feature::Rough)));
+    CHECK(session.needed_features(slot_of(session)).covers(features(Feature::Plastic, Feature::Rough)));
     session.apply(EditMaterial{change.edit.index, change.before.materials[change.edit.index]});
-    CHECK_FALSE(session.needed_features().has_any(kLobeFeatures));
+    CHECK_FALSE(session.needed_features(slot_of(session)).has_any(kLobeFeatures));
 }
 
 TEST_CASE("Material edit: a bad value is refused with the reason, and nothing changes") {
@@ -192,7 +189,7 @@ TEST_CASE("Material edit: a bad value is refused with the reason, and nothing ch
     CHECK(same_state(before, state_of(session)));
 }
 
-TEST_CASE("Material edit: a back end that waits gets the changed scene on its way back") {
+TEST_CASE("Material edit: a parked back end gets the changed scene when it returns") {
     const Change change = all_changes().front();
     const auto first = make_cpu_backend({.threads = 2});
     const std::shared_ptr<RenderBackend> kept = std::shared_ptr<RenderBackend>(make_cpu_backend({.threads = 1}));
@@ -200,7 +197,7 @@ TEST_CASE("Material edit: a back end that waits gets the changed scene on its wa
     session.apply(EditBackend{std::shared_ptr<RenderBackend>(make_cpu_backend({.threads = 2}))});
     session.apply(change.edit);
     session.apply(EditBackend{kept});
-    CHECK(session.passes() == 0);
+    CHECK(session.passes(slot_of(session)) == 0);
     check_like_fresh(session, change.after());
 }
 
@@ -212,11 +209,11 @@ TEST_CASE("Material edit: forced effects change the kernel and no bit") {
         settings.method = method.id;
         Session session = make_session(scene, settings, 2);
         Session plain = make_session(scene, settings, 2);
-        const std::string kernel = session.served_kernel().name;
+        const std::string kernel = session.served_kernel(slot_of(session)).name;
         CHECK(invalidated_by(EditEffects{kEveryFeature}) == Invalidation{});
         for (int pass = 0; pass < 4; ++pass) {
             session.apply(EditEffects{pass % 2 == 0 ? kEveryFeature : FeatureSet{}});
-            CHECK((session.served_kernel().name == kernel) == (pass % 2 == 1));
+            CHECK((session.served_kernel(slot_of(session)).name == kernel) == (pass % 2 == 1));
             render_passes(session, 1);
             render_passes(plain, 1);
         }

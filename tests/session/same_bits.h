@@ -24,15 +24,16 @@ inline bool same_events(const PassCounters& a, const PassCounters& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// Everything a session has produced with its current method.
+/// A film with its statistics, and the tables of its method.
 struct State {
     Snapshot snapshot;
     HostTables tables;
 };
 
-inline State state_of(Session& session) {
-    return {session.snapshot_with_halves(), tables_of(session.backend_access().download_field(session.settings().method))};
+inline State state_of(Session& session, FilmSlot slot) {
+    return {session.snapshot_with_halves(slot), session.backend_access().download_field(slot.method)};
 }
+inline State state_of(Session& session) { return state_of(session, slot_of(session)); }
 
 inline bool same_film(const State& a, const State& b) {
     const FilmHalves& x = a.snapshot.halves;

@@ -1,4 +1,4 @@
-// The kernel that is named is the kernel that runs: the compiled sets of each row, of methods, targets and views.
+// The named kernel is the one that runs: the compiled sets of each row, of methods, targets and views.
 #include "core/session/served_kernel.h"
 
 #include "core/scene/pack_scene.h"
@@ -16,7 +16,7 @@ ServedKernel served(const RenderSettings& settings, const HostScene& scene = {})
 
 }  // namespace
 
-TEST_CASE("Kernels are named after what they do and what they can do") {
+TEST_CASE("Kernels are named after method or view and effects") {
     CHECK(served({}).name == "cpu/default/base");
     CHECK(served({.method = MethodId::Reinforcement, .next_event = true}).name ==
           "cpu/reinforcement/next-event-estimation");
@@ -39,7 +39,7 @@ TEST_CASE("Kernels that exist for fewer sets are named after the one that runs")
     CHECK(served(settings).compiled == kCompiledSets[3]);
 }
 
-TEST_CASE("What is needed and what is forced are both served") {
+TEST_CASE("Needed and forced effects are both served") {
     HostScene scene;
     scene.environment = Vec3f{1.0f};
     const ServedKernel kernel = served({.forced_effects = features(Feature::NextEventEstimation)}, scene);

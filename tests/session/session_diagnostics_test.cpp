@@ -12,7 +12,8 @@ namespace {
 
 Session session_after(const SceneDescription& scene, const RenderSettings& settings, std::uint32_t passes) {
     Session session = make_session(scene, settings);
-    while (session.passes() < passes) session.advance();
+    const FilmSlot slot = slot_of(settings);
+    while (session.passes(slot) < passes) session.advance(slot);
     return session;
 }
 
@@ -21,15 +22,15 @@ Session session_after(const SceneDescription& scene, const RenderSettings& setti
 TEST_CASE(
     "Session diagnostics: an open scene, a room that no path leaves and a camera outside of it are not closed") {
     const SceneDescription scene = shipped_scene("cornell");
-    CHECK_FALSE(session_after(scene, small_settings(scene, {MethodId::Default, false}), 1).summary().is_closed);
+    CHECK_FALSE(session_after(scene, small_settings(scene, {MethodId::Default, false}), 1).summary({MethodId::Default, View::Beauty}).is_closed);
     SceneDescription room = furnace_scene(0.5f, 0.5f);
     Session session = session_after(room, small_settings(room, {MethodId::Default, false}), 1);
-    CHECK(session.summary().counters.path.escaped == 0);
-    CHECK_FALSE(session.summary().is_closed);
+    CHECK(session.summary(slot_of(session.settings())).counters.path.escaped == 0);
+    CHECK_FALSE(session.summary(slot_of(session.settings())).is_closed);
     CameraDescription outside = room.camera;
     outside.eye = glm::vec3{0.0f, 0.0f, 9.0f};
     session.apply(EditCamera{outside});
-    session.advance();
-    CHECK(session.summary().counters.path.escaped > 0);
-    CHECK_FALSE(session.summary().is_closed);
+    session.advance(slot_of(session.settings()));
+    CHECK(session.summary(slot_of(session.settings())).counters.path.escaped > 0);
+    CHECK_FALSE(session.summary(slot_of(session.settings())).is_closed);
 }

@@ -1,4 +1,4 @@
-// What a field is after it was saved and loaded.
+// A field after it was saved and loaded.
 #pragma once
 
 #include "core/io/field_file.h"

@@ -1,4 +1,4 @@
-// When what passes recorded becomes the tables of the next ones, and what becomes of records that wait.
+// The schedule of updates, and pending training samples when a session is edited, saved or moved.
 #include "core/session/update_schedule.h"
 
 #include <algorithm>
@@ -26,21 +26,24 @@ std::uint64_t sum(const std::vector<T, Allocator>& values) {
     return std::accumulate(values.begin(), values.end(), std::uint64_t{0});
 }
 
-/// A session that was stopped in its first pass when a part of it had been published.
+/// A session that was stopped in its first pass, after an update.
 Session stopped_in_first_pass(const SceneDescription& scene) {
     Uniforms random(1);
     for (int attempt = 0; attempt < 20; ++attempt) {
         Session session = make_session(scene, small_settings(scene, kLearning, 300, 200), 2);
-        while (session.passes() == 0) {
+        while (session.passes(slot_of(session)) == 0) {
             advance_interrupted(session, random.next());
-            if (pass_is_partial(session) && sum(tables_of(session.export_field().field).visits) > 0) return session;
+            if (pass_is_partial(session) && sum(session.export_field(session.settings().method).tables.visits) > 0)
+                return session;
         }
     }
     FAIL("no first pass could be stopped");
     throw std::logic_error("unreachable");
 }
 
-std::uint64_t waiting_records(const Session& session) { return sum(tables_of(session.export_field().field).pending_count); }
+std::uint64_t waiting_records(const Session& session) {
+    return sum(session.export_field(session.settings().method).tables.pending_count);
+}
 
 }  // namespace
 
@@ -68,7 +71,7 @@ TEST_CASE("The first pass is parted after as many paths as there are volumes, th
     CHECK(end_of_first_part(5000, 16384, 1000) == 8192);
     CHECK(end_of_first_part(8192, 16384, 1000) == 16384);
     CHECK(end_of_first_part(8192, 10000, 1000) == 10000);
-    CHECK(end_of_first_part(0, 1000, 1) == 1000);  // too few paths to tell anything
+    CHECK(end_of_first_part(0, 1000, 1) == 1000);  // too few paths for an update
     CHECK(end_of_first_part(0, 100000, 1) == kFewestPathsBeforeUpdate);
     CHECK(end_of_first_part(0, 100000, 20000) == 32768);
     CHECK(end_of_first_part(0, 100000, 1024) == 1024);
@@ -79,39 +82,41 @@ TEST_CASE("The first pass is parted after as many paths as there are volumes, th
 TEST_CASE("The first pass is guided by its own first paths, later ones by whole passes") {
     const SceneDescription scene = shipped_scene("door");
     Session session = stopped_in_first_pass(scene);
-    REQUIRE(session.passes() == 0);
-    const HostTables published = tables_of(session.export_field().field);
-    CHECK(published.mean_radiance != make_tables(session.export_field().shape, 60).mean_radiance);
-    CHECK(sum(published.visits) + sum(published.pending_count) == session.field_status()->records);
-    // Stopped and gone on with, it is the pass that it would have been.
-    while (session.passes() == 0) session.advance();
+    REQUIRE(session.passes(slot_of(session)) == 0);
+    const HostTables published = session.export_field(session.settings().method).tables;
+    CHECK(published.mean_radiance !=
+          make_tables(session.export_field(session.settings().method).shape, 60).mean_radiance);
+    CHECK(sum(published.visits) + sum(published.pending_count) ==
+          session.field_status(session.settings().method)->records);
+    // Stopped and resumed, the pass has the same bits.
+    while (session.passes(slot_of(session)) == 0) session.advance(slot_of(session));
     Session whole = make_session(scene, session.settings(), 1);
-    whole.advance();
+    whole.advance(slot_of(whole));
     CHECK(same_state(state_of(whole), state_of(session)));
-    CHECK(session.export_field().progress.passes == 1);
+    CHECK(session.export_field(session.settings().method).progress.passes == 1);
 }
 
-// Paths that met what they had taught would weigh it too low.
-TEST_CASE("Random numbers of a pass that tables were learned from are not drawn again for another picture") {
+// Paths that draw the random numbers of the tables' own training samples are biased.
+TEST_CASE("Random numbers of training samples are not drawn again for another picture") {
     const SceneDescription scene = shipped_scene("door");
     Session session = stopped_in_first_pass(scene);
-    const LearnedField half_way = session.export_field();
+    const LearnedField half_way = session.export_field(session.settings().method);
     CHECK(half_way.progress.passes == 1);
     session.apply(EditRestart{});
     render_passes(session, 1);
-    CHECK(session.film_origin().warm);
-    CHECK(session.export_field().progress.passes == 2);
+    CHECK(session.film_origin(slot_of(session)).warm);
+    CHECK(session.export_field(session.settings().method).progress.passes == 2);
 
     Session other = make_session(scene, session.settings(), 2);
     other.import_field(half_way);
     render_passes(other, 1);
-    CHECK(same_bits(session.snapshot().pixels, other.snapshot().pixels));
+    CHECK(same_bits(session.snapshot(slot_of(session)).pixels, other.snapshot(slot_of(other)).pixels));
     Session fresh = make_session(scene, session.settings(), 2);
     render_passes(fresh, 1);
-    CHECK_FALSE(same_bits(session.snapshot().pixels, fresh.snapshot().pixels));
+    CHECK_FALSE(same_bits(session.snapshot(slot_of(session)).pixels, fresh.snapshot(slot_of(fresh)).pixels));
 }
 
-TEST_CASE("Records wait in their sums until tables are published, and none is lost") {
+TEST_CASE("Training samples stay pending until the tables are updated, and none is lost") {
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, small_settings(scene, kLearning), 2);
     for (std::uint32_t pass = 1; pass <= 20; ++pass) {
@@ -119,11 +124,12 @@ TEST_CASE("Records wait in their sums until tables are published, and none is lo
         INFO("after pass " << pass);
         const std::uint64_t waiting = waiting_records(session);
         CHECK((waiting == 0) == is_updated_after(pass));
-        CHECK(sum(tables_of(session.export_field().field).visits) + waiting == session.field_status()->records);
+        CHECK(sum(session.export_field(session.settings().method).tables.visits) + waiting ==
+              session.field_status(session.settings().method)->records);
     }
 }
 
-TEST_CASE("A picture that begins anew is learned from after its first pass, with what had waited") {
+TEST_CASE("A picture that begins anew updates the tables after its first pass, with the samples that were pending") {
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, small_settings(scene, kLearning), 2);
     render_passes(session, 17);
@@ -131,22 +137,23 @@ TEST_CASE("A picture that begins anew is learned from after its first pass, with
     session.apply(EditRestart{});
     render_passes(session, 1);
     CHECK(waiting_records(session) == 0);
-    CHECK(sum(tables_of(session.export_field().field).visits) == session.field_status()->records);
+    CHECK(sum(session.export_field(session.settings().method).tables.visits) ==
+          session.field_status(session.settings().method)->records);
 }
 
-TEST_CASE("Records that wait are saved and loaded with the tables") {
+TEST_CASE("Pending training samples are saved and loaded with the tables") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, kLearning);
     Session first = make_session(scene, settings, 2);
     render_passes(first, 17);
-    const LearnedField field = first.export_field();
-    REQUIRE(sum(tables_of(field.field).pending_count) > 0);
+    const LearnedField field = first.export_field(first.settings().method);
+    REQUIRE(sum(field.tables.pending_count) > 0);
     const TemporaryFolder folder;
     write_field(folder.path() / "field", field);
 
     Session second = make_session(scene, settings, 1);
     second.import_field(read_field(folder.path() / "field"));
-    CHECK(waiting_records(second) == sum(tables_of(field.field).pending_count));
+    CHECK(waiting_records(second) == sum(field.tables.pending_count));
     first.apply(EditRestart{});
     render_passes(first, 2);
     render_passes(second, 2);

@@ -108,7 +108,7 @@ void check_refined(const std::string& name, int runs, double resolution) {
             render_passes(session, kPasses);
             picture.add(film_sums(session), kPasses);
         }
-        CHECK(session.field_status()->added_volumes > 150);
+        CHECK(session.field_status(session.settings().method)->added_volumes > 150);
         CHECK(same_picture(picture, expected, resolution));
     }
 }

@@ -30,7 +30,7 @@ Decision shows(const SceneDescription& scene, Estimator estimator, double expect
         moments.add((after - before) / passes);
         before = after;
     }
-    CHECK(session.snapshot().counters.invalid_samples == 0);
+    CHECK(session.snapshot(slot_of(session)).counters.invalid_samples == 0);
     return mean_equals(moments, {expected, 2e-4 * expected}, delta);
 }
 
@@ -119,6 +119,6 @@ TEST_CASE("The direct view of a plane under a linear sky shows its closed form")
     Session session = make_session(scene, settings);
     render_passes(session, 1024);
     Moments moments;
-    for (const Vec3f& pixel : session.snapshot().pixels) moments.add(static_cast<double>(pixel.x));
+    for (const Vec3f& pixel : session.snapshot(slot_of(session)).pixels) moments.add(static_cast<double>(pixel.x));
     CHECK(mean_equals(moments, {0.8, 2e-4}, 0.02));
 }

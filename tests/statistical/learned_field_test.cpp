@@ -96,7 +96,7 @@ double divergence(const std::vector<double>& truth, const std::vector<float>& ta
 LearnedField map_of_one_cell(const SceneDescription& scene) {
     Session session = make_session(scene, quick_learner(scene, {MethodId::Precomputed, false}, 8, 1));
     render_passes(session, 1);
-    LearnedField field = session.export_field();
+    LearnedField field = session.export_field(session.settings().method);
     const std::size_t cells = static_cast<std::size_t>(field.shape.cells.count());
     for (std::size_t i = 0; i < tables_of(field.field).radiance.size(); ++i) {
         tables_of(field.field).radiance[i] = i % cells == 5 ? 1.0f : 0.0f;
@@ -118,7 +118,7 @@ TEST_CASE("After training every table's density integrates to one") {
         settings.field.precompute_samples = 4;
         Session session = make_session(scene, settings);
         render_passes(session, 16);
-        LearnedField field = session.export_field();
+        LearnedField field = session.export_field(session.settings().method);
         const TableField view = table_field(field.shape, *field.volumes, tables_of(field.field));
         INFO(learner);
         REQUIRE(view.volume_count() >= 300);
@@ -138,7 +138,7 @@ TEST_CASE("What is learned under a lamp comes ever closer to the lamp, whatever 
         Session placing = make_session(somewhere.scene, settings);
         const std::int32_t volume = placing.find_volume_at({0.1f, 0.0f, 0.05f}, {0.0f, 1.0f, 0.0f});
         render_passes(placing, 1);
-        const Vec3f seen = placing.inspect_volume(volume).position;
+        const Vec3f seen = placing.inspect_volume(placing.settings().method, volume).position;
 
         const LampOverFloor lamp = lamp_above(seen.x, seen.z);
         settings.camera = lamp.scene.camera;
@@ -147,9 +147,10 @@ TEST_CASE("What is learned under a lamp comes ever closer to the lamp, whatever 
         double before = divergence(truth, std::vector<float>(64, 1.0f / 64.0f));
         for (const std::uint32_t passes : {1u, 3u, 12u, 48u}) {
             render_passes(session, passes);
-            const double now = divergence(truth, session.inspect_volume(volume).probability);
-            INFO("target " << static_cast<int>(target) << ", after " << session.passes() << " passes: " << now
-                           << ", before " << before);
+            const double now =
+                divergence(truth, session.inspect_volume(session.settings().method, volume).probability);
+            INFO("target " << static_cast<int>(target) << ", after " << session.passes(slot_of(session))
+                           << " passes: " << now << ", before " << before);
             CHECK(now < before);
             before = now;
         }
@@ -169,7 +170,7 @@ TEST_CASE("A precomputed map under a lamp holds the lamp") {
     Session session = make_session(lamp.scene, settings);
     render_passes(session, 1);
     const std::int32_t volume = session.find_volume_at({0.1f, 0.0f, 0.05f}, {0.0f, 1.0f, 0.0f});
-    const VolumeInspection learned = session.inspect_volume(volume);
+    const VolumeInspection learned = session.inspect_volume(session.settings().method, volume);
     const std::vector<double> truth = true_radiance(lamp.scene, session, learned.position, 8);
     const double distance = divergence(truth, learned.probability);
     INFO("divergence " << distance);

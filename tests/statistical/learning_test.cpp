@@ -27,7 +27,7 @@ using Pictures = Outcome(const SceneDescription& scene, MethodId method, std::ui
 
 Outcome render_on(Session& session, std::uint32_t passes) {
     render_passes(session, passes);
-    Snapshot snapshot = session.snapshot();
+    Snapshot snapshot = session.snapshot(slot_of(session));
     return {std::move(snapshot.pixels), static_cast<double>(snapshot.counters.zero_contribution_paths) /
                                             static_cast<double>(snapshot.counters.paths)};
 }

@@ -35,7 +35,7 @@ std::vector<Vec3f> picture_of(const MaterialDescription& material, Estimator est
     const SceneDescription scene = block_under_sky(material);
     Session session = make_session(scene, quick_learner(scene, estimator, kSide, 1));
     render_passes(session, passes);
-    return session.snapshot().pixels;
+    return session.snapshot(slot_of(session)).pixels;
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ RenderSettings small_settings(const SceneDescription& scene, Estimator estimator
 /// Renders until so many path segments were traced.
 PassCounters trace_segments(const SceneDescription& scene, Estimator estimator, std::uint64_t segments) {
     Session session = make_session(scene, small_settings(scene, estimator));
-    do session.advance();
-    while (session.snapshot().counters.path.segments < segments);
-    return session.snapshot().counters;
+    do session.advance(slot_of(session));
+    while (session.snapshot(slot_of(session)).counters.path.segments < segments);
+    return session.snapshot(slot_of(session)).counters;
 }
 
 /// No failure in N segments bounds the rate below 6.9/N with 99.9 %.

@@ -16,7 +16,7 @@ PassCounters render(const SceneDescription& scene, Estimator estimator, int side
     RenderSettings settings = quick_learner(scene, estimator, side, 1);
     Session session = make_session(scene, settings);
     render_passes(session, passes);
-    return session.snapshot().counters;
+    return session.snapshot(slot_of(session)).counters;
 }
 
 /// Share of paths of plain path tracing that bring no light.
@@ -78,14 +78,15 @@ TEST_CASE("The camera of the indirect box does not see the light, nor do floor a
     settings.max_depth = 1;
     Session seen = make_session(scene, settings);
     render_passes(seen, 16);
-    CHECK(seen.snapshot().counters.zero_contribution_paths == seen.snapshot().counters.paths);
+    CHECK(seen.snapshot(slot_of(seen)).counters.zero_contribution_paths ==
+          seen.snapshot(slot_of(seen)).counters.paths);
 
     // With one more surface point, light comes by the ceiling and the walls below it: the upper part of the picture.
     settings.max_depth = 2;
     settings.next_event = true;
     Session direct = make_session(scene, settings);
     render_passes(direct, 16);
-    const Snapshot snapshot = direct.snapshot();
+    const Snapshot snapshot = direct.snapshot(slot_of(direct));
     double upper = 0.0;
     double lower = 0.0;
     for (std::size_t i = 0; i < snapshot.pixels.size(); ++i)

@@ -53,10 +53,16 @@ inline Session make_session(const SceneDescription& scene, const RenderSettings&
     return Session(make_cpu_backend({.threads = threads}), std::make_shared<const SceneDescription>(scene), settings);
 }
 
-/// Advances until `passes` more samples per pixel are in the picture, after whatever has to come first.
+/// The film that the settings of a test ask for, in tests that render no other.
+inline FilmSlot slot_of(const Session& session) { return slot_of(session.settings()); }
+
+/// Advances until `passes` more samples per pixel are in the film, after the precomputation.
+inline void render_passes(Session& session, FilmSlot slot, std::uint32_t passes) {
+    const std::uint32_t target = session.passes(slot) + passes;
+    while (session.passes(slot) < target) session.advance(slot);
+}
 inline void render_passes(Session& session, std::uint32_t passes) {
-    const std::uint32_t target = session.passes() + passes;
-    while (session.passes() < target) session.advance();
+    render_passes(session, slot_of(session), passes);
 }
 
 /// A picture per channel. The channels of a picture are not independent, so each is judged alone.
@@ -80,7 +86,7 @@ struct Picture {
 /// What a film holds, times its number of samples. Means are read as floats, so differences of sums keep 24 bits of
 /// the larger one, which is far below any sampling error here.
 inline std::vector<Vec3d> film_sums(const Session& session) {
-    const Snapshot snapshot = session.snapshot();
+    const Snapshot snapshot = session.snapshot(slot_of(session));
     std::vector<Vec3d> sums;
     sums.reserve(snapshot.pixels.size());
     for (const Vec3f& mean : snapshot.pixels) sums.push_back(Vec3d{mean} * static_cast<double>(snapshot.passes));

@@ -1,4 +1,4 @@
-// Effects in the window: which are needed and why, forcing them, and measuring what they cost on the running picture.
+// Effects in the window: the needed ones with their reasons, and the measured cost of the others.
 #include <algorithm>
 
 #include "tests/catch.hpp"
@@ -65,68 +65,4 @@ TEST_CASE("Effects: a cost is that of a kernel, and is forgotten where it was no
     foreign.base_kernel = "cpu/default/other";
     model.update(*frame, foreign);
     CHECK(model.cost_of(kEveryFeature) == nullptr);
-}
-
-TEST_CASE("Effects: a trial measures passes in turns, and what was forced comes back") {
-    Bench bench;
-    bench.control->pass_microseconds = 200;
-    WorkerSetup setup = bench.setup();
-    setup.settings.forced_effects = features(Feature::Rough);
-    RenderWorker worker(std::move(setup));
-    worker.measure_effects(kEveryFeature);
-    REQUIRE(eventually([&] {
-        const auto cost = worker.status().effect_cost;
-        return cost && cost->done;
-    }));
-    const EffectCost cost = *worker.status().effect_cost;
-    CHECK(cost.forced == kEveryFeature);
-    CHECK(cost.result.pairs == PairedCost::kPairs);
-    CHECK(cost.result.base_seconds > 150e-6);
-    CHECK(cost.result.ratio.low < cost.result.ratio.high);
-    const auto served = [&] {
-        const std::lock_guard lock(bench.control->mutex);
-        return bench.control->served;
-    };
-    CHECK(std::ranges::count(served(), kEveryFeature) >= static_cast<std::ptrdiff_t>(PairedCost::kPairs));
-    CHECK(std::ranges::count(served(), FeatureSet{}) >= static_cast<std::ptrdiff_t>(PairedCost::kPairs));
-    worker.measure_effects(std::nullopt);
-    REQUIRE(eventually([&] { return !worker.status().effect_cost.has_value(); }));
-    const std::uint32_t passes = worker.status().passes;
-    REQUIRE(eventually([&] { return worker.status().passes > passes + 1; }));
-    CHECK(served().back() == features(Feature::Rough));
-    CHECK(worker.latest()->settings.forced_effects == features(Feature::Rough));
-}
-
-TEST_CASE("Effects: a trial rests while the camera moves, begins again after it, and turns end it") {
-    Bench bench;
-    bench.control->pass_microseconds = 2000;
-    RenderWorker worker(bench.setup());
-    worker.measure_effects(kEveryFeature);
-    REQUIRE(eventually([&] {
-        const auto cost = worker.status().effect_cost;
-        return cost && cost->result.pairs >= 2;
-    }));
-    worker.submit(EditCamera{camera_at(2.0f)});
-    REQUIRE(eventually([&] { return worker.status().effect_cost->result.pairs < 2; }));
-    REQUIRE(eventually([&] { return worker.status().effect_cost->result.pairs >= 2; }));
-    worker.set_turns(TurnMethods{MethodId::Default, MethodId::Reinforcement});
-    REQUIRE(eventually([&] { return worker.status().turns && !worker.status().effect_cost; }));
-    worker.measure_effects(kEveryFeature);
-    const std::uint32_t passes = worker.status().passes;
-    REQUIRE(eventually([&] { return worker.status().passes > passes + 2; }));
-    CHECK_FALSE(worker.status().effect_cost.has_value());
-}
-
-TEST_CASE("Effects: forcing one empties no picture, and a run says that it was forced") {
-    Bench bench;
-    bench.control->pass_microseconds = 200;
-    RenderWorker worker(bench.setup());
-    REQUIRE(eventually([&] { return worker.status().passes >= 4; }));
-    const std::uint32_t passes = worker.status().passes;
-    worker.submit(EditEffects{kEveryFeature});
-    REQUIRE(eventually([&] { return worker.status().passes > passes + 2; }));
-    CHECK(eventually([&] {
-        const auto runs = worker.runs()->runs;
-        return runs.size() == 1 && runs[0]->label.details == "effects forced";
-    }));
 }

@@ -6,7 +6,6 @@
 #include "tests/catch.hpp"
 #include "tests/io/temporary_folder.h"
 #include "tests/ui/model_bench.h"
-#include "ui/edit_queue.h"
 #include "ui/stored_reference.h"
 
 using namespace pl;
@@ -117,25 +116,6 @@ TEST_CASE("Materials: a new scene has those of its file, and pictures of it tell
     REQUIRE(bench.run_until(model, [&] { return model.materials().edited_names().empty(); }));
     CHECK_FALSE(model.selected_material().has_value());
     CHECK(bench.run_until(model, [&] { return model.status().scene->materials[0].albedo.x == 0.5f; }));
-}
-
-TEST_CASE("Materials: of each only the newest edit waits, and a scene replaces them all") {
-    const auto scene = small_scene();
-    EditQueue queue;
-    queue.push(EditMaterial{0, with_albedo(scene->materials[0], 0.1f)});
-    queue.push(EditMaterial{1, with_albedo(scene->materials[1], 0.2f)});
-    queue.push(EditMaterial{0, with_albedo(scene->materials[0], 0.3f)});
-    queue.push(EditSeed{1});
-    auto edits = queue.take();
-    REQUIRE(edits.size() == 3);
-    CHECK(std::get<EditMaterial>(edits[0]).index == 1);
-    CHECK(std::get<EditMaterial>(edits[1]).material.albedo.x == 0.3f);
-    queue.push(EditMaterial{5, scene->materials[0]});
-    queue.push(EditScene{scene});
-    queue.push(EditMaterial{0, scene->materials[0]});
-    edits = queue.take();
-    REQUIRE(edits.size() == 2);
-    CHECK(std::holds_alternative<EditScene>(edits[0]));
 }
 
 TEST_CASE("Materials: only what moves no volume leaves the selected one") {

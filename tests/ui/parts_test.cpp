@@ -2,71 +2,11 @@
 
 #include "tests/catch.hpp"
 #include "tests/io/temporary_folder.h"
-#include "ui/edit_queue.h"
 #include "ui/layout.h"
-#include "ui/motion_resolution.h"
 #include "ui/numbered_names.h"
 #include "ui/ui_trace.h"
 
 using namespace pl;
-
-TEST_CASE("Edit queue: of each kind only the newest is left, in order of its arrival") {
-    EditQueue queue;
-    CHECK(queue.empty());
-    CameraDescription first;
-    first.fov_deg = 10.0f;
-    CameraDescription second;
-    second.fov_deg = 20.0f;
-    queue.push(EditCamera{first});
-    queue.push(EditScene{nullptr});
-    queue.push(EditMethod{MethodId::Precomputed});
-    queue.push(EditCamera{second});
-    queue.push(EditMethod{MethodId::Reinforcement});
-    const auto edits = queue.take();
-    CHECK(queue.empty());
-    REQUIRE(edits.size() == 3);
-    // A camera that follows a scene must be applied after it: a new scene brings its own.
-    CHECK(std::holds_alternative<EditScene>(edits[0]));
-    REQUIRE(std::holds_alternative<EditCamera>(edits[1]));
-    CHECK(std::get<EditCamera>(edits[1]).camera.fov_deg == 20.0f);
-    CHECK(std::get<EditMethod>(edits[2]).method == MethodId::Reinforcement);
-}
-
-TEST_CASE("Motion resolution: takes the finest size that keeps the rate, and does not flicker") {
-    constexpr double kTarget = MotionResolution::kTargetSeconds;
-    MotionResolution motion;
-    motion.observe(1,
-                   8.0 * kTarget);  // a quarter of the width costs half the target, half the width twice of it
-    CHECK(motion.divider() == 4);
-    motion.observe(4, 0.5 * kTarget);
-    CHECK(motion.divider() == 4);
-    motion.observe(4, 1.1 * kTarget);  // within the dead band
-    CHECK(motion.divider() == 4);
-    motion.observe(4, 1.3 * kTarget);
-    CHECK(motion.divider() == 8);
-    motion.observe(8, 0.325 * kTarget);  // the finer size would miss the target again: stay
-    CHECK(motion.divider() == 8);
-    motion.observe(8, 0.19 * kTarget);
-    CHECK(motion.divider() == 4);
-    motion.observe(4, 0.01 * kTarget);
-    CHECK(motion.divider() == 1);
-    motion.observe(1, 1.0e9);
-    CHECK(motion.divider() == MotionResolution::kMaxDivider);
-    motion.observe(8, -1.0);
-    CHECK(motion.divider() == MotionResolution::kMaxDivider);
-}
-
-TEST_CASE("Motion resolution: small pictures are not divided beyond recognition") {
-    MotionResolution motion;
-    motion.observe(1, 100.0);
-    CHECK(motion.divider() == 8);
-    CHECK(motion.divider_for(1280, 720) == 8);
-    CHECK(motion.divider_for(512, 512) == 4);
-    CHECK(motion.divider_for(200, 300) == 2);
-    CHECK(motion.divider_for(64, 64) == 1);
-    CHECK(divided(721, 4) == 180);
-    CHECK(divided(3, 8) == 1);
-}
 
 TEST_CASE("Layout: panels, picture and bars fill the window without overlap") {
     const Layout layout = make_layout(1440.0f, 900.0f, 16.0f, true, false);

@@ -4,7 +4,7 @@
 #include <future>
 
 #include "tests/ui/fake_backend.h"
-#include "ui/render_worker.h"
+#include "ui/worker/render_worker.h"
 
 namespace pl::test {
 
@@ -38,7 +38,7 @@ inline CameraDescription camera_at(float x) {
     return camera;
 }
 
-/// What a frame shows of a value that is the same in all channels.
+/// The pixel of a frame for a value that is the same in all channels.
 inline std::uint32_t gray_pixel(float value, const DisplaySettings& display) {
     return frame_pixel(Vec3f{value}, frame_style(View::Beauty, display, {}), ToneTable(display.curve).view());
 }

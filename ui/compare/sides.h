@@ -7,7 +7,7 @@
 
 #include "ui/accuracy/cursor_table.h"
 #include "ui/compare/compare_state.h"
-#include "ui/published_frame.h"
+#include "ui/worker/published_frame.h"
 
 namespace pl {
 

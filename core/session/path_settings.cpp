@@ -1,0 +1,45 @@
+#include "core/session/path_settings.h"
+
+namespace pl {
+namespace {
+
+/// Guided paths have a learned estimate of their contribution and soon end at a light. They play roulette only when a fifth
+/// of it is left, so that few of them end without having found a light; other paths play at every loss. Lower thresholds
+/// leave a little less noise for the same samples and more for the same time (docs/learning.md).
+constexpr float kGuidedRouletteThreshold = 0.2f;
+/// Where the learned estimate decides alone: the lower end of a window of weights around 1, whose ends differ by a factor
+/// of 5.   [Vorba and Krivanek 2016, section 4]
+constexpr float kFieldRouletteThreshold = 2.0f / (1.0f + 5.0f);
+
+/// Paths are split above twice the contribution that was expected of them at their first vertex (docs/learning.md).
+constexpr float kSplitThreshold = 2.0f;
+
+}  // namespace
+
+PathSettings path_settings(const RenderSettings& settings, MethodId method) {
+    const bool is_guided = info_of(method).uses_field;
+    const bool splits = is_guided && settings.roulette != RouletteRule::Albedo;
+    const float threshold =
+        settings.roulette == RouletteRule::Field ? kFieldRouletteThreshold : kGuidedRouletteThreshold;
+    return {.seed = settings.seed,
+            .max_depth = static_cast<std::uint32_t>(settings.max_depth),
+            .roulette_threshold = is_guided ? threshold : 1.0f,
+            .split_threshold = splits ? kSplitThreshold : kInfinity,
+            .roulette = settings.roulette,
+            .next_event = settings.next_event ? 1u : 0u};
+}
+
+PathSettings probe_settings(const RenderSettings& settings, MethodId method) {
+    PathSettings path = path_settings(settings, method);
+    path.stream = Stream::Precompute;
+    path.roulette_threshold = 1.0f;
+    return path;
+}
+
+MixtureSettings mixture_of(const RenderSettings& settings, MethodId method) {
+    MixtureSettings mixture = settings.mixture;
+    if (!info_of(method).learns) mixture.learned = 0;
+    return mixture;
+}
+
+}  // namespace pl

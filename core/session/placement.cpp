@@ -1,0 +1,52 @@
+#include "core/session/placement.h"
+
+#include "core/base/timer.h"
+#include "core/fields/volume_grid.h"
+
+namespace pl {
+namespace {
+
+/// The volumes with the grid if the lookup uses one; all have the tree.
+std::shared_ptr<const HostVolumes> with_lookup(const RenderBackend& backend, const HostScene& scene,
+                                               HostVolumes volumes, Lookup lookup) {
+    volumes.grid = {};
+    if (lookup == Lookup::Grid) volumes.grid = build_volume_grid(scene, volumes, backend.info().threads);
+    return std::make_shared<const HostVolumes>(std::move(volumes));
+}
+
+}  // namespace
+
+void Placement::ensure(RenderBackend& backend, const HostScene& scene, const FieldSettings& settings) {
+    if (volumes_) return;
+    const Stopwatch watch;
+    shape_ = make_field_shape(scene, settings);
+    volumes_ = with_lookup(backend, scene, place_volumes(scene, settings), shape_.lookup);
+    backend.upload_volumes(volumes_, shape_);
+    seconds_ = watch.seconds();
+}
+
+void Placement::adopt(RenderBackend& backend, const HostScene& scene, HostVolumes volumes, const FieldShape& shape,
+                      const Refinement& refinement) {
+    const std::shared_ptr<const HostVolumes> adopted = with_lookup(backend, scene, std::move(volumes), shape.lookup);
+    backend.upload_volumes(adopted, shape);
+    volumes_ = adopted;
+    shape_ = shape;
+    refinement_ = refinement;
+}
+
+void Placement::refine(const RenderBackend& backend, const HostScene& scene, RefinedPlacement refined) {
+    volumes_ = with_lookup(backend, scene, std::move(refined.volumes), shape_.lookup);
+    refinement_.added += static_cast<std::uint32_t>(refined.parents.size());
+}
+
+void Placement::change_materials(const HostScene& scene, const FieldSettings& settings, bool is_same) {
+    if (!is_same) volumes_.reset();
+    if (volumes_) shape_ = make_field_shape(scene, settings);
+}
+
+void Placement::undo_refinement() {
+    if (refinement_.added > 0) volumes_.reset();
+    refinement_ = {};
+}
+
+}  // namespace pl

@@ -1,0 +1,59 @@
+// The films of a session by method and view: their progress and origin, and the films of back ends that wait.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/session/backend.h"
+#include "core/session/snapshot.h"
+
+namespace pl {
+
+/// Progress of one film.
+struct FilmProgress {
+    FilmOrigin origin;
+    bool is_allocated = false;
+    std::uint32_t passes = 0;      ///< complete ones
+    std::uint32_t next_pixel = 0;  ///< first pixel that the running pass has not rendered
+    PassCounters counters{};
+    double render_seconds = 0.0;
+    double learn_seconds = 0.0;
+};
+
+/// A back end that a session has left, with its films and the scene that it holds.
+struct ParkedBackend {
+    std::shared_ptr<RenderBackend> backend;
+    std::array<FilmProgress, FilmSlot::kCount> films{};
+    std::shared_ptr<const HostScene> scene;
+};
+
+/// The films of the back end in use, and those of parked back ends.
+class SessionFilms {
+public:
+    FilmProgress& operator[](FilmSlot slot) { return films_[static_cast<std::size_t>(slot.index())]; }
+    const FilmProgress& operator[](FilmSlot slot) const { return films_[static_cast<std::size_t>(slot.index())]; }
+
+    /// Gives a film its origin before the first piece of work on it, precomputation included. `before` is what had been
+    /// done by then: warm or not, and seconds.
+    void begin(FilmSlot slot, const FilmOrigin& before);
+    /// Empties all films, those of parked back ends, too.
+    void clear();
+    /// Empties the films of one view, of all methods.
+    void clear(View view);
+
+    /// Keeps the films of this back end for its return.
+    void park(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const HostScene> scene);
+    /// Takes a back end from those that are parked; without films and scene if it is none of them.
+    ParkedBackend unpark(const std::shared_ptr<RenderBackend>& backend);
+    /// Goes on with the films of an unparked back end.
+    void resume(const ParkedBackend& backend) { films_ = backend.films; }
+
+private:
+    std::array<FilmProgress, FilmSlot::kCount> films_{};
+    std::vector<ParkedBackend> parked_;
+    std::uint64_t begun_ = 0;
+    std::uint64_t generation_ = 0;  ///< number of clear() so far
+};
+
+}  // namespace pl

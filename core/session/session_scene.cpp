@@ -1,0 +1,39 @@
+#include "core/session/session_scene.h"
+
+#include "core/base/error.h"
+#include "core/base/timer.h"
+#include "core/scene/pack_scene.h"
+#include "core/scene/validate.h"
+
+namespace pl {
+
+SessionScene::SessionScene(std::shared_ptr<const SceneDescription> description)
+    : description_(std::move(description)) {
+    const Stopwatch build;
+    packed_ = std::make_shared<const HostScene>(pack_scene(*description_));
+    build_seconds_ = build.seconds();
+}
+
+SessionScene SessionScene::with_material(std::uint32_t index, const MaterialDescription& material) const {
+    if (index >= description_->materials.size())
+        throw Error(ErrorKind::Usage, "material " + std::to_string(index) + " does not exist: expected 0 to " +
+                                          std::to_string(description_->materials.size()) + " (exclusive)");
+    validate_material(material, *description_);
+    auto description = std::make_shared<SceneDescription>(*description_);
+    description->materials[index] = material;
+    SessionScene changed;
+    changed.packed_ = std::make_shared<const HostScene>(repack_materials(*description, *packed_));
+    changed.description_ = std::move(description);
+    changed.build_seconds_ = build_seconds_;
+    return changed;
+}
+
+void SessionScene::note_escape(glm::vec3 eye, bool may_take_long) {
+    if (is_closed_) return;
+    constexpr std::size_t kManyTriangles = 100'000;
+    if (!enclosure_ && description_->triangles.size() > kManyTriangles && !may_take_long) return;
+    if (!enclosure_) enclosure_.emplace(*description_);
+    is_closed_ = enclosure_->contains(eye);
+}
+
+}  // namespace pl

@@ -1,0 +1,127 @@
+#include "ui/worker/method_turns.h"
+
+#include "tests/catch.hpp"
+#include "tests/ui/worker/session_bench.h"
+#include "tests/ui/worker_bench.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr TurnMethods kBoth{MethodId::Reinforcement, MethodId::Default};
+
+bool both_rendered(const RenderWorker& worker, std::uint32_t passes) {
+    const WorkerStatus status = worker.status();
+    return status.turns && status.turns->passes[0] >= passes && status.turns->passes[1] >= passes;
+}
+
+}  // namespace
+
+TEST_CASE("Method turns: both films are counted, the field is that of the first method") {
+    SessionBench bench;
+    bench.render(kLearning, 3);
+    bench.render(kDefault, 2);
+    MethodTurns turns(kBoth);
+    turns.count_both(bench.session, View::Beauty);
+    CHECK(turns.status().passes == std::array<std::uint32_t, 2>{3, 2});
+    REQUIRE(turns.field());
+    CHECK(turns.field()->passes == 3);
+    CHECK(turns.method() == MethodId::Reinforcement);
+    turns.set_side(1);
+    CHECK(turns.method() == MethodId::Default);
+    CHECK(turns.first() == MethodId::Reinforcement);
+    bench.render(kDefault, 1);
+    turns.count(bench.session, View::Beauty);
+    CHECK(turns.status().passes == std::array<std::uint32_t, 2>{3, 3});
+}
+
+TEST_CASE("Method turns: a method at its limit waits until the other has had a pass and the same time") {
+    SessionBench bench;
+    bench.render(kLearning, 4);
+    MethodTurns turns(kBoth);
+    Requests now{.limits = {.spp = 4, .seconds = 0.0}};
+    turns.count_both(bench.session, View::Beauty);
+    CHECK(turns.side_at_limit(now) == 1u);
+    CHECK_FALSE(turns.limit_reached(now));
+    CHECK(turns.next(false, now) == 1);
+    CHECK(turns.next(true, now) == 0);
+    bench.render(kDefault, 4);
+    turns.count_both(bench.session, View::Beauty);
+    CHECK(turns.limit_reached(now));
+    now.limits = {};
+    CHECK_FALSE(turns.side_at_limit(now));
+}
+
+TEST_CASE("Turns on the render thread: both methods get the same time, however long their passes") {
+    Bench bench;
+    bench.control->pass_microseconds = 3000;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement));
+    worker.set_turns(kBoth);
+    REQUIRE(eventually([&] { return both_rendered(worker, 150); }));
+    REQUIRE(rests(worker));
+    const TurnsStatus turns = *worker.status().turns;
+    // Two turns of a quarter of a second and a pass at most lie between them, on a machine as busy as it may be.
+    CHECK_THAT(turns.seconds[0], WithinAbs(turns.seconds[1], 0.6));
+    CHECK(worker.status().passes == turns.passes[0]);
+}
+
+TEST_CASE("Turns on the render thread: frames of both methods come out") {
+    Bench bench;
+    bench.control->pass_microseconds = 3000;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement));
+    worker.set_turns(kBoth);
+    for (const MethodId method : {MethodId::Default, MethodId::Reinforcement, MethodId::Default})
+        CHECK(eventually([&] {
+            const auto frame = worker.latest();
+            return frame && frame->snapshot.slot.method == method;
+        }));
+}
+
+TEST_CASE("Turns on the render thread: a camera that moves starts both over, an end leaves the session usable") {
+    Bench bench;
+    bench.control->pass_microseconds = 1000;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement));
+    worker.set_turns(kBoth);
+    REQUIRE(eventually([&] { return both_rendered(worker, 50); }));
+    const std::uint64_t moved = worker.submit(EditCamera{camera_at(3.0f)});
+    REQUIRE(frame_of(worker, moved));
+    CHECK(eventually([&] { return both_rendered(worker, 2); }));
+    worker.set_turns(std::nullopt);
+    const std::uint64_t back = worker.submit(EditMethod{MethodId::Reinforcement});
+    const auto frame = frame_of(worker, back);
+    REQUIRE(frame);
+    CHECK(frame->snapshot.slot.method == MethodId::Reinforcement);
+    CHECK(eventually([&] { return !worker.status().turns.has_value(); }));
+}
+
+TEST_CASE("Turns on the render thread: limits end them, pauses hold them") {
+    Bench bench;
+    bench.control->pass_microseconds = 500;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement, {.spp = 8, .seconds = 0.0}));
+    worker.set_turns(kBoth);
+    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Done; }));
+    const TurnsStatus done = *worker.status().turns;
+    CHECK(std::max(done.passes[0], done.passes[1]) == 8);
+    CHECK(std::min(done.passes[0], done.passes[1]) >= 1);
+    CHECK_THAT(done.seconds[0], WithinAbs(done.seconds[1], 0.1));  // the one that is behind has caught up
+    REQUIRE(rests(worker));
+    worker.set_limits({});
+    worker.set_paused(false);
+    CHECK(eventually([&] { return both_rendered(worker, 10); }));
+}
+
+// The first pass is interrupted, so that time is charged for no sample: placing volumes takes longer than all passes of the other.
+TEST_CASE("Turns on the render thread: a limit waits for the first pass of both methods") {
+    Bench bench;
+    bench.control->hold = true;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement, {.spp = 8, .seconds = 0.0}));
+    REQUIRE(eventually([&] { return bench.control->inside.load(); }));
+    worker.set_turns(kBoth);
+    REQUIRE(eventually([&] { return bench.control->stopped > 0; }));
+    bench.control->hold = false;
+    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Done; }));
+    const TurnsStatus done = *worker.status().turns;
+    CHECK(done.passes[0] >= 1);
+    CHECK(done.passes[1] == 8);
+}

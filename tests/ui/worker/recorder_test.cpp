@@ -1,0 +1,49 @@
+#include "ui/worker/recorder.h"
+
+#include "core/measure/picture_identity.h"
+
+#include "tests/catch.hpp"
+#include "tests/ui/worker/session_bench.h"
+
+using namespace pl;
+using namespace pl::test;
+
+TEST_CASE("Recorder: the picture is known once a film of its generation was observed") {
+    SessionBench bench;
+    Recorder recorder;
+    CHECK(recorder.runs());
+    bench.render(kDefault, 1);
+    recorder.observe(bench.session, kDefault);
+    const std::uint64_t picture = picture_key(bench.session.scene(), bench.session.settings());
+    CHECK(recorder.picture(bench.session.film_origin(kDefault)) == picture);
+    bench.render(kLearning, 1);
+    CHECK(recorder.picture(bench.session.film_origin(kLearning)) == picture);
+
+    CameraDescription camera = bench.session.settings().camera;
+    camera.eye.x += 1.0f;
+    bench.session.apply(EditCamera{camera});
+    bench.render(kDefault, 1);
+    CHECK(recorder.picture(bench.session.film_origin(kDefault)) == 0);
+    recorder.observe(bench.session, kDefault);
+    CHECK(recorder.picture(bench.session.film_origin(kDefault)) != picture);
+}
+
+TEST_CASE("Recorder: a run carries the settings that differ from the defaults, in words") {
+    SessionBench bench;
+    FieldSettings field = bench.session.settings().field;
+    field.refine_share = 0.0f;
+    bench.session.apply(EditField{field});
+    Recorder recorder;
+    REQUIRE(eventually([&] {
+        bench.render(kLearning, 1);
+        return recorder.observe(bench.session, kLearning) && !recorder.runs()->runs.empty();
+    }));
+    CHECK(recorder.runs()->runs.front()->label.details == "16 volumes, 16 bins, not refined");
+}
+
+TEST_CASE("Recorder: a bad reference is refused once, and kept as the one that was asked for") {
+    Recorder recorder;
+    const auto bad = std::make_shared<const LiveReference>(LiveReference{.width = 3, .height = 3});
+    CHECK_THROWS(recorder.set_reference(bad));
+    CHECK(recorder.reference() == bad);
+}

@@ -1,0 +1,36 @@
+// A session over a fake back end, for tests of the render thread's parts.
+#pragma once
+
+#include "core/session/session.h"
+#include "tests/ui/fake_backend.h"
+
+namespace pl::test {
+
+struct SessionBench {
+    std::shared_ptr<FakeControl> control = std::make_shared<FakeControl>();
+    Session session;
+
+    explicit SessionBench(int size = 16)
+        : session(std::make_shared<FakeBackend>(control), small_scene(), settings_of(size)) {}
+
+    void render(FilmSlot slot, std::uint32_t passes) {
+        const std::uint32_t target = session.passes(slot) + passes;
+        while (session.passes(slot) < target) session.advance(slot);
+    }
+
+private:
+    static RenderSettings settings_of(int size) {
+        RenderSettings settings;
+        settings.width = size;
+        settings.height = size;
+        settings.camera = small_scene()->camera;
+        settings.field.volumes = 16;
+        settings.field.bins = 16;
+        return settings;
+    }
+};
+
+inline constexpr FilmSlot kDefault{MethodId::Default, View::Beauty};
+inline constexpr FilmSlot kLearning{MethodId::Reinforcement, View::Beauty};
+
+}  // namespace pl::test

@@ -1,0 +1,36 @@
+#include "ui/worker/answers.h"
+
+#include "core/base/error.h"
+
+namespace pl {
+
+PickAnswer answer_pick(Session& session, Vec2f image_point) {
+    const RenderSettings& settings = session.settings();
+    PickAnswer answer;
+    answer.point =
+        session.pick(image_point * Vec2f{static_cast<float>(settings.width), static_cast<float>(settings.height)});
+    return answer;
+}
+
+LearnedAnswer answer_learned(const Session& session, MethodId method) {
+    LearnedAnswer answer;
+    try {
+        answer.field = std::make_shared<const LearnedField>(session.export_field(method));
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Usage) throw;
+        answer.reason = error.what();
+    }
+    return answer;
+}
+
+DiagnosticsAnswer answer_diagnostics(const Session& session, FilmSlot slot, std::uint64_t generation) {
+    DiagnosticsAnswer answer{.generation = generation};
+    try {
+        answer.source = diagnostics_input(session, slot);
+    } catch (const std::exception& error) {
+        answer.reason = error.what();
+    }
+    return answer;
+}
+
+}  // namespace pl

@@ -1,0 +1,32 @@
+// The image of the volumes' cells that lies over the picture: rendered when the volumes or the camera have changed.
+#pragma once
+
+#include <memory>
+
+#include "core/session/session.h"
+#include "ui/worker/published_frame.h"
+
+namespace pl {
+
+class CellRenderer {
+public:
+    /// The film of the cells; the volumes are those of all methods.
+    static constexpr FilmSlot kSlot{MethodId::Default, View::Voronoi};
+
+    /// Pixels may see other cells now.
+    void invalidate() { ++pose_; }
+    /// Does the image show the present volumes from the present camera?
+    bool is_current(const Session& session) const;
+    /// Renders the image anew; false if the pass was stopped.
+    bool render(Session& session, const StopFlag* stop);
+    /// Null if it is not current.
+    std::shared_ptr<const CellImage> image(const Session& session) const;
+
+private:
+    std::shared_ptr<const CellImage> image_;
+    std::uint64_t pose_ = 1;        ///< grows with every change of camera, size, scene and field
+    std::uint64_t image_pose_ = 0;  ///< pose_ of the image
+    Refinement refinement_;         ///< of the image's volumes
+};
+
+}  // namespace pl

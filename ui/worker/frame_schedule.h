@@ -1,0 +1,43 @@
+// When the render thread makes a new frame for the window: at a rate that falls with the age of the picture, and at once
+// where the newest frame lacks something that is there.
+#pragma once
+
+#include "core/base/timer.h"
+#include "ui/worker/requests.h"
+
+namespace pl {
+
+/// Seconds between two frames: the longer a picture has rendered, the less a pass changes it.
+constexpr double frame_interval(double rendered_seconds) {
+    return rendered_seconds < 2.0 ? 1.0 / 30.0 : (rendered_seconds < 10.0 ? 0.1 : 0.25);
+}
+
+class FrameSchedule {
+public:
+    /// The newest frame lacks something: the next one is due at once.
+    void ask() { is_asked_ = true; }
+    bool is_asked() const { return is_asked_; }
+    /// Does the window want the same film shown in another way?
+    bool is_stale(const Requests& now) const { return now.display != display_ || (now.values && !has_values_); }
+    /// Does a frame of `passes` follow the last one now? `rendered_seconds` is the age of the picture.
+    bool is_due(std::uint32_t passes, bool is_moving, double rendered_seconds) const;
+    bool shows(std::uint32_t passes) const { return passes == passes_; }
+
+    /// Before a frame is made, or its parts: if that fails, it is reported once and not tried for ever.
+    void settle(const Requests& now);
+    /// The frame is being made.
+    void begin() { is_asked_ = false; }
+    /// The frame is out.
+    void end(std::uint32_t passes);
+    /// Another film follows, of which no frame was made.
+    void change_film() { passes_ = 0; }
+
+private:
+    bool is_asked_ = false;
+    DisplaySettings display_;
+    bool has_values_ = false;
+    std::uint32_t passes_ = 0;
+    std::optional<Stopwatch> age_;
+};
+
+}  // namespace pl

@@ -1,0 +1,48 @@
+// Two methods of a session in turns of equal charged time: passes, seconds and limits of both, and whose turn it is.
+#pragma once
+
+#include "core/session/session.h"
+#include "ui/worker/requests.h"
+#include "ui/worker/turns.h"
+
+namespace pl {
+
+class MethodTurns {
+public:
+    static constexpr double kTurnSeconds = 0.25;
+
+    explicit MethodTurns(TurnMethods methods) { status_.methods = methods; }
+
+    const TurnsStatus& status() const { return status_; }
+    MethodId first() const { return status_.methods[0]; }
+    /// The method whose turn it is.
+    MethodId method() const { return status_.methods[side_]; }
+    /// Of the first method, when it was last counted.
+    const std::optional<FieldStatus>& field() const { return field_; }
+
+    /// Reads passes and seconds of both methods: edits may have emptied their films.
+    void count_both(const Session& session, View view);
+    /// Reads those of the method whose turn it is.
+    void count(const Session& session, View view) { count_side(side_, session, view); }
+
+    /// Passes and seconds of the method that decides about limits. Once one method has met a limit, that is the other one,
+    /// until it has had the same time and a pass, and the first-mentioned again afterwards. Empty before.
+    std::optional<std::size_t> side_at_limit(const Requests& now) const;
+    bool limit_reached(const Requests& now) const;
+
+    /// The side to go on with. While the camera moves that is the first method alone: the picture follows as quickly as
+    /// without turns.
+    std::size_t next(bool is_moving, const Requests& now);
+    std::size_t side() const { return side_; }
+    void set_side(std::size_t side) { side_ = side; }
+
+private:
+    void count_side(std::size_t side, const Session& session, View view);
+
+    TurnsStatus status_;
+    Turns order_{kTurnSeconds};
+    std::size_t side_ = 0;
+    std::optional<FieldStatus> field_;
+};
+
+}  // namespace pl

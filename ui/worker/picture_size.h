@@ -1,0 +1,42 @@
+// The size of the film that is rendered: that of the picture at rest, and coarser while the camera moves.
+#pragma once
+
+#include "core/session/session.h"
+#include "ui/worker/motion_resolution.h"
+#include "ui/worker/requests.h"
+
+namespace pl {
+
+class PictureSize {
+public:
+    PictureSize(int width, int height) : width_(width), height_(height) {}
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    /// Width and height of the session are divided by this; 0 after resize(), before apply().
+    int divider() const { return divider_; }
+    bool is_whole() const { return divider_ == 1; }
+
+    /// Is the picture coarse: while the camera moves, and until a frame has shown the place where it came to rest?
+    bool is_coarse(const Requests& now) const { return now.low_resolution && (now.moving || is_unseen_); }
+    void move_camera() { is_unseen_ = true; }
+    void note_frame() { is_unseen_ = false; }
+
+    /// Another size at rest, which the next apply() takes to the session.
+    void resize(int width, int height);
+    /// Gives the session the size for a picture that is coarse or not; true if its films were emptied.
+    bool apply(Session& session, bool is_coarse);
+    /// A pass took this long: decides how coarse the next motion begins.
+    void observe(double seconds) { motion_.observe(divider_, seconds); }
+    /// The cost of a pass is unknown again.
+    void forget_cost() { motion_.reset(); }
+
+private:
+    int width_;
+    int height_;
+    int divider_ = 1;
+    bool is_unseen_ = false;  ///< no frame shows the place of the camera yet
+    MotionResolution motion_;
+};
+
+}  // namespace pl

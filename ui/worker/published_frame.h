@@ -1,0 +1,107 @@
+// The data that the render thread passes to the window: immutable once published, shared by reference.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnose/find_diagnostics.h"
+#include "core/measure/paired_cost.h"
+#include "core/scene/pack_scene.h"
+#include "core/session/shown_range.h"
+#include "ui/viewer.h"
+
+namespace pl {
+
+/// Which radiance volume serves each pixel, as display colors of color_of_id(); see ui/picture.h.
+struct CellImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint32_t> argb;
+};
+
+struct PublishedFrame {
+    DisplayFrame picture;  ///< the film in 8 bits, by `display`; may still be on its way
+    DisplaySettings display;
+    Snapshot snapshot;             ///< with pixels only if has_values()
+    RenderSettings settings;       ///< with the width and height of the full picture
+    std::uint64_t serial = 0;      ///< number of the frame, from 1
+    std::uint64_t generation = 0;  ///< of the newest edit that this picture shows
+    int divider = 1;               ///< width and height of the snapshot are divided by this
+    BackendInfo backend;
+    std::shared_ptr<const SceneDescription> description;
+    std::shared_ptr<const HostScene> scene;
+    float diagonal = 0.0f;                           ///< of the scene's bounds
+    ShownRange range;                                ///< of the snapshot
+    std::shared_ptr<const CellImage> cells;          ///< null if not asked for, or of another camera pose
+    std::shared_ptr<const VolumeInspection> volume;  ///< of the selected volume; null if there is nothing to show
+
+    /// Does the snapshot have the values of the film?
+    bool has_values() const { return !snapshot.pixels.empty(); }
+};
+
+enum class WorkerState { Starting, Rendering, Precomputing, Paused, Done, Failed };
+const char* name_of(WorkerState state);
+
+/// Two methods that render in turns of equal time.
+using TurnMethods = std::array<MethodId, 2>;
+struct TurnsStatus {
+    TurnMethods methods{};
+    std::array<std::uint32_t, 2> passes{};
+    std::array<double, 2> seconds{};  ///< work_seconds() of each
+    bool catching_up = false;         ///< one works alone until both have had the same time
+};
+
+/// The measured cost of forcing effects.
+struct EffectCost {
+    FeatureSet forced;
+    std::string base_kernel;  ///< of the needed effects
+    std::string kernel;       ///< of the needed and the forced effects
+    PairedCost::Result result;
+    bool done = false;
+};
+
+/// Changes with every pass; cheap to copy.
+struct WorkerStatus {
+    WorkerState state = WorkerState::Starting;
+    std::uint32_t passes = 0;
+    int divider = 1;
+    double seconds = 0.0;                   ///< work_seconds()
+    std::optional<EffectCost> effect_cost;  ///< while a trial runs
+    std::optional<TurnsStatus> turns;       ///< then passes and seconds are those of the first method
+    std::uint64_t generation = 0;
+    std::uint64_t picture = 0;  ///< picture_key() of the film, as RunLabel::picture; 0 while the camera moves
+    std::shared_ptr<const SceneDescription> scene;  ///< with the materials as edited; never null
+    std::optional<FieldStatus> field;
+    std::string backend;                             ///< name of the one in use
+    std::shared_ptr<const BackendChoices> backends;  ///< never null
+};
+
+/// A message for the person at the window.
+struct WorkerMessage {
+    bool is_error = false;
+    std::string text;
+};
+
+/// Answer to RenderWorker::request_learned.
+struct LearnedAnswer {
+    std::shared_ptr<const LearnedField> field;  ///< null if there is none
+    std::string reason;                         ///< for the lack of one
+};
+
+/// Answer to RenderWorker::request_diagnostics.
+struct DiagnosticsAnswer {
+    std::optional<DiagnosticsInput> source{};  ///< empty if the view traces no paths
+    std::string reason{};                      ///< for the lack of it
+    std::uint64_t generation = 0;              ///< of the newest edit that the picture shows
+};
+
+/// Answer to RenderWorker::request_pick.
+struct PickAnswer {
+    std::optional<PickedPoint> point;
+};
+
+}  // namespace pl

@@ -1,0 +1,277 @@
+#include "ui/worker/render_loop.h"
+
+#include <sys/resource.h>
+
+#include "core/base/timer.h"
+#include "ui/worker/answers.h"
+
+namespace pl {
+namespace {
+
+/// The window comes first where cores are few. On Linux this is about the calling thread, and threads that the back
+/// end starts from it inherit it.
+void yield_to_the_window() {
+    constexpr int kNice = 3;
+    (void)setpriority(PRIO_PROCESS, 0, kNice);
+}
+
+/// May pixels see other cells after the edit?
+bool changes_cells(const WorkerEdit& edit) {
+    return find_edit<EditCamera>(edit) || find_edit<EditScene>(edit) || find_edit<EditField>(edit) ||
+           find_edit<EditLearned>(edit) || find_edit<EditMaterial>(edit);
+}
+
+}  // namespace
+
+RenderLoop::RenderLoop(const WorkerSetup& setup, Inbox& inbox, Outbox& outbox)
+    : inbox_(inbox), outbox_(outbox), backends_(setup.make_backend, setup.backends, setup.first_backend),
+      shown_(slot_of(setup.settings)), size_(setup.settings.width, setup.settings.height),
+      trial_(setup.settings.forced_effects), diagonal_(bounds_of(*setup.scene).diagonal()) {
+    outbox_.set_runs(recorder_.runs());
+}
+
+void RenderLoop::run(const WorkerSetup& setup) {
+    yield_to_the_window();
+    if (!start_session(setup)) return;
+    while (take_requests()) {
+        if (!attempt([this] { work(); })) failed_ = true;
+        update_status();
+    }
+    session_.reset();
+}
+
+bool RenderLoop::start_session(const WorkerSetup& setup) {
+    const auto make = [&](std::shared_ptr<RenderBackend> backend) {
+        return std::make_unique<Session>(std::move(backend), setup.scene, setup.settings, setup.load_seconds);
+    };
+    try {
+        session_ = backends_.start(make, [this](const WorkerMessage& message) { outbox_.report(message); });
+    } catch (...) {
+        outbox_.fail(std::current_exception());
+        return false;
+    }
+    settle_backend(setup.first_backend);
+    return true;
+}
+
+/// Waits until there is something to do; false if the window has closed.
+bool RenderLoop::take_requests() {
+    std::vector<WorkerEdit> edits;
+    const auto is_needed = [this] {
+        if (has_work()) return true;
+        update_status();
+        return false;
+    };
+    if (!inbox_.take(now_, edits, is_needed)) return false;
+    apply_edits(edits);
+    if (now_.backend != backends_.current()) change_backend();
+    settle_turns();
+    trial_.settle(*session_, now_.trial);
+    adopt_reference();
+    inbox_.begin_pass(!is_coarse(), now_, backends_.current());
+    return true;
+}
+
+bool RenderLoop::has_work() const {
+    const bool is_asked = now_.once.pick || now_.once.learned || now_.once.diagnostics;
+    const bool is_other = now_.turns.has_value() != turns_.has_value() || !trial_.matches(now_.trial) ||
+                          now_.reference != recorder_.reference() || now_.backend != backends_.current();
+    if (is_asked || is_other) return true;
+    if (passes() > 0 && frames_.is_stale(now_)) return true;
+    if (failed_) return false;
+    const bool size_is_stale = !size_.is_whole() && !is_coarse();
+    return size_is_stale || wants_pass() || frames_.is_asked() || inspection_.wants(now_.volume) ||
+           (now_.cells && !cells_.is_current(*session_));
+}
+
+/// Begins or ends turns as requested, and reads the time of both methods again: edits may have emptied their films.
+void RenderLoop::settle_turns() {
+    if (!now_.turns) {
+        turns_.reset();
+        return;
+    }
+    if (!turns_ || turns_->status().methods != *now_.turns) turns_.emplace(*now_.turns);
+    turns_->count_both(*session_, shown_.view);
+}
+
+void RenderLoop::adopt_reference() {
+    if (now_.reference == recorder_.reference()) return;
+    attempt([this] { recorder_.set_reference(now_.reference); });
+    outbox_.set_runs(recorder_.runs());
+}
+
+void RenderLoop::apply_edits(const std::vector<WorkerEdit>& edits) {
+    for (const WorkerEdit& edit : edits) {
+        failed_ = false;
+        if (changes_cells(edit)) cells_.invalidate();
+        if (find_edit<EditCamera>(edit)) size_.move_camera();
+        inspection_.invalidate();
+        frames_.ask();
+        attempt([&] { apply(edit); });
+    }
+}
+
+void RenderLoop::apply(const WorkerEdit& edit) {
+    if (const auto* method = std::get_if<EditMethod>(&edit)) shown_.method = method->method;
+    if (const auto* view = std::get_if<EditView>(&edit)) shown_.view = view->view;
+    if (const auto* change = std::get_if<SessionEdit>(&edit)) apply(*change);
+}
+
+/// May be done twice, if a back end fails in between.
+void RenderLoop::apply(const SessionEdit& edit) {
+    if (const auto* scene = std::get_if<EditScene>(&edit)) diagonal_ = bounds_of(*scene->scene).diagonal();
+    if (const auto* size = std::get_if<EditSize>(&edit)) {
+        size_.resize(size->width, size->height);  // work() takes it to the session
+        return;
+    }
+    session_->apply(edit);
+    if (const auto* effects = std::get_if<EditEffects>(&edit)) trial_.set_forced(effects->forced);
+    if (const auto* learned = std::get_if<EditLearned>(&edit)) shown_.method = learned->field->method;
+}
+
+void RenderLoop::work() {
+    if (size_.apply(*session_, is_coarse())) cells_.invalidate();
+    if (passes() > 0 && (frames_.is_asked() || frames_.is_stale(now_))) {  // a parked picture is shown at once
+        frames_.settle(now_);
+        refresh_inspection();
+        publish();
+    }
+    answer_questions();
+    if (turns_) take_turn();
+    if (wants_pass()) render();
+    if (*inbox_.stop_flag()) return;
+    if (now_.cells && !cells_.is_current(*session_) && passes() > 0 && cells_.render(*session_, inbox_.stop_flag()))
+        frames_.ask();
+    refresh_inspection();
+    if (frames_.is_asked() || is_publishing_due()) publish();
+}
+
+/// Changes sides when the other's turn has come. The picture of the last one is shown before.
+void RenderLoop::take_turn() {
+    const std::size_t side = turns_->next(is_coarse(), now_);
+    if (side == turns_->side()) return;
+    if (passes() > 0 && !frames_.shows(passes())) publish();
+    turns_->set_side(side);
+    frames_.change_film();
+}
+
+void RenderLoop::render() {
+    const Stopwatch watch;
+    const bool is_whole = !is_coarse() && size_.is_whole();
+    trial_.begin_pass(*session_, slot(), is_whole);
+    const Progress progress = session_->advance(slot(), inbox_.stop_flag());
+    trial_.end_pass(*session_, slot(), backends_.current(), progress);
+    if (progress == Progress::Rendered) {
+        if (passes() == 1) frames_.ask();
+        size_.observe(watch.seconds());
+    }
+    if (is_whole && recorder_.observe(*session_, slot())) outbox_.set_runs(recorder_.runs());
+    if (turns_) turns_->count(*session_, shown_.view);
+    update_status();
+    if (now_.once.steps > 0 || limit_reached() || now_.paused) frames_.ask();
+}
+
+void RenderLoop::answer_questions() {
+    if (now_.once.pick) outbox_.answer(answer_pick(*session_, *now_.once.pick));
+    now_.once.pick.reset();
+    if (now_.once.learned) outbox_.answer(answer_learned(*session_, asked_method()));
+    now_.once.learned = false;
+    if (now_.once.diagnostics)
+        outbox_.answer(size_.is_whole()
+                           ? answer_diagnostics(*session_, slot(), now_.generation)
+                           : DiagnosticsAnswer{.reason = "the camera moves: let the picture come to rest first",
+                                               .generation = now_.generation});
+    now_.once.diagnostics = false;
+}
+
+void RenderLoop::refresh_inspection() {
+    if (passes() == 0) return;  // there may be no tables yet
+    const bool is_other = now_.volume != inspection_.shown();
+    if (!inspection_.refresh(*session_, asked_method(), now_.volume)) return;
+    if (is_other || !wants_pass()) frames_.ask();
+}
+
+bool RenderLoop::wants_pass() const {
+    if (failed_) return false;
+    // Also a paused picture follows the camera: one pass for every view of the scene.
+    if (passes() == 0 || now_.once.steps > 0) return true;
+    return !now_.paused && !limit_reached();
+}
+
+bool RenderLoop::limit_reached() const {
+    if (is_coarse()) return false;
+    if (turns_) return turns_->limit_reached(now_);
+    return now_.is_enough(passes(), work_seconds(session_->clocks(slot())));
+}
+
+bool RenderLoop::is_publishing_due() const {
+    const double seconds = turns_ ? turns_->status().seconds[0] : work_seconds(session_->clocks(slot()));
+    return frames_.is_due(passes(), now_.moving, seconds) && outbox_.is_frame_taken();
+}
+
+void RenderLoop::publish() {
+    // Until the first pass is there the window keeps the picture it has.
+    if (passes() == 0) return;
+    frames_.settle(now_);
+    frames_.begin();
+    auto frame = std::make_shared<PublishedFrame>();
+    ShownFilm shown = session_->show_film(slot(), now_.display);
+    frame->picture = std::move(shown.frame);
+    frame->range = std::move(shown.range);
+    frame->display = now_.display;
+    frame->snapshot = now_.values ? session_->snapshot(slot()) : session_->summary(slot());
+    frame->settings = session_->settings_for(slot());
+    frame->settings.width = size_.width();
+    frame->settings.height = size_.height();
+    frame->settings.forced_effects = trial_.forced();
+    frame->generation = now_.generation;
+    frame->divider = size_.divider();
+    frame->backend = session_->backend();
+    frame->backend.name = backends_.current();
+    frame->description = session_->shared_scene();
+    frame->scene = session_->packed_scene();
+    frame->diagonal = diagonal_;
+    frame->cells = now_.cells ? cells_.image(*session_) : nullptr;
+    frame->volume = inspection_.volume();
+    size_.note_frame();
+    frames_.end(frame->snapshot.passes);
+    outbox_.publish(std::move(frame));
+}
+
+WorkerState RenderLoop::state_of(const WorkerStatus& status) const {
+    const bool precomputing = status.passes == 0 && status.field && status.field->precomputed_share < 1.0;
+    if (failed_) return WorkerState::Failed;
+    if (precomputing) return WorkerState::Precomputing;
+    if (now_.paused) return WorkerState::Paused;
+    return status.passes > 0 && limit_reached() ? WorkerState::Done : WorkerState::Rendering;
+}
+
+WorkerStatus RenderLoop::make_status() const {
+    WorkerStatus status;
+    status.passes = passes();
+    status.picture = size_.is_whole() ? recorder_.picture(session_->film_origin(slot())) : 0;
+    status.scene = session_->shared_scene();
+    status.divider = size_.divider();
+    status.effect_cost = trial_.cost();
+    status.generation = now_.generation;
+    status.field = session_->field_status(shown_.method);
+    status.seconds = work_seconds(session_->clocks(slot()));
+    status.backend = backends_.current();
+    status.backends = backends_.choices();
+    if (turns_) {
+        status.turns = turns_->status();
+        status.passes = turns_->status().passes[0];
+        status.seconds = turns_->status().seconds[0];
+        status.field = turns_->field();
+    }
+    status.state = state_of(status);
+    return status;
+}
+
+void RenderLoop::update_status() {
+    const WorkerStatus status = make_status();
+    inbox_.note_film(status.passes > 0);
+    outbox_.set_status(status);
+}
+
+}  // namespace pl

@@ -1,0 +1,88 @@
+// The render thread's side of RenderWorker: owns the session and renders it piece by piece, as the requests in the inbox ask
+// for, with frames, status and answers into the outbox.
+#pragma once
+
+#include "ui/worker/backend_switch.h"
+#include "ui/worker/cell_image.h"
+#include "ui/worker/effect_trial.h"
+#include "ui/worker/frame_schedule.h"
+#include "ui/worker/inbox.h"
+#include "ui/worker/inspection.h"
+#include "ui/worker/method_turns.h"
+#include "ui/worker/outbox.h"
+#include "ui/worker/picture_size.h"
+#include "ui/worker/recorder.h"
+
+namespace pl {
+
+struct WorkerSetup {
+    BackendSwitch::Make make_backend;
+    BackendChoices backends;
+    std::string first_backend;
+    std::shared_ptr<const SceneDescription> scene;
+    RenderSettings settings;
+    SampleLimits limits;
+    double load_seconds = 0.0;
+    DisplaySettings display{};
+};
+
+class RenderLoop {
+public:
+    RenderLoop(const WorkerSetup& setup, Inbox& inbox, Outbox& outbox);
+
+    /// Until the inbox tells to end, or the session cannot be made.
+    void run(const WorkerSetup& setup);
+
+private:
+    bool start_session(const WorkerSetup& setup);
+    bool take_requests();
+    bool has_work() const;
+    void settle_turns();
+    void adopt_reference();
+    void apply_edits(const std::vector<WorkerEdit>& edits);
+    void apply(const WorkerEdit& edit);
+    void apply(const SessionEdit& edit);
+
+    void work();
+    void take_turn();
+    void render();
+    void answer_questions();
+    void refresh_inspection();
+    void publish();
+    bool wants_pass() const;
+    bool limit_reached() const;
+    bool is_publishing_due() const;
+
+    bool attempt(const std::function<void()>& step);
+    void change_backend();
+    bool take_over(const std::exception& error);
+    void backend_changed();
+    void settle_backend(const std::string& asked);
+
+    /// The film that is rendered now, and the method that answers and inspections are about.
+    FilmSlot slot() const { return {turns_ ? turns_->method() : shown_.method, shown_.view}; }
+    MethodId asked_method() const { return turns_ ? turns_->first() : shown_.method; }
+    std::uint32_t passes() const { return session_->passes(slot()); }
+    bool is_coarse() const { return size_.is_coarse(now_); }
+    WorkerState state_of(const WorkerStatus& status) const;
+    WorkerStatus make_status() const;
+    void update_status();
+
+    Inbox& inbox_;
+    Outbox& outbox_;
+    BackendSwitch backends_;
+    std::unique_ptr<Session> session_;
+    Requests now_;    ///< when they were last taken
+    FilmSlot shown_;  ///< method and view of the window, apart from turns
+    PictureSize size_;
+    std::optional<MethodTurns> turns_;
+    EffectTrial trial_;
+    Recorder recorder_;
+    CellRenderer cells_;
+    Inspection inspection_;
+    FrameSchedule frames_;
+    float diagonal_;  ///< of the scene's bounds
+    bool failed_ = false;
+};
+
+}  // namespace pl

@@ -1,0 +1,74 @@
+// The render thread as the window sees it. The window sends edits and requests, and takes published frames.
+// Every public function may be called from any thread and returns at once.
+#pragma once
+
+#include <thread>
+
+#include "ui/worker/render_loop.h"
+
+namespace pl {
+
+class RenderWorker {
+public:
+    explicit RenderWorker(WorkerSetup setup);
+    ~RenderWorker();
+    RenderWorker(const RenderWorker&) = delete;
+    RenderWorker& operator=(const RenderWorker&) = delete;
+
+    /// Queues an edit and returns its number: frames that show it have at least this generation.
+    std::uint64_t submit(WorkerEdit edit) { return inbox_.submit(std::move(edit)); }
+    /// Asks for another back end; returns a number like submit(). Where it cannot be used, a message tells the reason, and
+    /// all stays as it is.
+    std::uint64_t switch_backend(const std::string& name);
+    /// The back end that was asked for last, or the one in use if that could not be used.
+    std::string wanted_backend() const { return inbox_.wanted_backend(); }
+    /// While the camera moves, pictures may be coarse; afterwards they are complete again.
+    void set_moving(bool moving);
+    void set_low_resolution_allowed(bool allowed);
+    void set_paused(bool paused);
+    /// One more pass while paused.
+    void step();
+    void set_limits(SampleLimits limits);
+    /// Exposure and curve of frames from now on; interrupts a pass at rest, which then resumes.
+    void set_display(const DisplaySettings& display);
+    /// Whether frames carry the values of the film, which take time to fetch from a device.
+    void set_values_wanted(bool wanted);
+    /// The reference that runs of the same picture are measured against from now on; null for none.
+    void set_reference(std::shared_ptr<const LiveReference> reference);
+    /// Lets two methods render in turns of equal charged time; empty ends it.
+    void set_turns(std::optional<TurnMethods> methods);
+    /// Measures the cost of forcing these effects; empty ends it. Not while methods are in turns. WorkerStatus has it.
+    void measure_effects(std::optional<FeatureSet> forced);
+    /// Whether frames carry the image of the volumes' cells.
+    void set_cells_wanted(bool wanted);
+    /// Asks for the surface under a point of the image, in [0,1)^2 from the top left.
+    void request_pick(Vec2f image_point);
+    /// Asks for the learned field of the method, after the pass under way.
+    void request_learned();
+    /// Asks for the input of find_diagnostics(), after the pass under way.
+    void request_diagnostics();
+    /// The volume whose inspection frames carry; kNoVolume for none.
+    void select_volume(std::int32_t volume);
+
+    std::shared_ptr<const PublishedFrame> latest() { return outbox_.latest(); }
+    /// Number of frames published so far.
+    std::uint64_t frame_count() const { return outbox_.frame_count(); }
+    WorkerStatus status() const { return outbox_.status(); }
+    /// Error against time of everything rendered so far; never null.
+    std::shared_ptr<const LiveRunSet> runs() const { return outbox_.runs(); }
+    std::vector<WorkerMessage> take_messages() { return outbox_.take_messages(); }
+    std::optional<PickAnswer> take_pick() { return outbox_.take_pick(); }
+    std::optional<LearnedAnswer> take_learned() { return outbox_.take_learned(); }
+    std::optional<DiagnosticsAnswer> take_diagnostics() { return outbox_.take_diagnostics(); }
+    /// The error that ended the thread, or null. Only a session that cannot be made ends it.
+    std::exception_ptr failure() const { return outbox_.failure(); }
+
+private:
+    WorkerSetup setup_;
+    Inbox inbox_;
+    Outbox outbox_;
+    RenderLoop loop_;     ///< only the render thread touches it
+    std::thread thread_;  ///< last: starts when all else is there
+};
+
+}  // namespace pl

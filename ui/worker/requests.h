@@ -1,0 +1,45 @@
+// The requests of the window to the render thread: a state that holds until it is changed, and questions that are answered
+// once.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/measure/live_runs.h"
+#include "ui/viewer.h"
+#include "ui/worker/published_frame.h"
+
+namespace pl {
+
+/// Requests that are done with when they were carried out once.
+struct OneShotRequests {
+    int steps = 0;              ///< passes while paused
+    std::optional<Vec2f> pick;  ///< point of the image, in [0,1)^2 from the top left
+    bool learned = false;       ///< the learned field
+    bool diagnostics = false;   ///< the input of find_diagnostics()
+};
+
+struct Requests {
+    bool moving = false;  ///< the camera moves
+    bool paused = false;
+    bool low_resolution = true;  ///< pictures may be coarse while the camera moves
+    bool cells = false;          ///< frames carry the image of the volumes' cells
+    bool values = false;         ///< frames carry the values of the film
+    DisplaySettings display{};
+    SampleLimits limits{};
+    std::int32_t volume = kNoVolume;  ///< selected for inspection
+    std::optional<TurnMethods> turns{};
+    std::optional<FeatureSet> trial{};  ///< effects of which the cost is measured
+    std::shared_ptr<const LiveReference> reference{};
+    std::string backend{};
+    std::uint64_t generation = 0;  ///< number of edits and switches of back ends so far
+    OneShotRequests once{};
+
+    /// Has a film of so many passes and seconds reached a limit?
+    bool is_enough(std::uint32_t passes, double seconds) const {
+        return (limits.spp > 0 && passes >= limits.spp) || (limits.seconds > 0.0 && seconds >= limits.seconds);
+    }
+};
+
+}  // namespace pl
