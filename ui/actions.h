@@ -1,5 +1,5 @@
-// The one table of what keys do. Dispatch, the help overlay, menu labels and the README's list all read it, so they
-// cannot disagree. Knows key numbers, not the window library's headers.
+// The one table of actions and their keys. Dispatch, the help overlay, menus and the documented list all read it, so
+// that they cannot disagree. Knows key numbers, not the window library's headers.
 #pragma once
 
 #include <array>
@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 #include <string>
+
+#include "core/session/methods.h"
 
 namespace pl {
 
@@ -27,9 +29,7 @@ enum class ActionId {
     Pause,
     SinglePass,
     SwitchBackend,
-    MethodDefault,
-    MethodPrecomputed,
-    MethodReinforcement,
+    ChooseMethod,  ///< of Action::method: one action for each method
     NextEvent,
     PreviousView,
     NextView,
@@ -74,13 +74,13 @@ struct Modifiers {
 
 /// A key as the window reports it.
 struct KeyStroke {
-    int scancode = 0;  ///< where the key is
-    int symbol = 0;    ///< what is printed on it
+    int scancode = 0;  ///< position on the keyboard
+    int symbol = 0;    ///< letter or sign of the keyboard layout
     Modifiers modifiers;
 };
 
-/// A key that an action listens to: by place for keys that the hand finds (the same on every keyboard layout), by
-/// symbol for those that the head remembers.
+/// A key of an action: by position for keys found by hand (the same on every keyboard layout), by symbol for keys
+/// remembered by their letter.
 struct Chord {
     enum class By { None, Place, Symbol };
     By by = By::None;
@@ -91,31 +91,34 @@ struct Chord {
 struct Action {
     ActionId id;
     ActionGroup group;
-    const char* keys;  ///< as people read it
-    const char* text;
-    std::array<Chord, 3> chords;  ///< any of them
-    bool is_held = false;         ///< acts as long as the key is down, whatever Shift and Alt do; never with Ctrl
+    std::string keys;  ///< as displayed
+    std::string text;
+    std::array<Chord, 3> chords;  ///< any of them triggers the action
+    bool is_held = false;         ///< acts as long as the key is down, with or without Shift and Alt; never with Ctrl
+    std::optional<MethodId> method{};
 };
 
-/// What the mouse does: told in the same places, dispatched by ui/pointer_gesture.h.
+/// An action of the mouse, for the same lists; dispatched by PointerGesture.
 struct MouseAction {
     const char* keys;
     const char* text;
 };
 
+/// The fixed actions, and one for each method with the key of its MethodInfo.
 std::span<const Action> all_actions();
 std::span<const MouseAction> mouse_actions();
+/// The first action with this id.
 const Action& info_of(ActionId id);
 const char* name_of(ActionGroup group);
 inline constexpr int kActionGroupCount = 8;
 
-/// The action of a key that goes down.
-std::optional<ActionId> find_action(const KeyStroke& stroke);
+/// The action of a key press; null if the key has none.
+const Action* find_action(const KeyStroke& stroke);
 
-/// Does one of the action's keys go down or stay down with this stroke?
+/// Whether the stroke is one of the action's keys.
 bool matches(const Action& action, const KeyStroke& stroke);
 
-/// The table in Markdown, for the README.
+/// The table in Markdown, for the documents.
 std::string key_table_markdown();
 
 }  // namespace pl

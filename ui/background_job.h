@@ -1,4 +1,4 @@
-// Work in the background that a person waits for: a thread of low priority, its progress, and a way to stop it.
+// Background work with a progress bar: a thread of low priority, its progress, and a way to stop it.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ public:
     using Make = std::function<Value(const JobMonitor&)>;
 
     explicit BackgroundJob(Make make) : thread_([this, make = std::move(make)] { run(make); }) {}
-    /// Stops it, and waits until it has seen that.
+    /// Stops the work and waits for its end.
     ~BackgroundJob() {
         stop();
         thread_.join();
@@ -41,10 +41,10 @@ public:
     }
 
     struct Result {
-        Value value{};        ///< what is there by then, if it was stopped
+        Value value{};        ///< partial if the work was stopped
         std::string failure;  ///< empty if it did not fail
     };
-    /// Once, when it is over.
+    /// Once, after the end of the work.
     std::optional<Result> take_result() {
         const std::lock_guard lock(mutex_);
         return std::exchange(result_, std::nullopt);
@@ -52,7 +52,7 @@ public:
 
 private:
     void run(const Make& make) {
-        constexpr int kNice = 10;  // on Linux about this thread and those that it starts: everything else comes first
+        constexpr int kNice = 10;  // on Linux of this thread and the threads it starts: everything else has priority
         (void)setpriority(PRIO_PROCESS, 0, kNice);
         const JobMonitor monitor{.stopped = [this] { return stopped_.load(); },
                                  .progress =
@@ -75,10 +75,10 @@ private:
     mutable std::mutex mutex_;
     Progress progress_;
     std::optional<Result> result_;
-    std::thread thread_;  ///< last: starts when all else is there
+    std::thread thread_;  ///< last: it uses all members above
 };
 
-/// A reference in the making. Null if it was stopped before there was any; what it has by then is stored.
+/// Renders a reference. Null if it was stopped before both halves had samples; else its samples are stored.
 using ReferenceJob = BackgroundJob<std::shared_ptr<const StoredReference>>;
 
 }  // namespace pl

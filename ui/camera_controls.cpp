@@ -21,7 +21,7 @@ Vec3f view_direction(const CameraDescription& camera) {
     return length > 0.0f ? d / length : Vec3f{0.0f, 0.0f, -1.0f};
 }
 
-/// Unit part of `direction` at right angles to the unit `axis`; any such vector if nothing is left.
+/// Unit component of `direction` perpendicular to the unit `axis`; any such vector if it vanishes.
 Vec3f horizontal_part(Vec3f direction, Vec3f axis) {
     Vec3f flat = direction - glm::dot(direction, axis) * axis;
     if (glm::dot(flat, flat) < 1.0e-8f) {

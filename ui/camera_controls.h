@@ -1,4 +1,4 @@
-// Flying and looking around. Pure: knows no window and no clock, so that tests can fly too.
+// Flying and looking around, without window and clock.
 #pragma once
 
 #include "core/kernel/base/math.h"
@@ -6,7 +6,7 @@
 
 namespace pl {
 
-/// Which ways the camera is asked to go; each in [-1, 1].
+/// Directions of the held keys; each in [-1, 1].
 struct MoveKeys {
     float forward = 0.0f;
     float right = 0.0f;
@@ -18,7 +18,7 @@ struct MoveKeys {
 
 class CameraControls {
 public:
-    /// A slow frame must not make the camera jump.
+    /// A slow frame must not make the camera jump: longer steps are cut.
     static constexpr double kLongestStepSeconds = 0.1;
     static constexpr float kLookDegPerPixel = 0.2f;
     static constexpr float kMaxPitchDeg = 89.0f;
@@ -30,10 +30,10 @@ public:
     void set_camera(const CameraDescription& camera) { camera_ = camera; }
     void go_home() { camera_ = home_; }
 
-    /// Straight motion without inertia; independent of how the time is cut into steps. True if the camera moved.
+    /// Straight motion without inertia, independent of the frame rate. True if the camera moved.
     bool move(const MoveKeys& keys, double seconds);
 
-    /// Turns by a mouse movement; right and down are positive. The distance to the target is kept.
+    /// Turns by a mouse movement in pixels; right and down are positive. The distance to the target is kept.
     void look(Vec2f pixels);
 
     /// Scene units per second, from diagonal/1000 to 10 diagonals.

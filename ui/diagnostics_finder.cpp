@@ -17,7 +17,7 @@ void DiagnosticsFinder::stop() {
 }
 
 std::optional<BackgroundJob<DiagnosticsFinder::Found>::Result> DiagnosticsFinder::update(std::uint64_t generation) {
-    const bool is_other = generation > generation_;  // what is told of the render thread may be behind its answer
+    const bool is_other = generation > generation_;  // the status may be older than the answer of the render thread
     if (is_other) {
         stop();
         drop();

@@ -1,4 +1,5 @@
-// The search for diagnostics in the picture of the window, in the background, and what it found for as long as that picture stands.
+// The background search for the pixels of invalid samples, lost paths, lookup misses and clamped training samples in
+// the picture of the window, and its map for as long as that picture stands.
 #pragma once
 
 #include <memory>
@@ -13,27 +14,27 @@ class DiagnosticsFinder {
 public:
     using Found = std::shared_ptr<const DiagnosticsMap>;
 
-    /// The render thread was asked for what it takes to search.
+    /// The render thread was asked for the input of a search.
     void expect_answer() { is_asked_ = true; }
-    /// It has answered: the search begins, if there is anything to look at.
+    /// It has answered: the search begins, unless the picture has no paths.
     void begin(DiagnosticsAnswer answer);
-    /// Ends the search; what it has found by then comes as its result.
+    /// Ends the search; its result is the map so far.
     void stop();
-    /// Forgets what was found.
+    /// Drops the map.
     void drop() { map_.reset(); }
 
     bool is_searching() const { return is_asked_ || job_ != nullptr; }
     double share() const { return job_ ? job_->progress().share : 0.0; }
-    /// Once per frame of the window, with the newest edit that is rendered: what was found is dropped with the picture. Once,
-    /// when a search is over, its result.
+    /// Once per frame of the window, with the generation of the newest rendered edit: the map is dropped with its picture.
+    /// Returns the result of a search once, at its end.
     std::optional<BackgroundJob<Found>::Result> update(std::uint64_t generation);
 
-    /// What was found in this picture; null if nothing was looked for.
+    /// The map of this picture; null without a search.
     Found map_of(const PublishedFrame& frame) const;
 
 private:
     bool is_asked_ = false;
-    std::uint64_t generation_ = 0;  ///< of the picture that is or was searched
+    std::uint64_t generation_ = 0;  ///< of the searched picture
     Found map_;
     std::unique_ptr<BackgroundJob<Found>> job_;
 };

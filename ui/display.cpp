@@ -36,7 +36,7 @@ std::string opengl_device() {
 
 VideoSubsystem::VideoSubsystem() {
     const bool chosen = is_set("SDL_VIDEODRIVER");
-    // Asked before SDL, which would silently draw where nobody can see it.
+    // Checked before SDL opens a window that nobody can see.
     if (!chosen && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
         throw Error(ErrorKind::Unavailable, "no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl+C in the terminal ends the program
@@ -52,7 +52,7 @@ VideoSubsystem::VideoSubsystem() {
 VideoSubsystem::~VideoSubsystem() { SDL_QuitSubSystem(SDL_INIT_VIDEO); }
 
 Display::Display(const std::string& title, int width, int height, bool software) {
-    // A driver or renderer named in the environment is what the person wants.
+    // A driver or renderer named in the environment has priority.
     const bool probe = !software && !is_set("SDL_RENDER_DRIVER") && !is_set("SDL_FRAMEBUFFER_ACCELERATION") &&
                        !shows_nothing(SDL_GetCurrentVideoDriver());
     bool opened = false;
@@ -65,7 +65,7 @@ Display::Display(const std::string& title, int width, int height, bool software)
         opened = open(title, width, height, true);
     }
     if (!opened) {
-        // Wayland has no plain pixels to draw into.
+        // Wayland has no window surface of plain pixels.
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "1");
         opened = open(title, width, height, true);
     }

@@ -10,9 +10,9 @@ struct SDL_Renderer;
 
 namespace pl {
 
-/// Keeps SDL's video part running. Throws Error(Unavailable) with one line where there is no screen to open a window
-/// on, unless SDL_VIDEODRIVER asked for a driver that needs none. The driver is looked at in the connection that is then
-/// used: an X server may start afresh when its last client leaves, and refuse the next for a moment.
+/// Keeps SDL's video subsystem running. Throws Error(Unavailable) with one line on machines without a screen, unless
+/// SDL_VIDEODRIVER names a driver that needs none. The check uses the connection that the window uses afterwards: an X
+/// server may restart when its last client disconnects, and refuse the next one for a moment.
 class VideoSubsystem {
 public:
     VideoSubsystem();
@@ -21,8 +21,8 @@ public:
     VideoSubsystem& operator=(const VideoSubsystem&) = delete;
 };
 
-/// Owner of window and renderer. Chooses an accelerated renderer if it runs on hardware: on a software
-/// implementation of OpenGL plain pixels are several times faster.
+/// Owner of window and renderer. Chooses an accelerated renderer only if it runs on hardware: SDL's software renderer is
+/// several times faster than a software implementation of OpenGL.
 class Display {
 public:
     /// Throws Error(Unavailable).
@@ -39,7 +39,7 @@ public:
 
     void set_title(const std::string& title);
     void toggle_full_screen();
-    /// Everything drawn since the last present(); slow.
+    /// The pixels drawn since the last present; slow.
     ScreenPixels read_pixels() const;
 
 private:

@@ -1,4 +1,4 @@
-// All that lies around and over the picture.
+// The panels around and the overlays over the picture.
 #pragma once
 
 #include "ui/overlays/overlays.h"
@@ -6,7 +6,7 @@
 
 namespace pl {
 
-/// Panels and overlays of a frame of Dear ImGui, the later ones on top. `image` is where the picture lies.
+/// Panels and overlays of a frame of Dear ImGui, the later ones on top. `image` is the rectangle of the picture.
 void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan,
                     const std::optional<HoveredPixel>& hovered);
 

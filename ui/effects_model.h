@@ -1,4 +1,4 @@
-// The effects of what is rendered, as the panel shows them: needed or not, why, forced or not, and what they cost.
+// The effects of the rendered scene as the panel shows them: whether and why each is needed, and its measured cost.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct EffectRow {
     Feature feature;
     std::string name;
     std::string reason;  ///< why it is needed; empty if it is not
-    std::string kernel;  ///< that would serve what is needed, and this
+    std::string kernel;  ///< that serves the needed effects and this one
 
     bool needed() const { return !reason.empty(); }
     FeatureSet with() const { return FeatureSet{}.with(feature); }
@@ -20,18 +20,18 @@ struct EffectRow {
 
 class EffectsModel {
 public:
-    /// Costs that were measured elsewhere, or of what another kernel served, are forgotten.
+    /// Drops costs that were measured on another picture, back end or kernel.
     void update(const PublishedFrame& frame, const std::optional<EffectCost>& measured);
 
     const std::vector<EffectRow>& rows() const { return rows_; }
-    /// That serves what is needed, with nothing forced.
+    /// The kernel that serves the needed effects, with none forced.
     const std::string& kernel() const { return kernel_; }
     std::string kernel_with(FeatureSet forced) const;
-    /// What forcing these costs, measured for any effects that the same kernel serves; null if that is not known.
+    /// The cost of forcing these effects, measured for any effects that the same kernel serves; null if unknown.
     const EffectCost* cost_of(FeatureSet forced) const;
 
 private:
-    /// What a cost was measured on.
+    /// The picture, back end and kernel of a measured cost.
     struct Place {
         std::shared_ptr<const HostScene> scene;
         FeatureSet needed;

@@ -7,14 +7,12 @@
 
 namespace pl {
 
-GuiMemory& gui_memory() { return *static_cast<GuiMemory*>(ImGui::GetIO().UserData); }
-
 Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
     : display_(display), font_(std::move(font)), draw_(display.renderer()) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // the layout follows from the window's size: nothing to remember
+    io.IniFilename = nullptr;  // the layout follows from the window's size
     io.LogFilename = nullptr;
     io.UserData = &memory_;
     if (!init_imgui_platform(display.window(), display.renderer())) {
@@ -47,7 +45,7 @@ void Gui::frame(double delta_seconds, const std::function<void()>& build) {
     mouse_.write_to_imgui();
     ImGuiIO& io = ImGui::GetIO();
     io.DeltaTime = static_cast<float>(delta_seconds > 1.0e-4 ? delta_seconds : 1.0e-4);
-    // Older platform code asks OpenGL for the scale of the pixels, which nothing here draws with.
+    // Older platform code takes the scale of the pixels from OpenGL, which is not used here.
     int width = 0;
     int height = 0;
     SDL_GetRendererOutputSize(display_.renderer(), &width, &height);

@@ -1,4 +1,4 @@
-// Dear ImGui for the life of a window: context, platform code, fonts, drawing.
+// Dear ImGui during the life of a window: context, platform code, fonts, drawing.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ public:
     void set_scale(float ui_scale);
     /// Runs `build` between the start and the end of a frame of this many seconds.
     void frame(double delta_seconds, const std::function<void()>& build);
-    /// Draws what the last frame() built.
+    /// Draws the last frame.
     void draw();
 
 private:

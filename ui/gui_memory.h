@@ -1,4 +1,4 @@
-// What the controls of a window share from frame to frame; io.UserData points to it.
+// State that the controls of a window share from frame to frame; io.UserData points to it.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@
 namespace pl {
 
 struct GuiMemory {
-    float pointer_rest_seconds = 0.0f;  ///< since it moved: tooltips wait for rest
-    /// Where controls were drawn in the last frame, by what is written beside or on them: what scripts point at.
+    float pointer_rest_seconds = 0.0f;  ///< since the pointer moved: tooltips wait for rest
+    /// Rectangles of the controls in the last frame by their labels: scripts point at them.
     std::map<std::string, Rect, std::less<>> places;
 };
 
-/// Of the window that is there.
+/// Of the present ImGui context.
 GuiMemory& gui_memory();
 
 }  // namespace pl

@@ -1,10 +1,10 @@
-// The picture in the window: one streaming texture, filled from the newest frame when something changed.
+// The picture in the window: a texture that is refilled from the newest frame when that or an overlay changed.
 #pragma once
 
 #include <memory>
 
+#include "ui/cell_colors.h"
 #include "ui/layout.h"
-#include "ui/picture.h"
 #include "ui/stream_texture.h"
 #include "ui/viewer_model.h"
 
@@ -14,14 +14,14 @@ class ImageLayer {
 public:
     explicit ImageLayer(SDL_Renderer* renderer) : texture_(renderer) {}
 
-    /// Where the picture is within `view`: that of the frame in the window, else that of the settings.
+    /// The rectangle of the picture within `view`: of the frame in the window, else of the settings.
     Rect place(const ViewerModel& model, const Rect& view) const;
 
-    /// Draws it. Does nothing before the first frame.
+    /// Nothing before the first frame.
     void draw(const ViewerModel& model, const Rect& image);
 
 private:
-    /// All that decides the texture's pixels.
+    /// Everything that the texture's pixels depend on.
     struct Key {
         std::uint64_t serial = 0;  ///< of the frame
         float opacity = 0.0f;

@@ -16,7 +16,7 @@ struct SDL_Texture;
 
 namespace pl {
 
-/// From this version on the pointer and the buttons travel as events; before, the platform code polls them.
+/// From this version on, ImGui takes pointer and buttons from events; before, its platform code polls them.
 inline constexpr bool kImGuiHasEventQueue = IMGUI_VERSION_NUM >= 18700;
 
 inline bool init_imgui_platform(SDL_Window* window, [[maybe_unused]] SDL_Renderer* renderer) {
@@ -29,7 +29,7 @@ inline bool init_imgui_platform(SDL_Window* window, [[maybe_unused]] SDL_Rendere
 
 /// ImTextureID is a pointer up to 1.91.3 and an integer from 1.91.4.
 inline ImTextureID to_texture_id(SDL_Texture* texture) {
-    return (ImTextureID)(std::intptr_t)texture;  // a C cast does both
+    return (ImTextureID)(std::intptr_t)texture;  // a C cast converts to both
 }
 inline SDL_Texture* from_texture_id(ImTextureID id) { return (SDL_Texture*)(std::intptr_t)id; }
 

@@ -10,7 +10,7 @@
 namespace pl {
 namespace {
 
-/// The clip rectangle of a command; empty if nothing of it is visible.
+/// The clip rectangle of a command; empty if it is invisible.
 SDL_Rect clip_of(const ImDrawCmd& command, const ImDrawData& data) {
     const int x0 = static_cast<int>(std::max(command.ClipRect.x - data.DisplayPos.x, 0.0f));
     const int y0 = static_cast<int>(std::max(command.ClipRect.y - data.DisplayPos.y, 0.0f));
@@ -56,7 +56,7 @@ void ImGuiDraw::draw(const ImDrawData& data) {
     for (int n = 0; n < data.CmdListsCount; ++n) {
         const ImDrawList& list = *data.CmdLists[n];
         for (const ImDrawCmd& command : list.CmdBuffer) {
-            if (command.UserCallback != nullptr) continue;  // nothing here uses them
+            if (command.UserCallback != nullptr) continue;  // the viewer uses none
             const SDL_Rect clip = clip_of(command, data);
             if (clip.w > 0 && clip.h > 0) draw_command(renderer_, list, command, clip);
         }

@@ -1,5 +1,5 @@
-// Draws Dear ImGui's output with SDL_Renderer. The backend that ImGui ships is in some distributions' libraries and
-// missing from others, and changed its name twice: these few lines work with all versions.
+// Draws Dear ImGui's output with SDL_Renderer. ImGui's own backend is missing from the libraries of some distributions
+// and changed its name twice; this one works with all versions.
 #pragma once
 
 struct ImDrawData;

@@ -2,7 +2,7 @@
 
 #include <SDL.h>
 
-#include "ui/panels/panels.h"
+#include "ui/perform_action.h"
 
 namespace pl {
 namespace {
@@ -17,7 +17,7 @@ KeyStroke stroke_of(const SDL_KeyboardEvent& event) {
             {.shift = (mod & KMOD_SHIFT) != 0, .ctrl = (mod & KMOD_CTRL) != 0, .alt = (mod & KMOD_ALT) != 0}};
 }
 
-/// An action that repeats as long as the key is held down.
+/// Actions that repeat while the key is held down.
 bool repeats(ActionId action) {
     switch (action) {
     case ActionId::SpeedUp:
@@ -42,35 +42,34 @@ void InputRouter::handle(const SDL_Event& event, ViewerModel& model, const Conte
     case SDL_MOUSEMOTION: motion(event.motion, model); break;
     case SDL_MOUSEWHEEL:
         if (context.view.contains(pointer_) && !context.panels_want_pointer)
-            model.change_speed(static_cast<float>(event.wheel.y));
+            model.camera().change_speed(static_cast<float>(event.wheel.y));
         break;
     case SDL_DROPFILE:
-        model.open(event.drop.file);
+        model.files().open(event.drop.file);
         SDL_free(event.drop.file);
         break;
     case SDL_WINDOWEVENT:
         if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) let_go();
         if (event.window.event == SDL_WINDOWEVENT_FOCUS_GAINED) skip_next_motion_ = true;
-        if (event.window.event == SDL_WINDOWEVENT_CLOSE) model.window().quit_asked = true;
+        if (event.window.event == SDL_WINDOWEVENT_CLOSE) model.window().requests.quit = true;
         break;
-    case SDL_QUIT: model.window().quit_asked = true; break;
+    case SDL_QUIT: model.window().requests.quit = true; break;
     default: break;
     }
 }
 
 void InputRouter::key_down(const SDL_KeyboardEvent& event, ViewerModel& model, const Context& context) {
     if (context.panels_want_text) return;
-    const std::optional<ActionId> action = find_action(stroke_of(event));
-    if (!action) return;
-    if (info_of(*action).is_held) {
-        held_.insert(*action);
-    } else if (event.repeat == 0 || repeats(*action)) {
+    const Action* action = find_action(stroke_of(event));
+    if (action == nullptr) return;
+    if (action->is_held)
+        held_.insert(action->id);
+    else if (event.repeat == 0 || repeats(action->id))
         perform(model, *action);
-    }
 }
 
 void InputRouter::key_up(const SDL_KeyboardEvent& event) {
-    // By place alone: modifiers may have changed since the key went down.
+    // Without modifiers: they may have changed since the key went down.
     KeyStroke stroke = stroke_of(event);
     stroke.modifiers = {};
     for (const Action& action : all_actions())
@@ -89,10 +88,10 @@ void InputRouter::button(const SDL_MouseButtonEvent& event, ViewerModel& model, 
     } else if (const auto click = gesture_.release(which, context.seconds)) {
         const Rect& image = context.image;
         if (image.contains(*click))
-            model.pick({(click->x - image.x) / image.width, (click->y - image.y) / image.height});
+            model.selection().pick({(click->x - image.x) / image.width, (click->y - image.y) / image.height});
     }
     if (gesture_.captured() != was_captured) SDL_SetRelativeMouseMode(gesture_.captured() ? SDL_TRUE : SDL_FALSE);
-    // A drag goes on outside the window.
+    // A drag continues outside the window.
     if (!gesture_.captured()) SDL_CaptureMouse(event.type == SDL_MOUSEBUTTONDOWN ? SDL_TRUE : SDL_FALSE);
 }
 
@@ -104,7 +103,7 @@ void InputRouter::motion(const SDL_MouseMotionEvent& event, ViewerModel& model) 
     }
     const Vec2f turn = gesture_.move({static_cast<float>(event.x), static_cast<float>(event.y)},
                                      {static_cast<float>(event.xrel), static_cast<float>(event.yrel)});
-    model.look(turn);
+    model.camera().look(turn);
 }
 
 void InputRouter::let_go() {

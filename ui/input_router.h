@@ -1,4 +1,4 @@
-// Who gets an input: the panels, the camera, or the table of actions.
+// Distributes input to the panels, the camera and the table of actions.
 #pragma once
 
 #include <set>
@@ -16,7 +16,7 @@ class InputRouter {
 public:
     explicit InputRouter(SDL_Window* window) : window_(window) {}
 
-    /// `image` is where the picture is, `panels_want_*` whether Dear ImGui claims pointer or text.
+    /// `image` is the rectangle of the picture, `panels_want_*` whether Dear ImGui claims the pointer or the keyboard.
     struct Context {
         Rect image;
         Rect view;
@@ -26,13 +26,13 @@ public:
     };
     void handle(const SDL_Event& event, ViewerModel& model, const Context& context);
 
-    /// What the held keys ask the camera to do.
+    /// The motion of the held keys.
     MoveKeys move_keys() const;
 
-    /// Where the pointer was last seen.
+    /// The last position of the pointer.
     Vec2f pointer() const { return pointer_; }
 
-    /// Keys or buttons of ours are down: the window has to be redrawn without further events.
+    /// Keys or buttons of the camera are held: the window is redrawn without further events.
     bool active() const { return !held_.empty() || gesture_.turning(); }
 
 private:
@@ -46,7 +46,7 @@ private:
     PointerGesture gesture_;
     std::set<ActionId> held_;
     Vec2f pointer_{-1.0f};
-    bool skip_next_motion_ = false;  ///< the first one after the focus came back is a jump
+    bool skip_next_motion_ = false;  ///< the first one after the focus returned is a jump
 };
 
 }  // namespace pl

@@ -1,5 +1,5 @@
-// The helper thread: saving and loading, one job after the other. What a job has to tell comes back as a function
-// that the window's thread calls.
+// The helper thread: saving and loading, one job after the other. A job returns its report, a function that the
+// window's thread calls.
 #pragma once
 
 #include <condition_variable>
@@ -18,15 +18,7 @@ public:
     using Job = std::function<Report()>;  ///< must not throw
 
     JobThread() : thread_([this] { run(); }) {}
-    /// Finishes the jobs that are queued: a picture asked for is written.
-    ~JobThread() {
-        {
-            const std::lock_guard lock(mutex_);
-            quit_ = true;
-        }
-        wake_.notify_all();
-        thread_.join();
-    }
+    ~JobThread() { finish(); }
     JobThread(const JobThread&) = delete;
     JobThread& operator=(const JobThread&) = delete;
 
@@ -39,13 +31,23 @@ public:
         wake_.notify_all();
     }
 
+    /// Finishes the queued jobs: a picture that was to be saved is written. No job may follow.
+    void finish() {
+        {
+            const std::lock_guard lock(mutex_);
+            quit_ = true;
+        }
+        wake_.notify_all();
+        if (thread_.joinable()) thread_.join();
+    }
+
     /// Reports of finished jobs, oldest first.
     std::vector<Report> take_reports() {
         const std::lock_guard lock(mutex_);
         return std::exchange(reports_, {});
     }
 
-    /// Jobs whose report has not been made.
+    /// Jobs that are not finished.
     int pending() const {
         const std::lock_guard lock(mutex_);
         return pending_;
@@ -73,7 +75,7 @@ private:
     std::vector<Report> reports_;
     int pending_ = 0;
     bool quit_ = false;
-    std::thread thread_;  ///< last: starts when all else is there
+    std::thread thread_;  ///< last: it uses all members above
 };
 
 }  // namespace pl

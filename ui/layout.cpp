@@ -6,7 +6,7 @@
 namespace pl {
 namespace {
 
-// In multiples of the font's height. Panels give way to the picture, but only as far as their text fits.
+// In multiples of the font's height. Panels shrink for the picture as far as their text allows.
 constexpr float kLeftEm = 18.0f;
 constexpr float kRightEm = 25.0f;
 constexpr float kSmallestLeftEm = 16.0f;
@@ -15,7 +15,7 @@ constexpr float kGoodViewEm = 36.0f;
 constexpr float kSmallestViewEm = 18.0f;
 constexpr float kAccuracyShare = 0.66f;  ///< of the height at the right
 constexpr float kBarEm = 1.75f;          ///< height of menu and status bar
-/// A picture that fills more of the view than this is not stretched to fill all of it: stretching blurs.
+/// A picture that fills more than this share of the view is not stretched: stretching blurs.
 constexpr float kNearlyFull = 0.95f;
 
 }  // namespace

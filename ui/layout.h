@@ -1,4 +1,4 @@
-// Where things are in the window: recomputed each frame from a few numbers, so that nothing can get lost.
+// The rectangles of panels and picture in the window, recomputed each frame from its size and the font.
 #pragma once
 
 #include "ui/overlays/draw_list.h"
@@ -8,16 +8,15 @@ namespace pl {
 struct Layout {
     Rect menu;
     Rect left;      ///< settings
-    Rect right;     ///< what is known about the picture
+    Rect right;     ///< tabs: volume, material, effects, pixel, statistics, log
     Rect accuracy;  ///< error against time, below that; empty if it is closed
     Rect status;
-    Rect view;   ///< what the picture may use
+    Rect view;   ///< available to the picture
     Rect clear;  ///< the part of it that no panel covers
     bool panels = true;
 };
 
-/// Everything in pixels; `em` is the font size. Where the window is too narrow for both panels and a picture they
-/// float over it.
+/// All in pixels; `em` is the font size. In a window too narrow for panels and picture the panels float over it.
 Layout make_layout(float width, float height, float em, bool panels, bool accuracy);
 
 /// The largest rectangle with the shape of a picture of width x height in the middle of `view`. A picture that is

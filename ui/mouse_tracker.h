@@ -1,5 +1,5 @@
-// Pointer and buttons as the events tell them. Before 1.87 Dear ImGui's SDL code polls the global pointer instead,
-// which is stale while X11 holds a grab and knows nothing of scripted input.
+// Pointer and buttons from events. Before 1.87 Dear ImGui's SDL code polls the global pointer instead, which is stale
+// during an X11 grab and misses scripted input.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ public:
     float y() const { return y_; }
 
 private:
-    static constexpr float kNowhere = -std::numeric_limits<float>::max();  // what ImGui takes for "no mouse"
+    static constexpr float kNowhere = -std::numeric_limits<float>::max();  // ImGui's value for "no mouse"
     static constexpr std::array<Uint8, 3> kButtons{SDL_BUTTON_LEFT, SDL_BUTTON_RIGHT, SDL_BUTTON_MIDDLE};
 
     float x_ = kNowhere;

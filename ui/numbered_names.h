@@ -1,4 +1,4 @@
-// File names with a number that never hit a file that is there.
+// Numbered file names that never overwrite an existing file.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@ namespace pl {
 
 class NumberedNames {
 public:
-    /// "DIR/STEM-0001" without suffix: neither it with one of the suffixes nor an earlier answer exists.
+    /// "DIR/STEM-0001" without suffix. No file of this name with one of the suffixes exists, and it was not returned before.
     std::filesystem::path next(const std::filesystem::path& dir, const std::string& stem,
                                std::initializer_list<const char*> suffixes);
 
 private:
-    int last_ = 0;  ///< files of earlier answers may still be on their way to the disk
+    int last_ = 0;  ///< files of earlier names may not be written yet
 };
 
-/// A name that is safe in a file name: letters, digits, '-' and '_', the rest as '-'.
+/// Letters, digits, '-' and '_' of the text, the rest replaced by '-'.
 std::string file_name_part(const std::string& text);
 
 }  // namespace pl

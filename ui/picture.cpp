@@ -25,7 +25,7 @@ void blend_cells(const CellImage& cells, float opacity, std::uint32_t* out, std:
             out[y * pitch + x] = blend(out[y * pitch + x], cells.argb[y * width + x], weight);
 }
 
-/// White on the inner border of the cell, black around it: visible on every picture.
+/// White inside the border of the cell, black outside: visible on every picture.
 void outline_cell(const CellImage& cells, std::uint32_t wanted, std::uint32_t* out, std::size_t pitch) {
     const int width = cells.width;
     const int height = cells.height;
@@ -52,16 +52,6 @@ void outline_cell(const CellImage& cells, std::uint32_t wanted, std::uint32_t* o
 
 }  // namespace
 
-CellImage make_cell_image(const DisplayFrame& colors) {
-    const std::uint32_t* pixels = colors.pixels();
-    const auto count = static_cast<std::size_t>(colors.width) * static_cast<std::size_t>(colors.height);
-    return {colors.width, colors.height, {pixels, pixels + count}};
-}
-
-std::uint32_t cell_color(std::int32_t volume, const ToneCodes& codes) {
-    return frame_pixel(color_of_id(static_cast<std::uint32_t>(volume)), {}, codes);
-}
-
 void write_picture(const DisplayFrame& frame, const CellOverlay& overlay, std::uint32_t* out, std::size_t pitch) {
     const std::uint32_t* pixels = frame.pixels();
     const auto width = static_cast<std::size_t>(frame.width);
@@ -70,7 +60,7 @@ void write_picture(const DisplayFrame& frame, const CellOverlay& overlay, std::u
     const CellImage* cells = overlay.cells;
     if (cells == nullptr || cells->width != frame.width || cells->height != frame.height) return;
     if (overlay.opacity > 0.0f) blend_cells(*cells, overlay.opacity, out, pitch);
-    // Pixels on the border of two cells may be mixtures of both: they count as outside.
+    // Pixels on the border of two cells may mix their colors: they count as outside.
     if (overlay.outlined) outline_cell(*cells, *overlay.outlined, out, pitch);
 }
 

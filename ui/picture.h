@@ -1,4 +1,4 @@
-// What lies over the 8-bit frame that the back end made, on its way into the window.
+// The 8-bit frame of the back end with its overlays, written as the pixels of the window.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,14 @@
 
 namespace pl {
 
-/// `colors` is a frame of View::Voronoi.
-CellImage make_cell_image(const DisplayFrame& colors);
-/// What the cell of a volume looks like there. `codes` are those of ToneCurve::Clamp.
-std::uint32_t cell_color(std::int32_t volume, const ToneCodes& codes);
-
-/// What is laid over the picture.
+/// Overlay of the radiance volumes' cells.
 struct CellOverlay {
     const CellImage* cells = nullptr;       ///< ignored if null or of another size than the picture
     float opacity = 0.0f;                   ///< of the cells' colors
     std::optional<std::uint32_t> outlined;  ///< cell_color() of the cell that gets an outline
 };
 
-/// Writes ARGB8888 rows, `pitch` pixels apart. Waits for the frame if need be, and throws as DisplayFrame::pixels() does.
+/// Writes ARGB8888 rows, `pitch` pixels apart. May wait for the frame, and throws as DisplayFrame::pixels() does.
 void write_picture(const DisplayFrame& frame, const CellOverlay& overlay, std::uint32_t* out, std::size_t pitch);
 
 }  // namespace pl

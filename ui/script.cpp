@@ -62,7 +62,7 @@ public:
     double number(const char* what) {
         const std::string text = word(what);
         const auto value = to_number(text);
-        // No window is that large; NaN is refused, too.
+        // No window is that large; NaN is refused too.
         constexpr double kLargest = 1.0e6;
         if (!value || !(std::fabs(*value) <= kLargest)) fail(fmt::format("expected {}, got '{}'", what, text));
         return *value;
@@ -97,7 +97,7 @@ KeyStroke read_key(LineReader& line) {
     const SDL_Scancode scancode = SDL_GetScancodeFromName(name.c_str());
     if (scancode == SDL_SCANCODE_UNKNOWN)
         line.fail(fmt::format("expected the name of a key such as W, Space, F12 or [, got '{}'", name));
-    KeyStroke key{scancode, 0, {}};  // the symbol follows from the keyboard layout of the window
+    KeyStroke key{scancode, 0, {}};  // the symbol follows from the keyboard layout
     while (const auto modifier = line.next()) {
         if (*modifier == "shift")
             key.modifiers.shift = true;
@@ -197,7 +197,7 @@ bool holds(const ScriptCondition& condition, const std::string& actual) {
     if (condition.op == "~") return actual.find(condition.value) != std::string::npos;
     if (condition.op == "==") return order == 0;
     if (condition.op == "!=") return order != 0;
-    if (a.has_value() != b.has_value()) return false;  // "none" is not more than 2
+    if (a.has_value() != b.has_value()) return false;  // "none" has no order with 2
     if (condition.op == "<") return order < 0;
     if (condition.op == "<=") return order <= 0;
     if (condition.op == ">") return order > 0;

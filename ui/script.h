@@ -1,10 +1,12 @@
-// Scripted input: what a person would do at the window, counted in frames. Drives the real window on SDL's dummy
-// driver and is the automated test of the user interface. One command per line, '#' starts a comment:
-//   FRAME move X Y | aim U V | aim_plot U V | aim_at U V LABEL | down B | up B | wheel N | key K [MODS] | keyup K | tap K [MODS] | resize W H | drop FILE
+// Scripted input: keys and mouse as events of the real window, counted in frames of the window. The automated test of
+// the user interface, on SDL's dummy driver. One command per line, '#' starts a comment:
+//   FRAME move X Y | aim U V | aim_plot U V | aim_at U V LABEL | down B | up B | wheel N | key K [MODS] | keyup K
+//   FRAME tap K [MODS] | resize W H | drop FILE
 //   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE | wait_spp N | quit
-// B is left, right or middle; MODS are shift, ctrl, alt; `aim` points at the image, (0, 0) is its top left corner and
-// (1, 1) its bottom right one, `aim_plot` at the curves of the accuracy panel in the same way, and beyond (1, 1) at the
-// numbers of its axes, `aim_at` at the control of a panel with this label, tabs and buttons too; OP is one of == != < <= > >= ~ (contains). While a script waits, its frames stand still.
+// B is left, right or middle; MODS are shift, ctrl, alt. `aim` points at the image: (0, 0) is its top left corner and
+// (1, 1) its bottom right one. `aim_plot` points at the curves of the accuracy panel in the same way, and beyond (1, 1)
+// at the numbers of its axes. `aim_at` points at the control with this label: also a tab or a button. OP is one of
+// == != < <= > >= ~ (contains). The frame count stands still while a script waits.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +24,7 @@ struct ScriptCondition {
     std::string value;
 };
 
-/// Numbers are compared as numbers, everything else as text. Between a number and a text there is no order.
+/// Numbers are compared as numbers, everything else as text. A number and a text have no order.
 bool holds(const ScriptCondition& condition, const std::string& actual);
 
 struct ScriptCommand {

@@ -40,11 +40,11 @@ ScriptPlayer::ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* wind
 void ScriptPlayer::step(ViewerModel& model, const Rect& image, double seconds) {
     for (const KeyStroke& key : std::exchange(tapped_, {})) push_key(key, false);
     while (next_ < commands_.size() && commands_[next_].frame <= frame_) {
-        if (!run(commands_[next_], model, image, seconds)) return;  // its time stands still
+        if (!run(commands_[next_], model, image, seconds)) return;  // the frame count stands still
         ++next_;
     }
     ++frame_;
-    if (next_ == commands_.size()) model.window().quit_asked = true;
+    if (next_ == commands_.size()) model.window().requests.quit = true;
 }
 
 std::optional<std::filesystem::path> ScriptPlayer::take_shot() { return std::exchange(shot_, std::nullopt); }
@@ -55,9 +55,9 @@ bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, 
         return true;
     }
     if (!waiting_since_) waiting_since_ = seconds;
-    if (seconds - *waiting_since_ < kLongestWaitSeconds) return false;
+    if (seconds - *waiting_since_ < kHangSeconds) return false;
     throw Error(ErrorKind::Runtime,
-                fmt::format("{}: waited {:.0f} s for {} {} {}, got '{}'", command.where, kLongestWaitSeconds,
+                fmt::format("{}: waited {:.0f} s for {} {} {}, got '{}'", command.where, kHangSeconds,
                             command.condition.name, command.condition.op, command.condition.value,
                             script_value(model, command.condition.name)));
 }
@@ -70,7 +70,7 @@ bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const R
                      image.y + static_cast<float>(command.y) * image.height});
         break;
     case Kind::AimPlot: {
-        const Rect& plot = model.window().plot;
+        const Rect& plot = model.window().plot.frame;
         push_motion({plot.x + static_cast<float>(command.x) * plot.width,
                      plot.y + static_cast<float>(command.y) * plot.height});
         break;
@@ -113,7 +113,7 @@ bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const R
     case Kind::Shot: shot_ = command.text; break;
     case Kind::Expect: require(command, model); break;
     case Kind::Wait: return wait(command, model, seconds);
-    case Kind::Quit: model.window().quit_asked = true; break;
+    case Kind::Quit: model.window().requests.quit = true; break;
     }
     return true;
 }

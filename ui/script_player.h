@@ -1,4 +1,4 @@
-// Plays a script: pushes what a person would do into the window's queue of events, checks what the script expects.
+// Plays a script: pushes its input into the event queue of the window and checks its expectations.
 #pragma once
 
 #include <filesystem>
@@ -18,15 +18,20 @@ class ViewerModel;
 class ScriptPlayer {
 public:
     static constexpr double kFrameSeconds = 1.0 / 60.0;
-    static constexpr double kLongestWaitSeconds = 120.0;
+    /// Only a guard against waits that never end, so that no verdict depends on the speed of the machine.
+    static constexpr double kHangSeconds = 3600.0;
 
     ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* window);
 
-    /// Does what belongs to the next frame. `image` is where the picture is, `seconds` the real time.
-    /// Throws Error(Runtime) with file and line if an expectation fails or a wait takes too long.
+    /// Runs the commands of the next frame. `image` is the rectangle of the picture, `seconds` the real time.
+    /// Throws Error(Runtime) with file and line if an expectation fails or a wait hangs.
     void step(ViewerModel& model, const Rect& image, double seconds);
 
-    /// File that the finished frame should be saved to, once.
+    /// The clock of the script: its frames at a sixtieth of a second. Clicks are timed by it, so that a slow frame makes
+    /// no difference.
+    double seconds() const { return frame_ * kFrameSeconds; }
+
+    /// The file to save the finished frame to, once.
     std::optional<std::filesystem::path> take_shot();
 
 private:

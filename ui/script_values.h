@@ -1,4 +1,4 @@
-// What a script can wait for or expect: the state of the viewer as words and numbers.
+// The values that a script can wait for or expect: the state of the viewer as words and numbers.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ class ViewerModel;
 bool is_script_value(std::string_view name);
 /// All names, separated by commas.
 std::string script_value_names();
-/// The value now. The name must be one of the known ones.
+/// The present value. The name must be a known one.
 std::string script_value(const ViewerModel& model, std::string_view name);
 
 }  // namespace pl

@@ -74,11 +74,11 @@ std::string SelfTestRun::summary() const {
         return fmt::format("all {} checks passed in {:.1f} s on {}", checks_.size(), seconds,
                            fmt::join(backends, ", "));
     case Outcome::Failed:
-        return fmt::format(
-            "{} of {} checks failed: this machine computes something else than the program's tests allow", failed,
-            checks_.size());
+        return fmt::format("{} of {} checks failed: this machine's results are outside the tolerances", failed,
+                           checks_.size());
     case Outcome::Stopped: return fmt::format("ended after {}, without a failure", checks_text(checks_.size()));
-    case Outcome::Broken: return fmt::format("broke off after {}: {}", checks_text(checks_.size()), failure_);
+    case Outcome::Broken:
+        return fmt::format("stopped by an error after {}: {}", checks_text(checks_.size()), failure_);
     }
     return "";
 }

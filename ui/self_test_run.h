@@ -1,4 +1,4 @@
-// The self test in the background of a window: results one by one, and what came of it.
+// The self test in the background: its checks as they finish, and its outcome.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,11 @@ class SelfTestRun {
 public:
     enum class Outcome { None, Running, Passed, Failed, Stopped, Broken };
 
-    /// Begins anew. `run` is ViewerOptions::run_self_test.
+    /// Starts over. `run` is ViewerOptions::run_self_test.
     void start(decltype(ViewerOptions::run_self_test) run);
     void stop();
     bool is_running() const { return job_ != nullptr; }
-    /// Once per frame of the window: takes what is there. True once, when the test is over.
+    /// Takes finished checks, once per frame of the window. True once, at the end of the test.
     bool update();
 
     const std::vector<SelfCheck>& checks() const { return checks_; }
@@ -27,7 +27,7 @@ public:
     std::string summary() const;
 
 private:
-    /// What the test's thread fills; it may outlive the window's interest in it.
+    /// Filled by the test's thread, which may still run when a new test starts.
     struct Incoming {
         std::mutex mutex;
         std::vector<SelfCheck> checks;

@@ -23,7 +23,7 @@ StreamTexture::~StreamTexture() {
 bool StreamTexture::resize(int width, int height) {
     if (texture_ != nullptr && width == width_ && height == height_) return false;
     if (texture_ != nullptr) SDL_DestroyTexture(texture_);
-    // The window's own format: anything else is converted pixel by pixel.
+    // The window's own format: others are converted pixel by pixel.
     texture_ = SDL_CreateTexture(renderer_, SDL_PIXELFORMAT_ARGB8888, SDL_TEXTUREACCESS_STREAMING, width, height);
     if (texture_ == nullptr)
         throw Error(ErrorKind::Runtime, std::string("cannot show the picture: ") + SDL_GetError());

@@ -1,4 +1,4 @@
-// A picture that is filled pixel by pixel now and then, and drawn into the window every frame.
+// A texture that is refilled when its picture changes, and drawn into the window every frame.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,11 @@ public:
     StreamTexture(const StreamTexture&) = delete;
     StreamTexture& operator=(const StreamTexture&) = delete;
 
-    /// Makes it exist with this size; true if what it held is gone. Throws Error(Runtime) if it cannot be made.
+    /// Gives it this size; true if its pixels were lost. Throws Error(Runtime) if it cannot be created.
     bool resize(int width, int height);
-    /// Calls `write` with ARGB8888 pixels and the length of a row in pixels. Not called if the texture cannot be locked.
+    /// Calls `write` with ARGB8888 pixels and the length of a row in pixels, unless the texture cannot be locked.
     void fill(const std::function<void(std::uint32_t* out, std::size_t pitch)>& write);
-    /// Fills `target`, of which only what lies in `clip` is drawn. Nothing before the first resize().
+    /// Draws it over `target`, clipped to `clip`. Nothing before the first resize().
     void draw(const Rect& target, const Rect& clip);
 
 private:

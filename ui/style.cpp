@@ -13,7 +13,7 @@ ImVec4 rgb(int hex) {
 void apply_colors(ImVec4* c) {
     c[ImGuiCol_Text] = to_vec4(colors::kText);
     c[ImGuiCol_TextDisabled] = to_vec4(colors::kFaint);
-    // Opaque: blending whole panels costs most of the time of a software renderer.
+    // Opaque: blending whole panels would take most of the time of a software renderer.
     c[ImGuiCol_WindowBg] = rgb(0x1b1e24);
     c[ImGuiCol_ChildBg] = rgb(0x16181d);
     c[ImGuiCol_PopupBg] = rgb(0x22262e);
@@ -82,7 +82,7 @@ void load_fonts(const std::filesystem::path& font, float ui_scale) {
     std::error_code ignored;
     if (!font.empty() && std::filesystem::is_regular_file(font, ignored)) {
         ImFontConfig config;
-        // Whole pixels: a software renderer takes the nearest texel, and letters would stand unevenly.
+        // Whole pixels: a software renderer takes the nearest texel, and letters would be spaced unevenly.
         config.OversampleH = 1;
         config.OversampleV = 1;
         config.PixelSnapH = true;

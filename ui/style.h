@@ -1,6 +1,7 @@
 // Colors, spacing and font of the window.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "ui/imgui_compat.h"
@@ -28,6 +29,10 @@ void load_fonts(const std::filesystem::path& font, float ui_scale);
 
 /// n times the height of the font.
 inline float em(float n) { return n * ImGui::GetFontSize(); }
+
+inline ImU32 to_imgui_color(std::uint32_t argb) {
+    return IM_COL32(argb >> 16 & 255, argb >> 8 & 255, argb & 255, argb >> 24);
+}
 
 inline ImVec4 to_vec4(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
 

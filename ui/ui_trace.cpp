@@ -40,11 +40,15 @@ UiTrace::UiTrace(const std::filesystem::path& path) : file_(path) {
 }
 
 void UiTrace::camera_moved(double seconds, std::uint64_t generation) {
+    if (generation == camera_generation_) return;
+    camera_generation_ = generation;
     waiting_.push_back({seconds, generation, seconds - last_move_ > kNewMoveSeconds});
     last_move_ = seconds;
 }
 
 void UiTrace::backend_asked(double seconds, std::uint64_t generation) {
+    if (generation == backend_generation_) return;
+    backend_generation_ = generation;
     switches_.push_back({seconds, generation, true});
 }
 

@@ -56,34 +56,38 @@ TEST_CASE("Actions: every key has exactly one meaning") {
                                  << stroke.modifiers.shift << ", alt " << stroke.modifiers.alt);
                 CHECK(stroke.scancode != 0);
                 CHECK(count_matches(stroke) == 1);
-                CHECK(find_action(stroke) == action.id);
+                CHECK(find_action(stroke) == &action);
             }
     SDL_QuitSubSystem(SDL_INIT_VIDEO);
 }
 
 TEST_CASE("Actions: every action is listed once, has a key and words for it") {
     std::set<ActionId> seen;
+    std::vector<MethodId> seen_methods;
     for (const Action& action : all_actions()) {
         INFO(action.text);
-        CHECK(seen.insert(action.id).second);
+        CHECK(seen.insert(action.id).second == (action.id != ActionId::ChooseMethod || seen_methods.empty()));
+        CHECK(action.method.has_value() == (action.id == ActionId::ChooseMethod));
+        if (action.method) seen_methods.push_back(*action.method);
         CHECK(action.chords[0].by != Chord::By::None);
-        CHECK(std::string(action.keys).size() > 0);
-        CHECK(std::string(action.text).size() > 0);
-        CHECK(&info_of(action.id) == &action);
+        CHECK_FALSE(action.keys.empty());
+        CHECK_FALSE(action.text.empty());
+        if (!action.method) CHECK(&info_of(action.id) == &action);
     }
+    CHECK(seen_methods.size() == all_methods().size());
     CHECK(seen.size() == static_cast<std::size_t>(ActionId::Quit) + 1);
 }
 
 TEST_CASE("Actions: flying keys work with Shift and Alt, and leave Ctrl to commands") {
     const KeyStroke s{SDL_SCANCODE_S, SDLK_s, {}};
-    CHECK(find_action(s) == ActionId::MoveBack);
-    CHECK(find_action({s.scancode, s.symbol, {.shift = true}}) == ActionId::MoveBack);
-    CHECK(find_action({s.scancode, s.symbol, {.ctrl = true}}) == ActionId::Save);
-    CHECK(find_action({SDL_SCANCODE_Q, SDLK_q, {.ctrl = true}}) == ActionId::Quit);
+    CHECK(find_action(s)->id == ActionId::MoveBack);
+    CHECK(find_action({s.scancode, s.symbol, {.shift = true}})->id == ActionId::MoveBack);
+    CHECK(find_action({s.scancode, s.symbol, {.ctrl = true}})->id == ActionId::Save);
+    CHECK(find_action({SDL_SCANCODE_Q, SDLK_q, {.ctrl = true}})->id == ActionId::Quit);
     // Flying goes by place, commands by symbol: a French keyboard has its Z where others have W.
-    CHECK(find_action({SDL_SCANCODE_W, SDLK_z, {}}) == ActionId::MoveForward);
-    CHECK(find_action({SDL_SCANCODE_A, SDLK_q, {.ctrl = true}}) == ActionId::Quit);
-    CHECK_FALSE(find_action({SDL_SCANCODE_F9, SDLK_F9, {}}).has_value());
+    CHECK(find_action({SDL_SCANCODE_W, SDLK_z, {}})->id == ActionId::MoveForward);
+    CHECK(find_action({SDL_SCANCODE_A, SDLK_q, {.ctrl = true}})->id == ActionId::Quit);
+    CHECK(find_action({SDL_SCANCODE_F9, SDLK_F9, {}}) == nullptr);
 }
 
 TEST_CASE("Actions: the table for the README lists all of them") {

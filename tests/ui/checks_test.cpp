@@ -16,7 +16,7 @@ constexpr int kSide = 16;
 constexpr int kBad = 37;
 
 bool told(const ViewerModel& model, const std::string& part) {
-    return std::any_of(model.log().begin(), model.log().end(),
+    return std::any_of(model.messages().log().begin(), model.messages().log().end(),
                        [&](const LogLine& line) { return line.text.find(part) != std::string::npos; });
 }
 
@@ -71,12 +71,12 @@ TEST_CASE(
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.is_done(model));
     CHECK(counted_diagnostics(model.frame()->snapshot) == DiagnosticCounts{4, 0, 0, 0});
-    CHECK(script_value(model, "diagnostics") == "not looked for");
+    CHECK(script_value(model, "diagnostics") == "not searched");
 
-    model.toggle_diagnostics();
+    model.diagnostics().toggle();
     CHECK(model.busy());
-    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() != nullptr; }));
-    const auto map = model.diagnostics();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
+    const auto map = model.diagnostics().map();
     CHECK(map->is_complete);
     CHECK(map->pixels[kBad] == DiagnosticsMap::Pixel{4, 0, 0, 0});
     CHECK(map->pixel_count(Diagnostic::Invalid) == 1);
@@ -84,14 +84,14 @@ TEST_CASE(
     CHECK(told(model, "4 invalid in 1 pixel"));
     CHECK_FALSE(model.busy());
 
-    model.toggle_diagnostics();
-    CHECK(model.diagnostics() == nullptr);
-    model.toggle_diagnostics();
-    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() != nullptr; }));
-    model.set_seed(2);
-    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() == nullptr; }));
+    model.diagnostics().toggle();
+    CHECK(model.diagnostics().map() == nullptr);
+    model.diagnostics().toggle();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
+    model.render().set_seed(2);
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() == nullptr; }));
     REQUIRE(bench.is_done(model));
-    CHECK(model.diagnostics() == nullptr);
+    CHECK(model.diagnostics().map() == nullptr);
 }
 
 TEST_CASE("Window: Esc ends the marks, and a picture that goes on does not") {
@@ -99,13 +99,13 @@ TEST_CASE("Window: Esc ends the marks, and a picture that goes on does not") {
     bench.options.limits.spp = 0;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
-    model.toggle_diagnostics();
-    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() != nullptr; }));
+    model.diagnostics().toggle();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
     const std::uint32_t passes = model.frame()->snapshot.passes;
     REQUIRE(bench.run_until(model, [&] { return model.frame()->snapshot.passes > passes + 2; }));
-    CHECK(model.diagnostics() != nullptr);
+    CHECK(model.diagnostics().map() != nullptr);
     model.cancel();
-    CHECK(model.diagnostics() == nullptr);
+    CHECK(model.diagnostics().map() == nullptr);
 }
 
 TEST_CASE("Window: a view without paths says so, and rendering goes on") {
@@ -114,10 +114,10 @@ TEST_CASE("Window: a view without paths says so, and rendering goes on") {
     bench.options.settings.view = View::Normal;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
-    model.toggle_diagnostics();
+    model.diagnostics().toggle();
     REQUIRE(bench.run_until(model, [&] { return told(model, "view 'normal' has no paths"); }));
     CHECK_FALSE(model.busy());
-    CHECK(model.diagnostics() == nullptr);
+    CHECK(model.diagnostics().map() == nullptr);
     REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Rendering; }));
 }
 
@@ -126,10 +126,10 @@ TEST_CASE("Window: a device that is lost while diagnostics is looked for is told
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.is_done(model));
     bench.devices.cpu->lost = true;
-    model.toggle_diagnostics();
+    model.diagnostics().toggle();
     REQUIRE(bench.run_until(model, [&] { return told(model, "the device is lost"); }));
     CHECK_FALSE(model.busy());
-    CHECK(model.diagnostics() == nullptr);
+    CHECK(model.diagnostics().map() == nullptr);
 }
 
 TEST_CASE("Window: nothing is found where nothing went wrong") {
@@ -137,8 +137,8 @@ TEST_CASE("Window: nothing is found where nothing went wrong") {
     bench.devices.cpu->bad_pixel = -1;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.is_done(model));
-    model.toggle_diagnostics();
-    REQUIRE(bench.run_until(model, [&] { return model.diagnostics() != nullptr; }));
+    model.diagnostics().toggle();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
     CHECK(script_value(model, "diagnostics") == "no diagnostics found");
 }
 
@@ -148,20 +148,20 @@ TEST_CASE("Window: the self test tells check by check, and rendering rests meanw
     bench.options.run_self_test = queue.runner();
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
-    model.start_self_test();
-    CHECK(model.window().self_test);
+    model.self_test().start();
+    CHECK(model.self_test().is_shown());
     queue.allow(1);
-    REQUIRE(bench.run_until(model, [&] { return model.self_test().checks().size() == 1; }));
+    REQUIRE(bench.run_until(model, [&] { return model.self_test().run().checks().size() == 1; }));
     REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Paused; }));
     CHECK(script_value(model, "selftest") == "running");
     CHECK(model.busy());
     queue.allow(2);
-    REQUIRE(bench.run_until(model, [&] { return !model.self_test().is_running(); }));
-    CHECK(model.self_test().outcome() == SelfTestRun::Outcome::Passed);
-    CHECK(model.self_test().summary() == "all 3 checks passed in 0.0 s on cpu, cuda");
+    REQUIRE(bench.run_until(model, [&] { return !model.self_test().run().is_running(); }));
+    CHECK(model.self_test().run().outcome() == SelfTestRun::Outcome::Passed);
+    CHECK(model.self_test().run().summary() == "all 3 checks passed in 0.0 s on cpu, cuda");
     REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Rendering; }));
     model.cancel();
-    CHECK_FALSE(model.window().self_test);
+    CHECK_FALSE(model.self_test().is_shown());
 }
 
 TEST_CASE("Window: a self test is ended by Esc, run again, and tells what failed and what broke") {
@@ -170,28 +170,28 @@ TEST_CASE("Window: a self test is ended by Esc, run again, and tells what failed
     bench.options.run_self_test = queue.runner();
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     const auto run = [&] {
-        model.start_self_test();
+        model.self_test().start();
         queue.allow(3);
-        REQUIRE(bench.run_until(model, [&] { return !model.self_test().is_running(); }));
+        REQUIRE(bench.run_until(model, [&] { return !model.self_test().run().is_running(); }));
         const std::lock_guard lock(queue.mutex);
         queue.allowed = 0;
     };
-    model.start_self_test();
+    model.self_test().start();
     queue.allow(1);
-    REQUIRE(bench.run_until(model, [&] { return model.self_test().checks().size() == 1; }));
+    REQUIRE(bench.run_until(model, [&] { return model.self_test().run().checks().size() == 1; }));
     model.cancel();
-    REQUIRE(bench.run_until(model, [&] { return !model.self_test().is_running(); }));
-    CHECK(model.self_test().summary() == "ended after 1 check, without a failure");
+    REQUIRE(bench.run_until(model, [&] { return !model.self_test().run().is_running(); }));
+    CHECK(model.self_test().run().summary() == "ended after 1 check, without a failure");
     queue.fails = true;
     run();
-    CHECK(model.self_test().outcome() == SelfTestRun::Outcome::Failed);
+    CHECK(model.self_test().run().outcome() == SelfTestRun::Outcome::Failed);
     CHECK(told(model, "self test: 1 of 3 checks failed"));
     queue.fails = false;
     queue.breaks = true;
     run();
-    CHECK(model.self_test().outcome() == SelfTestRun::Outcome::Broken);
-    CHECK(told(model, "broke off after 1 check: the device is lost"));
-    CHECK(model.self_test().checks().size() == 1);
+    CHECK(model.self_test().run().outcome() == SelfTestRun::Outcome::Broken);
+    CHECK(told(model, "stopped by an error after 1 check: the device is lost"));
+    CHECK(model.self_test().run().checks().size() == 1);
 }
 
 TEST_CASE("Window: closing it ends a self test and a search") {
@@ -200,15 +200,15 @@ TEST_CASE("Window: closing it ends a self test and a search") {
     bench.options.run_self_test = queue.runner();
     {
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
-        model.start_self_test();
-        model.toggle_diagnostics();
+        model.self_test().start();
+        model.diagnostics().toggle();
         model.update(0.0);
     }
     CHECK(queue.allowed == 0);
     {
         bench.options.run_self_test = {};
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
-        model.start_self_test();
+        model.self_test().start();
         CHECK(told(model, "this build has no self test"));
     }
 }

@@ -23,7 +23,7 @@ MaterialDescription with_albedo(MaterialDescription material, float value) {
 }
 
 bool told(const ViewerModel& model, const std::string& part) {
-    return std::any_of(model.log().begin(), model.log().end(),
+    return std::any_of(model.messages().log().begin(), model.messages().log().end(),
                        [&](const LogLine& line) { return line.text.find(part) != std::string::npos; });
 }
 
@@ -37,19 +37,19 @@ TEST_CASE("Materials: a change reaches the picture, and its scene is another one
     const std::uint64_t before = model.status().picture;
     MaterialDescription coated = with_albedo(scene->materials[0], 0.25f);
     coated.kind = SurfaceKind::Plastic;
-    model.set_material(0, coated);
-    CHECK(model.materials().is_edited(0));
-    CHECK(model.materials().edited_names() == std::vector<std::string>{"floor"});
+    model.scene().set_material(0, coated);
+    CHECK(model.scene().materials().is_edited(0));
+    CHECK(model.scene().materials().edited_names() == std::vector<std::string>{"floor"});
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0 && model.status().picture != before; }));
     CHECK(model.status().scene->materials[0] == coated);
     SceneDescription changed = *scene;
     changed.materials[0] = coated;
-    RenderSettings settings = model.settings();
+    RenderSettings settings = model.render().settings();
     CHECK(model.status().picture == picture_key(changed, settings));
     REQUIRE(bench.run_until(model, [&] { return model.frame()->description->materials[0] == coated; }));
 
-    model.restore_material(0);
-    CHECK(model.materials().edited_names().empty());
+    model.scene().restore_material(0);
+    CHECK(model.scene().materials().edited_names().empty());
     CHECK(bench.run_until(model, [&] { return model.status().picture == before; }));
 }
 
@@ -58,14 +58,14 @@ TEST_CASE("Materials: a bad value is refused with the reason, and the old materi
     const auto scene = small_scene();
     ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
     for (const float bad : {-0.1f, 1.1f, NAN}) {
-        model.set_material(0, with_albedo(scene->materials[0], bad));
-        CHECK(model.materials().now()[0] == scene->materials[0]);
+        model.scene().set_material(0, with_albedo(scene->materials[0], bad));
+        CHECK(model.scene().materials().now()[0] == scene->materials[0]);
     }
     CHECK(told(model, "material 'floor': albedo"));
-    model.set_material(7, scene->materials[0]);  // there is none
-    model.restore_material(7);
-    model.select_material(7);
-    CHECK_FALSE(model.selected_material().has_value());
+    model.scene().set_material(7, scene->materials[0]);  // there is none
+    model.scene().restore_material(7);
+    model.scene().select_material(7);
+    CHECK_FALSE(model.scene().selected_material().has_value());
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0; }));
     CHECK(model.status().scene == scene);
 }
@@ -74,14 +74,14 @@ TEST_CASE("Materials: two of them are changed and restored together") {
     MaterialBench bench;
     const auto scene = small_scene();
     ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
-    model.set_material(0, with_albedo(scene->materials[0], 0.1f));
-    model.set_material(1, with_albedo(scene->materials[1], 0.2f));
-    model.set_material(0, with_albedo(scene->materials[0], 0.3f));
+    model.scene().set_material(0, with_albedo(scene->materials[0], 0.1f));
+    model.scene().set_material(1, with_albedo(scene->materials[1], 0.2f));
+    model.scene().set_material(0, with_albedo(scene->materials[0], 0.3f));
     REQUIRE(bench.run_until(model, [&] {
         return model.status().scene->materials[0].albedo.x == 0.3f &&
                model.status().scene->materials[1].albedo.x == 0.2f;
     }));
-    model.restore_materials();
+    model.scene().restore_materials();
     CHECK(bench.run_until(model, [&] { return model.status().scene->materials == scene->materials; }));
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("Materials: references are looked for with the changed scene") {
     const auto scene = small_scene();
     ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return asked == scene->materials[0].albedo.x; }));
-    model.set_material(0, with_albedo(scene->materials[0], 0.25f));
+    model.scene().set_material(0, with_albedo(scene->materials[0], 0.25f));
     CHECK(bench.run_until(model, [&] { return asked == 0.25f; }));
 }
 
@@ -104,13 +104,13 @@ TEST_CASE("Materials: a new scene has those of its file, and pictures of it tell
     const auto scene = small_scene();
     bench.options.load_scene = [](const std::string&) { return small_scene(); };
     ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
-    CHECK(model.picture().edited_materials.empty());
-    model.select_material(1);
-    model.set_material(0, with_albedo(scene->materials[0], 0.25f));
-    CHECK(model.picture().edited_materials == std::vector<std::string>{"floor"});
-    model.reload();
-    REQUIRE(bench.run_until(model, [&] { return model.materials().edited_names().empty(); }));
-    CHECK_FALSE(model.selected_material().has_value());
+    CHECK(model.files().pictures().picture().edited_materials.empty());
+    model.scene().select_material(1);
+    model.scene().set_material(0, with_albedo(scene->materials[0], 0.25f));
+    CHECK(model.files().pictures().picture().edited_materials == std::vector<std::string>{"floor"});
+    model.scene().reload();
+    REQUIRE(bench.run_until(model, [&] { return model.scene().materials().edited_names().empty(); }));
+    CHECK_FALSE(model.scene().selected_material().has_value());
     CHECK(bench.run_until(model, [&] { return model.status().scene->materials[0].albedo.x == 0.5f; }));
 }
 

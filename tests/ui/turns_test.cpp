@@ -101,11 +101,11 @@ TEST_CASE("Viewer model: in turns the picture is split, and each side keeps the 
     TurnsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
-    model.set_method(MethodId::Reinforcement);
-    model.set_turns(true);
-    CHECK(model.turns());
-    CHECK(model.window().compare.mode == CompareMode::Split);
-    const auto plan = [&] { return model.compare_plan({0.0f, 0.0f, 400.0f, 400.0f}); };
+    model.render().set_method(MethodId::Reinforcement);
+    model.comparison().set_turns(true);
+    CHECK(model.comparison().in_turns());
+    CHECK(model.comparison().state().mode == CompareMode::Split);
+    const auto plan = [&] { return model.comparison().plan({0.0f, 0.0f, 400.0f, 400.0f}); };
     REQUIRE(bench.run_until(model, [&] { return plan().tiles.size() == 2; }));
     REQUIRE(bench.run_until(model, [&] { return plan().tiles[0].content.frame && plan().tiles[1].content.frame; }));
     CHECK(plan().tiles[0].content.frame->snapshot.slot.method == MethodId::Reinforcement);
@@ -117,14 +117,14 @@ TEST_CASE("Viewer model: choosing a method ends turns, with that method") {
     TurnsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
-    model.set_turns(true);  // default, and what is compared with it
+    model.comparison().set_turns(true);  // default, and what is compared with it
     REQUIRE(bench.run_until(model, [&] { return model.status().turns && model.status().turns->passes[1] > 0; }));
-    model.set_method(MethodId::Default);  // the one that it is already
-    CHECK_FALSE(model.turns());
+    model.render().set_method(MethodId::Default);  // the one that it is already
+    CHECK_FALSE(model.comparison().in_turns());
     CHECK(bench.run_until(
         model, [&] { return !model.status().turns && model.frame()->snapshot.slot.method == MethodId::Default; }));
-    model.set_turns(true);
-    model.set_turns(false);
-    CHECK_FALSE(model.turns());
-    CHECK(model.settings().method == MethodId::Default);
+    model.comparison().set_turns(true);
+    model.comparison().set_turns(false);
+    CHECK_FALSE(model.comparison().in_turns());
+    CHECK(model.render().settings().method == MethodId::Default);
 }

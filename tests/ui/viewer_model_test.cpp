@@ -65,11 +65,11 @@ TEST_CASE("Viewer model: a scene that cannot be read leaves the old one and says
     Bench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-    model.open("broken.obj");
-    REQUIRE(bench.run_until(model, [&] { return !model.toasts().empty(); }));
-    CHECK(model.toasts().back().level == LogLevel::Error);
-    CHECK_THAT(model.toasts().back().text, contains("broken.obj:7"));
-    CHECK(model.scene_name() == "small");
+    model.files().open("broken.obj");
+    REQUIRE(bench.run_until(model, [&] { return !model.messages().toasts().empty(); }));
+    CHECK(model.messages().toasts().back().level == LogLevel::Error);
+    CHECK_THAT(model.messages().toasts().back().text, contains("broken.obj:7"));
+    CHECK(model.scene().name() == "small");
     CHECK(model.status().state == WorkerState::Rendering);
 }
 
@@ -77,36 +77,36 @@ TEST_CASE("Viewer model: reloading keeps the camera, another scene brings its ow
     Bench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-    model.fly({.right = 1.0f}, 0.1);
-    const Vec3f eye = model.controls().camera().eye;
-    model.reload();
+    model.camera().fly({.right = 1.0f}, 0.1);
+    const Vec3f eye = model.camera().camera().eye;
+    model.scene().reload();
     REQUIRE(bench.run_until(model, [&] { return model.frame()->description->camera.eye.y == 1.5f; }));
     CHECK(model.frame()->snapshot.camera.eye.x == eye.x);
-    CHECK(model.controls().camera().eye.x == eye.x);
-    model.open("other.obj");
-    REQUIRE(bench.run_until(model, [&] { return model.scene_name() == "other.obj"; }));
-    CHECK(model.controls().camera().eye.y == 1.5f);
+    CHECK(model.camera().camera().eye.x == eye.x);
+    model.files().open("other.obj");
+    REQUIRE(bench.run_until(model, [&] { return model.scene().name() == "other.obj"; }));
+    CHECK(model.camera().camera().eye.y == 1.5f);
     REQUIRE(bench.run_until(model, [&] { return model.frame()->snapshot.camera.eye.y == 1.5f; }));
     // Home is the new scene's camera.
-    model.fly({.up = 1.0f}, 0.1);
-    model.camera_home();
-    CHECK(model.controls().camera().eye.y == 1.5f);
+    model.camera().fly({.up = 1.0f}, 0.1);
+    model.camera().go_home();
+    CHECK(model.camera().camera().eye.y == 1.5f);
 }
 
 TEST_CASE("Viewer model: motion ends by itself a tenth of a second after the last input") {
     Bench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     model.update(1.0);
-    model.look({5.0f, 0.0f});
-    CHECK(model.moving());
+    model.camera().look({5.0f, 0.0f});
+    CHECK(model.camera().is_moving());
     model.update(1.09);
-    CHECK(model.moving());
-    model.look({5.0f, 0.0f});
+    CHECK(model.camera().is_moving());
+    model.camera().look({5.0f, 0.0f});
     model.update(1.18);
-    CHECK(model.moving());
+    CHECK(model.camera().is_moving());
     model.update(1.20);
-    CHECK_FALSE(model.moving());
-    CHECK(model.camera_generation() == 2);
+    CHECK_FALSE(model.camera().is_moving());
+    CHECK(model.camera().generation() == 2);
 }
 
 TEST_CASE("Viewer model: exposure and overlays restart nothing") {
@@ -114,28 +114,28 @@ TEST_CASE("Viewer model: exposure and overlays restart nothing") {
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.status().passes >= 5; }));
     const std::uint64_t generation = model.status().generation;
-    model.set_exposure(3.0f);
-    model.set_curve(ToneCurve::Aces);
-    model.set_cells(true);
-    model.set_cells_opacity(2.0f);
+    model.display().set_exposure(3.0f);
+    model.display().set_curve(ToneCurve::Aces);
+    model.display().set_cells(true);
+    model.display().set_cells_opacity(2.0f);
     model.window().hemisphere = false;
     REQUIRE(bench.run_until(model, [&] { return has_frame(model) && model.frame()->cells != nullptr; }));
     CHECK(model.status().generation == generation);
     CHECK(model.status().passes >= 5);
-    CHECK(model.window().cells_opacity == 1.0f);
-    model.set_exposure(1000.0f);
-    CHECK(model.display().exposure_ev == 16.0f);
+    CHECK(model.display().cells_opacity() == 1.0f);
+    model.display().set_exposure(1000.0f);
+    CHECK(model.display().settings().exposure_ev == 16.0f);
 }
 
 TEST_CASE("Viewer model: views go round in both directions") {
     Bench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
-    model.step_view(-1);
-    CHECK(model.settings().view == View::Unvisited);
-    for (std::size_t i = 0; i < all_views().size(); ++i) model.step_view(1);
-    CHECK(model.settings().view == View::Unvisited);
-    model.step_view(1);
-    CHECK(model.settings().view == View::Beauty);
+    model.render().step_view(-1);
+    CHECK(model.render().settings().view == View::Unvisited);
+    for (std::size_t i = 0; i < all_views().size(); ++i) model.render().step_view(1);
+    CHECK(model.render().settings().view == View::Unvisited);
+    model.render().step_view(1);
+    CHECK(model.render().settings().view == View::Beauty);
 }
 
 TEST_CASE("Viewer model: saves both formats under one new number, without waiting") {
@@ -143,11 +143,11 @@ TEST_CASE("Viewer model: saves both formats under one new number, without waitin
     std::ofstream(bench.options.screenshot_dir / "small-default-0001.png") << "x";
     {
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
-        model.save_picture();
-        CHECK(model.toasts().back().level == LogLevel::Warning);  // nothing to save yet
+        model.files().pictures().save_exr_and_png();
+        CHECK(model.messages().toasts().back().level == LogLevel::Warning);  // nothing to save yet
         REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-        model.save_picture();
-        model.save_screenshot();
+        model.files().pictures().save_exr_and_png();
+        model.files().pictures().save_png();
     }  // what was asked for is written before the end
     const auto name = [&](const char* file) { return bench.options.screenshot_dir / file; };
     REQUIRE(bench.saved.size() == 3);
@@ -171,40 +171,41 @@ TEST_CASE("Viewer model: what was learned is saved, and gone on from later") {
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
         const auto told = [&](const char* text) {
             return bench.run_until(model, [&] {
-                return !model.toasts().empty() && model.toasts().back().text.find(text) != std::string::npos;
+                return !model.messages().toasts().empty() &&
+                       model.messages().toasts().back().text.find(text) != std::string::npos;
             });
         };
         REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-        model.load_last_field();
-        CHECK(told("nothing learned in small was saved in"));
-        model.save_field();
+        model.files().fields().load_newest();
+        CHECK(told("no learned field of small was saved in"));
+        model.files().fields().save();
         CHECK(told("method 'default' has learned nothing yet"));
-        model.set_method(MethodId::Reinforcement);
+        model.render().set_method(MethodId::Reinforcement);
         const auto learned = [&] { return model.status().field ? model.status().field->passes : 0; };
         REQUIRE(bench.run_until(model, [&] { return learned() >= 20; }));
-        model.save_field();
+        model.files().fields().save();
         REQUIRE(told("small-reinforcement-0001.field: reinforcement, "));
         const std::uint64_t saved = file->progress.passes;
         REQUIRE(saved >= 20);
 
-        model.set_method(MethodId::Default);
-        FieldSettings other = model.settings().field;
+        model.render().set_method(MethodId::Default);
+        FieldSettings other = model.render().settings().field;
         other.bins = 64;
-        model.set_field(other);
-        model.forget();
+        model.render().set_field(other);
+        model.render().forget();
         bench.control->pass_microseconds = 20000;  // so that it cannot catch up
         REQUIRE(bench.run_until(model, [&] { return model.frame()->settings.field.bins == 64; }));
-        model.load_last_field();
-        REQUIRE(told("going on from "));
-        CHECK(model.settings().method == MethodId::Reinforcement);
-        CHECK(model.settings().field.bins == 16);
+        model.files().fields().load_newest();
+        REQUIRE(told("continuing from "));
+        CHECK(model.render().settings().method == MethodId::Reinforcement);
+        CHECK(model.render().settings().field.bins == 16);
         REQUIRE(bench.run_until(model, [&] { return learned() >= saved; }));
         CHECK(learned() < saved + 20);
         CHECK(model.frame()->backend.name == "cpu");
 
-        model.open((bench.options.screenshot_dir / "gone.field").string());
+        model.files().open((bench.options.screenshot_dir / "gone.field").string());
         CHECK(told("gone.field: cannot be read"));
-        CHECK(model.settings().method == MethodId::Reinforcement);
+        CHECK(model.render().settings().method == MethodId::Reinforcement);
     }
 }
 
@@ -242,15 +243,12 @@ TEST_CASE("Viewer model: the lens is made sharp at the picked point") {
     Bench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-    const float before = model.controls().camera().focus_distance;
-    model.focus_on_picked();
-    CHECK(model.controls().camera().focus_distance == before);  // nothing is picked
-    model.pick({0.5f, 0.65f});
-    REQUIRE(bench.run_until(model, [&] { return model.picked().has_value(); }));
-    model.focus_on_picked();
-    const CameraDescription& camera = model.controls().camera();
+    model.selection().pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.selection().picked().has_value(); }));
+    model.camera().focus_on(model.selection().picked()->position);
+    const CameraDescription& camera = model.camera().camera();
     const Vec3f forward = glm::normalize(camera.target - camera.eye);
-    CHECK(camera.focus_distance == Approx(glm::dot(model.picked()->position - camera.eye, forward)));
+    CHECK(camera.focus_distance == Approx(glm::dot(model.selection().picked()->position - camera.eye, forward)));
 }
 
 TEST_CASE("Viewer model: a picked volume is selected, deselected, and forgotten with its field") {
@@ -258,24 +256,24 @@ TEST_CASE("Viewer model: a picked volume is selected, deselected, and forgotten 
     bench.options.settings.method = MethodId::Reinforcement;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-    model.pick({0.5f, 0.65f});
-    REQUIRE(bench.run_until(model, [&] { return model.inspection() != nullptr; }));
-    CHECK(model.selected_volume() != kNoVolume);
+    model.selection().pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.selection().inspection() != nullptr; }));
+    CHECK(model.selection().volume() != kNoVolume);
     CHECK(script_value(model, "inspected") == "yes");
     model.cancel();
-    CHECK(model.selected_volume() == kNoVolume);
-    CHECK(model.inspection() == nullptr);
+    CHECK(model.selection().volume() == kNoVolume);
+    CHECK(model.selection().inspection() == nullptr);
 
-    model.pick({0.5f, 0.65f});
-    REQUIRE(bench.run_until(model, [&] { return model.inspection() != nullptr; }));
-    FieldSettings field = model.settings().field;
+    model.selection().pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.selection().inspection() != nullptr; }));
+    FieldSettings field = model.render().settings().field;
     field.bins = 64;
-    model.set_field(field);
-    CHECK(model.selected_volume() == kNoVolume);
+    model.render().set_field(field);
+    CHECK(model.selection().volume() == kNoVolume);
 
-    model.pick({0.01f, 0.01f});
-    REQUIRE(bench.run_until(model, [&] { return !model.toasts().empty(); }));
-    CHECK_THAT(model.toasts().back().text, contains("nothing to select"));
+    model.selection().pick({0.01f, 0.01f});
+    REQUIRE(bench.run_until(model, [&] { return !model.messages().toasts().empty(); }));
+    CHECK_THAT(model.messages().toasts().back().text, contains("nothing to select"));
 }
 
 TEST_CASE("Viewer model: Esc closes the help, then interrupts precomputation, then deselects") {
@@ -284,7 +282,7 @@ TEST_CASE("Viewer model: Esc closes the help, then interrupts precomputation, th
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
     bench.control->pass_microseconds = 0;
     bench.control->hold = true;
-    model.set_method(MethodId::Precomputed);
+    model.render().set_method(MethodId::Precomputed);
     // The first slice is held: the state shows once it is let go and the next one is under way.
     REQUIRE(bench.run_until(model, [&] { return bench.control->inside.load(); }));
     bench.control->hold = false;
@@ -295,10 +293,10 @@ TEST_CASE("Viewer model: Esc closes the help, then interrupts precomputation, th
     model.window().help = true;
     model.cancel();
     CHECK_FALSE(model.window().help);
-    CHECK(model.settings().method == MethodId::Precomputed);
+    CHECK(model.render().settings().method == MethodId::Precomputed);
     if (model.status().state == WorkerState::Precomputing) {
         model.cancel();
-        CHECK(model.settings().method == MethodId::Default);
+        CHECK(model.render().settings().method == MethodId::Default);
     }
     bench.control->hold = false;
 }
@@ -308,8 +306,8 @@ TEST_CASE("Viewer model: title and command line tell what is shown") {
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
     CHECK_THAT(model.title(), contains(" spp - Default - CPU - small"));
-    CHECK(model.command_line() == "pathlight render small");
-    model.set_paused(true);
+    CHECK(model.files().pictures().command_line() == "pathlight render small");
+    model.render().set_paused(true);
     REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Paused; }));
     CHECK_THAT(model.title(), contains("paused: "));
 }
@@ -328,17 +326,17 @@ TEST_CASE("Viewer model: the key for back ends goes round, however fast, and tit
     bench.options.command_line = [](const ViewerPicture& picture) { return "--backend " + picture.backend; };
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-    CHECK(model.wanted_backend() == "cpu");
-    for (int press = 0; press < 7; ++press) model.next_backend();
-    CHECK(model.wanted_backend() == "cuda");
+    CHECK(model.render().wanted_backend() == "cpu");
+    for (int press = 0; press < 7; ++press) model.render().next_backend();
+    CHECK(model.render().wanted_backend() == "cuda");
     REQUIRE(bench.run_until(model, [&] { return model.frame()->backend.name == "cuda"; }));
     CHECK(model.status().backend == "cuda");
     CHECK_THAT(model.title(), contains(" - CUDA - small"));
-    CHECK(model.command_line() == "--backend cuda");
+    CHECK(model.files().pictures().command_line() == "--backend cuda");
     CHECK(script_value(model, "shown_backend") == "cuda");
     CHECK((*model.status().backends)[1].device == "fake cuda");
-    CHECK_THAT(model.log().back().text, contains("CUDA: fake cuda"));
-    model.set_backend("cpu");
+    CHECK_THAT(model.messages().log().back().text, contains("CUDA: fake cuda"));
+    model.render().set_backend("cpu");
     REQUIRE(bench.run_until(model, [&] { return model.frame()->backend.name == "cpu"; }));
     CHECK((*model.status().backends)[0].device == "fake cpu, 1 thread");
 }
@@ -349,11 +347,11 @@ TEST_CASE("Viewer model: a back end that cannot be had is told with its reason, 
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.status().passes >= 3; }));
     const std::uint64_t generation = model.status().generation;
-    model.next_backend();
-    REQUIRE(model.toasts().size() == 1);
-    CHECK(model.toasts().back().level == LogLevel::Warning);
-    CHECK(model.toasts().back().text == "CUDA is unavailable: no driver");
-    CHECK(model.wanted_backend() == "cpu");
+    model.render().next_backend();
+    REQUIRE(model.messages().toasts().size() == 1);
+    CHECK(model.messages().toasts().back().level == LogLevel::Warning);
+    CHECK(model.messages().toasts().back().text == "CUDA is unavailable: no driver");
+    CHECK(model.render().wanted_backend() == "cpu");
     const std::uint32_t passes = model.status().passes;
     REQUIRE(bench.run_until(model, [&] { return model.status().passes > passes; }));
     CHECK(model.status().generation == generation);
@@ -361,8 +359,8 @@ TEST_CASE("Viewer model: a back end that cannot be had is told with its reason, 
 
     bench.options.backends.pop_back();
     ViewerModel lonely(bench.options, small_scene(), bench.options.settings, 0.0);
-    lonely.next_backend();
-    CHECK(lonely.toasts().back().text == "there is no other back end");
+    lonely.render().next_backend();
+    CHECK(lonely.messages().toasts().back().text == "there is no other back end");
 }
 
 TEST_CASE("Viewer model: a back end that breaks is told in a toast, and the CPU goes on") {
@@ -372,10 +370,10 @@ TEST_CASE("Viewer model: a back end that breaks is told in a toast, and the CPU 
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
     bench.devices.cuda->fail = true;
     REQUIRE(bench.run_until(model, [&] { return model.frame()->backend.name == "cpu"; }));
-    REQUIRE_FALSE(model.toasts().empty());
-    CHECK(model.toasts().back().level == LogLevel::Error);
-    CHECK(model.toasts().back().text == "CUDA failed: the device is gone. CPU takes over");
-    CHECK(model.log().back().text == model.toasts().back().text);
-    model.next_backend();  // tries it again
+    REQUIRE_FALSE(model.messages().toasts().empty());
+    CHECK(model.messages().toasts().back().level == LogLevel::Error);
+    CHECK(model.messages().toasts().back().text == "CUDA failed: the device is gone. CPU takes over");
+    CHECK(model.messages().log().back().text == model.messages().toasts().back().text);
+    model.render().next_backend();  // tries it again
     CHECK(bench.run_until(model, [&] { return model.frame()->backend.name == "cuda"; }));
 }

@@ -53,7 +53,7 @@ struct ReferenceBench : ModelBench {
 };
 
 bool told(const ViewerModel& model, const std::string& part) {
-    return std::any_of(model.log().begin(), model.log().end(),
+    return std::any_of(model.messages().log().begin(), model.messages().log().end(),
                        [&](const LogLine& line) { return line.text.find(part) != std::string::npos; });
 }
 
@@ -63,15 +63,15 @@ TEST_CASE("Viewer reference: one that is stored is found, and runs are measured 
     ReferenceBench bench;
     bench.stored = true;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
-    REQUIRE(bench.run_until(model, [&] { return model.reference() != nullptr; }));
-    CHECK(model.reference()->label == "reference  3 + 1 spp");
-    CHECK(model.reference()->noise_relmse == 1e-3);
-    CHECK(model.reference()->pixels->rgb[0] == 0x3e00);  // 1.5: the mean by samples
+    REQUIRE(bench.run_until(model, [&] { return model.references().current() != nullptr; }));
+    CHECK(model.references().current()->label == "reference  3 + 1 spp");
+    CHECK(model.references().current()->noise_relmse == 1e-3);
+    CHECK(model.references().current()->pixels->rgb[0] == 0x3e00);  // 1.5: the mean by samples
     REQUIRE(bench.run_until(model, [&] {
-        const auto runs = model.accuracy().runs();
+        const auto runs = model.comparison().accuracy().runs();
         return !runs.empty() && runs[0]->points[0].metrics.has_value();
     }));
-    CHECK(bench.run_until(model, [&] { return model.accuracy().kind().metric == ErrorMetric::RelMse; }));
+    CHECK(bench.run_until(model, [&] { return model.comparison().accuracy().kind().metric == ErrorMetric::RelMse; }));
 }
 
 TEST_CASE("Viewer reference: one of other light is never scored with") {
@@ -79,28 +79,29 @@ TEST_CASE("Viewer reference: one of other light is never scored with") {
     bench.stored = true;
     bench.other_light = true;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
-    REQUIRE(bench.run_until(model, [&] { return told(model, "reference") && model.accuracy().runs().size() == 1; }));
-    CHECK(model.reference() == nullptr);
-    CHECK_FALSE(model.accuracy().runs()[0]->points[0].metrics.has_value());
-    CHECK(model.accuracy().kind().metric == ErrorMetric::Noise);
+    REQUIRE(bench.run_until(
+        model, [&] { return told(model, "reference") && model.comparison().accuracy().runs().size() == 1; }));
+    CHECK(model.references().current() == nullptr);
+    CHECK_FALSE(model.comparison().accuracy().runs()[0]->points[0].metrics.has_value());
+    CHECK(model.comparison().accuracy().kind().metric == ErrorMetric::Noise);
 }
 
 TEST_CASE("Viewer reference: making one holds the rendering, and ending it keeps what is there") {
     ReferenceBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0; }));
-    model.make_reference();
+    model.references().make();
     REQUIRE(bench.run_until(model, [&] { return bench.looks > 3 && model.status().state == WorkerState::Paused; }));
-    CHECK_FALSE(model.paused());  // a person did not ask for that
-    CHECK(model.reference_progress()->share == 0.25);
+    CHECK_FALSE(model.render().paused());  // a person did not ask for that
+    CHECK(model.references().progress()->share == 0.25);
     const double seconds = model.status().seconds;
     const int looks = bench.looks;
     REQUIRE(bench.run_until(model, [&] { return bench.looks > looks + 5; }));
     CHECK(model.status().seconds == seconds);
-    model.make_reference();  // there is one already
+    model.references().make();  // there is one already
     model.cancel();
-    REQUIRE(bench.run_until(model, [&] { return model.reference() != nullptr; }));
-    CHECK_FALSE(model.reference_progress().has_value());
+    REQUIRE(bench.run_until(model, [&] { return model.references().current() != nullptr; }));
+    CHECK_FALSE(model.references().progress().has_value());
     CHECK(bench.run_until(model, [&] { return model.status().seconds > seconds; }));  // rendering goes on
 }
 
@@ -108,10 +109,10 @@ TEST_CASE("Viewer reference: a pause that a person asked for outlasts it") {
     ReferenceBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0; }));
-    model.set_paused(true);
-    model.make_reference();
+    model.render().set_paused(true);
+    model.references().make();
     bench.finish = true;
-    REQUIRE(bench.run_until(model, [&] { return model.reference() != nullptr; }));
+    REQUIRE(bench.run_until(model, [&] { return model.references().current() != nullptr; }));
     CHECK(bench.run_until(model, [&] { return model.status().state == WorkerState::Paused; }));
 }
 
@@ -120,10 +121,10 @@ TEST_CASE("Viewer reference: a failure is told, and closing the window ends the 
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0; }));
     bench.broken = true;
-    model.make_reference();
-    REQUIRE(bench.run_until(model, [&] { return told(model, "could not be made: the disk is full"); }));
+    model.references().make();
+    REQUIRE(bench.run_until(model, [&] { return told(model, "could not be rendered: the disk is full"); }));
     bench.broken = false;
-    model.make_reference();
+    model.references().make();
     REQUIRE(bench.run_until(model, [&] { return bench.looks > 0; }));
 }
 
@@ -131,13 +132,13 @@ TEST_CASE("Viewer reference: the picture of another camera has none, and the way
     ReferenceBench bench;
     bench.stored = true;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
-    REQUIRE(bench.run_until(model, [&] { return model.reference() != nullptr; }));
+    REQUIRE(bench.run_until(model, [&] { return model.references().current() != nullptr; }));
     bench.stored = false;
     const std::uint64_t before = model.status().picture;
-    model.set_camera(camera_at(2.0f));
+    model.camera().set(camera_at(2.0f));
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0 && model.status().picture != before; }));
-    CHECK(model.reference() == nullptr);
-    model.camera_home();
+    CHECK(model.references().current() == nullptr);
+    model.camera().go_home();
     REQUIRE(bench.run_until(model, [&] { return model.status().picture == before; }));
-    CHECK(model.reference() != nullptr);
+    CHECK(model.references().current() != nullptr);
 }

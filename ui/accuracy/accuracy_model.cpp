@@ -27,7 +27,7 @@ void AccuracyModel::update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t
 void AccuracyModel::set_metric(ErrorMetric metric) {
     if (metric == wanted_.metric) return;
     wanted_.metric = metric;
-    if (cursor_.kind == Cursor::Kind::EqualError) cursor_ = {};  // an error of another kind
+    if (cursor_.kind == Cursor::Kind::EqualError) cursor_ = {};  // the error of another metric
     recompute();
     fit_view();
 }
@@ -78,7 +78,7 @@ void AccuracyModel::make_lines() {
         if (!comparable && others-- > kOtherLines) continue;
         lines_.push_back({.run = run->number,
                           .name = name_of(label),
-                          .color = color_of(label.method),
+                          .color = info_of(label.method).color,
                           .style = style_of(label.backend),
                           .warm = label.warm,
                           .comparable = comparable,

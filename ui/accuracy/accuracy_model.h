@@ -1,5 +1,5 @@
-// What the accuracy panel shows and what can be set there, without window: recomputed when runs or settings change, not
-// for every frame.
+// The content and settings of the accuracy panel, without window: recomputed when runs or settings change, not for
+// every frame.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@ class AccuracyModel {
 public:
     AccuracyModel() { recompute(); }
 
-    /// Takes the newest runs. `picture` is what the window shows (RunLabel::picture), `floor` the noise of its reference
-    /// as relMSE, 0 without one.
+    /// Takes the newest runs. `picture` is that of the window (RunLabel::picture), `floor` the noise of its reference as
+    /// relMSE, 0 without one.
     void update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor);
 
     /// Null before the first update.
@@ -26,26 +26,26 @@ public:
     std::uint64_t picture() const { return picture_; }
 
     ErrorMetric wanted_metric() const { return wanted_.metric; }
-    /// What is plotted: the picture's own noise where the wanted metric was not measured in any run of the picture.
+    /// The plotted metric: the picture's own noise if the wanted one was not measured in any run of the picture.
     const CurveKind& kind() const { return kind_; }
     const Cursor& cursor() const { return cursor_; }
     void set_metric(ErrorMetric metric);
     void set_axis(CostAxis axis);
-    /// Costs and errors that are not positive take the cursor away.
+    /// A cost or error that is not positive removes the cursor.
     void set_cursor(const Cursor& cursor);
     void toggle_hidden(std::uint64_t run);
 
-    /// All of this picture, and the newest of others.
+    /// All runs of this picture, and the newest of others.
     const std::vector<PlotLine>& lines() const { return lines_; }
     static constexpr std::size_t kOtherLines = 6;
     const std::vector<Headline>& headlines() const { return headlines_; }
     const std::vector<CursorRow>& rows() const { return rows_; }
-    /// Below this the errors on the plot say little about a single picture; 0 where that is not known.
+    /// Noise of the reference in the plotted metric: smaller errors are not significant. 0 if unknown.
     double floor() const;
 
     PlotView& view() { return view_; }
     const PlotView& view() const { return view_; }
-    /// A person chose what the plot shows; else it follows the curves.
+    /// Keeps the range of the axes after the user has changed it; otherwise it follows the curves.
     void keep_view() { view_kept_ = true; }
     void fit_view();
 

@@ -45,7 +45,7 @@ std::optional<std::size_t> first_below(const LiveRun& run, const CurveKind& kind
     std::size_t first = run.points.size();
     for (std::size_t i = run.points.size(); i-- > 0;) {
         const auto error = error_of(run.points[i], kind.metric);
-        if (!error) continue;  // not measured: says nothing
+        if (!error) continue;  // not measured
         if (!(*error <= cursor.at)) break;
         first = i;
     }
@@ -81,7 +81,7 @@ std::vector<CursorRow> cursor_rows(RunList runs, std::uint64_t picture, const Cu
         if (const auto base = base_of(runs, *run)) {
             row.ratio = ratio_of(row_at(*base, kind, cursor), row, cursor.kind);
         } else {
-            row.is_base = run->label.method == MethodId::Default;
+            row.is_base = run->label.method == baseline_method();
         }
         rows.push_back(row);
     }

@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 
 #include "core/measure/gain.h"
+#include "ui/draw/method_keys.h"
 
 namespace pl {
 namespace {
 
-constexpr double kFewestSamples = 8.0;  ///< below, a pixel's noise is not yet known to itself
+constexpr double kFewestSamples = 8.0;  ///< fewer are too few to estimate a pixel's noise
 
 bool same_kind(const RunLabel& a, const RunLabel& b) {
     return a.method == b.method && a.backend == b.backend && a.next_event == b.next_event && a.warm == b.warm;
@@ -21,7 +22,7 @@ bool has_error(const LiveRun& run, ErrorMetric metric) {
                                [&](const LivePoint& point) { return error_of(point, metric).has_value(); });
 }
 
-/// The last of its points at which the error was measured.
+/// The last point at which the error was measured.
 RunEnd last_point(const LiveRun& run, ErrorMetric metric) {
     RunEnd end;
     for (const LivePoint& point : run.points)
@@ -30,20 +31,20 @@ RunEnd last_point(const LiveRun& run, ErrorMetric metric) {
     return end;
 }
 
-/// The run as it was after so many seconds, or its last point if it was not measured around them.
+/// The run after so many seconds, or its last point if it was not measured around that time.
 RunEnd end_at(const LiveRun& run, ErrorMetric metric, double seconds) {
     const auto error = error_at(curve_of(run, {metric, CostAxis::Seconds}), seconds);
     const auto samples = error_at(other_cost_of(run, CostAxis::Seconds), seconds);
     return error && samples ? RunEnd{*error, *samples, seconds} : last_point(run, metric);
 }
 
-/// Runs that differ in their seeds alone.
+/// Runs that differ only in their seeds.
 using Repeats = std::vector<std::shared_ptr<const LiveRun>>;
 
 double charged_until(const LiveRun& run) { return cost_of(run.points.back(), CostAxis::Seconds); }
 
-/// Of each seed the newest run like this one, as far as it was measured for about as long as the longest of them: one that
-/// has just begun would make all others as short.
+/// The newest run like this one for each seed, if it was measured for at least half as long as the longest of them: one
+/// that has just begun would shorten all others.
 Repeats repeats_of(RunList runs, const LiveRun& like, ErrorMetric metric) {
     constexpr double kLeastShare = 0.5;
     Repeats repeats;
@@ -78,7 +79,7 @@ std::string sentence(const Repeats& base, const Repeats& repeats, const LiveRun&
     const std::vector<Curve> curves = curves_of(repeats, metric);
     std::vector<Curve> all = base_curves;
     all.insert(all.end(), curves.begin(), curves.end());
-    // All after the same time: what noise tells of itself changes while fireflies are still being found.
+    // All after the same time: an estimate of noise keeps growing while fireflies are still being found.
     const auto common = common_range(all);
     const std::vector<RunEnd> base_ends = ends_of(base, metric, common);
     const std::vector<RunEnd> ends = ends_of(repeats, metric, common);
@@ -96,10 +97,11 @@ std::string sentence(const Repeats& base, const Repeats& repeats, const LiveRun&
 }
 
 Headline headline_of(RunList runs, const LiveRun& run) {
-    Headline result{run.number, color_of(run.label.method), {}};
+    Headline result{run.number, info_of(run.label.method).color, {}};
     const auto base = base_of(runs, run);
     if (!base) {
-        result.text = fmt::format("{} has nothing to be compared with yet: 1 renders default", name_of(run.label));
+        result.text = fmt::format("{} has nothing to be compared with yet: {} renders {}", name_of(run.label),
+                                  info_of(baseline_method()).key, info_of(baseline_method()).name);
         return result;
     }
     for (const ErrorMetric metric : {ErrorMetric::RelMse, ErrorMetric::Noise})
@@ -116,9 +118,9 @@ Headline headline_of(RunList runs, const LiveRun& run) {
 std::vector<Headline> make_headlines(RunList runs, std::uint64_t picture) {
     std::vector<const LiveRun*> newest;
     for (const auto& run : runs) {
-        if (run->label.picture != picture || run->label.method == MethodId::Default) continue;
+        if (run->label.picture != picture || run->label.method == baseline_method()) continue;
         const auto is_older = [&](const LiveRun* other) { return same_kind(other->label, run->label); };
-        // One that has just begun says less than an older one.
+        // A run that has just begun says less than an older one.
         if (run->points.empty() && std::ranges::any_of(newest, is_older)) continue;
         std::erase_if(newest, is_older);
         newest.push_back(run.get());
@@ -126,7 +128,9 @@ std::vector<Headline> make_headlines(RunList runs, std::uint64_t picture) {
     std::vector<Headline> headlines;
     for (const LiveRun* run : newest) headlines.push_back(headline_of(runs, *run));
     if (headlines.empty())
-        headlines.push_back({0, 0xff969ca6u, "Only default so far: 2 and 3 render with what was learned"});
+        headlines.push_back({0, 0xff969ca6u,
+                             fmt::format("Only {} so far: {} render with a learned field",
+                                         info_of(baseline_method()).name, method_keys(&MethodInfo::uses_field))});
     return headlines;
 }
 

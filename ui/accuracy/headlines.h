@@ -1,4 +1,4 @@
-// The sentence that says what a method gains or loses against default, for every method tried on the present picture.
+// One sentence on the gain of each method over the baseline, for every method rendered in the present picture.
 #pragma once
 
 #include <string>
@@ -14,9 +14,10 @@ struct Headline {
     std::string text;
 };
 
-/// One for each method and back end other than default: of its newest run of this picture, against base_of() it. By
-/// Metrics::relmse where both runs have it, else by their own noise, which is said. One run each has no interval, which
-/// is said too. At the last time at which both were measured, else at the end of each. Never empty: without anything to compare it tells what to do.
+/// One for each method and back end other than the baseline: its newest run of this picture against base_of() it. By
+/// Metrics::relmse if both runs have it, else by their own noise, which the text states. Single runs have no interval,
+/// which it states too. At the last time at which both were measured, else at the end of each. Never empty: without runs
+/// to compare it names the keys that render them.
 std::vector<Headline> make_headlines(RunList runs, std::uint64_t picture);
 
 }  // namespace pl

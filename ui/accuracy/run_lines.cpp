@@ -10,13 +10,13 @@ namespace pl {
 namespace {
 
 constexpr std::array<ErrorMetricInfo, kErrorMetricCount> kMetrics{{
-    {ErrorMetric::RelMse, "relMSE", "Squared error over the square of the reference, mean of all pixels.", -1.0},
-    {ErrorMetric::RelMseTrimmed, "relMSE without the worst 0.1 %", "The same without the worst 0.1 % of the pixels.",
-     -1.0},
-    {ErrorMetric::Mse, "MSE", "Squared error in linear radiance: bright pixels count most.", -1.0},
-    {ErrorMetric::Smape, "SMAPE", "Error over the mean of picture and reference: no square.", -0.5},
-    {ErrorMetric::Noise, "own noise as relMSE", "What two halves of the picture differ by: needs no reference.",
-     -1.0},
+    {ErrorMetric::RelMse, "relMSE", "Squared error over the squared reference, mean of all pixels.", -1.0},
+    {ErrorMetric::RelMseTrimmed, "relMSE without the worst 0.1 %",
+     "relMSE without the 0.1 % of the pixels with the largest errors.", -1.0},
+    {ErrorMetric::Mse, "MSE", "Squared error in linear radiance: dominated by bright pixels.", -1.0},
+    {ErrorMetric::Smape, "SMAPE", "Absolute error over the mean of picture and reference.", -0.5},
+    {ErrorMetric::Noise, "own noise as relMSE",
+     "Estimated from the difference of two halves of the picture: needs no reference.", -1.0},
 }};
 
 std::optional<double> metric_of(const Metrics& metrics, ErrorMetric metric) {
@@ -73,15 +73,6 @@ std::string name_of(const RunLabel& label) {
     return name;
 }
 
-std::uint32_t color_of(MethodId method) {
-    switch (method) {
-    case MethodId::Default: return 0xff56b4e9u;
-    case MethodId::Precomputed: return 0xffe69f00u;
-    case MethodId::Reinforcement: return 0xff26c48fu;
-    }
-    return 0xffcc79a7u;
-}
-
 LineStyle style_of(const std::string& backend) {
     if (backend == "cpu") return LineStyle::Full;
     return backend == "cuda" ? LineStyle::Dashed : LineStyle::Dotted;
@@ -97,7 +88,7 @@ std::shared_ptr<const LiveRun> base_of(RunList runs, const LiveRun& run) {
     int best_likeness = -1;
     for (const auto& other : runs) {
         const RunLabel& label = other->label;
-        if (label.method != MethodId::Default || label.picture != run.label.picture) continue;
+        if (label.method != baseline_method() || label.picture != run.label.picture) continue;
         const int likeness = (label.next_event == run.label.next_event ? 4 : 0) +
                              (label.backend == run.label.backend ? 2 : 0) +
                              (label.details == run.label.details ? 1 : 0);

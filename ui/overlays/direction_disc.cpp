@@ -13,7 +13,7 @@ namespace {
 constexpr float kBorder[kCellBorderPoints][2] = {{0.0f, 0.0f}, {0.5f, 0.0f}, {1.0f, 0.0f}, {1.0f, 0.5f},
                                                  {1.0f, 1.0f}, {0.5f, 1.0f}, {0.0f, 1.0f}, {0.0f, 0.5f}};
 
-/// Decades below the largest value that a logarithmic scale shows.
+/// Lowest value of a logarithmic scale, relative to the largest.
 constexpr float kLogRange = 1.0e-3f;
 
 struct Rgb {
@@ -47,7 +47,7 @@ std::uint32_t pack_abgr(Rgb c, std::uint8_t alpha) {
 
 std::vector<CellFan> make_cell_fans(int side) {
     const auto sides = static_cast<float>(side);
-    // Not DirectionCells::point_in_cell, which keeps away from the borders: these have to meet.
+    // Not DirectionCells::point_in_cell, which stays inside the borders: neighbors have to share their points.
     const auto point = [&](int cell, float u, float v) {
         return square_to_disk(
             {(static_cast<float>(cell % side) + u) / sides, (static_cast<float>(cell / side) + v) / sides});
@@ -119,7 +119,7 @@ void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::v
         list.add_fan(points, map_color(values.positions[cell], alpha));
     }
     if (highlighted < 0 || static_cast<std::size_t>(highlighted) >= fans.size()) return;
-    // Just outside, so that it is drawn after the cell itself.
+    // Slightly outside, so that it is drawn after the cell itself.
     lift(fans[static_cast<std::size_t>(highlighted)], 1.01f);
     for (int i = 0; i < kCellBorderPoints; ++i)
         list.add_line(points[static_cast<std::size_t>(1 + i)],

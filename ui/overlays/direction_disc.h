@@ -1,5 +1,5 @@
-// The cells of a volume's hemisphere as polygons: on the disk, where each has the same area, and lifted to the
-// sphere. And what is shown in them.
+// The cells of a volume's hemisphere as polygons: on the unit disk, on which all have the same area, and on the
+// hemisphere; their values and colors.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ using CellFan = std::array<Vec2f, 1 + kCellBorderPoints>;
 /// One fan per cell, in the order of DirectionCells.
 std::vector<CellFan> make_cell_fans(int side);
 
-/// Unit direction over a point of the unit disk.
+/// Unit direction above a point of the unit disk.
 inline Vec3f lift_to_hemisphere(Vec2f disk) {
     return {disk.x, disk.y, safe_sqrt(1.0f - disk.x * disk.x - disk.y * disk.y)};
 }
@@ -26,7 +26,7 @@ inline Vec3f lift_to_hemisphere(Vec2f disk) {
 enum class CellQuantity { Radiance, Probability, Visits };
 enum class ColorScale { Linear, Logarithmic };
 
-/// Values of all cells and where they lie between the two ends of the legend.
+/// Values of all cells, and their positions between the two ends of the legend.
 struct CellValues {
     std::vector<float> values;
     std::vector<float> positions;  ///< in [0, 1]; zero values of a logarithmic scale are at 0
@@ -35,13 +35,13 @@ struct CellValues {
 };
 CellValues cell_values(const VolumeInspection& volume, CellQuantity quantity, ColorScale scale);
 
-/// Value that a position of the legend stands for.
+/// The value at a position of the legend.
 float value_at(const CellValues& values, ColorScale scale, float position);
 
 /// Color of a position in [0, 1]: dark blue over green to yellow (the viridis map of matplotlib, CC0). 0xAABBGGRR.
 std::uint32_t map_color(float position, std::uint8_t alpha = 255);
 
-/// What one can say about a sampling table in one line each.
+/// Statistics of a volume's sampling probabilities.
 struct TableSummary {
     std::uint64_t visits = 0;
     int empty_cells = 0;  ///< never visited
@@ -57,7 +57,7 @@ void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::v
 
 /// Point of the unit disk for a direction in scene space; empty below the horizon of the volume.
 std::optional<Vec2f> disk_point_of(const VolumeInspection& volume, Vec3f direction);
-/// Direction in scene space over a point of the unit disk.
+/// Direction in scene space above a point of the unit disk.
 Vec3f direction_of(const VolumeInspection& volume, Vec2f disk);
 
 }  // namespace pl

@@ -7,7 +7,7 @@
 namespace pl {
 namespace {
 
-/// Closer to the eye than this share of the distance to its target nothing is drawn.
+/// Near distance of drawing, as a share of the distance from eye to target.
 constexpr float kNearShare = 1.0e-4f;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Shapes in the scene's space that are drawn over the picture, as data: what is drawn can be tested without a window,
-// and nothing of it ever enters the scene.
+// Shapes in scene space that are drawn over the picture, as data that can be tested without a window. They are no part
+// of the scene.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +23,10 @@ struct Rect {
     Vec2f center() const { return {x + 0.5f * width, y + 0.5f * height}; }
 };
 
-/// From the scene to the window: the exact partner of generate_ray for a picture that fills `image`.
+/// From the scene to the window: the exact inverse of generate_ray for a picture that fills `image`.
 class Projection {
 public:
-    /// `width` and `height` are those of the picture, whatever its size in the window.
+    /// `width` and `height` are those of the picture, not of `image`.
     Projection(const CameraDescription& camera, int width, int height, const Rect& image);
 
     struct Point {
@@ -44,7 +44,7 @@ private:
     float near_;
 };
 
-/// Colors are 0xAABBGGRR, as Dear ImGui has them.
+/// Colors are 0xAABBGGRR, as in Dear ImGui.
 class DrawList {
 public:
     struct Shape {
@@ -56,7 +56,7 @@ public:
         float width_px;  ///< of lines
     };
 
-    /// A polygon that is seen whole from its first point, which is not on the border.
+    /// A polygon that is star-shaped around its first point, which is not on the border.
     void add_fan(std::span<const Vec3f> center_and_border, std::uint32_t color);
     void add_line(Vec3f from, Vec3f to, std::uint32_t color, float width_px);
     void clear();
@@ -69,7 +69,7 @@ private:
     std::vector<Shape> shapes_;
 };
 
-/// The same in the window, farthest first. Shapes that reach behind the camera are left out.
+/// The shapes in the window, farthest first. Shapes that reach behind the camera are omitted.
 struct ProjectedShapes {
     std::vector<Vec2f> points;
     std::vector<DrawList::Shape> shapes;

@@ -16,14 +16,14 @@ constexpr float kLabelEm = 6.4f;
 
 std::string hidden_label(const char* label) { return std::string("##") + label; }
 
-/// Keeps what is typed aside until the field is left: half a number must not place volumes anew.
+/// Keeps typed numbers until the field is left: half a number must not restart the placement of volumes.
 template <std::size_t N>
 class EditedNumbers {
 public:
     EditedNumbers(const char* label, const std::array<float, N>& now)
         : storage_(*ImGui::GetStateStorage()), flag_(ImGui::GetID(label)), now_(now) {}
 
-    /// What the control shows.
+    /// The numbers in the control.
     std::array<float, N> shown() const {
         if (!storage_.GetBool(flag_)) return now_;
         std::array<float, N> values;
@@ -31,7 +31,7 @@ public:
         return values;
     }
 
-    /// After the control was drawn. True when the numbers are complete and new.
+    /// After the control was drawn. True if the numbers are complete and new.
     bool finish(bool changed, const std::array<float, N>& values) {
         if (changed) {
             for (std::size_t i = 0; i < N; ++i) storage_.SetFloat(key(i), values[i]);
@@ -53,8 +53,40 @@ private:
 
 }  // namespace
 
+void begin_fixed_window(const char* name, const Rect& place, int extra_flags) {
+    ImGui::SetNextWindowPos({place.x, place.y});
+    ImGui::SetNextWindowSize({place.width, place.height});
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | extra_flags);
+}
+
+void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32 color) {
+    const auto count = static_cast<int>(center_and_border.size());
+    if (count < 3) return;
+    const ImVec2 uv = ImGui::GetFontTexUvWhitePixel();
+    list.PrimReserve(3 * (count - 1), count);
+    const auto first = static_cast<unsigned int>(list._VtxCurrentIdx);
+    for (int i = 1; i < count; ++i) {
+        const int next = i + 1 < count ? i + 1 : 1;
+        list.PrimWriteIdx(static_cast<ImDrawIdx>(first));
+        list.PrimWriteIdx(static_cast<ImDrawIdx>(first + static_cast<unsigned int>(i)));
+        list.PrimWriteIdx(static_cast<ImDrawIdx>(first + static_cast<unsigned int>(next)));
+    }
+    // Half a pixel larger: software renderers leave pinholes between triangles.
+    constexpr float kOverlap = 0.5f;
+    const ImVec2 center = center_and_border[0];
+    for (const ImVec2& point : center_and_border) {
+        const Vec2f out{point.x - center.x, point.y - center.y};
+        const float length = glm::length(out);
+        const float scale = length > 0.0f ? 1.0f + kOverlap / length : 1.0f;
+        list.PrimWriteVtx({center.x + scale * out.x, center.y + scale * out.y}, uv, color);
+    }
+}
+
 void tooltip(const char* text) {
-    constexpr float kRestSeconds = 0.4f;  // a pointer on its way somewhere else should not be followed by boxes
+    constexpr float kRestSeconds = 0.4f;  // a moving pointer should not open tooltips on its way
     if (*text == '\0' || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
         gui_memory().pointer_rest_seconds < kRestSeconds)
         return;
@@ -90,7 +122,7 @@ void text_row(const char* label, const std::string& value, const char* tip, ImU3
     tooltip(tip);
     ImGui::SameLine(em(kLabelEm));
     ImGui::PushStyleColor(ImGuiCol_Text, color);
-    // A tooltip has no width of its own that text could wrap at.
+    // A tooltip has no width at which text could wrap.
     const bool wraps = ImGui::GetContentRegionAvail().x > em(3.0f);
     if (wraps)
         ImGui::TextWrapped("%s", value.c_str());

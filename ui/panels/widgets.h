@@ -1,16 +1,24 @@
 // Rows of a panel: a label on the left, its value or control on the right, an explanation on hover.
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "ui/overlays/draw_list.h"
 #include "ui/style.h"
 
 namespace pl {
 
+/// Starts a window that fills `place` and cannot be moved. End it with ImGui::End().
+void begin_fixed_window(const char* name, const Rect& place, int extra_flags = 0);
+
+/// A polygon that is star-shaped around its first point; not antialiased, so that neighbors meet without a seam.
+void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32 color);
+
 /// Explains the last item while the pointer rests on it.
 void tooltip(const char* text);
 
-/// Tells scripts where the last item is.
+/// Records the rectangle of the last item for scripts.
 void note_place(const char* label);
 
 /// Puts the label, and makes the next item fill the rest of the row.
@@ -19,7 +27,7 @@ void begin_row(const char* label, const char* tip);
 /// After the item of such a row.
 void end_row(const char* label, const char* tip);
 
-/// A value that can only be read.
+/// A read-only value.
 void text_row(const char* label, const std::string& value, const char* tip = "", ImU32 color = colors::kText);
 
 /// Ctrl+click to type, right click for the default. True if the value changed.
@@ -28,7 +36,7 @@ bool slider_row(const char* label, const char* tip, float* value, float low, flo
 
 bool toggle_row(const char* label, const char* tip, bool* value);
 
-/// Numbers to type; a change counts when the field is left or Enter is pressed. Exact up to 2^24.
+/// Typed numbers; a change takes effect when the field is left or Enter is pressed. Exact up to 2^24.
 bool int_row(const char* label, const char* tip, int* value, int step);
 bool double_row(const char* label, const char* tip, double* value, double step, const char* format);
 bool size_row(const char* label, const char* tip, int* width, int* height);
@@ -46,10 +54,10 @@ bool begin_choice_row(const char* label, const char* tip, const char* shown);
 /// A full-width button.
 bool wide_button(const char* label, const char* tip);
 
-/// A part of the panel that can be folded.
+/// A section of the panel that can be folded.
 bool section(const char* title, bool open_at_first);
 
-/// A tab; if true, draw what it holds and end it with ImGui::EndTabItem().
+/// A tab; if true, draw its content and end it with ImGui::EndTabItem().
 bool begin_tab(const char* title, ImGuiTabItemFlags flags = ImGuiTabItemFlags_None);
 
 /// Text that breaks lines.
