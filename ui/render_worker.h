@@ -11,12 +11,12 @@
 #include "core/measure/live_runs.h"
 #include "core/session/session.h"
 #include "ui/backend_switch.h"
-#include "ui/cell_colors.h"
 #include "ui/compare/turns.h"
 #include "ui/edit_queue.h"
 #include "ui/motion_resolution.h"
 #include "ui/published_frame.h"
 #include "ui/viewer.h"
+#include "ui/worker/cell_colors.h"
 
 namespace pl {
 

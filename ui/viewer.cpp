@@ -11,14 +11,14 @@
 
 #include "core/base/error.h"
 #include "ui/compare/compare_layer.h"
-#include "ui/draw_interface.h"
-#include "ui/gui.h"
-#include "ui/image_layer.h"
-#include "ui/input_router.h"
-#include "ui/script_player.h"
-#include "ui/style.h"
-#include "ui/ui_trace.h"
+#include "ui/draw/style.h"
+#include "ui/input/input_router.h"
+#include "ui/script/script_player.h"
+#include "ui/script/ui_trace.h"
+#include "ui/window/draw_interface.h"
 #include "ui/window/frame_pacing.h"
+#include "ui/window/gui.h"
+#include "ui/window/image_layer.h"
 
 namespace pl {
 namespace {

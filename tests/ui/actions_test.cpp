@@ -7,7 +7,7 @@
 #include <SDL.h>
 
 #include "tests/catch.hpp"
-#include "ui/actions.h"
+#include "ui/input/actions.h"
 
 using namespace pl;
 

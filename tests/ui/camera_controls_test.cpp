@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "tests/catch.hpp"
-#include "ui/camera_controls.h"
-#include "ui/pointer_gesture.h"
+#include "ui/input/pointer_gesture.h"
+#include "ui/model/camera_controls.h"
 
 using namespace pl;
 

@@ -5,7 +5,7 @@
 #include "core/base/error.h"
 #include "tests/catch.hpp"
 #include "tests/ui/model_bench.h"
-#include "ui/script_values.h"
+#include "ui/script/script_values.h"
 
 using namespace pl;
 using namespace pl::test;

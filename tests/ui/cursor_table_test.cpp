@@ -3,7 +3,7 @@
 
 #include "tests/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
-#include "ui/accuracy/accuracy_model.h"
+#include "ui/plot/accuracy_model.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -3,8 +3,8 @@
 
 #include "tests/catch.hpp"
 #include "tests/ui/worker_bench.h"
-#include "ui/effects_model.h"
-#include "ui/viewer_model.h"
+#include "ui/model/effects_model.h"
+#include "ui/model/viewer_model.h"
 
 using namespace pl;
 using namespace pl::test;

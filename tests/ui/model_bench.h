@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/ui/fake_backend.h"
-#include "ui/viewer_model.h"
+#include "ui/model/viewer_model.h"
 
 namespace pl::test {
 

@@ -5,7 +5,7 @@
 #include "core/kernel/fields/direction_cells.h"
 #include "core/scene/pack_scene.h"
 #include "tests/catch.hpp"
-#include "ui/overlays/direction_disc.h"
+#include "ui/draw/direction_disc.h"
 
 using namespace pl;
 

@@ -2,11 +2,11 @@
 
 #include "tests/catch.hpp"
 #include "tests/io/temporary_folder.h"
+#include "ui/draw/layout.h"
 #include "ui/edit_queue.h"
-#include "ui/layout.h"
+#include "ui/model/numbered_names.h"
 #include "ui/motion_resolution.h"
-#include "ui/numbered_names.h"
-#include "ui/ui_trace.h"
+#include "ui/script/ui_trace.h"
 
 using namespace pl;
 

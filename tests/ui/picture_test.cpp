@@ -3,7 +3,7 @@
 #include "core/kernel/inspect/views.h"
 #include "core/session/shown_range.h"
 #include "tests/catch.hpp"
-#include "ui/picture.h"
+#include "ui/draw/picture.h"
 
 using namespace pl;
 

@@ -3,8 +3,8 @@
 
 #include "core/base/error.h"
 #include "tests/catch.hpp"
-#include "ui/script.h"
-#include "ui/script_values.h"
+#include "ui/script/script.h"
+#include "ui/script/script_values.h"
 
 using namespace pl;
 

@@ -6,8 +6,8 @@
 #include "tests/catch.hpp"
 #include "tests/io/temporary_folder.h"
 #include "tests/ui/fake_backend.h"
-#include "ui/script_values.h"
-#include "ui/viewer_model.h"
+#include "ui/model/viewer_model.h"
+#include "ui/script/script_values.h"
 
 using namespace pl;
 using namespace pl::test;

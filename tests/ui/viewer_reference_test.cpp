@@ -6,7 +6,7 @@
 #include "tests/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "tests/ui/worker_bench.h"
-#include "ui/viewer_model.h"
+#include "ui/model/viewer_model.h"
 
 using namespace pl;
 using namespace pl::test;

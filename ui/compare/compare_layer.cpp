@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "ui/picture.h"
+#include "ui/draw/picture.h"
 
 namespace pl {
 

@@ -7,7 +7,7 @@
 
 #include "core/session/settings.h"
 #include "ui/compare/sides.h"
-#include "ui/layout.h"
+#include "ui/draw/layout.h"
 
 namespace pl {
 

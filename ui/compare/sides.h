@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "ui/accuracy/cursor_table.h"
 #include "ui/compare/compare_state.h"
+#include "ui/plot/cursor_table.h"
 #include "ui/published_frame.h"
 
 namespace pl {

@@ -1,7 +1,7 @@
 // The camera of the window: flying, looking around, the edits that follow, and when motion ends.
 #pragma once
 
-#include "ui/camera_controls.h"
+#include "ui/model/camera_controls.h"
 #include "ui/render_worker.h"
 
 namespace pl {

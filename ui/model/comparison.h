@@ -1,9 +1,9 @@
 // The comparison of pictures and methods: the runs of this session, the two sides, methods in turns.
 #pragma once
 
-#include "ui/accuracy/accuracy_model.h"
 #include "ui/compare/compare_plan.h"
 #include "ui/model/references.h"
+#include "ui/plot/accuracy_model.h"
 
 namespace pl {
 

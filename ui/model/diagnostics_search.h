@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "ui/diagnostics_finder.h"
+#include "ui/model/diagnostics_finder.h"
 #include "ui/model/messages.h"
 #include "ui/model/render_controls.h"
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "ui/effects_model.h"
+#include "ui/model/effects_model.h"
 #include "ui/model/messages.h"
 #include "ui/model/render_link.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "ui/model/numbered_names.h"
 #include "ui/model/viewed_scene.h"
-#include "ui/numbered_names.h"
 
 namespace pl {
 

@@ -1,7 +1,7 @@
 // File jobs on the helper thread; an exception of a job becomes an error message.
 #pragma once
 
-#include "ui/job_thread.h"
+#include "ui/model/job_thread.h"
 #include "ui/model/messages.h"
 
 namespace pl {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "ui/background_job.h"
 #include "ui/compare/sides.h"
+#include "ui/model/background_job.h"
 #include "ui/model/render_controls.h"
 #include "ui/model/services.h"
 #include "ui/model/viewed_scene.h"

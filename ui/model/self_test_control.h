@@ -1,8 +1,8 @@
 // The self test in the window: its dialog, its start and end. Rendering rests while it runs.
 #pragma once
 
+#include "ui/model/self_test_run.h"
 #include "ui/model/services.h"
-#include "ui/self_test_run.h"
 
 namespace pl {
 

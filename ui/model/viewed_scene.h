@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "ui/edited_materials.h"
 #include "ui/model/camera_motion.h"
+#include "ui/model/edited_materials.h"
 #include "ui/model/selection.h"
 #include "ui/model/services.h"
 

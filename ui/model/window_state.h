@@ -1,7 +1,7 @@
 // The look of the window: panels, overlays, scale. Nothing in it reaches the rendering.
 #pragma once
 
-#include "ui/overlays/direction_disc.h"
+#include "ui/draw/direction_disc.h"
 #include "ui/plot/plot_drag.h"
 
 namespace pl {

@@ -4,8 +4,8 @@
 
 #include "core/kernel/film/heat_color.h"
 #include "ui/compare/half_image.h"
+#include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "ui/compare/half_image.h"
+#include "ui/draw/style.h"
 #include "ui/overlays/overlays.h"
-#include "ui/style.h"
 
 namespace pl {
 namespace {

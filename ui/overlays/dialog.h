@@ -1,7 +1,7 @@
 // Dialogs in the middle of the window, over everything else.
 #pragma once
 
-#include "ui/layout.h"
+#include "ui/draw/layout.h"
 
 namespace pl {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "ui/actions.h"
+#include "ui/draw/style.h"
+#include "ui/input/actions.h"
 #include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
-#include "ui/style.h"
 
 namespace pl {
 namespace {

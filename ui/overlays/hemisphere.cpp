@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "core/kernel/geometry/intersector.h"
+#include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {

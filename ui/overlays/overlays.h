@@ -1,8 +1,8 @@
 // Overlays over the picture; none is part of the scene.
 #pragma once
 
-#include "ui/layout.h"
-#include "ui/viewer_model.h"
+#include "ui/draw/layout.h"
+#include "ui/model/viewer_model.h"
 
 namespace pl {
 

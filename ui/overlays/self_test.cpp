@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/widgets.h"
 #include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/style.h"
 #include "ui/overlays/overlays.h"
-#include "ui/style.h"
 
 namespace pl {
 namespace {

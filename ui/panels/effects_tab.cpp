@@ -1,8 +1,8 @@
 // The tab of effects: which the scene needs and why, the kernel that serves them, and the cost of each.
 #include <fmt/format.h>
 
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {

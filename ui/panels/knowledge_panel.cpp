@@ -6,8 +6,8 @@
 #include "core/kernel/film/tonemap.h"
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/scene/surface_point.h"
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {

@@ -1,8 +1,8 @@
 #include <cctype>
 
+#include "ui/draw/widgets.h"
+#include "ui/input/perform_action.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
-#include "ui/perform_action.h"
 
 namespace pl {
 namespace {

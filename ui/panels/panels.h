@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "ui/layout.h"
-#include "ui/viewer_model.h"
+#include "ui/draw/layout.h"
+#include "ui/model/viewer_model.h"
 
 namespace pl {
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "core/scene/needed_effects.h"
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/kernel/fields/direction_cells.h"
 #include "ui/draw/method_keys.h"
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "ui/accuracy/cursor_table.h"
+#include "ui/draw/style.h"
+#include "ui/plot/cursor_table.h"
 #include "ui/plot/plot_lines.h"
-#include "ui/style.h"
 
 namespace pl {
 

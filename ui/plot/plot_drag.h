@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "ui/overlays/draw_list.h"
+#include "ui/draw/draw_list.h"
 
 namespace pl {
 

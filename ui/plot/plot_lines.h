@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "ui/accuracy/run_lines.h"
 #include "ui/plot/plot_view.h"
+#include "ui/plot/run_lines.h"
 
 namespace pl {
 

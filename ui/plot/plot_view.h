@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/measure/log_axis.h"
-#include "ui/overlays/draw_list.h"
+#include "ui/draw/draw_list.h"
 
 namespace pl {
 

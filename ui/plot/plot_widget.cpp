@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "ui/panels/widgets.h"
+#include "ui/draw/widgets.h"
 #include "ui/plot/draw_plot.h"
 
 namespace pl {

@@ -1,7 +1,7 @@
 // The plot of runs as a control: wheel zooms, dragging pans or moves the cursors, double click fits, the legend hides.
 #pragma once
 
-#include "ui/accuracy/accuracy_model.h"
+#include "ui/plot/accuracy_model.h"
 #include "ui/plot/plot_drag.h"
 
 namespace pl {
