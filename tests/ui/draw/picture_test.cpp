@@ -4,6 +4,7 @@
 #include "core/session/shown_range.h"
 #include "tests/catch.hpp"
 #include "ui/draw/picture.h"
+#include "ui/worker/cell_colors.h"
 
 using namespace pl;
 

@@ -1,6 +1,4 @@
 // References in the viewer: found for the picture in the window, made in the background, ended, refused.
-#include <algorithm>
-
 #include "core/base/error.h"
 #include "core/measure/picture_identity.h"
 #include "tests/catch.hpp"
@@ -52,14 +50,9 @@ struct ReferenceBench : ModelBench {
     }
 };
 
-bool told(const ViewerModel& model, const std::string& part) {
-    return std::any_of(model.messages().log().begin(), model.messages().log().end(),
-                       [&](const LogLine& line) { return line.text.find(part) != std::string::npos; });
-}
-
 }  // namespace
 
-TEST_CASE("Viewer reference: one that is stored is found, and runs are measured against it") {
+TEST_CASE("References: a stored one is found, and runs are measured against it") {
     ReferenceBench bench;
     bench.stored = true;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
@@ -74,7 +67,7 @@ TEST_CASE("Viewer reference: one that is stored is found, and runs are measured 
     CHECK(bench.run_until(model, [&] { return model.comparison().accuracy().kind().metric == ErrorMetric::RelMse; }));
 }
 
-TEST_CASE("Viewer reference: one of other light is never scored with") {
+TEST_CASE("References: errors are never measured against one of another picture") {
     ReferenceBench bench;
     bench.stored = true;
     bench.other_light = true;
@@ -86,7 +79,7 @@ TEST_CASE("Viewer reference: one of other light is never scored with") {
     CHECK(model.comparison().accuracy().kind().metric == ErrorMetric::Noise);
 }
 
-TEST_CASE("Viewer reference: making one holds the rendering, and ending it keeps what is there") {
+TEST_CASE("References: rendering one holds the picture, and ending it keeps its samples") {
     ReferenceBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0; }));
@@ -105,7 +98,7 @@ TEST_CASE("Viewer reference: making one holds the rendering, and ending it keeps
     CHECK(bench.run_until(model, [&] { return model.status().seconds > seconds; }));  // rendering goes on
 }
 
-TEST_CASE("Viewer reference: a pause that a person asked for outlasts it") {
+TEST_CASE("References: a pause by the user outlasts it") {
     ReferenceBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0; }));
@@ -116,7 +109,7 @@ TEST_CASE("Viewer reference: a pause that a person asked for outlasts it") {
     CHECK(bench.run_until(model, [&] { return model.status().state == WorkerState::Paused; }));
 }
 
-TEST_CASE("Viewer reference: a failure is told, and closing the window ends the making") {
+TEST_CASE("References: a failure is reported, and closing the window ends the work") {
     ReferenceBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0; }));
@@ -128,7 +121,7 @@ TEST_CASE("Viewer reference: a failure is told, and closing the window ends the 
     REQUIRE(bench.run_until(model, [&] { return bench.looks > 0; }));
 }
 
-TEST_CASE("Viewer reference: the picture of another camera has none, and the way back finds it again") {
+TEST_CASE("References: the picture of another camera has none, and the old camera has it again") {
     ReferenceBench bench;
     bench.stored = true;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);

@@ -1,12 +1,10 @@
-// Materials that are changed in the window: what is asked, what is refused, what the render thread makes of it.
-#include <algorithm>
+// The scene in the window: loading, and materials that are edited, refused and restored.
 #include <atomic>
 #include <cmath>
 
 #include "core/measure/picture_identity.h"
 #include "tests/catch.hpp"
-#include "tests/ui/model_bench.h"
-#include "ui/edit_queue.h"
+#include "tests/ui/file_bench.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -22,14 +20,41 @@ MaterialDescription with_albedo(MaterialDescription material, float value) {
     return material;
 }
 
-bool told(const ViewerModel& model, const std::string& part) {
-    return std::any_of(model.messages().log().begin(), model.messages().log().end(),
-                       [&](const LogLine& line) { return line.text.find(part) != std::string::npos; });
-}
-
 }  // namespace
 
-TEST_CASE("Materials: a change reaches the picture, and its scene is another one") {
+TEST_CASE("Viewed scene: a scene that cannot be read leaves the old one, with a message") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.files().open("broken.obj");
+    REQUIRE(bench.run_until(model, [&] { return !model.messages().toasts().empty(); }));
+    CHECK(model.messages().toasts().back().level == LogLevel::Error);
+    CHECK_THAT(model.messages().toasts().back().text, contains("broken.obj:7"));
+    CHECK(model.scene().name() == "small");
+    CHECK(model.status().state == WorkerState::Rendering);
+}
+
+TEST_CASE("Viewed scene: reloading keeps the camera, another scene brings its own") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.camera().fly({.right = 1.0f}, 0.1);
+    const Vec3f eye = model.camera().camera().eye;
+    model.scene().reload();
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->description->camera.eye.y == 1.5f; }));
+    CHECK(model.frame()->snapshot.camera.eye.x == eye.x);
+    CHECK(model.camera().camera().eye.x == eye.x);
+    model.files().open("other.obj");
+    REQUIRE(bench.run_until(model, [&] { return model.scene().name() == "other.obj"; }));
+    CHECK(model.camera().camera().eye.y == 1.5f);
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->snapshot.camera.eye.y == 1.5f; }));
+    // Home is the new scene's camera.
+    model.camera().fly({.up = 1.0f}, 0.1);
+    model.camera().go_home();
+    CHECK(model.camera().camera().eye.y == 1.5f);
+}
+
+TEST_CASE("Viewed scene: an edited material reaches the picture, and its scene is another one") {
     MaterialBench bench;
     const auto scene = small_scene();
     ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
@@ -53,7 +78,7 @@ TEST_CASE("Materials: a change reaches the picture, and its scene is another one
     CHECK(bench.run_until(model, [&] { return model.status().picture == before; }));
 }
 
-TEST_CASE("Materials: a bad value is refused with the reason, and the old material stays") {
+TEST_CASE("Viewed scene: a bad value is refused with the reason, and the old material stays") {
     MaterialBench bench;
     const auto scene = small_scene();
     ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
@@ -70,7 +95,7 @@ TEST_CASE("Materials: a bad value is refused with the reason, and the old materi
     CHECK(model.status().scene == scene);
 }
 
-TEST_CASE("Materials: two of them are changed and restored together") {
+TEST_CASE("Viewed scene: two of them are changed and restored together") {
     MaterialBench bench;
     const auto scene = small_scene();
     ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
@@ -85,7 +110,7 @@ TEST_CASE("Materials: two of them are changed and restored together") {
     CHECK(bench.run_until(model, [&] { return model.status().scene->materials == scene->materials; }));
 }
 
-TEST_CASE("Materials: references are looked for with the changed scene") {
+TEST_CASE("Viewed scene: references are looked up with the edited scene") {
     MaterialBench bench;
     std::atomic<float> asked{-1.0f};  // looks are made on a thread of their own
     bench.options.find_reference = [&](const OpenScene& scene, const RenderSettings&) {
@@ -99,7 +124,7 @@ TEST_CASE("Materials: references are looked for with the changed scene") {
     CHECK(bench.run_until(model, [&] { return asked == 0.25f; }));
 }
 
-TEST_CASE("Materials: a new scene has those of its file, and pictures of it tell which are others") {
+TEST_CASE("Viewed scene: a new scene has the materials of its file, and pictures name the edited ones") {
     MaterialBench bench;
     const auto scene = small_scene();
     bench.options.load_scene = [](const std::string&) { return small_scene(); };
@@ -112,39 +137,4 @@ TEST_CASE("Materials: a new scene has those of its file, and pictures of it tell
     REQUIRE(bench.run_until(model, [&] { return model.scene().materials().edited_names().empty(); }));
     CHECK_FALSE(model.scene().selected_material().has_value());
     CHECK(bench.run_until(model, [&] { return model.status().scene->materials[0].albedo.x == 0.5f; }));
-}
-
-TEST_CASE("Materials: of each only the newest edit waits, and a scene replaces them all") {
-    const auto scene = small_scene();
-    EditQueue queue;
-    queue.push(EditMaterial{0, with_albedo(scene->materials[0], 0.1f)});
-    queue.push(EditMaterial{1, with_albedo(scene->materials[1], 0.2f)});
-    queue.push(EditMaterial{0, with_albedo(scene->materials[0], 0.3f)});
-    queue.push(EditSeed{1});
-    auto edits = queue.take();
-    REQUIRE(edits.size() == 3);
-    CHECK(std::get<EditMaterial>(edits[0]).index == 1);
-    CHECK(std::get<EditMaterial>(edits[1]).material.albedo.x == 0.3f);
-    queue.push(EditMaterial{5, scene->materials[0]});
-    queue.push(EditScene{scene});
-    queue.push(EditMaterial{0, scene->materials[0]});
-    edits = queue.take();
-    REQUIRE(edits.size() == 2);
-    CHECK(std::holds_alternative<EditScene>(edits[0]));
-}
-
-TEST_CASE("Materials: only what moves no volume leaves the selected one") {
-    const MaterialDescription white = with_albedo({}, 0.5f);
-    CHECK_FALSE(may_move_volumes(white, with_albedo(white, 0.7f)));
-    CHECK(may_move_volumes(white, with_albedo(white, 0.0f)));
-    MaterialDescription other = white;
-    other.emission.y = 1.0f;
-    CHECK(may_move_volumes(white, other));
-    other = white;
-    other.kind = SurfaceKind::Plastic;
-    CHECK(may_move_volumes(white, other));
-    CHECK(may_move_volumes(other, with_albedo(other, 0.7f)));
-    other = white;
-    other.textures.albedo = 0;
-    CHECK(may_move_volumes(other, with_albedo(other, 0.7f)));
 }
