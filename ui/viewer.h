@@ -96,7 +96,7 @@ struct ViewerOptions {
     std::filesystem::path font;  ///< .ttf; the built-in font if it is missing
     std::filesystem::path screenshot_dir = ".";
     std::filesystem::path reference_dir = "references";  ///< of stored references; found and made there
-    std::optional<std::filesystem::path> script;         ///< scripted input, see ui/script.h
+    std::optional<std::filesystem::path> script;         ///< scripted input, see ui/script/script.h
     std::optional<std::filesystem::path> ui_trace;       ///< one JSON object per UI frame; percentiles on stderr
 
     /// In the order in which a key steps through them. One should be "cpu": it takes over when another fails.

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # check_includes.sh ROOT: does every file keep to the arrows of the architecture? Prints each breach, exits 1 if any.
 #   app -> ui -> core/bench, core/selftest, core/diagnose -> core/session -> core/scene, core/fields -> core/kernel;
-#   core/io -> core/scene, and the records of a session that it writes
-# and what core/kernel may not contain, since it is compiled for devices too.
+#   core/io -> core/scene, and the records of a session that it writes;
+# and the order of the folders inside app, ui, core and core/kernel. Also checks what core/kernel may not contain, since
+# it is compiled for devices too.
 set -u
 cd "$1" || exit 2
 
@@ -12,29 +13,75 @@ breach() {
     breaches=$((breaches + 1))
 }
 
-# folder: what it may include with quotes. The longest matching folder rules; a name ending in .h is one file.
-arrows='
-core/kernel:  core/kernel
-core/base:    core/base core/kernel/base
-core/scene:   core/scene core/base core/kernel
-core/fields:  core/fields core/scene core/base core/kernel
-core/session: core/session core/scene core/fields core/base core/kernel
-core/measure: core/measure core/session core/scene core/fields core/base core/kernel
-core/io:      core/io core/session/learned_field.h core/session/settings.h core/session/snapshot.h core/session/shown_range.h core/scene core/base core/kernel
-core/diagnose: core/diagnose core/session core/scene core/fields core/base core/kernel
-core/selftest: core/selftest core/session core/scene core/base core/kernel
-core/bench:   core/bench core/measure core/io core/session core/scene core/fields core/base core/kernel
-core/plot:    core/plot core/base
-cpu:          cpu core/session/backend.h core/session/film_slots.h core/scene core/fields core/base core/kernel
-cuda:         cuda core/session/backend.h core/session/film_slots.h core/scene core/fields core/base core/kernel
-ui:           ui core/bench core/selftest core/diagnose core/plot core/io core/session core/measure core/scene core/fields core/base core/kernel
-app:          app ui cpu cuda core
-'
+# NAME: the files that NAME may include with quotes, besides its own. NAME is a folder or a file; the longest NAME that
+# matches a path governs it. An item is the NAME of another rule: the files that it governs; a file; or a folder with a
+# slash at its end: everything below it. Every list names only rules further up, so that there is no circle.
+shading_data='core/kernel/shading/environment_map.h core/kernel/shading/far_lights.h core/kernel/shading/light_tree.h
+    core/kernel/shading/material.h core/kernel/shading/surface_lobes.h'
+kernel_data="core/kernel/base core/kernel/geometry $shading_data"
+kernel_scene="$kernel_data core/kernel/scene core/kernel/geometry/intersector.h core/kernel/shading"
+below_session='core/scene core/fields core/base core/kernel/'
+backend="core/session/backend.h core/session/film_slots.h $below_session"
+tools="core/bench core/selftest core/diagnose core/plot core/io core/measure core/session $below_session"
+below_ui="ui/viewer.h $tools"
+worker="ui/worker"
+below_app='core/ cpu/ cuda/ ui/'
+arrows="
+core/kernel/base:
+core/kernel/geometry:   core/kernel/base
+core/kernel/shading/environment_map.h: core/kernel/base
+core/kernel/shading/far_lights.h:      core/kernel/base core/kernel/shading/environment_map.h
+core/kernel/shading/light_tree.h:      core/kernel/base
+core/kernel/shading/material.h:        core/kernel/base
+core/kernel/shading/surface_lobes.h:   core/kernel/base
+core/kernel/scene:      $kernel_data
+core/kernel/geometry/intersector.h: $kernel_data core/kernel/scene
+core/kernel/shading:    $kernel_data core/kernel/scene
+core/kernel/film:       core/kernel/base
+core/kernel/guiding:    $kernel_scene
+core/kernel/methods:    $kernel_scene core/kernel/guiding
+core/kernel/integrator: $kernel_scene core/kernel/guiding core/kernel/methods core/kernel/film
+core/kernel/inspect:    $kernel_scene core/kernel/guiding core/kernel/methods core/kernel/film core/kernel/integrator
+
+core/base:    core/kernel/base
+core/scene:   core/base core/kernel/
+core/fields:  core/scene core/base core/kernel/
+core/session: $below_session
+core/measure: core/session $below_session
+core/plot:    core/base
+core/io:      core/session/learned_field.h core/session/settings.h core/session/snapshot.h core/session/shown_range.h core/scene core/fields core/base core/kernel/
+core/diagnose: core/session $below_session
+core/selftest: core/session $below_session
+core/bench:   core/measure core/io core/session $below_session
+
+cpu:          cpu/ $backend
+cuda:         cuda/ $backend
+
+ui/viewer.h:  $tools
+ui/worker:    $below_ui
+ui/draw:      $below_ui $worker
+ui/plot:      $below_ui ui/draw
+ui/compare:   $below_ui $worker ui/draw ui/plot
+ui/model:     $below_ui $worker ui/draw ui/plot ui/compare
+ui/input:     $below_ui ui/draw ui/model
+ui/script:    $below_ui ui/draw ui/model ui/input
+ui/panels:    $below_ui ui/draw ui/plot ui/compare ui/model ui/input
+ui/overlays:  $below_ui ui/draw ui/plot ui/compare ui/model ui/input
+ui/window:    $below_ui $worker ui/draw ui/plot ui/compare ui/model ui/input ui/panels ui/overlays
+ui:           $below_ui ui/
+
+app:          $below_app
+app/options:  $below_app app
+app/option_table.cpp: $below_app app app/options
+app/measure:  $below_app app
+app/report:   $below_app app app/measure
+"
 
 # <header pattern>: the only folders that may include it.
 libraries='
-SDL*:              ui
-imgui*:            ui
+SDL*:              ui/draw ui/input ui/script ui/window ui/viewer.cpp
+imgui*:            ui/draw
+backends/imgui*:   ui/draw
 CLI/*:             app
 embree[34]/*:      cpu
 omp.h:             cpu
@@ -44,7 +91,7 @@ tinyexr.h:         core/io
 stb_*:             core/io
 '
 
-kernel_headers=' cstdint cmath concepts type_traits atomic limits bit '
+kernel_headers=' cstdint cmath concepts type_traits atomic limits bit string_view '
 
 # Where kernels may use double: sums over samples, and the edge functions that come out as zero in float, which the
 # watertight triangle test has to decide exactly.
@@ -58,13 +105,6 @@ within() {
         [[ $path == "$folder" || $path == "$folder"/* ]] && return 0
     done
     return 1
-}
-
-# check_quoted FILE:LINE FOLDER ALLOWED PATH
-check_quoted() {
-    [[ -f $4 ]] || breach "$1: \"$4\" is not a path from the root of the repository"
-    # shellcheck disable=SC2086
-    within "$4" $3 || breach "$1: $2 may not include \"$4\" (only: ${3# })"
 }
 
 # check_library FILE:LINE FILE HEADER
@@ -83,19 +123,77 @@ check_library() {
     done <<<"$libraries"
 }
 
+# Prints a line for every include of $1, lines of FILE:LINE:TEXT, that no arrow allows, for rules that allow each other,
+# and for folders without a rule.
+check_arrows() {
+    awk -v arrows="$arrows" '
+        function governs(name, path) { return path == name || index(path, name "/") == 1 }
+        function rule_of(path,    name, best) {
+            if (path in known) return known[path]
+            best = ""
+            for (name in allowed) if (governs(name, path) && length(name) > length(best)) best = name
+            return known[path] = best
+        }
+        function allows(rule, path,    items, count, i, item) {
+            if (rule_of(path) == rule) return 1
+            count = split(allowed[rule], items, " ")
+            for (i = 1; i <= count; ++i) {
+                item = items[i]
+                if (item == path || (item in allowed && rule_of(path) == item)) return 1
+                if (item ~ /\/$/ && index(path, item) == 1) return 1
+            }
+            return 0
+        }
+        function check_rules(    a, b, items, count, i) {
+            for (a in allowed) {
+                count = split(allowed[a], items, " ")
+                for (i = 1; i <= count; ++i) {
+                    b = items[i]
+                    if (a < b && b in allowed && (" " allowed[b] " ") ~ (" " a " "))
+                        print "check_includes.sh: the rules of " a " and " b " allow each other: a circle"
+                }
+            }
+        }
+        BEGIN {
+            gsub(/\n +/, " ", arrows)
+            count = split(arrows, lines, "\n")
+            for (i = 1; i <= count; ++i) {
+                if (lines[i] !~ /:/) continue
+                name = lines[i]; sub(/:.*/, "", name)
+                list = lines[i]; sub(/[^:]*:/, "", list); gsub(/ +/, " ", list)
+                allowed[name] = list
+            }
+            check_rules()
+        }
+        {
+            match($0, /^[^:]+:[0-9]+:/)
+            place = substr($0, 1, RLENGTH - 1)
+            file = place; sub(/:[0-9]+$/, "", file)
+            path = $0; sub(/^[^"]*"/, "", path); sub(/".*/, "", path)
+            rule = rule_of(file)
+            if (rule == "") print file ": no rule in check_includes.sh says what it may include"
+            else if (!allows(rule, path)) print place ": " rule " may not include \"" path "\" (only:" allowed[rule] ")"
+        }'
+}
+
 check_includes() {
-    local folder=$1 allowed=$2 file line text
+    local text place
     local pattern='^([^:]+):([0-9]+):[[:space:]]*#[[:space:]]*include[[:space:]]*([<"])([^>"]+)'
+    local all
+    all=$(grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.h' --include='*.cpp' --include='*.cu' \
+        --include='*.cuh' core cpu cuda ui app 2>/dev/null)
+    while IFS= read -r text; do
+        [[ -n $text ]] && breach "$text"
+    done <<<"$(grep -E 'include[[:space:]]*"' <<<"$all" | check_arrows)"
     while read -r text; do
         [[ $text =~ $pattern ]] || continue
-        file=${BASH_REMATCH[1]} line=${BASH_REMATCH[2]}
+        place=${BASH_REMATCH[1]}:${BASH_REMATCH[2]}
         if [[ ${BASH_REMATCH[3]} == '"' ]]; then
-            check_quoted "$file:$line" "$folder" "$allowed" "${BASH_REMATCH[4]}"
+            [[ -f ${BASH_REMATCH[4]} ]] || breach "$place: \"${BASH_REMATCH[4]}\" is not a path from the root of the repository"
         else
-            check_library "$file:$line" "$file" "${BASH_REMATCH[4]}"
+            check_library "$place" "${BASH_REMATCH[1]}" "${BASH_REMATCH[4]}"
         fi
-    done <<<"$(grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.h' --include='*.cpp' --include='*.cu' \
-        --include='*.cuh' "$folder")"
+    done <<<"$all"
 }
 
 # Words that have no place in device code; comments and strings are cut off first.
@@ -110,9 +208,7 @@ check_kernel_words() {
     done
 }
 
-while IFS=: read -r folder allowed; do
-    [[ -n $folder && -d $folder ]] && check_includes "$folder" "$allowed"
-done <<<"$arrows"
+check_includes
 
 if [[ -d core/kernel ]]; then
     while IFS= read -r text; do
@@ -124,9 +220,10 @@ while IFS= read -r file; do
     [[ -n $file ]] && breach "$file: no #pragma once"
 done <<<"$(find core cpu cuda ui app -name '*.h' -exec grep -L '^#pragma once' {} + 2>/dev/null)"
 
-for folder in core/*/; do
+for folder in core/*/ core/kernel/*/ ui/*/ app/*/; do
     folder=${folder%/}
-    [[ $arrows == *$'\n'"$folder:"* ]] || breach "$folder: no rule in check_includes.sh says what it may include"
+    [[ ! -d $folder || $folder == core/kernel || $arrows == *$'\n'"$folder:"* ]] ||
+        breach "$folder: no rule in check_includes.sh says what it may include"
 done
 
 ((breaches == 0)) || {

@@ -30,9 +30,17 @@ reset() {
     put core/io/field_file.cpp '#include "core/session/learned_field.h"\n'
     put core/io/load.cpp '#include <tiny_obj_loader.h>\n\n#include "core/scene/description.h"\n'
     put cpu/backend.cpp '#include <embree3/rtcore.h>\n#include <omp.h>\n\n#include "core/session/backend.h"\n'
-    put ui/window.cpp '#include <SDL.h>\n#include <imgui.h>\n\n#include "core/session/session.h"\n'
-    put ui/window.h '#pragma once\n'
-    put app/main.cpp '#include "cpu/backend.h"\n#include "ui/window.h"\n#include <CLI/CLI.hpp>\n'
+    put ui/viewer.h '#pragma once\n#include "core/session/session.h"\n'
+    put ui/viewer.cpp '#include <SDL.h>\n\n#include "ui/viewer.h"\n#include "ui/window/gui.h"\n'
+    put ui/window/gui.h '#pragma once\n#include "ui/draw/style.h"\n#include "ui/model/model.h"\n#include "ui/viewer.h"\n'
+    put ui/model/model.h '#pragma once\n#include "ui/worker/worker.h"\n'
+    put ui/worker/worker.h '#pragma once\n#include "ui/viewer.h"\n'
+    put ui/draw/style.h '#pragma once\n#include <imgui.h>\n'
+    put app/main.cpp '#include "cpu/backend.h"\n#include "ui/viewer.h"\n#include <CLI/CLI.hpp>\n'
+    put app/measure/bench.cpp '#include "app/console.h"\n'
+    put app/console.h '#pragma once\n'
+    put core/kernel/scene/view.h '#pragma once\n#include "core/kernel/base/math.h"\n'
+    put core/kernel/methods/guided.h '#pragma once\n#include "core/kernel/scene/view.h"\n'
     put cpu/backend.h '#pragma once\n'
 }
 
@@ -53,7 +61,7 @@ bash "$checker" "$tree" || fail "the tree without a breach was refused"
 
 once='#pragma once\n'
 expect_breach core/kernel/base/a.h "$once#include <vector>\n" 'may not include <vector>'
-expect_breach core/kernel/base/a.h "$once#include \"core/base/error.h\"\n" 'core/kernel may not include'
+expect_breach core/kernel/base/a.h "$once#include \"core/base/error.h\"\n" 'core/kernel/base may not include'
 expect_breach core/kernel/base/a.h "${once}inline void f() { throw 1; }\n" 'a.h:2:'
 expect_breach core/kernel/base/a.h "${once}struct A { virtual void f(); };\n" 'virtual'
 expect_breach core/kernel/base/a.h "${once}inline int* f() { return new int; }\n" 'new int'
@@ -71,7 +79,23 @@ expect_breach app/a.cpp '#include <SDL.h>\n' '<SDL.h> belongs in ui'
 expect_breach core/scene/a.cpp '#include <tiny_obj_loader.h>\n' 'belongs in core/io'
 expect_breach core/scene/a.cpp '#include <embree4/rtcore.h>\n' 'belongs in cpu'
 expect_breach app/a.cpp '#include "cpu/absent.h"\n' 'not a path from the root'
-expect_breach ui/a.h '#include <string>\n' 'no #pragma once'
-expect_breach core/other/a.h "$once" 'no rule'
+expect_breach ui/draw/a.h '#include <string>\n' 'no #pragma once'
+expect_breach core/other/a.h "$once" 'core/other: no rule'
+expect_breach ui/other/a.h "$once" 'ui/other: no rule'
+expect_breach app/other/a.h "$once" 'app/other: no rule'
+# Inside a folder: an arrow that runs back up.
+expect_breach ui/worker/a.cpp '#include "ui/model/model.h"\n' 'ui/worker may not include "ui/model/model.h"'
+expect_breach ui/draw/a.cpp '#include "ui/window/gui.h"\n' 'ui/draw may not include'
+expect_breach ui/model/a.cpp '#include "ui/window/gui.h"\n' 'ui/model may not include'
+expect_breach ui/model/a.cpp '#include <imgui.h>\n' '<imgui.h> belongs in ui/draw'
+expect_breach app/a.cpp '#include "app/measure/bench.cpp"\n' 'app may not include'
+expect_breach core/kernel/base/a.h "$once#include \"core/kernel/scene/view.h\"\n" 'core/kernel/base may not include'
+expect_breach core/kernel/scene/a.h "$once#include \"core/kernel/methods/guided.h\"\n" 'core/kernel/scene may not include'
+
+# Rules that allow each other.
+reset
+sed 's|^ui/draw: |ui/draw: ui/panels |' "$checker" >"$tree/circle.sh"
+output=$(bash "$tree/circle.sh" "$tree") && fail 'a circle in the rules was not found'
+[[ $output == *'the rules of ui/draw and ui/panels allow each other'* ]] || fail "no word of the circle in: $output"
 
 ((failures == 0))

@@ -13,13 +13,13 @@
 
 #include "core/base/error.h"
 #include "tests/ui/model_bench.h"
-#include "ui/display.h"
-#include "ui/draw_interface.h"
-#include "ui/gui_memory.h"
-#include "ui/input_router.h"
-#include "ui/mouse_tracker.h"
-#include "ui/script_player.h"
-#include "ui/script_values.h"
+#include "ui/window/display.h"
+#include "ui/window/draw_interface.h"
+#include "ui/draw/gui_memory.h"
+#include "ui/input/input_router.h"
+#include "ui/window/mouse_tracker.h"
+#include "ui/script/script_player.h"
+#include "ui/script/script_values.h"
 
 namespace pl::test {
 namespace {

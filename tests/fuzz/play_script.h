@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "ui/script.h"
+#include "ui/script/script.h"
 
 namespace pl::test {
 

@@ -1,8 +1,10 @@
-// Options of a viewer over fake back ends, and its frames one after the other.
+// A viewer model over fake back ends, with the frames of its window one after the other.
 #pragma once
 
+#include <algorithm>
+
 #include "tests/ui/fake_backend.h"
-#include "ui/viewer_model.h"
+#include "ui/model/viewer_model.h"
 
 namespace pl::test {
 
@@ -27,5 +29,11 @@ struct ModelBench {
         });
     }
 };
+
+/// Whether a message with this part was logged.
+inline bool told(const ViewerModel& model, const std::string& part) {
+    return std::ranges::any_of(model.messages().log(),
+                               [&](const LogLine& line) { return line.text.find(part) != std::string::npos; });
+}
 
 }  // namespace pl::test

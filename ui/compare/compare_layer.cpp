@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "ui/picture.h"
+#include "ui/draw/picture.h"
 
 namespace pl {
 
@@ -17,9 +17,9 @@ void CompareLayer::fill(Slot& slot, const TileContent& content, const DisplaySet
     if (content.what == What::Frame) {
         const DisplayFrame& frame = content.frame->picture;
         try {
-            (void)frame.pixels();  // before the texture is locked, whose old pixels are lost then
+            (void)frame.pixels();  // before locking, which loses the old pixels
         } catch (const Error&) {
-            return;  // the device is lost: the render thread finds out, and tells it
+            return;  // the device is lost: the render thread reports it
         }
         if (slot.texture.resize(frame.width, frame.height)) slot.filled = false;
         slot.texture.fill([&](std::uint32_t* out, std::size_t pitch) { write_picture(frame, {}, out, pitch); });
@@ -50,7 +50,7 @@ void CompareLayer::draw(const ComparePlan& plan, const DisplaySettings& display)
         }
         if (slot.filled) slot.texture.draw(tile.place, tile.clip);
     }
-    // What is not shown any more is not kept either.
+    // Releases the pictures of tiles that are not shown any more.
     for (std::size_t i = plan.tiles.size(); i < slots_.size(); ++i) {
         slots_[i].shown = {};
         slots_[i].filled = false;

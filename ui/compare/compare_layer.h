@@ -1,5 +1,4 @@
-// Draws a comparison into the window: pixels by textures that are filled when something changed, words and the line over
-// them.
+// Draws the pictures of a comparison into the window, by textures that are refilled when their content changes.
 #pragma once
 
 #include <array>
@@ -7,7 +6,7 @@
 
 #include "ui/compare/compare_plan.h"
 #include "ui/compare/half_image.h"
-#include "ui/stream_texture.h"
+#include "ui/draw/stream_texture.h"
 
 namespace pl {
 

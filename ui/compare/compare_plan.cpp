@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "ui/draw/method_keys.h"
+
 namespace pl {
 namespace {
 
@@ -25,7 +29,7 @@ CompareTile whole_tile(TileContent content, const CompareSide& side, const Rect&
     return {std::move(content), place, place, side.label, side.color, false};
 }
 
-/// Cuts two tiles in the same place, the first at the left of the line.
+/// Cuts two tiles in the same place; the first lies left of the line.
 void split_tiles(ComparePlan& plan, float share) {
     CompareTile& left = plan.tiles[0];
     CompareTile& right = plan.tiles[1];
@@ -86,13 +90,14 @@ void plan_error_map(ComparePlan& plan, const CompareSides& sides, const CompareS
     plan.has_heat = !plan.tiles.empty();
 }
 
-/// Modes that show both sides, where there is only one or none.
+/// Modes that need both sides, with only one or none.
 void plan_incomplete(ComparePlan& plan, const CompareSides& sides, const Rect& view) {
     for (const auto* side : {&sides.a, &sides.b})
         if (plan.tiles.empty() && has_pixels(*side)) plan.tiles = {whole_tile(content_of(**side), **side, view)};
     for (const auto* side : {&sides.a, &sides.b})
         if (*side && !has_pixels(*side)) plan.hint += (plan.hint.empty() ? "" : "; ") + (*side)->label;
-    if (plan.hint.empty()) plan.hint = "nothing to compare with yet: 1, 2, 3 render with other methods";
+    if (plan.hint.empty())
+        plan.hint = fmt::format("nothing to compare with yet: {} render with other methods", method_keys());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a comparison draws, as data: which pixels where in the window, and what is written on them.
+// The drawing of a comparison as data: its pictures, their rectangles in the window and their labels.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,11 @@
 
 #include "core/session/settings.h"
 #include "ui/compare/sides.h"
-#include "ui/layout.h"
+#include "ui/draw/layout.h"
 
 namespace pl {
 
-/// Where a tile's pixels come from.
+/// The source of a tile's pixels.
 struct TileContent {
     enum class What { Picture, Frame, Difference, ErrorMap };
     What what = What::Picture;
@@ -25,21 +25,21 @@ struct TileContent {
 struct CompareTile {
     TileContent content;
     Rect place;  ///< of the whole picture
-    Rect clip;   ///< the part of it that is shown
+    Rect clip;   ///< the visible part of it
     std::string label;
     std::uint32_t color = 0;  ///< of the label, opaque ARGB
     bool label_right = false;
 };
 
 struct ComparePlan {
-    std::vector<CompareTile> tiles;  ///< at most two; none: the picture is shown as ever
-    std::optional<float> split_x;    ///< where the line between two tiles is
-    std::string hint;                ///< why the mode shows less than it could; empty if it does not
+    std::vector<CompareTile> tiles;  ///< at most two; none: the picture is shown without a comparison
+    std::optional<float> split_x;    ///< the line between two tiles
+    std::string hint;                ///< the missing input of the mode; empty if it has all
     bool has_heat = false;           ///< colors are those of error_map_legend()
-    bool at_image = true;            ///< the picture is where it is without a comparison: points on it can be picked
+    bool at_image = true;            ///< the picture has its place as without a comparison, so that it can be picked
 };
 
-/// `view` is what pictures may use of the window, `reference` that of the picture, or null.
+/// `view` is the part of the window for pictures, `reference` that of the picture, or null.
 ComparePlan plan_comparison(const CompareSides& sides, const CompareState& state, const ReferencePicture* reference,
                             const Rect& view);
 

@@ -1,4 +1,4 @@
-// How two pictures are compared, and which two: settings of the window, nothing of the rendering.
+// The mode of a comparison and the choice of its two sides: settings of the window, not of the rendering.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ constexpr CompareMode stepped(CompareMode mode, int steps) {
     return static_cast<CompareMode>(index);
 }
 
-/// What a side shows: chosen by the program, a run by its number, or the reference.
+/// The choice of a side: automatic, a run by its number, or the reference.
 struct SideChoice {
     enum class What { Automatic, Run, Reference };
     What what = What::Automatic;
@@ -33,7 +33,7 @@ struct CompareState {
     CompareMode mode = CompareMode::Off;
     SideChoice a;
     SideChoice b;
-    float split = 0.5f;         ///< where the line is, as a share of the picture's width
+    float split = 0.5f;         ///< position of the line, as a share of the picture's width
     bool shows_second = false;  ///< of CompareMode::Flip
 };
 

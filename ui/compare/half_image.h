@@ -1,4 +1,4 @@
-// Stored pictures on their way into the window: half floats to 8-bit pixels, differences, maps of the error.
+// Pixels of stored pictures: half floats to 8-bit, differences, error maps.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace pl {
 
-/// The 8-bit code of every half float under a display setting: a picture is then shown by looking up.
+/// The 8-bit code of every half float under a display setting: a picture is converted by table lookup.
 class HalfCodes {
 public:
     explicit HalfCodes(const DisplaySettings& display);
@@ -34,14 +34,14 @@ void write_half_picture(const HalfPicture& picture, const HalfCodes& codes, std:
 void write_difference(const HalfPicture& a, const HalfPicture& b, const DisplaySettings& display, std::uint32_t* out,
                       std::size_t pitch);
 
-/// Relative errors that the darkest and the lightest color of an error map stand for; the scale is logarithmic.
+/// Relative errors of the darkest and the lightest color of an error map; the scale is logarithmic.
 inline constexpr float kLowError = 0.01f;
 inline constexpr float kHighError = 10.0f;
-/// The root of what Metrics::relmse averages, for one pixel; NaN where a number is not finite.
+/// Square root of one pixel's term of Metrics::relmse; NaN for values that are not finite.
 float pixel_error(Vec3f picture, Vec3f reference);
 /// Colors of heat_color(). Sizes must agree.
 void write_error_map(const HalfPicture& picture, const HalfPicture& reference, std::uint32_t* out, std::size_t pitch);
-/// What the colors stand for.
+/// The legend of the colors.
 std::string error_map_legend();
 
 }  // namespace pl

@@ -7,7 +7,7 @@
 namespace pl {
 namespace {
 
-constexpr double kEqualEnough = 1.1;  ///< costs that differ by less are called equal: points are a fifth apart
+constexpr double kEqualEnough = 1.1;  ///< largest ratio of equal costs: points are a fifth apart
 
 using RunPtr = std::shared_ptr<const LiveRun>;
 
@@ -42,7 +42,7 @@ CompareSide side_of(const CompareInput& input, const LiveRun& run) {
     CompareSide side{.run = run.number,
                      .picture = {},
                      .label = {},
-                     .color = color_of(run.label.method),
+                     .color = info_of(run.label.method).color,
                      .method = run.label.method,
                      .backend = run.label.backend,
                      .setup_seconds = {},
@@ -107,7 +107,7 @@ void show_newer(CompareSide& side, const FramePtr& frame) {
 CompareSide side_in_turns(const CompareInput& input, MethodId method, const FramePtr& frame) {
     CompareSide side{.picture = {},
                      .label = std::string(info_of(method).label) + "  no picture yet",
-                     .color = color_of(method),
+                     .color = info_of(method).color,
                      .is_live = true,
                      .method = method,
                      .backend = frame ? frame->backend.name : "",

@@ -4,9 +4,8 @@
 
 #include "core/kernel/film/heat_color.h"
 #include "ui/compare/half_image.h"
+#include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
-#include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {
@@ -28,7 +27,7 @@ public:
         corner_.x += width + em(0.35f);
     }
 
-    /// The colors from the lowest to the highest number, and what they stand for.
+    /// The colors of a heat map from its lowest to its highest value, and their meaning.
     void add_heat_legend(const std::string& text) {
         const float height = ImGui::GetTextLineHeight() + 2.0f * em(0.2f);
         const float step = em(0.5f);
@@ -68,7 +67,9 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
         row.add(fmt::format("{}  {}  {} spp", info_of(view).label, back_end, snapshot.passes), colors::kText);
     if (view == View::RadianceMap) row.add("radiance map: biased preview", colors::kWarning);
     if (info_of(view).needs_tables && !info_of(snapshot.slot.method).uses_field)
-        row.add("learned by Reinforcement: 3 learns on", colors::kWarning);
+        row.add(fmt::format("field of {0}: {1} continues learning", info_of(learning_method()).label,
+                            info_of(learning_method()).key),
+                colors::kWarning);
     if (view == View::Depth) row.add(fmt::format("black 0, white {:.4g}", frame.range.high), colors::kText);
     if (is_heat_map(view)) row.add_heat_legend(legend(view, frame.range));
     if (frame.divider > 1) row.add(fmt::format("1/{} res", frame.divider), colors::kWarning);
@@ -84,15 +85,15 @@ void draw_precompute_progress(ViewerModel& model, const Layout& layout, double s
     ImGui::ProgressBar(static_cast<float>(share), {ImGui::GetContentRegionAvail().x - button - em(0.5f), 0.0f},
                        fmt::format("{:.0f} %", 100.0 * share).c_str());
     ImGui::SameLine();
-    if (ImGui::Button("Cancel", {button, 0.0f})) model.cancel_precomputation();
-    tooltip("Esc: back to the method before. What is computed so far is kept.");
+    if (ImGui::Button("Cancel", {button, 0.0f})) model.render().cancel_precomputation();
+    tooltip("Esc: back to the previous method. The part computed so far is kept.");
     ImGui::End();
 }
 
-/// What is compared, and how.
+/// The mode of the comparison and its hints.
 void add_compare_badges(BadgeRow& row, const ViewerModel& model, const ComparePlan& plan) {
-    if (model.window().compare.mode == CompareMode::Off) return;
-    row.add(fmt::format("compare: {}", name_of(model.window().compare.mode)), colors::kAccent);
+    if (model.comparison().state().mode == CompareMode::Off) return;
+    row.add(fmt::format("compare: {}", name_of(model.comparison().state().mode)), colors::kAccent);
     if (plan.has_heat) row.add_heat_legend(error_map_legend());
     if (!plan.hint.empty()) row.add(plan.hint, colors::kWarning);
 }
@@ -108,8 +109,8 @@ void add_turns_badge(BadgeRow& row, const WorkerStatus& status) {
 }
 
 void add_reference_badge(BadgeRow& row, const ViewerModel& model) {
-    if (const auto making = model.reference_progress())
-        row.add(fmt::format("making the reference, {:.0f} %: {}", 100.0 * making->share, making->detail),
+    if (const auto making = model.references().progress())
+        row.add(fmt::format("rendering the reference, {:.0f} %: {}", 100.0 * making->share, making->detail),
                 colors::kWarning);
 }
 
@@ -117,11 +118,11 @@ ImU32 color_of(const DiagnosticInfo& diagnostics) {
     return IM_COL32(diagnostics.color >> 16 & 255, diagnostics.color >> 8 & 255, diagnostics.color & 255, 255);
 }
 
-/// What the marks in the picture stand for, and how far the search has come.
+/// The meaning of the marks in the picture, and the progress of the search.
 void add_diagnostics_badges(BadgeRow& row, const ViewerModel& model) {
-    if (const auto share = model.diagnostics_share())
-        row.add(fmt::format("looking for diagnostics, {:.0f} %", 100.0 * *share), colors::kWarning);
-    const auto map = model.diagnostics();
+    if (const auto share = model.diagnostics().share())
+        row.add(fmt::format("searching for invalid samples, {:.0f} %", 100.0 * *share), colors::kWarning);
+    const auto map = model.diagnostics().map();
     if (!map) return;
     for (const DiagnosticInfo& diagnostics : all_diagnostics()) {
         const std::uint64_t count = map->found[static_cast<std::size_t>(diagnostics.id)];
@@ -129,24 +130,24 @@ void add_diagnostics_badges(BadgeRow& row, const ViewerModel& model) {
             row.add(fmt::format("{} {}", short_number(static_cast<double>(count)), diagnostics.label),
                     color_of(diagnostics));
     }
-    if (map->found == DiagnosticCounts{}) row.add("nothing wrong found", colors::kGood);
+    if (map->found == DiagnosticCounts{}) row.add("all samples valid", colors::kGood);
     row.add(fmt::format("after {} spp", map->samples), colors::kText);
     if (!map->is_complete)
-        row.add(fmt::format("looked at the last {}", map->traced), colors::kWarning);
+        row.add(fmt::format("only the last {} searched", map->traced), colors::kWarning);
     else if (map->has_moving_tables && map->traced > 0)
-        row.add("by what is learned now", colors::kText);
+        row.add("with the present field", colors::kText);
 }
 
 void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     const WorkerStatus& status = model.status();
     if (status.state == WorkerState::Starting) row.add("starting", colors::kWarning);
-    const std::string wanted = model.wanted_backend();
+    const std::string wanted = model.render().wanted_backend();
     if (model.frame() != nullptr && model.frame()->backend.name != wanted && status.state != WorkerState::Failed)
         row.add("switching to " + back_end_label(wanted), colors::kWarning);
-    if (model.paused()) row.add("paused", colors::kWarning);
+    if (model.render().paused()) row.add("paused", colors::kWarning);
     if (status.state == WorkerState::Done) row.add("done", colors::kGood);
     if (status.state == WorkerState::Failed) row.add("rendering failed, see the log", colors::kError);
-    if (info_of(model.settings().method).learns && status.state == WorkerState::Rendering && status.field)
+    if (info_of(model.render().settings().method).learns && status.state == WorkerState::Rendering && status.field)
         row.add(fmt::format("learning  {}", status.field->passes), colors::kGood);
 }
 
@@ -155,7 +156,7 @@ void add_state_badges(BadgeRow& row, const ViewerModel& model) {
 void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& plan) {
     const Rect& view = layout.clear;
     BadgeRow row({view.x + em(0.6f), view.y + em(0.6f)}, view.x + view.width - em(0.6f));
-    // Compared pictures tell on themselves what they are.
+    // Compared pictures have labels of their own.
     if (model.frame() != nullptr && plan.tiles.empty()) add_picture_badges(row, *model.frame());
     add_compare_badges(row, model, plan);
     const WorkerStatus& status = model.status();
@@ -163,9 +164,10 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     add_reference_badge(row, model);
     if (plan.tiles.empty()) add_diagnostics_badges(row, model);
     add_state_badges(row, model);
-    if (model.window().cells)
-        row.add(fmt::format("volumes {:.0f} %", 100.0f * model.window().cells_opacity), colors::kText);
-    if (model.busy() && !model.reference_progress() && !model.diagnostics_share()) row.add("working", colors::kFaint);
+    if (model.display().cells())
+        row.add(fmt::format("volumes {:.0f} %", 100.0f * model.display().cells_opacity()), colors::kText);
+    if (model.busy() && !model.references().progress() && !model.diagnostics().share())
+        row.add("working", colors::kFaint);
     if (status.state == WorkerState::Precomputing && status.field)
         draw_precompute_progress(model, layout, status.field->precomputed_share);
 }

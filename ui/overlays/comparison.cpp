@@ -1,10 +1,10 @@
-// Words and handles over the pictures of a comparison.
+// Labels over the pictures of a comparison, and the handle of their dividing line.
 #include <algorithm>
 #include <limits>
 
 #include "ui/compare/half_image.h"
+#include "ui/draw/style.h"
 #include "ui/overlays/overlays.h"
-#include "ui/plot/draw_plot.h"
 
 namespace pl {
 namespace {
@@ -17,7 +17,7 @@ float label_wrap(const CompareTile& tile) {
     return std::max(tile.clip.width - em(1.2f) - 2.0f * label_padding().x, em(4.0f));
 }
 
-/// At the lower left or right corner of a tile, inside of what is shown of it.
+/// In the lower left or right corner of the visible part of a tile.
 Rect label_place(const CompareTile& tile) {
     const ImVec2 pad = label_padding();
     const ImVec2 size = ImGui::CalcTextSize(tile.label.c_str(), nullptr, false, label_wrap(tile));
@@ -39,7 +39,7 @@ void draw_label(ImDrawList& list, const CompareTile& tile) {
     list.PopClipRect();
 }
 
-/// A narrow window of its own around the line, so that a press on it is the line's and no other is.
+/// A narrow window around the line, which takes the presses on it and no others.
 void draw_handle(ViewerModel& model, const Rect& place, float x) {
     ImGui::SetNextWindowPos({x - 0.5f * kHandlePixels, place.y});
     ImGui::SetNextWindowSize({kHandlePixels, place.height});
@@ -55,7 +55,7 @@ void draw_handle(ViewerModel& model, const Rect& place, float x) {
     if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     ImGui::End();
     ImGui::PopStyleVar(2);
-    if (held) model.set_split((ImGui::GetIO().MousePos.x - place.x) / place.width);
+    if (held) model.comparison().set_split((ImGui::GetIO().MousePos.x - place.x) / place.width);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float middle = place.y + 0.5f * place.height;
     list.AddRectFilled({x - 1.0f, place.y}, {x + 1.0f, place.y + place.height},

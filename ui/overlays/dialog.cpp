@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "ui/style.h"
+#include "ui/draw/style.h"
 
 namespace pl {
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
-#include "ui/actions.h"
+#include "ui/draw/style.h"
+#include "ui/input/actions.h"
 #include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
 
@@ -9,7 +10,7 @@ namespace {
 
 constexpr float kKeysEm = 7.5f;
 
-/// A key as a cap, so that a comma can be seen.
+/// A key on a key cap, so that a comma is visible.
 void draw_line(const char* keys, const char* text) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = std::max(ImGui::CalcTextSize(keys).x + em(0.6f), em(1.3f));
@@ -31,7 +32,7 @@ void draw_heading(const char* text) {
 void draw_group(ActionGroup group) {
     draw_heading(name_of(group));
     for (const Action& action : all_actions())
-        if (action.group == group) draw_line(action.keys, action.text);
+        if (action.group == group) draw_line(action.keys.c_str(), action.text.c_str());
     ImGui::Dummy({0.0f, em(0.3f)});
 }
 

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/widgets.h"
 #include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {
@@ -31,7 +31,7 @@ void draw_check(const SelfCheck& check) {
     cell(fmt::format("{:.6g}", check.expected));
     cell(fmt::format("{:.6g}", check.measured), check.passed ? colors::kText : colors::kError);
     cell(margin_text(check), colors::kFaint);
-    tooltip("Share of the tolerance that the result used; exact: there is none.");
+    tooltip("The deviation as a share of the tolerance; exact: no deviation is allowed.");
 }
 
 void draw_checks(const std::vector<SelfCheck>& checks, float height) {
@@ -45,7 +45,7 @@ void draw_checks(const std::vector<SelfCheck>& checks, float height) {
     for (const char* title : {"expected", "measured", "margin"}) ImGui::TableSetupColumn(title);
     ImGui::TableHeadersRow();
     for (const SelfCheck& check : checks) draw_check(check);
-    // Follows what comes, until a person scrolls away from the end.
+    // Scrolls to new checks unless the user has scrolled up.
     if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) ImGui::SetScrollHereY(1.0f);
     ImGui::EndTable();
 }
@@ -63,14 +63,14 @@ ImU32 color_of(SelfTestRun::Outcome outcome) {
 }
 
 void draw_button(ViewerModel& model) {
-    const SelfTestRun& test = model.self_test();
+    const SelfTestRun& test = model.self_test().run();
     const char* label =
         test.is_running() ? "Cancel" : (test.outcome() == SelfTestRun::Outcome::None ? "Run" : "Again");
     if (ImGui::Button(label, {em(6.0f), 0.0f})) {
         if (test.is_running())
-            model.stop_self_test();
+            model.self_test().stop();
         else
-            model.start_self_test();
+            model.self_test().start();
     }
     note_place("self test");
     ImGui::SameLine();
@@ -80,13 +80,13 @@ void draw_button(ViewerModel& model) {
 }  // namespace
 
 void draw_self_test(ViewerModel& model, const Layout& layout) {
-    if (!model.window().self_test) return;
-    begin_dialog("Self test", model.window().self_test, layout, em(58.0f));
-    faint_text(
-        "Renders small scenes whose light is known in closed form on every back end that is there, as 'pathlight "
-        "selftest' does. It takes about ten seconds a back end; rendering rests meanwhile.");
+    if (!model.self_test().is_shown()) return;
+    begin_dialog("Self test", model.self_test().is_shown(), layout, em(58.0f));
+    faint_text("Renders small scenes with closed-form solutions on every available back end, as 'pathlight selftest' "
+               "does. It "
+               "takes about ten seconds per back end; rendering rests meanwhile.");
     draw_button(model);
-    draw_checks(model.self_test().checks(), std::min(em(26.0f), screen_size(layout).y - em(14.0f)));
+    draw_checks(model.self_test().run().checks(), std::min(em(26.0f), screen_size(layout).y - em(14.0f)));
     ImGui::End();
 }
 

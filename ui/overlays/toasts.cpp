@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/style.h"
 #include "ui/overlays/overlays.h"
 
 namespace pl {
@@ -39,11 +40,11 @@ void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePl
     ImVec2 corner{view.x + em(0.6f), view.y + view.height - em(0.6f)};
     corner.y = std::min(corner.y, top_of_names(plan) - em(0.6f));
     const float width = std::min(view.width - em(1.2f), em(34.0f));
-    for (auto toast = model.toasts().rbegin(); toast != model.toasts().rend(); ++toast)
+    for (auto toast = model.messages().toasts().rbegin(); toast != model.messages().toasts().rend(); ++toast)
         corner.y -= draw_toast(list, corner, width, toast->level, toast->text) + em(0.35f);
 
-    if (model.now() >= model.window().speed_shown_until) return;
-    const std::string text = fmt::format("speed {:.4g} units/s", model.controls().speed());
+    if (!model.camera().is_speed_shown()) return;
+    const std::string text = fmt::format("speed {:.4g} units/s", model.camera().speed());
     const float text_width = ImGui::CalcTextSize(text.c_str()).x;
     draw_toast(list, {view.center().x - 0.5f * text_width - em(0.7f), view.y + 0.2f * view.height}, em(30.0f),
                LogLevel::Info, text);

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 #include "ui/plot/draw_plot.h"
 #include "ui/plot/plot_widget.h"
 
@@ -14,7 +14,7 @@ namespace {
 constexpr float kPlotEm = 15.5f;
 constexpr float kSmallestPlotEm = 9.0f;
 
-/// Always there, above all that scrolls, and of the same size whoever wins.
+/// Above the scrolled part, so that they are always visible.
 void draw_headlines(const AccuracyModel& model) {
     for (const Headline& headline : model.headlines()) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -32,30 +32,30 @@ void draw_metric_choice(AccuracyModel& model) {
         for (int i = 0; i < kErrorMetricCount; ++i) {
             const auto metric = static_cast<ErrorMetric>(i);
             if (ImGui::Selectable(info_of(metric).label, metric == model.wanted_metric())) model.set_metric(metric);
-            tooltip(info_of(metric).what);
+            tooltip(info_of(metric).meaning);
         }
         ImGui::EndCombo();
     }
-    tooltip(info_of(model.wanted_metric()).what);
+    tooltip(info_of(model.wanted_metric()).meaning);
     ImGui::SameLine();
     const bool seconds = model.kind().axis == CostAxis::Seconds;
     if (ImGui::RadioButton("s", seconds)) model.set_axis(CostAxis::Seconds);
-    tooltip("Over seconds charged: placing volumes, precomputing, learning and rendering. Measuring, saving and the "
-            "window "
-            "are on no clock.");
+    tooltip(
+        "Over charged seconds: placement, precomputation, learning and rendering, without measuring, saving and the "
+        "window.");
     ImGui::SameLine();
     if (ImGui::RadioButton("spp", !seconds)) model.set_axis(CostAxis::Samples);
     tooltip("Over samples per pixel.");
     ImGui::SameLine();
     if (ImGui::Button("Fit")) model.fit_view();
-    tooltip("Show all curves of this picture; a double click on the plot does the same.");
+    tooltip("Shows all curves of this picture, as a double click on the plot does.");
 }
 
 std::string cost_text(double cost, CostAxis axis) {
     return axis == CostAxis::Seconds ? short_seconds(cost) : fmt::format("{:.0f} spp", cost);
 }
 
-/// The text of a column at the right of the legend's color.
+/// The next cell of the table.
 void cell(const std::string& text, ImU32 color = colors::kText) {
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, color);
@@ -63,7 +63,7 @@ void cell(const std::string& text, ImU32 color = colors::kText) {
     ImGui::PopStyleColor();
 }
 
-/// What stands where nothing was measured: why.
+/// The reason for a missing value.
 std::string missing_text(const CursorRow& row, const AccuracyModel& model) {
     const CostAxis axis = model.kind().axis;
     if (model.cursor().kind == Cursor::Kind::EqualError) return "> " + cost_text(row.measured_until, axis);
@@ -76,7 +76,7 @@ void draw_row(const CursorRow& row, const AccuracyModel& model) {
     const auto run = find_run(model.runs(), row.run);
     if (!run) return;
     ImGui::TableNextRow();
-    cell(name_of(run->label), to_imgui_color(color_of(run->label.method)));
+    cell(name_of(run->label), to_imgui_color(info_of(run->label.method).color));
     const bool at_error = model.cursor().kind == Cursor::Kind::EqualError;
     const std::optional<double>& shown = at_error ? row.cost : row.error;
     if (!shown)
@@ -97,8 +97,8 @@ void draw_cursor_table(const AccuracyModel& model) {
     const Cursor& cursor = model.cursor();
     if (cursor.kind == Cursor::Kind::None) {
         faint_text(
-            "Drag along the numbers below the plot for pictures at equal cost, along those at its left for pictures "
-            "at equal error.");
+            "Drag along the numbers below the plot for pictures at equal cost, along the numbers to its left for "
+            "pictures at equal error.");
         return;
     }
     const bool at_error = cursor.kind == Cursor::Kind::EqualError;
@@ -123,55 +123,56 @@ std::string choice_text(const SideChoice& choice, const AccuracyModel& model) {
 }
 
 void draw_side_choice(ViewerModel& model, bool second) {
-    const SideChoice& now = second ? model.window().compare.b : model.window().compare.a;
-    begin_row(second ? "B" : "A", "Automatic: A is the run in progress, B what it is measured against.");
-    if (!ImGui::BeginCombo(second ? "##b" : "##a", choice_text(now, model.accuracy()).c_str())) return;
+    const SideChoice& now = second ? model.comparison().state().b : model.comparison().state().a;
+    begin_row(second ? "B" : "A", "Automatic: A is the run in progress, B its baseline.");
+    if (!ImGui::BeginCombo(second ? "##b" : "##a", choice_text(now, model.comparison().accuracy()).c_str())) return;
     const auto offer = [&](const std::string& name, const SideChoice& choice) {
-        if (ImGui::Selectable(name.c_str(), choice == now)) model.choose_side(second, choice);
+        if (ImGui::Selectable(name.c_str(), choice == now)) model.comparison().choose_side(second, choice);
     };
     offer("automatic", {});
-    for (const auto& run : model.accuracy().runs())
-        if (run->label.picture == model.accuracy().picture())
+    for (const auto& run : model.comparison().accuracy().runs())
+        if (run->label.picture == model.comparison().accuracy().picture())
             offer(fmt::format("{}##{}", name_of(run->label), run->number), {SideChoice::What::Run, run->number});
-    if (model.reference() != nullptr) offer("reference", {SideChoice::What::Reference, 0});
+    if (model.references().current() != nullptr) offer("reference", {SideChoice::What::Reference, 0});
     ImGui::EndCombo();
 }
 
 void draw_comparison(ViewerModel& model) {
     if (!section("Compare pictures", true)) return;
-    int mode = static_cast<int>(model.window().compare.mode);
+    int mode = static_cast<int>(model.comparison().state().mode);
     if (choice_row("Mode", "Keys C and Shift+C; G flips to the other picture.", &mode,
                    "off\0split\0flip\0side by side\0difference\0error map\0\0"))
-        model.set_compare_mode(static_cast<CompareMode>(mode));
+        model.comparison().set_mode(static_cast<CompareMode>(mode));
     draw_side_choice(model, false);
     draw_side_choice(model, true);
-    bool turns = model.turns();
-    if (toggle_row(
-            "In turns of equal time",
-            "Key X: the present method and the one it is compared with render in turns A, B, B, A of equal charged "
-            "time, each at half the speed.",
-            &turns))
-        model.set_turns(turns);
+    bool turns = model.comparison().in_turns();
+    if (toggle_row("In turns of equal time",
+                   "Key X: the present method and the compared one render in turns A, B, B, A of equal charged time, "
+                   "each at "
+                   "half the speed.",
+                   &turns))
+        model.comparison().set_turns(turns);
 }
 
 void draw_reference(ViewerModel& model) {
-    if (const auto making = model.reference_progress()) {
+    if (const auto making = model.references().progress()) {
         const float button = em(5.0f);
         ImGui::ProgressBar(static_cast<float>(making->share),
                            {ImGui::GetContentRegionAvail().x - button - em(0.5f), 0.0f}, making->detail.c_str());
         ImGui::SameLine();
-        if (ImGui::Button("End", {button, 0.0f})) model.stop_reference();
-        tooltip("Esc: what is there is stored and used, and can be gone on with.");
+        if (ImGui::Button("End", {button, 0.0f})) model.references().stop();
+        tooltip("Esc: the samples so far are stored and used; the reference can be continued.");
         return;
     }
-    if (const ReferencePicture* reference = model.reference())
+    if (const ReferencePicture* reference = model.references().current())
         faint_text(fmt::format("{}, noise {:.2g}", reference->label, reference->noise_relmse).c_str());
     if (wide_button(
-            model.reference() != nullptr ? "Go on with the reference" : "Make the reference",
-            "Key Ctrl+R. In two halves, on the CPU, with default path tracing and next-event estimation, at low "
-            "priority. Rendering rests meanwhile, so that nothing that is measured gets slower. It is stored as "
-            "'pathlight reference' does, in the folder references, and found again by what the picture shows."))
-        model.make_reference();
+            model.references().current() != nullptr ? "Continue the reference" : "Render the reference",
+            "Key Ctrl+R. Two independent halves, on the CPU at low priority, by default path tracing with next-event "
+            "estimation. Rendering rests meanwhile, so that no timed pass gets slower. Stored in the folder "
+            "references "
+            "like those of 'pathlight reference', and found again by scene, camera and size."))
+        model.references().make();
 }
 
 void draw_footing(const AccuracyModel& model) {
@@ -181,31 +182,32 @@ void draw_footing(const AccuracyModel& model) {
     std::string text = fmt::format("pictures kept: {}B of {}B", short_number(static_cast<double>(set->picture_bytes)),
                                    short_number(static_cast<double>(set->picture_bytes_cap)));
     if (charged > 0.0)
-        text +=
-            fmt::format("; measuring took {:.2g} % beside the charged time", 100.0 * set->measure_seconds / charged);
+        text += fmt::format("; measuring errors took another {:.2g} % of the charged time",
+                            100.0 * set->measure_seconds / charged);
     faint_text(text.c_str());
-    tooltip("The band is of this run: two standard errors over its own blocks of 16 x 16 pixels. Where all pixels "
-            "share what "
-            "was learned, runs of other seeds differ by more: change the seed for runs whose interval the headline "
-            "gives.");
+    tooltip("The band is two standard errors of this run over its blocks of 16 x 16 pixels. Pixels share one learned "
+            "field, so that runs with other seeds differ by more: render several seeds for the interval of the "
+            "headline.");
 }
 
 }  // namespace
 
 void draw_accuracy_panel(ViewerModel& model, const Layout& layout) {
     WindowState& window = model.window();
-    AccuracyModel& accuracy = model.accuracy();
+    AccuracyModel& accuracy = model.comparison().accuracy();
     begin_fixed_window("accuracy", layout.accuracy,
                        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     draw_headlines(accuracy);
-    ImGui::BeginChild("scrolled", {0.0f, 0.0f}, false, window.over_plot ? ImGuiWindowFlags_NoScrollWithMouse : 0);
+    ImGui::BeginChild("scrolled", {0.0f, 0.0f}, false,
+                      window.plot.has_wheel ? ImGuiWindowFlags_NoScrollWithMouse : 0);
     draw_metric_choice(accuracy);
-    // What a cursor tells should be seen without scrolling.
+    // The rows of a cursor should be visible without scrolling.
     const float rows = accuracy.rows().empty() ? 0.0f : static_cast<float>(accuracy.rows().size()) + 1.0f;
     const float room = ImGui::GetContentRegionAvail().y - em(6.0f) - rows * ImGui::GetTextLineHeightWithSpacing();
     const float height = std::clamp(room, em(kSmallestPlotEm), em(kPlotEm));
-    if (draw_accuracy_plot(accuracy, window.plot_drag, window.plot, height)) model.set_cursor(accuracy.cursor());
-    window.over_plot = ImGui::IsItemHovered();
+    if (draw_accuracy_plot(accuracy, window.plot.drag, window.plot.frame, height))
+        model.comparison().set_cursor(accuracy.cursor());
+    window.plot.has_wheel = ImGui::IsItemHovered();
     draw_legend(accuracy);
     draw_cursor_table(accuracy);
     draw_comparison(model);

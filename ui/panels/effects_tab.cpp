@@ -1,8 +1,8 @@
-// The tab that shows which effects are needed, why, which kernel serves them, and what each costs.
+// The tab of effects: which the scene needs and why, the kernel that serves them, and the cost of each.
 #include <fmt/format.h>
 
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {
@@ -16,53 +16,52 @@ std::string cost_text(const EffectCost& cost) {
     return text;
 }
 
-/// With room to break lines between effects.
+/// With spaces for line breaks between effects.
 std::string spaced(const std::string& kernel) {
     std::string text;
     for (const char letter : kernel) text += letter == '+' ? std::string(" + ") : std::string(1, letter);
     return text;
 }
 
-/// What being able to do these effects, too, costs.
+/// The cost of a kernel that serves these effects too.
 void draw_cost(ViewerModel& model, FeatureSet forced) {
-    const EffectsModel& effects = model.effects();
+    const EffectsModel& effects = model.effects().table();
     if (effects.kernel_with(forced) == effects.kernel()) {
-        faint_text("The same kernel: costs nothing more.");
+        faint_text("The same kernel: no cost.");
     } else if (const EffectCost* cost = effects.cost_of(forced)) {
         text_line(cost_text(*cost).c_str(), colors::kText);
-        tooltip("Time of a pass of this picture without and with it: means over pairs, their ratio and its 95 % "
-                "interval. Effects that "
-                "the same kernel serves cost the same.");
-    } else if (model.measuring_effects() == forced) {
-        faint_text("measuring: passes of both kernels in turns");
+        tooltip(
+            "Time of a pass of this picture without and with the effect: means over pairs, their ratio and its 95 % "
+            "interval. Effects of the same kernel cost the same.");
+    } else if (model.effects().measuring() == forced) {
+        faint_text("measuring passes of both kernels in turns");
     }
 }
 
 void draw_measure_button(ViewerModel& model, FeatureSet forced, const std::string& name) {
-    const bool is_running = model.measuring_effects() == forced;
-    const bool is_other = model.effects().kernel_with(forced) != model.effects().kernel();
+    const bool is_running = model.effects().measuring() == forced;
+    const bool is_other = model.effects().table().kernel_with(forced) != model.effects().table().kernel();
     if (!is_other && !is_running) return;
     const std::string label = fmt::format("{}##{}", is_running ? "stop" : "measure", name);
     ImGui::SameLine(ImGui::GetContentRegionMax().x - em(4.6f));
     if (ImGui::SmallButton(label.c_str())) {
         if (is_running)
-            model.stop_measuring_effects();
+            model.effects().stop();
         else
-            model.measure_effects(forced);
+            model.effects().measure(forced);
     }
     note_place(("measure " + name).c_str());
-    tooltip(
-        "Milliseconds per pass without and with it, in turns on the running picture. The picture does not change.");
+    tooltip("Times passes without and with the effect in turns on the running picture, which stays the same.");
 }
 
 void draw_effect(ViewerModel& model, const EffectRow& row) {
-    const FeatureSet forced = model.settings().forced_effects;
+    const FeatureSet forced = model.render().settings().forced_effects;
     bool on = row.needed() || forced.has(row.feature);
     ImGui::BeginDisabled(row.needed());
     const bool changed = toggle_row(
-        row.name.c_str(), "Forces it: the kernel can do it, and the picture stays the same to the bit.", &on);
+        row.name.c_str(), "Forces a kernel that serves this effect; the picture stays the same to the bit.", &on);
     ImGui::EndDisabled();
-    if (changed) model.set_forced_effects({forced.bits ^ row.with().bits});
+    if (changed) model.render().set_forced_effects({forced.bits ^ row.with().bits});
     if (!row.needed()) draw_measure_button(model, row.with(), row.name);
     const float indent = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::Indent(indent);
@@ -76,18 +75,18 @@ void draw_effect(ViewerModel& model, const EffectRow& row) {
 }  // namespace
 
 void draw_effects_tab(ViewerModel& model) {
-    const EffectsModel& effects = model.effects();
+    const EffectsModel& effects = model.effects().table();
     if (effects.rows().empty()) {
         faint_text("Nothing is rendered yet.");
         return;
     }
-    text_row("Kernel", spaced(effects.kernel()), "The smallest compiled one that serves what is needed.");
-    const FeatureSet forced = model.settings().forced_effects;
+    text_row("Kernel", spaced(effects.kernel()), "The smallest compiled kernel that serves the needed effects.");
+    const FeatureSet forced = model.render().settings().forced_effects;
     if (const std::string kernel = effects.kernel_with(forced); kernel != effects.kernel())
-        text_row("In use", spaced(kernel), "It can do what is forced, too.");
+        text_row("In use", spaced(kernel), "The kernel that serves the forced effects too.");
     bool all = forced.covers(kEveryFeature);
-    if (toggle_row("all effects", "Forces every effect there is.", &all))
-        model.set_forced_effects(all ? kEveryFeature : FeatureSet{});
+    if (toggle_row("all effects", "Forces every effect.", &all))
+        model.render().set_forced_effects(all ? kEveryFeature : FeatureSet{});
     draw_measure_button(model, kEveryFeature, "all effects");
     draw_cost(model, kEveryFeature);
     ImGui::Separator();

@@ -6,9 +6,8 @@
 #include "core/kernel/film/tonemap.h"
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/scene/surface_point.h"
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
-#include "ui/picture.h"
 
 namespace pl {
 namespace {
@@ -26,7 +25,7 @@ std::string vector_text(Vec3f v) { return fmt::format("{:.4g}  {:.4g}  {:.4g}", 
 
 std::string radiance_text(Vec3f v) { return fmt::format("{:.5g}  {:.5g}  {:.5g}", v.x, v.y, v.z); }
 
-/// The surface under the middle of a pixel, by a ray of our own: nobody has to wait for the render thread.
+/// The surface under the center of a pixel, by a ray of the window's thread: the render thread need not answer.
 std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const HoveredPixel& pixel) {
     const Snapshot& snapshot = frame.snapshot;
     const Camera camera = make_camera(snapshot.camera, snapshot.width, snapshot.height);
@@ -62,14 +61,15 @@ std::array<int, 3> shown_code(const PublishedFrame& frame, Vec3f value) {
 
 void draw_pixel_values(const PublishedFrame& frame, const HoveredPixel& pixel) {
     const Snapshot& snapshot = frame.snapshot;
-    if (!frame.has_values()) return;  // they come with the next frame
+    if (!frame.has_values()) return;  // the next frame brings them
     const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(snapshot.width) +
                               static_cast<std::size_t>(pixel.x);
     const Vec3f value = snapshot.pixels[index];
     const std::array<int, 3> code = shown_code(frame, value);
     text_row("Pixel", fmt::format("{}, {} of {}x{}", pixel.x, pixel.y, snapshot.width, snapshot.height));
     if (is_heat_map(snapshot.slot.view)) {
-        text_row("Value", fmt::format("{:.5g}  {}", value.x, frame.range.unit), "Of the radiance volume there.");
+        text_row("Value", fmt::format("{:.5g}  {}", value.x, frame.range.unit),
+                 "Of the radiance volume of this point.");
     } else {
         text_row("Linear RGB", radiance_text(value), "Mean of all samples before exposure and tone curve.");
         text_row("Luminance", fmt::format("{:.5g}", luminance(value)));
@@ -87,11 +87,11 @@ void draw_pixel_values(const PublishedFrame& frame, const HoveredPixel& pixel) {
 void draw_surface(const PublishedFrame& frame, const HoveredPixel& pixel) {
     const std::optional<PickedPoint> point = surface_under(frame, pixel);
     if (!point) {
-        faint_text("Nothing is hit there.");
+        faint_text("The ray leaves the scene.");
         return;
     }
     text_row("Position", vector_text(point->position), "In scene units.");
-    text_row("Normal", vector_text(point->normal), "Geometric, towards the camera.");
+    text_row("Normal", vector_text(point->normal), "Geometric normal, towards the camera.");
     text_row("Distance", fmt::format("{:.5g}", point->distance));
     text_row("Triangle", fmt::format("{}", point->primitive));
     const auto& materials = frame.description->materials;
@@ -111,8 +111,8 @@ void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hover
         return;
     }
     model.window().values_shown = true;
-    if (model.window().compare.mode != CompareMode::Off)
-        faint_text("Of the live picture, not of those that are compared.");
+    if (model.comparison().state().mode != CompareMode::Off)
+        faint_text("Values of the live picture, not of the compared ones.");
     draw_pixel_values(*frame, *hovered);
     ImGui::Separator();
     draw_surface(*frame, *hovered);
@@ -121,11 +121,12 @@ void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hover
 void draw_log_tab(const ViewerModel& model) {
     if (ImGui::Button("Copy all")) {
         std::string text;
-        for (const LogLine& line : model.log()) text += fmt::format("{:9.2f}  {}\n", line.seconds, line.text);
+        for (const LogLine& line : model.messages().log())
+            text += fmt::format("{:9.2f}  {}\n", line.seconds, line.text);
         ImGui::SetClipboardText(text.c_str());
     }
     ImGui::BeginChild("lines", {0.0f, 0.0f}, true);
-    for (const LogLine& line : model.log()) {
+    for (const LogLine& line : model.messages().log()) {
         ImGui::TextDisabled("%7.2f", line.seconds);
         ImGui::SameLine();
         ImGui::PushStyleColor(ImGuiCol_Text, color_of(line.level));
@@ -137,12 +138,11 @@ void draw_log_tab(const ViewerModel& model) {
 }
 
 void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered) {
-    model.window().hovered_cell = -1;  // the volume tab sets it again if it is in front
+    model.selection().hover_cell(-1);  // the volume tab sets it again if it is in front
     begin_fixed_window("knowledge", layout.right);
     if (ImGui::BeginTabBar("tabs")) {
         const ImGuiTabItemFlags front =
-            model.window().volume_tab_asked ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
-        model.window().volume_tab_asked = false;
+            model.selection().take_new_volume() ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
         if (begin_tab("Volume", front)) {
             draw_volume_tab(model);
             ImGui::EndTabItem();
@@ -170,15 +170,6 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
         ImGui::EndTabBar();
     }
     ImGui::End();
-}
-
-void begin_fixed_window(const char* name, const Rect& place, int extra_flags) {
-    ImGui::SetNextWindowPos({place.x, place.y});
-    ImGui::SetNextWindowSize({place.width, place.height});
-    ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus | extra_flags);
 }
 
 }  // namespace pl

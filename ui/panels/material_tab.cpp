@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {
@@ -12,22 +12,21 @@ namespace {
 constexpr float kMostStrength = 1000.0f;
 
 void draw_list(ViewerModel& model, std::uint32_t selected) {
-    const EditedMaterials& materials = model.materials();
+    const EditedMaterials& materials = model.scene().materials();
     const auto label = [&](std::uint32_t index) {
         return fmt::format("{}{}##{}", shown_name(materials.now()[index], index),
                            materials.is_edited(index) ? " *" : "", index);
     };
     const std::string shown = label(selected);
-    if (!begin_choice_row("Material",
-                          "All of this scene; * is not as in the file. A click in the picture selects, too.",
+    if (!begin_choice_row("Material", "Materials of the scene; * is edited. A click in the picture selects one too.",
                           shown.substr(0, shown.rfind("##")).c_str()))
         return;
     for (std::uint32_t i = 0; i < materials.now().size(); ++i)
-        if (ImGui::Selectable(label(i).c_str(), i == selected)) model.select_material(i);
+        if (ImGui::Selectable(label(i).c_str(), i == selected)) model.scene().select_material(i);
     ImGui::EndCombo();
 }
 
-/// Colors of light that is reflected or passes: each channel in [0, 1].
+/// Reflectance or transmittance: each channel in [0, 1].
 bool share_row(const char* label, const char* tip, glm::vec3& color) {
     return color_row(label, fmt::format("{} Linear red, green and blue, from 0 to 1.", tip).c_str(), &color.x);
 }
@@ -35,33 +34,35 @@ bool share_row(const char* label, const char* tip, glm::vec3& color) {
 bool draw_reflection(MaterialDescription& m, const MaterialDescription& file) {
     bool changed = false;
     if (m.kind == SurfaceKind::Diffuse || m.kind == SurfaceKind::Plastic)
-        changed |= share_row("Color", "Reflectance of what is diffuse.", m.albedo);
+        changed |= share_row("Color", "Diffuse reflectance.", m.albedo);
     if (m.kind == SurfaceKind::Conductor)
-        changed |= share_row("Reflectance", "Of the metal, seen straight on.", m.specular);
+        changed |= share_row("Reflectance", "Of the metal at normal incidence.", m.specular);
     if (m.kind == SurfaceKind::Dielectric || m.kind == SurfaceKind::Plastic)
-        changed |= share_row("Reflected", "Tint of what the glass or the coat reflects.", m.specular);
-    if (m.kind == SurfaceKind::Dielectric) changed |= share_row("Passed", "Tint of what passes.", m.transmission);
+        changed |= share_row("Reflected", "Tint of the light that glass or coat reflects.", m.specular);
+    if (m.kind == SurfaceKind::Dielectric)
+        changed |= share_row("Transmitted", "Tint of the transmitted light.", m.transmission);
     if (m.kind == SurfaceKind::Diffuse) return changed;
-    changed |= slider_row("Roughness", "0 is a mirror; the width of the facets' slopes is its square.", &m.roughness,
-                          0.0f, 1.0f, file.roughness, "%.3f");
+    changed |= slider_row("Roughness", "0 is a mirror; the alpha of the microfacet distribution is its square.",
+                          &m.roughness, 0.0f, 1.0f, file.roughness, "%.3f");
     if (m.kind != SurfaceKind::Conductor)
-        changed |= slider_row("Index", "Of refraction, inside over outside: water 1.33, glass 1.5, diamond 2.4.",
-                              &m.ior, kLeastIor, kMostIor, file.ior, "%.3f");
+        changed |=
+            slider_row("Index", "Index of refraction, inside over outside: water 1.33, glass 1.5, diamond 2.4.",
+                       &m.ior, kLeastIor, kMostIor, file.ior, "%.3f");
     return changed;
 }
 
 float strength_of(const glm::vec3& emission) { return std::max({emission.x, emission.y, emission.z}); }
 
-/// A lamp's radiance as a color and the value of its largest channel.
+/// Emitted radiance as a color and the value of its largest channel.
 bool draw_emission(MaterialDescription& m, const MaterialDescription& file) {
     float strength = strength_of(m.emission);
     glm::vec3 color = strength > 0.0f ? m.emission / strength : glm::vec3{1.0f};
-    bool changed = slider_row("Emission", "Radiance that leaves the front, of the strongest channel. 0: no lamp.",
+    bool changed = slider_row("Emission", "Emitted radiance of the front, in the largest channel. 0: no light.",
                               &strength, 0.0f, std::max(kMostStrength, 2.0f * strength_of(file.emission)),
                               strength_of(file.emission), "%.4g", ImGuiSliderFlags_Logarithmic);
     if (strength > 0.0f) {
-        changed |= share_row("Lamp color", "Of what is emitted.", color);
-        changed |= toggle_row("Both sides emit", "Else the front alone.", &m.two_sided_emission);
+        changed |= share_row("Lamp color", "Color of the emitted radiance.", color);
+        changed |= toggle_row("Both sides emit", "Otherwise only the front.", &m.two_sided_emission);
     }
     if (changed) m.emission = strength * color;
     return changed;
@@ -71,7 +72,7 @@ void draw_textures(const TextureUse& use, const SceneDescription& scene) {
     const auto row = [&](const char* label, std::uint32_t texture) {
         if (texture == kNoTexture) return;
         text_row(label, scene.textures[texture].source.filename().string(),
-                 "An image that multiplies the value above.");
+                 "A texture that multiplies the value above.");
     };
     row("Color map", use.albedo);
     row("Rough map", use.roughness);
@@ -80,28 +81,28 @@ void draw_textures(const TextureUse& use, const SceneDescription& scene) {
 }
 
 void draw_restore(ViewerModel& model, std::uint32_t index) {
-    ImGui::BeginDisabled(!model.materials().is_edited(index));
-    if (wide_button("As in the file", "Undoes all changes of this material.")) model.restore_material(index);
+    ImGui::BeginDisabled(!model.scene().materials().is_edited(index));
+    if (wide_button("As in the file", "Undoes the edits of this material.")) model.scene().restore_material(index);
     ImGui::EndDisabled();
-    const std::size_t edited = model.materials().edited_names().size();
-    if (edited < 2 && (edited == 0 || model.materials().is_edited(index))) return;
-    if (wide_button("All as in the file", "Undoes the changes of every material.")) model.restore_materials();
+    const std::size_t edited = model.scene().materials().edited_names().size();
+    if (edited < 2 && (edited == 0 || model.scene().materials().is_edited(index))) return;
+    if (wide_button("All as in the file", "Undoes the edits of every material.")) model.scene().restore_materials();
 }
 
 }  // namespace
 
 void draw_material_tab(ViewerModel& model) {
-    const std::uint32_t index = model.selected_material().value_or(0);
+    const std::uint32_t index = model.scene().selected_material().value_or(0);
     draw_list(model, index);
-    const MaterialDescription& file = model.materials().in_file(index);
-    MaterialDescription material = model.materials().now()[index];
+    const MaterialDescription& file = model.scene().materials().in_file(index);
+    MaterialDescription material = model.scene().materials().now()[index];
     int kind = static_cast<int>(material.kind);
-    bool changed = choice_row("Kind", "What the surface does to light.", &kind, "Diffuse\0Metal\0Glass\0Coated\0");
+    bool changed = choice_row("Kind", "The BSDF of the surface.", &kind, "Diffuse\0Metal\0Glass\0Coated\0");
     material.kind = static_cast<SurfaceKind>(kind);
     changed |= draw_reflection(material, file);
     changed |= draw_emission(material, file);
-    draw_textures(material.textures, model.materials().file());
-    if (changed) model.set_material(index, material);
+    draw_textures(material.textures, model.scene().materials().file());
+    if (changed) model.scene().set_material(index, material);
     draw_restore(model, index);
 }
 

@@ -1,20 +1,20 @@
 #include <cctype>
 
-#include "ui/actions.h"
+#include "ui/draw/widgets.h"
+#include "ui/input/perform_action.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {
 
-/// One menu per group of the key table; keys that are held make no sense as menu items.
+/// One menu per group of the key table, without the held keys.
 void draw_group(ViewerModel& model, ActionGroup group) {
     if (!ImGui::BeginMenu(name_of(group))) return;
     for (const Action& action : all_actions()) {
         if (action.group != group || action.is_held) continue;
         std::string label = action.text;
         label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-        if (ImGui::MenuItem(label.c_str(), action.keys)) perform(model, action.id);
+        if (ImGui::MenuItem(label.c_str(), action.keys.c_str())) perform(model, action);
     }
     ImGui::EndMenu();
 }

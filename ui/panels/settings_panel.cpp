@@ -4,43 +4,43 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/widgets.h"
+#include "ui/input/perform_action.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {
 
 void draw_method(ViewerModel& model) {
     if (!section("Method", true)) return;
-    const MethodId current = model.settings().method;
+    const MethodId current = model.render().settings().method;
     for (const MethodInfo& method : all_methods()) {
-        const std::string label = fmt::format("{}  {}", static_cast<int>(method.id) + 1, method.label);
-        if (ImGui::RadioButton(label.c_str(), method.id == current)) model.set_method(method.id);
+        const std::string label = fmt::format("{}  {}", method.key, method.label);
+        if (ImGui::RadioButton(label.c_str(), method.id == current)) model.render().set_method(method.id);
         tooltip(std::string(method.summary).c_str());
     }
-    faint_text(std::string(info_of(model.settings().method).summary).c_str());
-    bool next_event = model.settings().next_event;
+    faint_text(std::string(info_of(model.render().settings().method).summary).c_str());
+    bool next_event = model.render().settings().next_event;
     if (toggle_row("Next-event estimation",
-                   "Sample the lights directly at every surface, combined with the method's own directions "
-                   "by multiple "
-                   "importance sampling. Off by default: then only the method finds the light.",
+                   "Samples a point on a light at every path vertex and combines it with the scattered directions by "
+                   "multiple importance sampling. Off by default: then paths reach light only by scattering.",
                    &next_event))
-        model.set_next_event(next_event);
+        model.render().set_next_event(next_event);
 }
 
-/// One that cannot be had is greyed, with the reason where the others tell their device.
+/// An unavailable one is greyed, with the reason in place of its device.
 void draw_back_end(ViewerModel& model) {
     if (!section("Back end", true)) return;
-    const std::string wanted = model.wanted_backend();
+    const std::string wanted = model.render().wanted_backend();
     for (const BackendChoice& choice : *model.status().backends) {
         const bool available = choice.unavailable.empty();
         ImGui::BeginDisabled(!available);
         if (ImGui::RadioButton(back_end_label(choice.name).c_str(), choice.name == wanted))
-            model.set_backend(choice.name);
+            model.render().set_backend(choice.name);
         ImGui::EndDisabled();
         if (available)
-            tooltip(choice.failed.empty() ? "B switches. Method, camera and what was learned stay."
-                                          : "It failed. Choosing it tries again.");
+            tooltip(choice.failed.empty() ? "B switches. Method, camera and learned field stay."
+                                          : "It has failed. Choose it to try again.");
         const std::string text = !available              ? choice.unavailable
                                  : choice.failed.empty() ? choice.device
                                                          : "failed: " + choice.failed;
@@ -51,82 +51,80 @@ void draw_back_end(ViewerModel& model) {
         ImGui::Unindent(label_start);
     }
     if (model.frame() != nullptr)
-        text_row("Rays", model.frame()->backend.intersector, "How rays find triangles in this scene.");
+        text_row("Rays", model.frame()->backend.intersector, "The intersector of this scene.");
 }
 
 void draw_size(ViewerModel& model) {
-    int width = model.settings().width;
-    int height = model.settings().height;
-    if (size_row("Size", "Width and height of the picture in pixels. Resizing the window does not change them.",
-                 &width, &height))
-        model.set_size(std::clamp(width, 16, 8192), std::clamp(height, 16, 8192));
-    if (wide_button("Fit size to window", "As many pixels as the window has room for, in the shape of the picture."))
-        model.window().fit_size_asked = true;
+    int width = model.render().settings().width;
+    int height = model.render().settings().height;
+    if (size_row("Size", "Width and height of the picture in pixels, independent of the size of the window.", &width,
+                 &height))
+        model.render().set_size(std::clamp(width, 16, 8192), std::clamp(height, 16, 8192));
+    if (wide_button("Fit size to window", "The largest size that fits, with the aspect ratio of the picture."))
+        model.window().requests.fit_size = true;
 }
 
 void draw_sampling(ViewerModel& model) {
     if (!section("Sampling", true)) return;
-    SampleLimits limits = model.limits();
+    SampleLimits limits = model.render().limits();
     int spp = static_cast<int>(limits.spp);
-    if (int_row("Samples", "Rest after this many samples per pixel. 0: no limit.", &spp, 64)) {
+    if (int_row("Samples", "Stop at this number of samples per pixel. 0: no limit.", &spp, 64)) {
         limits.spp = static_cast<std::uint32_t>(std::max(spp, 0));
-        model.set_limits(limits);
+        model.render().set_limits(limits);
     }
     double seconds = limits.seconds;
     if (double_row("Seconds",
-                   "Rest after this time. It counts placing volumes, precomputing, learning and rendering; "
-                   "not loading, "
-                   "building the hierarchy or drawing the window. 0: no limit.",
+                   "Stop after this time: placement of volumes, precomputation, learning and rendering, without "
+                   "loading, the hierarchy and the window. 0: no limit.",
                    &seconds, 5.0, "%.1f")) {
         limits.seconds = std::max(seconds, 0.0);
-        model.set_limits(limits);
+        model.render().set_limits(limits);
     }
     draw_size(model);
-    int depth = model.settings().max_depth;
-    if (int_row("Max depth",
-                "Longest path in surface points, a safety net: Russian roulette does the ending. Default 64.", &depth,
-                1))
-        model.set_max_depth(std::clamp(depth, 1, 1024));
-    int roulette = static_cast<int>(model.settings().roulette);
+    int depth = model.render().settings().max_depth;
+    if (int_row("Max depth", "Largest number of path vertices; Russian roulette ends most paths earlier. Default 64.",
+                &depth, 1))
+        model.render().set_max_depth(std::clamp(depth, 1, 1024));
+    int roulette = static_cast<int>(model.render().settings().roulette);
     if (choice_row(
             "Roulette",
-            "What ends paths early, and splits them. Spare: the reflectances end them, what is learned may spare or "
-            "split one. Albedo: the reflectances alone. Field: what is learned alone.",
+            "The rule of Russian roulette and splitting. Spare: the path throughput ends paths, a large contribution "
+            "estimate keeps or splits them. Albedo: the throughput alone. Field: the contribution estimate alone.",
             &roulette, "Spare\0Albedo\0Field\0"))
-        model.set_roulette(static_cast<RouletteRule>(roulette));
-    int seed = static_cast<int>(model.settings().seed);
-    if (int_row("Seed", "Same seed, scene and settings: same picture to the bit, whatever the number of threads.",
-                &seed, 1))
-        model.set_seed(static_cast<std::uint64_t>(std::max(seed, 0)));
+        model.render().set_roulette(static_cast<RouletteRule>(roulette));
+    int seed = static_cast<int>(model.render().settings().seed);
+    if (int_row("Seed", "Same seed, scene and settings: same picture to the bit with any number of threads.", &seed,
+                1))
+        model.render().set_seed(static_cast<std::uint64_t>(std::max(seed, 0)));
 }
 
 void draw_run_buttons(ViewerModel& model) {
     const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-    if (ImGui::Button(model.paused() ? "Go on" : "Pause", {width, 0.0f})) model.set_paused(!model.paused());
+    if (ImGui::Button(model.render().paused() ? "Continue" : "Pause", {width, 0.0f}))
+        model.render().set_paused(!model.render().paused());
     tooltip("Space");
     ImGui::SameLine();
-    if (ImGui::Button("Restart", {width, 0.0f})) model.restart();
-    tooltip("R: clears the picture, keeps what was learned.");
+    if (ImGui::Button("Restart", {width, 0.0f})) model.render().restart();
+    tooltip("R: clears the picture and keeps the learned field.");
 }
 
-/// How many volumes may come to those that were placed. Every change starts over.
+/// Refinement of the placement. Every change restarts pictures and fields.
 void draw_refinement(ViewerModel& model, FieldSettings settings) {
     bool is_auto = settings.refine_share == kRefineByRecords;
     if (toggle_row(
             "Refine",
-            "Reinforcement splits volumes that many paths ask and whose neighbours have learned something else: "
-            "up to twice as many, once enough is known for them, unless their number is given.",
+            "A method that learns splits volumes with many lookups whose neighbors disagree: up to twice as many, "
+            "given enough training samples, unless the number of volumes is set.",
             &is_auto)) {
         settings.refine_share = is_auto ? kRefineByRecords : 0.0f;
-        model.set_field(settings);
+        model.render().set_field(settings);
     }
-    if (!is_auto &&
-        slider_row("Added share", "How many more volumes reinforcement may add, as a share of those placed.",
-                   &settings.refine_share, 0.0f, 1.0f, 0.0f, "%.2f"))
-        model.set_field(settings);
+    if (!is_auto && slider_row("Added share", "Volumes that refinement may add, as a share of the placed ones.",
+                               &settings.refine_share, 0.0f, 1.0f, 0.0f, "%.2f"))
+        model.render().set_field(settings);
 }
 
-/// What is recorded, and how far a record moves what is learned. Every change starts over.
+/// The targets of training samples and the learning rate. Every change restarts pictures and fields.
 void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
     constexpr std::array kRates{LearningRate::SampleMean, LearningRate::Forgetful, LearningRate::Power,
                                 LearningRate::Floor};
@@ -135,19 +133,22 @@ void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
     int light = static_cast<int>(settings.learning.light);
     bool changed =
         choice_row("Learning rate",
-                   "Forgetful lets go of the early records, mean is 1/(1+visits), power n^-0.7, floor never "
-                   "falls below 0.05.",
+                   "Step of an update with n training samples so far. Mean: 1/(1+n). Forgetful: discounts early "
+                   "training samples. Power: n^-0.7. Floor: at least 0.05.",
                    &rate, "Mean\0Forgetful\0Power\0Floor\0");
-    changed |= choice_row("Learns from",
-                          "What reinforcement records for a direction: what is expected to be reflected where "
-                          "it leads, what the next direction brings by the table, or what the path brought.",
-                          &target, "Expected Sarsa\0Sarsa\0Monte Carlo\0");
-    changed |= choice_row("Light", "With next-event estimation: all light, or only what light samples do not bring.",
-                          &light, "All\0Indirect\0");
+    changed |=
+        choice_row("Learns from",
+                   "The target of a training sample. Expected Sarsa: the expected reflected radiance at the next "
+                   "vertex. Sarsa: the learned radiance of the next direction. Monte Carlo: the radiance of "
+                   "the rest of the path.",
+                   &target, "Expected Sarsa\0Sarsa\0Monte Carlo\0");
+    changed |= choice_row(
+        "Light", "With next-event estimation: learn all incident radiance, or only the part without light samples.",
+        &light, "All\0Indirect\0");
     if (!changed) return;
     settings.rate = kRates[static_cast<std::size_t>(rate)];
     settings.learning = {static_cast<LearningTarget>(target), static_cast<LearnedLight>(light)};
-    model.set_field(settings);
+    model.render().set_field(settings);
 }
 
 void draw_learning(ViewerModel& model) {
@@ -156,64 +157,65 @@ void draw_learning(ViewerModel& model) {
     if (field) {
         text_row(
             "Learned",
-            fmt::format("{} passes, {} records", field->passes, short_number(static_cast<double>(field->records))),
-            "Survives camera moves.");
+            fmt::format("{} passes, {} samples", field->passes, short_number(static_cast<double>(field->records))),
+            "Passes and training samples of the field. Camera moves keep it.");
     } else {
-        faint_text(info_of(model.settings().method).uses_field ? "nothing yet"
-                                                               : "The default method learns nothing.");
+        const MethodInfo& method = info_of(model.render().method());
+        faint_text(method.uses_field ? "nothing yet" : fmt::format("{} has no field.", method.label).c_str());
     }
-    MixtureSettings mixture = model.settings().mixture;
+    MixtureSettings mixture = model.render().settings().mixture;
     bool learned = mixture.learned != 0;
-    if (toggle_row("Learned share", "Reinforcement: each volume learns how many directions it leaves to the BSDF.",
-                   &learned)) {
+    if (toggle_row("Learned share", "A method that learns also learns the BSDF fraction of each volume.", &learned)) {
         mixture.learned = learned ? 1 : 0;
-        model.set_mixture(mixture);
+        model.render().set_mixture(mixture);
     }
     if (slider_row(
             "BSDF share",
-            "Share of directions that come from the surface's reflectance instead of the learned table, where it "
-            "is not learned.",
+            "BSDF fraction of the mixture: the share of directions sampled from the BSDF instead of the field, for "
+            "volumes that have not learned it.",
             &mixture.bsdf_fraction, kMinBsdfFraction, 1.0f, MixtureSettings{}.bsdf_fraction, "%.2f"))
-        model.set_mixture(mixture);
-    FieldSettings settings = model.settings().field;
+        model.render().set_mixture(mixture);
+    FieldSettings settings = model.render().settings().field;
     int volumes = settings.volumes;
     if (int_row("Volumes",
-                "Number of radiance volumes; 0 takes as many as the memory holds, at most 1000. More learn "
-                "more slowly.",
+                "Number of radiance volumes; 0: as many as the memory holds, at most 1000. More volumes learn more "
+                "slowly.",
                 &volumes, 100)) {
         settings.volumes = std::clamp(volumes, 0, 1000000);
-        model.set_field(settings);
+        model.render().set_field(settings);
     }
     draw_refinement(model, settings);
     int side = static_cast<int>(std::lround(std::sqrt(settings.bins))) - 2;
-    if (choice_row("Directions", "Cells of the hemisphere per volume.", &side,
+    if (choice_row("Directions", "Cells of the hemisphere of a volume.", &side,
                    "4\0009\00016\00025\00036\00049\00064\00081\000100\000121\000144\000169\000196\000225\0002"
                    "56\000")) {
         settings.bins = (side + 2) * (side + 2);
-        model.set_field(settings);
+        model.render().set_field(settings);
     }
     draw_learning_targets(model, settings);
-    if (wide_button("Forget what was learned", "Ctrl+Shift+R")) model.forget();
+    if (wide_button("Forget the learned field", "Ctrl+Shift+R: clears pictures and fields.")) model.render().forget();
 }
 
 void draw_camera(ViewerModel& model) {
     if (!section("Camera", false)) return;
-    CameraDescription camera = model.controls().camera();
-    if (point_row("Eye", "Position in scene units.", &camera.eye.x)) model.set_camera(camera);
-    if (point_row("Target", "Point that the camera looks at.", &camera.target.x)) model.set_camera(camera);
+    CameraDescription camera = model.camera().camera();
+    if (point_row("Eye", "Position in scene units.", &camera.eye.x)) model.camera().set(camera);
+    if (point_row("Target", "The point that the camera looks at.", &camera.target.x)) model.camera().set(camera);
     if (slider_row("View angle", "Vertical field of view in degrees.", &camera.fov_deg, 5.0f, 120.0f,
-                   model.options().settings.camera.fov_deg, "%.1f\xc2\xb0"))
-        model.set_camera(camera);
-    const CameraDescription& given = model.options().settings.camera;
+                   model.camera().given().fov_deg, "%.1f\xc2\xb0"))
+        model.camera().set(camera);
+    const CameraDescription& given = model.camera().given();
     if (slider_row("Aperture", "Radius of the lens in scene units; 0 is a pinhole.", &camera.aperture_radius, 0.0f,
                    0.1f * camera.focus_distance, given.aperture_radius, "%.4g"))
-        model.set_camera(camera);
-    if (slider_row("Focus", "Distance that is sharp, along the view.", &camera.focus_distance,
+        model.camera().set(camera);
+    if (slider_row("Focus", "Focus distance along the view direction, in scene units.", &camera.focus_distance,
                    0.1f * given.focus_distance, 10.0f * given.focus_distance, given.focus_distance, "%.4g"))
-        model.set_camera(camera);
-    if (model.picked() && wide_button("Focus on the selected point", "Makes it sharp.")) model.focus_on_picked();
-    text_row("Speed", fmt::format("{:.4g} units/s", model.controls().speed()), "Wheel, + and -.");
-    if (wide_button("Reset camera", "Home")) model.camera_home();
+        model.camera().set(camera);
+    const auto& picked = model.selection().picked();
+    if (picked && wide_button("Focus on the selected point", "Sets the focus distance to it."))
+        model.camera().focus_on(picked->position);
+    text_row("Speed", fmt::format("{:.4g} units/s", model.camera().speed()), "Wheel, + and -.");
+    if (wide_button("Reset camera", "Home")) model.camera().go_home();
     if (wide_button("Copy as command line", "Ctrl+C: the command that renders this picture without a window."))
         perform(model, ActionId::CopyCommand);
 }
@@ -222,26 +224,28 @@ void draw_display(ViewerModel& model) {
     if (!section("Display", true)) return;
     std::string labels;
     for (const ViewInfo& view : all_views()) labels += std::string(view.label) + '\0';
-    int view = static_cast<int>(model.settings().view);
-    if (choice_row("View", std::string(info_of(model.settings().view).summary).c_str(), &view, labels.c_str()))
-        model.set_view(all_views()[static_cast<std::size_t>(view)].id);
-    float exposure = model.display().exposure_ev;
+    int view = static_cast<int>(model.render().settings().view);
+    if (choice_row("View", std::string(info_of(model.render().settings().view).summary).c_str(), &view,
+                   labels.c_str()))
+        model.render().set_view(all_views()[static_cast<std::size_t>(view)].id);
+    float exposure = model.display().settings().exposure_ev;
     if (slider_row("Exposure", "In stops; display only.", &exposure, -8.0f, 8.0f, 0.0f, "%+.2f EV"))
-        model.set_exposure(exposure);
-    int curve = static_cast<int>(model.display().curve);
-    if (choice_row("Tone curve", "Display only. Clamp shows values as they are up to 1.", &curve,
+        model.display().set_exposure(exposure);
+    int curve = static_cast<int>(model.display().settings().curve);
+    if (choice_row("Tone curve", "Display only. Clamp shows values up to 1 unchanged.", &curve,
                    "Clamp\0Reinhard\0ACES fit\0"))
-        model.set_curve(static_cast<ToneCurve>(curve));
-    bool cells = model.window().cells;
-    if (toggle_row("Tint by radiance volume", "V: the Voronoi cells of the volumes, over any view.", &cells))
-        model.set_cells(cells);
-    float opacity = model.window().cells_opacity;
-    if (slider_row("Opacity", "Of the tint.", &opacity, 0.0f, 1.0f, 0.4f, "%.2f")) model.set_cells_opacity(opacity);
-    toggle_row("Hemisphere in the picture", "H: what the selected volume has learned, drawn where it stands.",
+        model.display().set_curve(static_cast<ToneCurve>(curve));
+    bool cells = model.display().cells();
+    if (toggle_row("Tint by radiance volume", "V: the Voronoi cells of the radiance volumes, over any view.", &cells))
+        model.display().set_cells(cells);
+    float opacity = model.display().cells_opacity();
+    if (slider_row("Opacity", "Of the tint.", &opacity, 0.0f, 1.0f, 0.4f, "%.2f"))
+        model.display().set_cells_opacity(opacity);
+    toggle_row("Hemisphere in the picture", "H: the field of the selected volume, drawn at its position.",
                &model.window().hemisphere);
-    bool low = model.window().low_resolution;
-    if (toggle_row("Coarser while moving", "Lowers the resolution in motion to keep up with the hand.", &low))
-        model.set_low_resolution(low);
+    bool low = model.display().low_resolution();
+    if (toggle_row("Coarser while moving", "Lowers the resolution in motion to keep the frame rate.", &low))
+        model.display().set_low_resolution(low);
     int scale = static_cast<int>(std::lround((model.window().ui_scale - 0.75f) / 0.25f));
     if (choice_row("UI scale", "Size of text and controls.", &scale,
                    "75 %\000100 %\000125 %\000150 %\000175 %\000200 %\000"))

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "core/scene/needed_effects.h"
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {
@@ -30,12 +30,12 @@ void draw_clocks(const Clocks& clocks) {
     if (!ImGui::BeginTable("clocks", 3, ImGuiTableFlags_SizingStretchProp)) return;
     const double total = clocks.total();
     clock_row("Load", clocks.load, total, "Reading and checking the scene's files.");
-    clock_row("Build", clocks.build, total, "Packing the scene, building the hierarchy.");
+    clock_row("Build", clocks.build, total, "Packing the scene and building its hierarchy.");
     clock_row("Upload", clocks.upload, total, "Sending the scene to the back end.");
     clock_row("Place volumes", clocks.place, total, "Placing radiance volumes and building their tree.");
-    clock_row("Precompute", clocks.precompute, total, "Filling the precomputed radiance map.");
-    clock_row("Learn", clocks.learn, total, "Making tables of what passes recorded.");
-    clock_row("Render", clocks.render, total, "Passes of this picture, including the records they make.");
+    clock_row("Precompute", clocks.precompute, total, "Probes that fill the precomputed radiance map.");
+    clock_row("Learn", clocks.learn, total, "Updates of the field from the training samples of the passes.");
+    clock_row("Render", clocks.render, total, "Passes of this picture, including their training samples.");
     ImGui::EndTable();
 }
 
@@ -43,20 +43,20 @@ void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
     if (!section("Paths of this picture", true)) return;
     const PassCounters& c = snapshot.counters;
     const double per_path = c.paths > 0 ? 1.0 / static_cast<double>(c.paths) : 0.0;
-    text_row("Speed", fmt::format("{:.3f} Mpaths/s", model.mpaths_per_second()));
+    text_row("Speed", fmt::format("{:.3f} Mpaths/s", model.link().throughput().mpaths_per_second()));
     text_row("Paths", count_text(c.paths), "Camera paths.");
     text_row("Segments", count_text(c.path.segments), "Path rays, without shadow rays.");
     text_row("Mean length", fmt::format("{:.3f}", static_cast<double>(c.path.segments) * per_path),
              "Segments per path.");
     text_row("Shadow rays", count_text(c.path.shadow_rays));
     text_row("Dark paths", share_text(c.zero_contribution_paths, c.paths),
-             "Paths that brought no light: what guiding makes fewer.");
+             "Paths without contribution; guiding reduces them.");
     text_row("Escaped", count_text(c.path.escaped), "Paths that left the scene. 0 in a closed one.");
-    text_row("Truncated", count_text(c.path.truncated), "Paths cut at the largest depth.");
+    text_row("Truncated", count_text(c.path.truncated), "Paths that ended at the largest depth.");
     if (c.path.method.cut_returns > 0)
         text_row("Cut returns", count_text(c.path.method.cut_returns),
-                 "Paths too long for Monte-Carlo targets: the rest of their light is taken from the table.");
-    text_row("Lost rays", count_text(c.path.zero_directions), "Sampled directions that a surface cannot reflect.");
+                 "Paths too long for Monte-Carlo targets: the radiance of their rest is taken from the field.");
+    text_row("Lost rays", count_text(c.path.zero_directions), "Sampled directions with a BSDF value of zero.");
     text_row("Invalid", count_text(c.invalid_samples),
              "Samples that were NaN, infinite or negative: dropped and counted.",
              c.invalid_samples > 0 ? colors::kWarning : colors::kText);
@@ -65,30 +65,29 @@ void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
 void draw_field(const std::optional<FieldStatus>& field) {
     if (!section("Learned field", true)) return;
     if (!field) {
-        faint_text("This method has none.");
+        faint_text("This method has no field.");
         return;
     }
     text_row("Volumes", fmt::format("{} x {} directions", field->volumes, field->bins));
     if (field->added_volumes > 0)
-        text_row("Added", fmt::format("{} volumes", field->added_volumes),
-                 "By splitting others, after 8 and 16 passes.");
+        text_row("Added", fmt::format("{} volumes", field->added_volumes), "By refinement after 8 and 16 passes.");
     text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");
-    text_row("Passes", fmt::format("{}", field->passes), "Passes that were learned from.");
-    text_row("Records", count_text(field->records));
-    text_row("Misses", count_text(field->lookup_misses), "Surface points that no volume serves.");
+    text_row("Passes", fmt::format("{}", field->passes), "Passes whose training samples the field has learned from.");
+    text_row("Samples", count_text(field->records), "Training samples.");
+    text_row("Misses", count_text(field->lookup_misses), "Lookups of surface points without a volume.");
 }
 
 void draw_scene(const PublishedFrame& frame, const ViewerModel& model) {
     if (!section("Scene and kernel", true)) return;
-    text_row("Scene", model.scene_name(), frame.description->source.string().c_str());
+    text_row("Scene", model.scene().name(), frame.description->source.string().c_str());
     text_row("Triangles", count_text(frame.description->triangles.size()));
     text_row("Lights", count_text(frame.scene->lights.size()), "Triangles that emit.");
     text_row("Materials", count_text(frame.description->materials.size()));
     std::string effects;
     for (const std::string& name : effect_names(needed_effects(*frame.scene)))
         effects += (effects.empty() ? "" : ", ") + name;
-    text_row("Effects", effects.empty() ? "none" : effects, "What the scene needs beyond diffuse triangles.");
-    text_row("Kernel", frame.snapshot.kernel, "The compiled variant that serves them.");
+    text_row("Effects", effects.empty() ? "none" : effects, "Effects that the scene needs beyond diffuse triangles.");
+    text_row("Kernel", frame.snapshot.kernel, "The compiled kernel that serves them.");
     text_row("Rays", frame.backend.intersector);
 }
 

@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
+#include "ui/draw/method_keys.h"
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {
@@ -33,37 +34,37 @@ void draw_counts(StatusLine& line, const ViewerModel& model) {
     if (model.frame() == nullptr) return;
     if (const auto& field = model.status().field)
         line.add(fmt::format("{} learned", field->passes),
-                 "Passes that were learned from. Camera moves keep what was learned.");
+                 "Passes whose training samples the field has learned from. Camera moves keep the field.");
 }
 
-/// What went wrong, each kind alone; a click shows where.
+/// Counts of invalid samples, lost paths, lookup misses and clamped training samples; a click marks their pixels.
 void draw_diagnostics(StatusLine& line, ViewerModel& model) {
     if (model.frame() == nullptr) return;
     const DiagnosticCounts counts = counted_diagnostics(model.frame()->snapshot);
     bool is_clicked = false;
-    bool is_sound = true;
+    bool is_valid = true;
     for (const DiagnosticInfo& diagnostics : all_diagnostics()) {
         const std::uint64_t count = counts[static_cast<std::size_t>(diagnostics.id)];
         if (count == 0) continue;
-        is_sound = false;
-        const std::string tip = fmt::format("{}\nA click shows where (T).", diagnostics.meaning);
+        is_valid = false;
+        const std::string tip = fmt::format("{}\nClick to mark the pixels (T).", diagnostics.meaning);
         is_clicked |= line.add(fmt::format("{} {}", short_number(static_cast<double>(count)), diagnostics.label),
                                tip.c_str(), colors::kWarning);
         note_place(std::string(diagnostics.label).c_str());
     }
-    if (is_sound) {
+    if (is_valid) {
         is_clicked |=
-            line.add("no diagnostics",
-                     "No sample was invalid, no path left a closed scene, every surface point found its radiance "
-                     "volume, no record was too bright.",
+            line.add("all samples valid",
+                     "No invalid sample, no path lost from a closed scene, no failed lookup of a radiance volume, no "
+                     "clamped training sample.",
                      colors::kFaint);
-        note_place("no diagnostics");
+        note_place("all samples valid");
     }
-    if (is_clicked) model.toggle_diagnostics();
+    if (is_clicked) model.diagnostics().toggle();
 }
 
 std::string samples_text(const ViewerModel& model) {
-    const SampleLimits& limits = model.limits();
+    const SampleLimits& limits = model.render().limits();
     std::string text = limits.spp > 0 ? fmt::format("{}/{} spp", model.status().passes, limits.spp)
                                       : fmt::format("{} spp", model.status().passes);
     text += limits.seconds > 0.0 ? fmt::format(" | {:.1f}/{:g} s", model.status().seconds, limits.seconds)
@@ -79,17 +80,20 @@ void draw_status_bar(ViewerModel& model, const Layout& layout) {
     ImGui::PopStyleVar();
     StatusLine line;
     const WorkerState state = model.status().state;
-    line.add(name_of(state), "What the render thread does.",
+    line.add(name_of(state), "State of the rendering.",
              state == WorkerState::Failed ? colors::kError
                                           : (state == WorkerState::Rendering ? colors::kGood : colors::kWarning));
     draw_diagnostics(line, model);
-    line.add(std::string(info_of(model.settings().method).label), "The method; keys 1, 2, 3.");
+    line.add(std::string(info_of(model.render().settings().method).label),
+             fmt::format("The method; keys {}.", method_keys()).c_str());
     if (model.frame() != nullptr)
         line.add(back_end_label(model.status().backend), model.frame()->backend.device.c_str());
-    line.add(fmt::format("{}x{}", model.settings().width, model.settings().height), "Size of the picture.");
+    line.add(fmt::format("{}x{}", model.render().settings().width, model.render().settings().height),
+             "Size of the picture.");
     line.add(samples_text(model),
-             "Samples per pixel, and the time they took: placing, precomputing, learning and rendering.");
-    line.add(fmt::format("{:.2f} Mpaths/s", model.mpaths_per_second()), "Camera paths per second of rendering.");
+             "Samples per pixel, and their time: placement, precomputation, learning and rendering.");
+    line.add(fmt::format("{:.2f} Mpaths/s", model.link().throughput().mpaths_per_second()),
+             "Camera paths per second of rendering.");
     draw_counts(line, model);
     ImGui::End();
 }

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "core/kernel/guiding/direction_cells.h"
-#include "ui/overlays/overlays.h"
+#include "ui/draw/method_keys.h"
+#include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/widgets.h"
 
 namespace pl {
 namespace {
@@ -22,19 +22,17 @@ struct DiskPlace {
     Vec2f inverse(ImVec2 window) const { return {(window.x - center.x) / radius, (center.y - window.y) / radius}; }
 };
 
-void draw_choices(WindowState& window) {
-    int quantity = static_cast<int>(window.quantity);
+void draw_choices(CellDisplay& display) {
+    int quantity = static_cast<int>(display.quantity);
     ImGui::SetNextItemWidth(em(8.5f));
     if (ImGui::Combo("##quantity", &quantity, "radiance Q\0probability P\0visits\0"))
-        window.quantity = static_cast<CellQuantity>(quantity);
-    tooltip("Q: light learned to arrive from a direction. P: how often the table chooses it. Visits: how "
-            "often it was "
-            "recorded.");
+        display.quantity = static_cast<CellQuantity>(quantity);
+    tooltip("Q: learned incident radiance of a cell. P: probability to sample it. Visits: its training samples.");
     ImGui::SameLine();
-    bool logarithmic = window.scale == ColorScale::Logarithmic;
+    bool logarithmic = display.scale == ColorScale::Logarithmic;
     if (ImGui::Checkbox("logarithmic", &logarithmic))
-        window.scale = logarithmic ? ColorScale::Logarithmic : ColorScale::Linear;
-    tooltip("Colors by the logarithm, over three decades below the largest value.");
+        display.scale = logarithmic ? ColorScale::Logarithmic : ColorScale::Linear;
+    tooltip("Logarithmic colors over three decades below the largest value.");
 }
 
 void draw_legend(ImDrawList& list, const DiskPlace& place, const CellValues& values, ColorScale scale) {
@@ -88,14 +86,14 @@ void draw_marks(ImDrawList& list, const DiskPlace& place, const VolumeInspection
 }
 
 void draw_disk(ViewerModel& model, const VolumeInspection& volume) {
-    WindowState& window = model.window();
+    const CellDisplay& display = model.window().cell_display;
     const float available = ImGui::GetContentRegionAvail().x;
     const float side = std::min(available - em(kLegendEm), em(19.0f));
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const DiskPlace place{{corner.x + 0.5f * side + em(0.2f), corner.y + 0.5f * side + em(0.4f)}, 0.5f * side};
     ImGui::InvisibleButton("disk", {available, side + em(0.8f)});
 
-    const CellValues values = cell_values(volume, window.quantity, window.scale);
+    const CellValues values = cell_values(volume, display.quantity, display.scale);
     const std::vector<CellFan> fans = make_cell_fans(volume.side);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     std::vector<ImVec2> points(std::tuple_size_v<CellFan>);
@@ -105,13 +103,13 @@ void draw_disk(ViewerModel& model, const VolumeInspection& volume) {
         fill_fan(list, points, map_color(values.positions[cell]));
     }
     if (model.frame() != nullptr) draw_marks(list, place, volume, model.frame()->snapshot.camera.eye);
-    draw_legend(list, place, values, window.scale);
+    draw_legend(list, place, values, display.scale);
 
-    window.hovered_cell = -1;
+    model.selection().hover_cell(-1);
     const Vec2f disk = place.inverse(ImGui::GetMousePos());
     if (!ImGui::IsItemHovered() || glm::dot(disk, disk) >= 1.0f) return;
     const int cell = DirectionCells{volume.side}.cell_of(disk_to_square(disk));
-    window.hovered_cell = cell;
+    model.selection().hover_cell(cell);
     place_fan(fans[static_cast<std::size_t>(cell)]);
     list.AddPolyline(points.data() + 1, kCellBorderPoints, IM_COL32(255, 255, 255, 255), ImDrawFlags_Closed, 2.0f);
     draw_cell_tooltip(volume, cell, disk);
@@ -123,40 +121,42 @@ void draw_summary(const VolumeInspection& volume) {
     text_row("Position",
              fmt::format("{:.4g}  {:.4g}  {:.4g}", volume.position.x, volume.position.y, volume.position.z));
     text_row("Normal", fmt::format("{:.3f}  {:.3f}  {:.3f}", volume.normal.x, volume.normal.y, volume.normal.z));
-    text_row("Visits", short_number(static_cast<double>(summary.visits)), "Records over all directions.");
+    text_row("Visits", short_number(static_cast<double>(summary.visits)), "Training samples of all cells.");
     text_row("Unseen", fmt::format("{} of {:.0f} cells", summary.empty_cells, cells),
-             "Directions that nothing was recorded for.");
+             "Cells without training samples.");
     text_row("Entropy", fmt::format("{:.2f} of {:.2f} bits", summary.entropy_bits, std::log2(cells)),
-             "Of the sampling table. All bits: uniform, which is cosine sampling.");
+             "Of the sampling probabilities. The maximum is a uniform table: cosine sampling.");
     text_row("Effective", fmt::format("{:.1f} cells, peak {:.1f} x mean", summary.effective_cells, summary.peak),
-             "2 to the entropy; largest probability over the mean one.");
-    text_row("Irradiance", fmt::format("{:.4g}", volume.mean_radiance * kPi), "Learned, as luminance.");
+             "2 to the power of the entropy; largest over mean probability.");
+    text_row("Irradiance", fmt::format("{:.4g}", volume.mean_radiance * kPi), "Learned irradiance, as luminance.");
 }
 
 }  // namespace
 
 void draw_volume_tab(ViewerModel& model) {
-    if (model.selected_volume() == kNoVolume) {
-        model.window().hovered_cell = -1;
-        faint_text("Click a surface in the picture to see the light that was learned to arrive there.");
+    if (model.selection().volume() == kNoVolume) {
+        model.selection().hover_cell(-1);
+        faint_text("Click a surface in the picture to see its learned incident radiance.");
         return;
     }
-    ImGui::Text("Radiance volume %d", model.selected_volume());
+    ImGui::Text("Radiance volume %d", model.selection().volume());
     ImGui::SameLine();
     if (ImGui::SmallButton("deselect")) {
-        model.deselect();
+        model.selection().deselect();
         return;
     }
-    const VolumeInspection* volume = model.inspection();
+    const VolumeInspection* volume = model.selection().inspection();
     if (volume == nullptr) {
-        model.window().hovered_cell = -1;
-        faint_text(info_of(model.settings().method).uses_field
-                       ? "What is learned here is shown when the pass under way has ended."
-                       : "Nothing is learned here yet. The default method learns nothing: press 2 to precompute the "
-                         "light, or 3 to learn it while rendering.");
+        model.selection().hover_cell(-1);
+        faint_text(info_of(model.render().method()).uses_field
+                       ? "The field of this volume is shown after the present pass."
+                       : fmt::format("This method has no field. Press {} to precompute one, or {} to learn one while "
+                                     "rendering.",
+                                     method_keys(&MethodInfo::precomputes), method_keys(&MethodInfo::learns))
+                             .c_str());
         return;
     }
-    draw_choices(model.window());
+    draw_choices(model.window().cell_display);
     draw_disk(model, *volume);
     ImGui::Separator();
     draw_summary(*volume);

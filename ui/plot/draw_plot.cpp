@@ -13,8 +13,8 @@ constexpr ImU32 kMinorGrid = IM_COL32(32, 36, 43, 255);
 constexpr ImU32 kGrid = IM_COL32(52, 58, 69, 255);
 constexpr ImU32 kFloor = IM_COL32(110, 114, 122, 70);
 constexpr std::uint32_t kBandAlpha = 56;
-constexpr float kRightEm = 0.6f;              ///< beside the curves, for the half of a number
-constexpr std::uint32_t kGray = 0xff5d636eu;  ///< of runs that cannot be compared
+constexpr float kRightEm = 0.6f;              ///< right of the curves, for half of a number
+constexpr std::uint32_t kGray = 0xff5d636eu;  ///< of runs of other pictures
 
 ImVec2 to_imgui(Vec2f v) { return {v.x, v.y}; }
 
@@ -46,7 +46,7 @@ void draw_y_axis(ImDrawList& list, const PlotView& view, const Rect& frame) {
     }
 }
 
-/// What error does where only noise is left, in the corner that curves leave free.
+/// The slope of pure noise, in the corner that curves leave free.
 void draw_triangle(ImDrawList& list, const PlotView& view, const Rect& frame, double slope) {
     const double x_decades = std::log10(view.x_axis().high() / view.x_axis().low());
     const double y_decades = std::log10(view.y_axis().high() / view.y_axis().low());
@@ -71,7 +71,7 @@ void draw_polyline(ImDrawList& list, std::span<const Vec2f> points, ImU32 color,
         list.AddLine(to_imgui(pieces[i]), to_imgui(pieces[i + 1]), color, width);
 }
 
-/// What a run's own pixels leave open, between all neighbors that have a band.
+/// Two standard errors of a run around its curve, between neighboring points that have a band.
 void draw_band(ImDrawList& list, std::span<const PlotPoint> points, const PlotView& view, const Rect& frame,
                ImU32 color) {
     const auto at = [&](const PlotPoint& point, double y) {
@@ -85,7 +85,7 @@ void draw_band(ImDrawList& list, std::span<const PlotPoint> points, const PlotVi
     }
 }
 
-/// Filled for runs that began with nothing learned, hollow for warm ones.
+/// Filled, or hollow for warm runs.
 void draw_marker(ImDrawList& list, Vec2f at, ImU32 color, bool warm) {
     const float radius = em(0.17f);
     list.AddCircleFilled(to_imgui(at), radius, warm ? kGround : color, 12);
@@ -125,13 +125,13 @@ void draw_axes(ImDrawList& list, const PlotView& view, const Rect& frame, const 
 void draw_lines(ImDrawList& list, std::span<const PlotLine> lines, const PlotView& view, const Rect& frame) {
     list.PushClipRect({frame.x, frame.y}, {frame.x + frame.width, frame.y + frame.height}, true);
     std::vector<Vec2f> points;
-    for (const bool comparable : {false, true})  // gray ones behind
+    for (const bool comparable : {false, true})  // gray ones below
         for (const PlotLine& line : lines) {
             if (line.hidden || line.comparable != comparable) continue;
             points.clear();
             for (const PlotPoint& point : line.points) points.push_back(view.to_window(point.value, frame));
             const ImU32 color = to_imgui_color(comparable ? line.color : kGray);
-            // Of the one in progress alone: several would hide each other.
+            // Only of the run in progress: several bands would hide each other.
             if (line.in_progress && comparable)
                 draw_band(list, line.points, view, frame,
                           to_imgui_color((line.color & 0xffffffu) | kBandAlpha << 24));

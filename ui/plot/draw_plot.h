@@ -1,33 +1,29 @@
-// Draws a plot of runs with Dear ImGui's draw list: it has no plot with logarithmic axes of its own.
+// Draws a plot of runs with Dear ImGui's draw list: ImGui has no plot with logarithmic axes.
 #pragma once
 
 #include <string>
 
-#include "ui/accuracy/cursor_table.h"
+#include "ui/draw/style.h"
+#include "ui/plot/cursor_table.h"
 #include "ui/plot/plot_lines.h"
-#include "ui/style.h"
 
 namespace pl {
 
 struct PlotStyle {
     std::string x_title;
     std::string y_title;
-    double slope = -1.0;  ///< of the reference triangle: what noise does
+    double slope = -1.0;  ///< of the reference triangle: error of pure noise over cost, in log-log
     double floor = 0.0;   ///< noise of the reference: gray below it; 0: none
 };
 
-inline ImU32 to_imgui_color(std::uint32_t argb) {
-    return IM_COL32(argb >> 16 & 255, argb >> 8 & 255, argb & 255, argb >> 24);
-}
-
-/// The part of `place` that curves get: the rest is for numbers and titles.
+/// The part of `place` for the curves; the rest is for numbers and titles.
 Rect plot_frame(const Rect& place);
 
 /// Background, grid, numbers and titles.
 void draw_axes(ImDrawList& list, const PlotView& view, const Rect& frame, const PlotStyle& style);
 void draw_lines(ImDrawList& list, std::span<const PlotLine> lines, const PlotView& view, const Rect& frame);
 void draw_cursor_line(ImDrawList& list, const Rect& frame, const PlotView& view, const Cursor& cursor);
-/// A short piece of a line as the legend shows it.
+/// The sample of a line in the legend.
 void draw_sample(ImDrawList& list, const PlotLine& line, ImVec2 left, float width);
 
 }  // namespace pl

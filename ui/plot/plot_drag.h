@@ -1,20 +1,20 @@
-// What a press on the plot takes hold of. Decided at the press and kept to the release.
+// What a press on the plot drags: the view or a cursor. Decided at the press and kept until the release.
 #pragma once
 
 #include <cmath>
 #include <optional>
 
-#include "ui/overlays/draw_list.h"
+#include "ui/draw/draw_list.h"
 
 namespace pl {
 
 enum class PlotDrag { None, Pan, EqualCost, EqualError };
 
-/// A cursor's line may be taken hold of from so many pixels off.
+/// Largest distance in pixels from which a cursor's line can be dragged.
 inline constexpr float kCursorReach = 6.0f;
 
-/// `frame` is where curves are, with the numbers of the axes below and at the left of it; `cost_x` and `error_y` are where
-/// the lines of cursors are in the window.
+/// `frame` is the rectangle of the curves, with the numbers of the axes below it and to its left; `cost_x` and `error_y`
+/// are the positions of the cursors' lines in the window.
 inline PlotDrag drag_at(Vec2f pointer, const Rect& frame, std::optional<float> cost_x, std::optional<float> error_y) {
     const bool right_of_left = pointer.x >= frame.x && pointer.x < frame.x + frame.width;
     const bool above_bottom = pointer.y >= frame.y && pointer.y < frame.y + frame.height;

@@ -10,7 +10,7 @@ bool can_be_shown(const PlotValue& value) {
     return value.x > 0.0 && value.y > 0.0 && std::isfinite(value.x) && std::isfinite(value.y);
 }
 
-/// Appends the lowest and the highest of [first, last), in their order.
+/// Appends the lowest and the highest point of a stretch, in their order.
 void append_extremes(std::span<const PlotPoint> stretch, std::vector<PlotPoint>& out) {
     if (stretch.empty()) return;
     const auto [low, high] =
@@ -28,7 +28,7 @@ std::vector<PlotPoint> plot_points(const LiveRun& run, const CurveKind& kind) {
         if (!error) continue;
         const PlotValue value{cost_of(run.points[i], kind.axis), *error};
         if (!can_be_shown(value)) continue;
-        // By the logarithm, as errors are skewed: so the lower end stays positive.
+        // In the logarithm, because errors are skewed: the lower end stays positive.
         const double factor = std::exp(2.0 * error_off(run.points[i], kind.metric) / value.y);
         const bool has_band = factor > 1.0 && std::isfinite(factor);
         points.push_back({value, i, has_band ? value.y / factor : 0.0, has_band ? value.y * factor : 0.0});

@@ -8,7 +8,7 @@ namespace pl {
 namespace {
 
 constexpr double kZoomStep = 1.2;        ///< factor of a span in decades per notch
-constexpr double kFarthestPower = 15.0;  ///< beyond 10^this, and 10^-this, there is nothing to look for
+constexpr double kFarthestPower = 15.0;  ///< axes stay between 10^-15 and 10^15
 
 /// Moves the axis by a share of its length.
 LogAxis moved(const LogAxis& axis, double share) {
@@ -17,7 +17,7 @@ LogAxis moved(const LogAxis& axis, double share) {
     return LogAxis::exactly(std::pow(10.0, low), std::pow(10.0, low + span));
 }
 
-/// Multiplies the length of the axis, with `position` kept in its place.
+/// Multiplies the length of the axis; the value at `position` keeps its place.
 LogAxis scaled(const LogAxis& axis, double factor, double position) {
     const double span = std::log10(axis.high() / axis.low());
     const double wanted = std::clamp(span * factor, PlotView::kLeastDecades, PlotView::kMostDecades);
@@ -28,7 +28,7 @@ LogAxis scaled(const LogAxis& axis, double factor, double position) {
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above `value`, or the smallest not below it.
 double round_to_tick(double value, bool up) {
-    constexpr double kSlack = 1.0 + 1.0e-9;  // a tick is its own neighbor
+    constexpr double kSlack = 1.0 + 1.0e-9;  // rounding of a tick gives the tick itself
     const double power = std::pow(10.0, std::floor(std::log10(value)));
     if (up) {
         for (const double digit : {1.0, 2.0, 5.0, 10.0})

@@ -1,10 +1,10 @@
-// Which stretch of two logarithmic axes a plot shows, and where its values lie in the window. Knows no window library.
+// The ranges of two logarithmic axes that a plot shows, and the mapping of its values to the window.
 #pragma once
 
 #include <span>
 
 #include "core/plot/log_axis.h"
-#include "ui/overlays/draw_list.h"
+#include "ui/draw/draw_list.h"
 
 namespace pl {
 
@@ -24,7 +24,7 @@ struct PlotValue {
 
 class PlotView {
 public:
-    /// What a person can zoom to, in powers of ten.
+    /// Limits of zooming, in powers of ten.
     static constexpr double kLeastDecades = 0.2;
     static constexpr double kMostDecades = 16.0;
 
@@ -33,13 +33,13 @@ public:
     const LogAxis& x_axis() const { return x_; }
     const LogAxis& y_axis() const { return y_; }
 
-    /// Where a value lies, for a plot that fills `frame`; may be outside of it. Values must be positive.
+    /// Position of a value in a plot that fills `frame`; may be outside of it. Values must be positive.
     Vec2f to_window(const PlotValue& value, const Rect& frame) const;
     PlotValue to_value(Vec2f window, const Rect& frame) const;
 
-    /// What lies under the pointer follows it.
+    /// The values under the pointer follow it.
     void pan(Vec2f pixels, const Rect& frame);
-    /// Towards `at` where notches are positive, which stays in its place.
+    /// Zooms in for positive notches; the value at `at` keeps its place.
     void zoom(float notches, Vec2f at, const Rect& frame);
 
 private:
@@ -47,8 +47,8 @@ private:
     LogAxis y_;
 };
 
-/// The bounds of all values that are positive and finite, rounded outwards to 1, 2 and 5 times powers of ten, so that
-/// axes stand still while curves grow. Two decades around 1 if there are none.
+/// Bounds of all positive finite values, rounded outwards to 1, 2 and 5 times powers of ten, so that axes keep still
+/// while curves grow. Two decades around 1 without values.
 PlotRange fit_range(std::span<const PlotValue> values);
 
 }  // namespace pl

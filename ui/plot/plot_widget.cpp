@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "ui/panels/widgets.h"
+#include "ui/draw/widgets.h"
 #include "ui/plot/draw_plot.h"
 
 namespace pl {
@@ -30,7 +30,7 @@ std::optional<float> line_of(const AccuracyModel& model, Cursor::Kind kind, cons
     return view.to_window({view.x_axis().low(), cursor.at}, frame).y;
 }
 
-/// The cursor under the pointer, which stays inside the frame.
+/// The cursor at the pointer, clamped to the frame.
 Cursor cursor_at(const AccuracyModel& model, PlotDrag drag, Vec2f pointer, const Rect& frame) {
     const Vec2f inside{clamp_to(pointer.x, frame.x, frame.x + frame.width),
                        clamp_to(pointer.y, frame.y, frame.y + frame.height)};
@@ -70,14 +70,14 @@ bool handle_pointer(AccuracyModel& model, PlotDrag& drag, const Rect& frame) {
     return true;
 }
 
-/// The part of relMSE that does not go away with samples.
+/// The part of relMSE that does not shrink with the number of samples.
 std::string bias_text(const Estimate& squared_bias) {
     if (squared_bias.is_seen())
         return fmt::format("bias\u00b2 {:.2g} \u00b1 {:.1g} as relMSE", squared_bias.value, squared_bias.error);
     return fmt::format("no bias\u00b2 seen below {:.2g} as relMSE", 2.0 * squared_bias.error);
 }
 
-/// What is known about the point under the pointer, and a ring around it.
+/// A tooltip for the point under the pointer, and a ring around it.
 void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame) {
     const ImVec2 pointer = ImGui::GetIO().MousePos;
     const auto hit = nearest_point(model.lines(), model.view(), frame, Vec2f{pointer.x, pointer.y}, kHoverPixels);
@@ -101,10 +101,10 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
     if (point.low > 0.0)
         ImGui::TextUnformatted(fmt::format("this run: {:.3g} to {:.3g}", point.low, point.high).c_str());
     ImGui::TextUnformatted(std::isfinite(slope) ? fmt::format("slope {:.2f} over the last decade", slope).c_str()
-                                                : "slope: too few points before");
+                                                : "slope: too few earlier points");
     if (measured.squared_bias) ImGui::TextUnformatted(bias_text(*measured.squared_bias).c_str());
     if (!line.comparable) ImGui::TextUnformatted("another picture: not compared");
-    if (measured.picture == nullptr) ImGui::TextUnformatted("its picture is not kept");
+    if (measured.picture == nullptr) ImGui::TextUnformatted("its picture was dropped");
     ImGui::EndTooltip();
 }
 
@@ -142,7 +142,7 @@ void draw_legend(AccuracyModel& model) {
         if (ImGui::InvisibleButton("run", {width, ImGui::GetTextLineHeight()})) clicked = line.run;
         ImGui::PopID();
         tooltip(line.comparable ? "Click to hide or show."
-                                : "Of another picture: not compared. Click to hide or show.");
+                                : "A run of another picture: not compared. Click to hide or show.");
         ImDrawList& list = *ImGui::GetWindowDrawList();
         draw_sample(list, line, {at.x, at.y + 0.5f * ImGui::GetTextLineHeight()}, sample);
         list.AddText({at.x + sample + em(0.4f), at.y},

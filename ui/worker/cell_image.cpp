@@ -1,6 +1,6 @@
 #include "ui/worker/cell_image.h"
 
-#include "ui/picture.h"
+#include "ui/worker/cell_colors.h"
 
 namespace pl {
 

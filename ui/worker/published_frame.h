@@ -16,7 +16,7 @@
 
 namespace pl {
 
-/// Which radiance volume serves each pixel, as display colors of color_of_id(); see ui/picture.h.
+/// Which radiance volume serves each pixel, as display colors of color_of_id(); see ui/worker/cell_colors.h.
 struct CellImage {
     int width = 0;
     int height = 0;

@@ -1,0 +1,68 @@
+#include <cmath>
+
+#include "tests/catch.hpp"
+#include "ui/draw/draw_list.h"
+
+using namespace pl;
+
+namespace {
+
+CameraDescription some_camera() {
+    CameraDescription camera;
+    camera.eye = {3.0f, 2.0f, 5.0f};
+    camera.target = {-1.0f, 0.5f, -2.0f};
+    camera.up = {0.1f, 1.0f, 0.0f};
+    camera.fov_deg = 50.0f;
+    return camera;
+}
+
+}  // namespace
+
+TEST_CASE("Projection: is the inverse of camera rays") {
+    constexpr int kWidth = 320;
+    constexpr int kHeight = 200;
+    const Rect image{40.0f, 30.0f, 640.0f, 400.0f};
+    const CameraDescription camera = some_camera();
+    const Camera pinhole = make_camera(camera, kWidth, kHeight);
+    const Projection projection(camera, kWidth, kHeight, image);
+    for (int i = 0; i < 200; ++i) {
+        const auto t = static_cast<float>(i);
+        const Vec2f film{std::fmod(37.3f * t, 320.0f), std::fmod(23.7f * t, 200.0f)};
+        const Ray ray = generate_ray(pinhole, film, {kWidth, kHeight});
+        const auto point = projection(ray.origin + (0.5f + t) * ray.direction);
+        REQUIRE(point);
+        INFO("film " << film.x << " " << film.y);
+        // Rounding of a point 200 units away seen at 640 pixels: far below a hundredth of a pixel.
+        CHECK_THAT(point->window.x, WithinAbs(40.0f + 2.0f * film.x, 0.01f));
+        CHECK_THAT(point->window.y, WithinAbs(30.0f + 2.0f * film.y, 0.01f));
+        CHECK(point->depth > 0.0f);
+    }
+    CHECK_FALSE(projection(camera.eye - (camera.target - camera.eye)));
+    CHECK_FALSE(projection(camera.eye));
+}
+
+TEST_CASE("Draw list: far shapes come first, shapes behind the camera are left out") {
+    CameraDescription camera;
+    camera.eye = {0.0f, 0.0f, 0.0f};
+    camera.target = {0.0f, 0.0f, -1.0f};
+    const Projection projection(camera, 100, 100, {0.0f, 0.0f, 100.0f, 100.0f});
+    const auto square = [](float z) {
+        return std::array<Vec3f, 5>{Vec3f{0, 0, z}, {-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}};
+    };
+    DrawList list;
+    list.add_fan(square(-5.0f), 5);
+    list.add_fan(square(-9.0f), 9);
+    list.add_fan(square(2.0f), 2);
+    list.add_line({0, 0, -7}, {1, 0, -7}, 7, 1.0f);
+    list.add_line({0, 0, -7}, {0, 0, 1}, 1, 1.0f);  // its end is behind the camera
+    const ProjectedShapes shapes = project(list, projection);
+    REQUIRE(shapes.shapes.size() == 3);
+    CHECK(shapes.shapes[0].color == 9);
+    CHECK(shapes.shapes[1].color == 7);
+    CHECK(shapes.shapes[2].color == 5);
+    CHECK(shapes.points.size() == 5 + 5 + 2);
+    CHECK(shapes.shapes[1].kind == DrawList::Shape::Kind::Line);
+    const Vec2f center = shapes.points[shapes.shapes[2].first];
+    CHECK_THAT(center.x, WithinAbs(50.0f, 1.0e-3f));
+    CHECK_THAT(center.y, WithinAbs(50.0f, 1.0e-3f));
+}

@@ -1,0 +1,11 @@
+#include "tests/catch.hpp"
+#include "ui/draw/method_keys.h"
+
+using namespace pl;
+
+TEST_CASE("Method keys: all methods, or those with a flag") {
+    CHECK(method_keys() == "1, 2, 3");
+    CHECK(method_keys(&MethodInfo::uses_field) == "2, 3");
+    CHECK(method_keys(&MethodInfo::precomputes) == "2");
+    CHECK(method_keys(&MethodInfo::learns) == "3");
+}

@@ -1,0 +1,81 @@
+#include <cmath>
+
+#include "core/kernel/inspect/views.h"
+#include "core/session/shown_range.h"
+#include "tests/catch.hpp"
+#include "ui/draw/picture.h"
+#include "ui/worker/cell_colors.h"
+
+using namespace pl;
+
+namespace {
+
+const ToneTable kTable(ToneCurve::Clamp);
+
+std::uint32_t gray(std::uint32_t code) { return 0xff000000u | code << 16 | code << 8 | code; }
+
+/// As a back end hands it over.
+DisplayFrame frame_of(int width, int height, const std::vector<Vec3f>& values) {
+    const auto pixels = std::make_shared<std::vector<std::uint32_t>>();
+    for (const Vec3f& value : values) pixels->push_back(frame_pixel(value, {}, kTable.view()));
+    return {width, height, [pixels] { return pixels->data(); }};
+}
+DisplayFrame frame_of(int width, int height, Vec3f value) {
+    return frame_of(width, height, std::vector<Vec3f>(static_cast<std::size_t>(width * height), value));
+}
+
+}  // namespace
+
+TEST_CASE("Picture: rows respect the pitch") {
+    std::vector<Vec3f> values(6, Vec3f{0.25f});
+    values[4].y = kNan;
+    constexpr std::uint32_t kUntouched = 0x12345678u;
+    std::vector<std::uint32_t> out(2 * 5, kUntouched);
+    write_picture(frame_of(3, 2, values), {}, out.data(), 5);
+    CHECK(out[0] == gray(kTable(0.25f)));
+    CHECK(out[2] == gray(kTable(0.25f)));
+    CHECK(out[3] == kUntouched);
+    CHECK(out[5] == gray(kTable(0.25f)));
+    CHECK(out[6] == kInvalidPixel);
+    CHECK(out[9] == kUntouched);
+}
+
+TEST_CASE("Picture: cells are blended by opacity and the selected one is outlined") {
+    std::vector<Vec3f> cells(30, color_of_id(1));
+    for (std::size_t y = 1; y < 4; ++y)
+        for (std::size_t x = 1; x < 4; ++x) cells[y * 6 + x] = color_of_id(2);
+    const CellImage image = make_cell_image(frame_of(6, 5, cells));
+    CHECK(image.argb[0] == cell_color(1, kTable.view()));
+    CHECK(cell_color(1, kTable.view()) != cell_color(2, kTable.view()));
+
+    const DisplayFrame black = frame_of(6, 5, Vec3f{0.0f});
+    std::vector<std::uint32_t> out(30);
+    write_picture(black, {&image, 1.0f, std::nullopt}, out.data(), 6);
+    CHECK(out == image.argb);
+    write_picture(black, {&image, 0.0f, std::nullopt}, out.data(), 6);
+    CHECK(out == std::vector<std::uint32_t>(30, gray(0)));
+
+    write_picture(frame_of(6, 5, Vec3f{0.25f}), {&image, 0.0f, cell_color(2, kTable.view())}, out.data(), 6);
+    const std::uint32_t plain = gray(kTable(0.25f));
+    CHECK(out[1 * 6 + 1] == 0xffffffffu);  // border of the cell
+    CHECK(out[2 * 6 + 2] == plain);        // its inside
+    CHECK(out[0 * 6 + 1] == 0xff000000u);  // around it
+    CHECK(out[0 * 6 + 5] == plain);        // elsewhere
+}
+
+TEST_CASE("Picture: cells of another size are not laid over") {
+    const CellImage image = make_cell_image(frame_of(2, 2, color_of_id(1)));
+    std::vector<std::uint32_t> out(6);
+    write_picture(frame_of(3, 2, Vec3f{0.0f}), {&image, 1.0f, cell_color(1, kTable.view())}, out.data(), 3);
+    CHECK(out == std::vector<std::uint32_t>(6, gray(0)));
+}
+
+TEST_CASE("Picture: exposure and curve are for radiance only") {
+    const DisplaySettings asked{.exposure_ev = 2.0f, .curve = ToneCurve::Aces};
+    for (const View view : {View::Beauty, View::Direct, View::RadianceMap})
+        CHECK(display_of(view, asked).exposure_ev == 2.0f);
+    for (const View view : {View::Normal, View::Albedo, View::Depth, View::Voronoi, View::Visits, View::Unvisited}) {
+        CHECK(display_of(view, asked).exposure_ev == 0.0f);
+        CHECK(display_of(view, asked).curve == ToneCurve::Clamp);
+    }
+}

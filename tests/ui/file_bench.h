@@ -1,0 +1,42 @@
+// A viewer model with a folder for its files; saved pictures are only noted.
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <vector>
+
+#include "core/base/error.h"
+#include "tests/io/temporary_folder.h"
+#include "tests/ui/model_bench.h"
+
+namespace pl::test {
+
+struct FileBench : ModelBench {
+    std::shared_ptr<FakeControl> control = devices.cpu;
+    std::mutex mutex;
+    std::vector<std::filesystem::path> saved;
+    TemporaryFolder folder;
+
+    FileBench() : ModelBench(64) {
+        options.settings.field.volumes = 16;
+        options.settings.field.bins = 16;
+        options.screenshot_dir = folder.path();
+        control->pass_microseconds = 0;
+        options.backends = {{"cpu", "", ""}, {"cuda", "", ""}};
+        options.load_scene = [](const std::string& name) -> std::shared_ptr<const SceneDescription> {
+            if (name == "broken.obj") throw Error(ErrorKind::Input, "broken.obj:7: expected a number, got 'x'");
+            auto scene = std::make_shared<SceneDescription>(*small_scene());
+            scene->camera.eye.y = 1.5f;
+            return scene;
+        };
+        options.save_image = [this](const std::filesystem::path& path, const Snapshot&, const ViewerPicture&) {
+            const std::lock_guard lock(mutex);
+            saved.push_back(path);
+        };
+        options.command_line = [](const ViewerPicture& picture) { return "pathlight render " + picture.scene; };
+    }
+};
+
+inline bool has_frame(const ViewerModel& model) { return model.frame() != nullptr; }
+
+}  // namespace pl::test

@@ -1,0 +1,20 @@
+// Every action of the key table does something.
+#include "tests/catch.hpp"
+#include "tests/ui/model_bench.h"
+#include "ui/input/perform_action.h"
+
+using namespace pl;
+using namespace pl::test;
+
+TEST_CASE("Perform action: every action but the held keys has an effect, each method its own") {
+    ModelBench bench(16);
+    bench.options.load_scene = [](const std::string&) { return small_scene(); };
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    for (const Action& action : all_actions()) {
+        INFO(action.text);
+        CHECK(perform(model, action) == !action.is_held);
+        if (action.method) CHECK(model.render().method() == *action.method);
+    }
+    CHECK(model.window().requests.quit);
+    CHECK(model.display().cells());
+}

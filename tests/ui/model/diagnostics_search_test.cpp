@@ -1,0 +1,105 @@
+// The search for invalid samples: counted, found in the background, marked while the picture stands.
+#include "tests/catch.hpp"
+#include "tests/ui/model_bench.h"
+#include "ui/script/script_values.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr int kSide = 16;
+constexpr int kBad = 37;
+
+/// A viewer of a picture in which one pixel has only invalid samples.
+struct DiagnosticsBench : ModelBench {
+    DiagnosticsBench() : ModelBench(kSide) {
+        devices.cpu->bad_pixel = kBad;
+        options.limits.spp = 4;
+    }
+    bool is_done(ViewerModel& model) {
+        return run_until(model, [&] {
+            return model.frame() != nullptr && model.frame()->snapshot.passes == 4 &&
+                   model.status().state == WorkerState::Done;
+        });
+    }
+};
+
+}  // namespace
+
+TEST_CASE(
+    "Diagnostics search: invalid samples are counted, their pixels found, and marked until the picture changes") {
+    DiagnosticsBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.is_done(model));
+    CHECK(counted_diagnostics(model.frame()->snapshot) == DiagnosticCounts{4, 0, 0, 0});
+    CHECK(script_value(model, "diagnostics") == "not searched");
+
+    model.diagnostics().toggle();
+    CHECK(model.busy());
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
+    const auto map = model.diagnostics().map();
+    CHECK(map->is_complete);
+    CHECK(map->pixels[kBad] == DiagnosticsMap::Pixel{4, 0, 0, 0});
+    CHECK(map->pixel_count(Diagnostic::Invalid) == 1);
+    CHECK(script_value(model, "diagnostics") == "4 invalid in 1 pixel");
+    CHECK(told(model, "4 invalid in 1 pixel"));
+    CHECK_FALSE(model.busy());
+
+    model.diagnostics().toggle();
+    CHECK(model.diagnostics().map() == nullptr);
+    model.diagnostics().toggle();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
+    model.render().set_seed(2);
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() == nullptr; }));
+    REQUIRE(bench.is_done(model));
+    CHECK(model.diagnostics().map() == nullptr);
+}
+
+TEST_CASE("Diagnostics search: Esc removes the marks, further passes do not") {
+    DiagnosticsBench bench;
+    bench.options.limits.spp = 0;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
+    model.diagnostics().toggle();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
+    const std::uint32_t passes = model.frame()->snapshot.passes;
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->snapshot.passes > passes + 2; }));
+    CHECK(model.diagnostics().map() != nullptr);
+    model.cancel();
+    CHECK(model.diagnostics().map() == nullptr);
+}
+
+TEST_CASE("Diagnostics search: a view without paths is reported, and rendering continues") {
+    DiagnosticsBench bench;
+    bench.options.limits.spp = 0;
+    bench.options.settings.view = View::Normal;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
+    model.diagnostics().toggle();
+    REQUIRE(bench.run_until(model, [&] { return told(model, "view 'normal' has no paths"); }));
+    CHECK_FALSE(model.busy());
+    CHECK(model.diagnostics().map() == nullptr);
+    REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Rendering; }));
+}
+
+TEST_CASE("Diagnostics search: a lost device ends the search with a message") {
+    DiagnosticsBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.is_done(model));
+    bench.devices.cpu->lost = true;
+    model.diagnostics().toggle();
+    REQUIRE(bench.run_until(model, [&] { return told(model, "the device is lost"); }));
+    CHECK_FALSE(model.busy());
+    CHECK(model.diagnostics().map() == nullptr);
+}
+
+TEST_CASE("Diagnostics search: a picture of valid samples has no marks") {
+    DiagnosticsBench bench;
+    bench.devices.cpu->bad_pixel = -1;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.is_done(model));
+    model.diagnostics().toggle();
+    REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
+    CHECK(script_value(model, "diagnostics") == "no diagnostics found");
+}

@@ -1,0 +1,32 @@
+#include "tests/catch.hpp"
+#include "ui/model/messages.h"
+
+using namespace pl;
+
+TEST_CASE("Messages: toasts expire, errors later, and the log keeps both") {
+    Messages messages;
+    messages.set_time(1.0);
+    messages.say(LogLevel::Info, "saved");
+    messages.say(LogLevel::Error, "failed");
+    messages.note(LogLevel::Info, "opened");
+    CHECK(messages.toasts().size() == 2);
+    messages.set_time(5.5);
+    messages.drop_expired();
+    REQUIRE(messages.toasts().size() == 1);
+    CHECK(messages.toasts()[0].text == "failed");
+    messages.set_time(11.5);
+    messages.drop_expired();
+    CHECK(messages.toasts().empty());
+    REQUIRE(messages.log().size() == 3);
+    CHECK(messages.log()[2].text == "opened");
+    CHECK(messages.log()[0].seconds == 1.0);
+}
+
+TEST_CASE("Messages: the oldest toasts and lines give way") {
+    Messages messages;
+    for (std::size_t i = 0; i < Messages::kMaxLogLines + 1; ++i) messages.say(LogLevel::Info, std::to_string(i));
+    CHECK(messages.log().size() == Messages::kMaxLogLines);
+    CHECK(messages.log().front().text == "1");
+    CHECK(messages.toasts().size() == Messages::kMaxToasts);
+    CHECK(messages.toasts().back().text == std::to_string(Messages::kMaxLogLines));
+}

@@ -1,0 +1,20 @@
+#include <fstream>
+
+#include "tests/catch.hpp"
+#include "tests/io/temporary_folder.h"
+#include "ui/model/numbered_names.h"
+
+using namespace pl;
+
+TEST_CASE("Numbered names: no file is ever hit twice") {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path& dir = folder.path();
+    std::ofstream(dir / "box-0001.png") << "x";
+    std::ofstream(dir / "box-0003.exr") << "x";
+    NumberedNames names;
+    CHECK(names.next(dir, "box", {".exr", ".png"}) == dir / "box-0002");
+    // Not written yet, and still taken.
+    CHECK(names.next(dir, "box", {".exr", ".png"}) == dir / "box-0004");
+    CHECK(file_name_part("my scene/a.b") == "my-scene-a-b");
+    CHECK(file_name_part("") == "picture");
+}

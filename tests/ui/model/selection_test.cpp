@@ -1,0 +1,31 @@
+#include "tests/catch.hpp"
+#include "tests/ui/file_bench.h"
+#include "ui/script/script_values.h"
+
+using namespace pl;
+using namespace pl::test;
+
+TEST_CASE("Selection: a picked volume is selected, deselected, and forgotten with its field") {
+    FileBench bench;
+    bench.options.settings.method = MethodId::Reinforcement;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.selection().pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.selection().inspection() != nullptr; }));
+    CHECK(model.selection().volume() != kNoVolume);
+    CHECK(script_value(model, "inspected") == "yes");
+    model.cancel();
+    CHECK(model.selection().volume() == kNoVolume);
+    CHECK(model.selection().inspection() == nullptr);
+
+    model.selection().pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.selection().inspection() != nullptr; }));
+    FieldSettings field = model.render().settings().field;
+    field.bins = 64;
+    model.render().set_field(field);
+    CHECK(model.selection().volume() == kNoVolume);
+
+    model.selection().pick({0.01f, 0.01f});
+    REQUIRE(bench.run_until(model, [&] { return !model.messages().toasts().empty(); }));
+    CHECK_THAT(model.messages().toasts().back().text, contains("nothing to select"));
+}

@@ -1,0 +1,96 @@
+// The self test in the background: its checks one by one, its outcome, its end.
+#include "ui/model/self_test_run.h"
+
+#include <condition_variable>
+
+#include "core/base/error.h"
+#include "tests/catch.hpp"
+#include "tests/ui/fake_backend.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+/// Three checks, each of which waits until it is allowed.
+struct CheckQueue {
+    std::mutex mutex;
+    std::condition_variable wake;
+    int allowed = 0;
+    bool fails = false;
+    bool breaks = false;
+
+    void allow(int count) {
+        const std::lock_guard lock(mutex);
+        allowed += count;
+        wake.notify_all();
+    }
+    auto runner() {
+        return [this](const JobMonitor& monitor, const std::function<void(const SelfCheck&)>& told) {
+            for (int i = 0; i < 3; ++i) {
+                std::unique_lock lock(mutex);
+                while (allowed == 0 && !*monitor.stop) wake.wait_for(lock, std::chrono::milliseconds(1));
+                if (*monitor.stop) return;
+                --allowed;
+                if (breaks && i == 1) throw Error(ErrorKind::Runtime, "the device is lost");
+                SelfCheck check{.backend = i < 2 ? "cpu" : "cuda", .name = "check", .criterion = "it holds"};
+                check.passed = !(fails && i == 1);
+                told(check);
+            }
+        };
+    }
+};
+
+void run_all(SelfTestRun& run, CheckQueue& queue) {
+    run.start(queue.runner());
+    queue.allow(3);
+    REQUIRE(eventually([&] { return run.update(); }));
+    const std::lock_guard lock(queue.mutex);
+    queue.allowed = 0;
+}
+
+}  // namespace
+
+TEST_CASE("Self test run: checks arrive one by one") {
+    CheckQueue queue;
+    SelfTestRun run;
+    CHECK(run.outcome() == SelfTestRun::Outcome::None);
+    run.start(queue.runner());
+    queue.allow(1);
+    REQUIRE(eventually([&] {
+        run.update();
+        return run.checks().size() == 1;
+    }));
+    CHECK(run.outcome() == SelfTestRun::Outcome::Running);
+    CHECK(run.summary() == "1 check so far, 0 failed");
+    queue.allow(2);
+    REQUIRE(eventually([&] { return run.update(); }));
+    CHECK_FALSE(run.is_running());
+    CHECK(run.outcome() == SelfTestRun::Outcome::Passed);
+    CHECK(run.summary() == "all 3 checks passed in 0.0 s on cpu, cuda");
+}
+
+TEST_CASE("Self test run: one that is stopped, that fails and that breaks off says so, and can be run again") {
+    CheckQueue queue;
+    SelfTestRun run;
+    run.start(queue.runner());
+    queue.allow(1);
+    REQUIRE(eventually([&] {
+        run.update();
+        return run.checks().size() == 1;
+    }));
+    run.stop();
+    REQUIRE(eventually([&] { return run.update(); }));
+    CHECK(run.outcome() == SelfTestRun::Outcome::Stopped);
+    CHECK(run.summary() == "ended after 1 check, without a failure");
+    queue.fails = true;
+    run_all(run, queue);
+    CHECK(run.outcome() == SelfTestRun::Outcome::Failed);
+    CHECK(run.summary().starts_with("1 of 3 checks failed"));
+    queue.fails = false;
+    queue.breaks = true;
+    run_all(run, queue);
+    CHECK(run.outcome() == SelfTestRun::Outcome::Broken);
+    CHECK(run.summary() == "broke off after 1 check: the device is lost");
+    CHECK(run.checks().size() == 1);
+}

@@ -1,0 +1,140 @@
+// The scene in the window: loading, and materials that are edited, refused and restored.
+#include <atomic>
+#include <cmath>
+
+#include "core/measure/picture_identity.h"
+#include "tests/catch.hpp"
+#include "tests/ui/file_bench.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+struct MaterialBench : ModelBench {
+    MaterialBench() : ModelBench(16) {}
+};
+
+MaterialDescription with_albedo(MaterialDescription material, float value) {
+    material.albedo = glm::vec3{value};
+    return material;
+}
+
+}  // namespace
+
+TEST_CASE("Viewed scene: a scene that cannot be read leaves the old one, with a message") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.files().open("broken.obj");
+    REQUIRE(bench.run_until(model, [&] { return !model.messages().toasts().empty(); }));
+    CHECK(model.messages().toasts().back().level == LogLevel::Error);
+    CHECK_THAT(model.messages().toasts().back().text, contains("broken.obj:7"));
+    CHECK(model.scene().name() == "small");
+    CHECK(model.status().state == WorkerState::Rendering);
+}
+
+TEST_CASE("Viewed scene: reloading keeps the camera, another scene brings its own") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.camera().fly({.right = 1.0f}, 0.1);
+    const Vec3f eye = model.camera().camera().eye;
+    model.scene().reload();
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->description->camera.eye.y == 1.5f; }));
+    CHECK(model.frame()->snapshot.camera.eye.x == eye.x);
+    CHECK(model.camera().camera().eye.x == eye.x);
+    model.files().open("other.obj");
+    REQUIRE(bench.run_until(model, [&] { return model.scene().name() == "other.obj"; }));
+    CHECK(model.camera().camera().eye.y == 1.5f);
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->snapshot.camera.eye.y == 1.5f; }));
+    // Home is the new scene's camera.
+    model.camera().fly({.up = 1.0f}, 0.1);
+    model.camera().go_home();
+    CHECK(model.camera().camera().eye.y == 1.5f);
+}
+
+TEST_CASE("Viewed scene: an edited material reaches the picture, and its scene is another one") {
+    MaterialBench bench;
+    const auto scene = small_scene();
+    ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0; }));
+    const std::uint64_t before = model.status().picture;
+    MaterialDescription coated = with_albedo(scene->materials[0], 0.25f);
+    coated.kind = SurfaceKind::Plastic;
+    model.scene().set_material(0, coated);
+    CHECK(model.scene().materials().is_edited(0));
+    CHECK(model.scene().materials().edited_names() == std::vector<std::string>{"floor"});
+    REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0 && model.status().picture != before; }));
+    CHECK(model.status().scene->materials[0] == coated);
+    SceneDescription changed = *scene;
+    changed.materials[0] = coated;
+    RenderSettings settings = model.render().settings();
+    CHECK(model.status().picture == picture_key(changed, settings));
+    REQUIRE(bench.run_until(model, [&] { return model.frame()->description->materials[0] == coated; }));
+
+    model.scene().restore_material(0);
+    CHECK(model.scene().materials().edited_names().empty());
+    CHECK(bench.run_until(model, [&] { return model.status().picture == before; }));
+}
+
+TEST_CASE("Viewed scene: a bad value is refused with the reason, and the old material stays") {
+    MaterialBench bench;
+    const auto scene = small_scene();
+    ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
+    for (const float bad : {-0.1f, 1.1f, NAN}) {
+        model.scene().set_material(0, with_albedo(scene->materials[0], bad));
+        CHECK(model.scene().materials().now()[0] == scene->materials[0]);
+    }
+    CHECK(told(model, "material 'floor': albedo"));
+    model.scene().set_material(7, scene->materials[0]);  // there is none
+    model.scene().restore_material(7);
+    model.scene().select_material(7);
+    CHECK_FALSE(model.scene().selected_material().has_value());
+    REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0; }));
+    CHECK(model.status().scene == scene);
+}
+
+TEST_CASE("Viewed scene: two of them are changed and restored together") {
+    MaterialBench bench;
+    const auto scene = small_scene();
+    ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
+    model.scene().set_material(0, with_albedo(scene->materials[0], 0.1f));
+    model.scene().set_material(1, with_albedo(scene->materials[1], 0.2f));
+    model.scene().set_material(0, with_albedo(scene->materials[0], 0.3f));
+    REQUIRE(bench.run_until(model, [&] {
+        return model.status().scene->materials[0].albedo.x == 0.3f &&
+               model.status().scene->materials[1].albedo.x == 0.2f;
+    }));
+    model.scene().restore_materials();
+    CHECK(bench.run_until(model, [&] { return model.status().scene->materials == scene->materials; }));
+}
+
+TEST_CASE("Viewed scene: references are looked up with the edited scene") {
+    MaterialBench bench;
+    std::atomic<float> asked{-1.0f};  // looks are made on a thread of their own
+    bench.options.find_reference = [&](const OpenScene& scene, const RenderSettings&) {
+        asked = scene.description->materials[0].albedo.x;
+        return std::shared_ptr<const StoredReference>();
+    };
+    const auto scene = small_scene();
+    ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return asked == scene->materials[0].albedo.x; }));
+    model.scene().set_material(0, with_albedo(scene->materials[0], 0.25f));
+    CHECK(bench.run_until(model, [&] { return asked == 0.25f; }));
+}
+
+TEST_CASE("Viewed scene: a new scene has the materials of its file, and pictures name the edited ones") {
+    MaterialBench bench;
+    const auto scene = small_scene();
+    bench.options.load_scene = [](const std::string&) { return small_scene(); };
+    ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
+    CHECK(model.files().pictures().picture().edited_materials.empty());
+    model.scene().select_material(1);
+    model.scene().set_material(0, with_albedo(scene->materials[0], 0.25f));
+    CHECK(model.files().pictures().picture().edited_materials == std::vector<std::string>{"floor"});
+    model.scene().reload();
+    REQUIRE(bench.run_until(model, [&] { return model.scene().materials().edited_names().empty(); }));
+    CHECK_FALSE(model.scene().selected_material().has_value());
+    CHECK(bench.run_until(model, [&] { return model.status().scene->materials[0].albedo.x == 0.5f; }));
+}

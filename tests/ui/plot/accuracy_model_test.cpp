@@ -1,0 +1,98 @@
+#include <string>
+
+#include "tests/catch.hpp"
+#include "tests/ui/hand_made_runs.h"
+#include "ui/plot/accuracy_model.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+using Kind = Cursor::Kind;
+
+std::shared_ptr<const LiveRunSet> set_of(Runs runs) {
+    auto set = std::make_shared<LiveRunSet>();
+    set->runs = std::move(runs);
+    return set;
+}
+
+}  // namespace
+
+TEST_CASE("Accuracy model: shows noise until an error is measured, then the error that was asked for") {
+    AccuracyModel model;
+    model.update(set_of({make_run({.with_reference = false})}), kThisPicture, 0.0);
+    CHECK(model.kind().metric == ErrorMetric::Noise);
+    CHECK(model.wanted_metric() == ErrorMetric::RelMse);
+    model.set_cursor({Kind::EqualError, 0.1});
+    CHECK(model.rows().size() == 1);
+    model.update(set_of(two_runs()), kThisPicture, 1e-3);
+    CHECK(model.kind().metric == ErrorMetric::RelMse);
+    CHECK(model.cursor().kind == Kind::None);  // it was on another number
+    CHECK(model.floor() == 1e-3);
+    CHECK(model.lines().size() == 2);
+    model.set_metric(ErrorMetric::Smape);
+    CHECK(model.floor() == 0.0);  // known as relMSE only
+}
+
+TEST_CASE("Accuracy model: before the first run there is an empty plot and a sentence") {
+    AccuracyModel model;
+    CHECK(model.headlines().size() == 1);
+    CHECK(model.lines().empty());
+    CHECK(model.rows().empty());
+    model.set_cursor({Kind::EqualCost, 1.0});
+    model.toggle_hidden(7);
+    model.fit_view();
+    CHECK(model.view().x_axis().low() > 0.0);
+}
+
+TEST_CASE("Accuracy model: cursors must be positive, and end with the axis they are on") {
+    AccuracyModel model;
+    model.update(set_of(two_runs()), kThisPicture, 0.0);
+    for (const double nonsense : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+        model.set_cursor({Kind::EqualCost, nonsense});
+        CHECK(model.cursor().kind == Kind::None);
+    }
+    model.set_cursor({Kind::EqualCost, 2.0});
+    CHECK(model.rows().size() == 2);
+    model.set_axis(CostAxis::Samples);
+    CHECK(model.cursor().kind == Kind::None);
+    CHECK(model.rows().empty());
+}
+
+TEST_CASE("Accuracy model: the view follows the curves until a person takes it") {
+    AccuracyModel model;
+    model.update(set_of({make_run({.last_sample = 8})}), kThisPicture, 0.0);
+    const double before = model.view().x_axis().high();
+    model.update(set_of({make_run({})}), kThisPicture, 0.0);
+    CHECK(model.view().x_axis().high() > before);
+    model.keep_view();
+    const double kept = model.view().x_axis().high();
+    model.update(set_of({make_run({.last_sample = 4096})}), kThisPicture, 0.0);
+    CHECK(model.view().x_axis().high() == kept);
+    model.fit_view();
+    CHECK(model.view().x_axis().high() > kept);
+}
+
+TEST_CASE("Accuracy model: a day of flying around does not fill the legend") {
+    Runs runs;
+    for (std::uint64_t i = 1; i <= 40; ++i) runs.push_back(make_run({.number = i, .picture = 100 + i}));
+    runs.push_back(make_run({.number = 41}));
+    AccuracyModel model;
+    model.update(set_of(runs), kThisPicture, 0.0);
+    REQUIRE(model.lines().size() == AccuracyModel::kOtherLines + 1);
+    CHECK(model.lines().front().run == 41 - AccuracyModel::kOtherLines);
+    CHECK(model.lines().back().comparable);
+}
+
+TEST_CASE("Accuracy model: a hidden run stays hidden, another picture makes runs gray") {
+    AccuracyModel model;
+    model.update(set_of(two_runs()), kThisPicture, 0.0);
+    model.toggle_hidden(2);
+    CHECK(model.lines()[1].hidden);
+    model.update(set_of(two_runs()), kThisPicture + 1, 0.0);
+    CHECK(model.lines()[1].hidden);
+    CHECK_FALSE(model.lines()[0].comparable);
+    model.toggle_hidden(2);
+    CHECK_FALSE(model.lines()[1].hidden);
+}

@@ -1,0 +1,74 @@
+#include "ui/draw/draw_list.h"
+
+#include <algorithm>
+
+#include "core/scene/pack_scene.h"
+
+namespace pl {
+namespace {
+
+/// Near distance of drawing, as a share of the distance from eye to target.
+constexpr float kNearShare = 1.0e-4f;
+
+}  // namespace
+
+Projection::Projection(const CameraDescription& camera, int width, int height, const Rect& image)
+    : camera_(make_camera(camera, width, height)), image_(image),
+      near_(kNearShare * glm::length(camera.target - camera.eye)) {}
+
+std::optional<Projection::Point> Projection::operator()(Vec3f position) const {
+    const Vec3f d = position - camera_.eye;
+    const float depth = glm::dot(d, camera_.forward) / glm::dot(camera_.forward, camera_.forward);
+    if (!(depth > near_)) return std::nullopt;
+    const float x = glm::dot(d, camera_.right) / (glm::dot(camera_.right, camera_.right) * depth);
+    const float y = glm::dot(d, camera_.up) / (glm::dot(camera_.up, camera_.up) * depth);
+    return Point{{image_.x + 0.5f * (x + 1.0f) * image_.width, image_.y + 0.5f * (1.0f - y) * image_.height}, depth};
+}
+
+void DrawList::add_fan(std::span<const Vec3f> center_and_border, std::uint32_t color) {
+    shapes_.push_back({Shape::Kind::Fan, static_cast<std::uint32_t>(points_.size()),
+                       static_cast<std::uint32_t>(center_and_border.size()), color, 0.0f});
+    points_.insert(points_.end(), center_and_border.begin(), center_and_border.end());
+}
+
+void DrawList::add_line(Vec3f from, Vec3f to, std::uint32_t color, float width_px) {
+    shapes_.push_back({Shape::Kind::Line, static_cast<std::uint32_t>(points_.size()), 2, color, width_px});
+    points_.push_back(from);
+    points_.push_back(to);
+}
+
+void DrawList::clear() {
+    points_.clear();
+    shapes_.clear();
+}
+
+ProjectedShapes project(const DrawList& list, const Projection& projection) {
+    struct Entry {
+        DrawList::Shape shape;
+        float depth;
+    };
+    ProjectedShapes result;
+    std::vector<Entry> entries;
+    for (const DrawList::Shape& shape : list.shapes()) {
+        Entry entry{shape, 0.0f};
+        entry.shape.first = static_cast<std::uint32_t>(result.points.size());
+        bool visible = true;
+        for (std::uint32_t i = 0; i < shape.count && visible; ++i) {
+            const auto point = projection(list.points()[shape.first + i]);
+            visible = point.has_value();
+            if (!visible) break;
+            result.points.push_back(point->window);
+            entry.depth += point->depth / static_cast<float>(shape.count);
+        }
+        if (visible)
+            entries.push_back(entry);
+        else
+            result.points.resize(entry.shape.first);
+    }
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& a, const Entry& b) { return a.depth > b.depth; });
+    for (const Entry& entry : entries) result.shapes.push_back(entry.shape);
+    return result;
+}
+
+}  // namespace pl

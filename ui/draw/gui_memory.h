@@ -1,0 +1,21 @@
+// State that the controls of a window share from frame to frame; io.UserData points to it.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "ui/draw/layout.h"
+
+namespace pl {
+
+struct GuiMemory {
+    float pointer_rest_seconds = 0.0f;  ///< since the pointer moved: tooltips wait for rest
+    /// Rectangles of the controls in the last frame by their labels: scripts point at them.
+    std::map<std::string, Rect, std::less<>> places;
+};
+
+/// Of the present ImGui context.
+GuiMemory& gui_memory();
+
+}  // namespace pl

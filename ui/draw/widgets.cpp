@@ -1,0 +1,285 @@
+#include "ui/draw/widgets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "ui/draw/gui_memory.h"
+
+namespace pl {
+namespace {
+
+constexpr float kLabelEm = 6.4f;
+
+std::string hidden_label(const char* label) { return std::string("##") + label; }
+
+/// Keeps typed numbers until the field is left: half a number must not restart the placement of volumes.
+template <std::size_t N>
+class EditedNumbers {
+public:
+    EditedNumbers(const char* label, const std::array<float, N>& now)
+        : storage_(*ImGui::GetStateStorage()), flag_(ImGui::GetID(label)), now_(now) {}
+
+    /// The numbers in the control.
+    std::array<float, N> shown() const {
+        if (!storage_.GetBool(flag_)) return now_;
+        std::array<float, N> values;
+        for (std::size_t i = 0; i < N; ++i) values[i] = storage_.GetFloat(key(i));
+        return values;
+    }
+
+    /// After the control was drawn. True if the numbers are complete and new.
+    bool finish(bool changed, const std::array<float, N>& values) {
+        if (changed) {
+            for (std::size_t i = 0; i < N; ++i) storage_.SetFloat(key(i), values[i]);
+            storage_.SetBool(flag_, true);
+            return false;
+        }
+        if (!storage_.GetBool(flag_) || ImGui::IsItemActive()) return false;
+        storage_.SetBool(flag_, false);
+        return values != now_;
+    }
+
+private:
+    ImGuiID key(std::size_t i) const { return flag_ + 1 + static_cast<ImGuiID>(i); }
+
+    ImGuiStorage& storage_;
+    ImGuiID flag_;
+    std::array<float, N> now_;
+};
+
+}  // namespace
+
+void begin_fixed_window(const char* name, const Rect& place, int extra_flags) {
+    ImGui::SetNextWindowPos({place.x, place.y});
+    ImGui::SetNextWindowSize({place.width, place.height});
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | extra_flags);
+}
+
+void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32 color) {
+    const auto count = static_cast<int>(center_and_border.size());
+    if (count < 3) return;
+    const ImVec2 uv = ImGui::GetFontTexUvWhitePixel();
+    list.PrimReserve(3 * (count - 1), count);
+    const auto first = static_cast<unsigned int>(list._VtxCurrentIdx);
+    for (int i = 1; i < count; ++i) {
+        const int next = i + 1 < count ? i + 1 : 1;
+        list.PrimWriteIdx(static_cast<ImDrawIdx>(first));
+        list.PrimWriteIdx(static_cast<ImDrawIdx>(first + static_cast<unsigned int>(i)));
+        list.PrimWriteIdx(static_cast<ImDrawIdx>(first + static_cast<unsigned int>(next)));
+    }
+    // Half a pixel larger: software renderers leave pinholes between triangles.
+    constexpr float kOverlap = 0.5f;
+    const ImVec2 center = center_and_border[0];
+    for (const ImVec2& point : center_and_border) {
+        const Vec2f out{point.x - center.x, point.y - center.y};
+        const float length = glm::length(out);
+        const float scale = length > 0.0f ? 1.0f + kOverlap / length : 1.0f;
+        list.PrimWriteVtx({center.x + scale * out.x, center.y + scale * out.y}, uv, color);
+    }
+}
+
+void tooltip(const char* text) {
+    constexpr float kRestSeconds = 0.4f;  // a moving pointer should not open tooltips on its way
+    if (*text == '\0' || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
+        gui_memory().pointer_rest_seconds < kRestSeconds)
+        return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(em(22.0f));
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void note_place(const char* label) {
+    if (!ImGui::IsItemVisible()) return;
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    gui_memory().places[label] = {low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+void end_row(const char* label, const char* tip) {
+    note_place(label);
+    tooltip(tip);
+}
+
+void begin_row(const char* label, const char* tip) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(label);
+    tooltip(tip);
+    ImGui::SameLine(em(kLabelEm));
+    ImGui::SetNextItemWidth(-1.0f);
+}
+
+void text_row(const char* label, const std::string& value, const char* tip, ImU32 color) {
+    ImGui::TextDisabled("%s", label);
+    tooltip(tip);
+    ImGui::SameLine(em(kLabelEm));
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    // A tooltip has no width at which text could wrap.
+    const bool wraps = ImGui::GetContentRegionAvail().x > em(3.0f);
+    if (wraps)
+        ImGui::TextWrapped("%s", value.c_str());
+    else
+        ImGui::TextUnformatted(value.c_str());
+    ImGui::PopStyleColor();
+    tooltip(tip);
+}
+
+bool slider_row(const char* label, const char* tip, float* value, float low, float high, float standard,
+                const char* format, ImGuiSliderFlags flags) {
+    begin_row(label, tip);
+    bool changed = ImGui::SliderFloat(hidden_label(label).c_str(), value, low, high, format,
+                                      flags | ImGuiSliderFlags_AlwaysClamp);
+    note_place(label);
+    tooltip(fmt::format("{}\nCtrl+click to type, right click for the default ({:.4g}).", tip, standard).c_str());
+    if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) {
+        *value = standard;
+        changed = true;
+    }
+    return changed;
+}
+
+bool toggle_row(const char* label, const char* tip, bool* value) {
+    const bool changed = ImGui::Checkbox(label, value);
+    end_row(label, tip);
+    return changed;
+}
+
+bool int_row(const char* label, const char* tip, int* value, int step) {
+    begin_row(label, tip);
+    EditedNumbers<1> edited(label, {static_cast<float>(*value)});
+    int number = static_cast<int>(edited.shown()[0]);
+    const bool changed = ImGui::InputInt(hidden_label(label).c_str(), &number, step, 10 * step);
+    end_row(label, tip);
+    if (!edited.finish(changed, {static_cast<float>(number)})) return false;
+    *value = number;
+    return true;
+}
+
+bool double_row(const char* label, const char* tip, double* value, double step, const char* format) {
+    begin_row(label, tip);
+    EditedNumbers<1> edited(label, {static_cast<float>(*value)});
+    auto number = static_cast<double>(edited.shown()[0]);
+    const bool changed = ImGui::InputDouble(hidden_label(label).c_str(), &number, step, 10.0 * step, format);
+    end_row(label, tip);
+    if (!edited.finish(changed, {static_cast<float>(number)})) return false;
+    *value = number;
+    return true;
+}
+
+bool size_row(const char* label, const char* tip, int* width, int* height) {
+    begin_row(label, tip);
+    EditedNumbers<2> edited(label, {static_cast<float>(*width), static_cast<float>(*height)});
+    const std::array<float, 2> shown = edited.shown();
+    int numbers[2] = {static_cast<int>(shown[0]), static_cast<int>(shown[1])};
+    const bool changed = ImGui::InputInt2(hidden_label(label).c_str(), numbers);
+    end_row(label, tip);
+    if (!edited.finish(changed, {static_cast<float>(numbers[0]), static_cast<float>(numbers[1])})) return false;
+    *width = numbers[0];
+    *height = numbers[1];
+    return true;
+}
+
+bool point_row(const char* label, const char* tip, float* xyz) {
+    begin_row(label, tip);
+    EditedNumbers<3> edited(label, {xyz[0], xyz[1], xyz[2]});
+    std::array<float, 3> numbers = edited.shown();
+    const bool changed = ImGui::InputFloat3(hidden_label(label).c_str(), numbers.data(), "%.4g");
+    end_row(label, tip);
+    if (!edited.finish(changed, numbers)) return false;
+    std::copy(numbers.begin(), numbers.end(), xyz);
+    return true;
+}
+
+bool choice_row(const char* label, const char* tip, int* index, const char* labels) {
+    std::vector<std::string> words;
+    for (const char* word = labels; *word != '\0'; word += words.back().size() + 1) words.emplace_back(word);
+    const auto current = static_cast<std::size_t>(*index);
+    if (!begin_choice_row(label, tip, current < words.size() ? words[current].c_str() : "")) return false;
+    bool changed = false;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool is_chosen = ImGui::Selectable(words[i].c_str(), i == current);
+        note_place(fmt::format("{}: {}", label, words[i]).c_str());
+        if (!is_chosen || i == current) continue;
+        *index = static_cast<int>(i);
+        changed = true;
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool color_row(const char* label, const char* tip, float* rgb) {
+    begin_row(label, tip);
+    const bool changed = ImGui::ColorEdit3(hidden_label(label).c_str(), rgb,
+                                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions);
+    end_row(label, tip);
+    return changed;
+}
+
+bool begin_choice_row(const char* label, const char* tip, const char* shown) {
+    begin_row(label, tip);
+    const bool open = ImGui::BeginCombo(hidden_label(label).c_str(), shown);
+    if (!open) end_row(label, tip);
+    return open;
+}
+
+bool wide_button(const char* label, const char* tip) {
+    const bool pressed = ImGui::Button(label, {-1.0f, 0.0f});
+    end_row(label, tip);
+    return pressed;
+}
+
+bool section(const char* title, bool open_at_first) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colors::kAccent);
+    const bool open = ImGui::CollapsingHeader(title, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    ImGui::PopStyleColor();
+    note_place(title);
+    return open;
+}
+
+bool begin_tab(const char* title, ImGuiTabItemFlags flags) {
+    const bool open = ImGui::BeginTabItem(title, nullptr, flags);
+    note_place(title);
+    return open;
+}
+
+void text_line(const char* text, ImU32 color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextWrapped("%s", text);
+    ImGui::PopStyleColor();
+}
+
+void faint_text(const char* text) { text_line(text, colors::kFaint); }
+
+std::string short_number(double value) {
+    constexpr const char* kUnits[] = {"", " k", " M", " G", " T"};
+    int unit = 0;
+    while (std::fabs(value) >= 999.5 && unit < 4) {
+        value /= 1000.0;
+        ++unit;
+    }
+    return unit == 0 && value == std::floor(value) ? fmt::format("{:.0f}", value)
+                                                   : fmt::format("{:.3g}{}", value, kUnits[unit]);
+}
+
+std::string short_value(double value) {
+    const double magnitude = std::fabs(value);
+    if (magnitude == 0.0 || (magnitude >= 0.01 && magnitude < 10000.0)) return fmt::format("{:.3g}", value);
+    const int exponent = static_cast<int>(std::floor(std::log10(magnitude)));
+    return fmt::format("{:.1f}e{}", value / std::pow(10.0, exponent), exponent);
+}
+
+std::string short_seconds(double seconds) {
+    if (seconds < 1.0) return fmt::format("{:.3g} ms", 1000.0 * seconds);
+    if (seconds < 100.0) return fmt::format("{:.2f} s", seconds);
+    return fmt::format("{:.0f} s", seconds);
+}
+
+}  // namespace pl

@@ -1,0 +1,75 @@
+// Rows of a panel: a label on the left, its value or control on the right, an explanation on hover.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "ui/draw/draw_list.h"
+#include "ui/draw/style.h"
+
+namespace pl {
+
+/// Starts a window that fills `place` and cannot be moved. End it with ImGui::End().
+void begin_fixed_window(const char* name, const Rect& place, int extra_flags = 0);
+
+/// A polygon that is star-shaped around its first point; not antialiased, so that neighbors meet without a seam.
+void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32 color);
+
+/// Explains the last item while the pointer rests on it.
+void tooltip(const char* text);
+
+/// Records the rectangle of the last item for scripts.
+void note_place(const char* label);
+
+/// Puts the label, and makes the next item fill the rest of the row.
+void begin_row(const char* label, const char* tip);
+
+/// After the item of such a row.
+void end_row(const char* label, const char* tip);
+
+/// A read-only value.
+void text_row(const char* label, const std::string& value, const char* tip = "", ImU32 color = colors::kText);
+
+/// Ctrl+click to type, right click for the default. True if the value changed.
+bool slider_row(const char* label, const char* tip, float* value, float low, float high, float standard,
+                const char* format, ImGuiSliderFlags flags = 0);
+
+bool toggle_row(const char* label, const char* tip, bool* value);
+
+/// Typed numbers; a change takes effect when the field is left or Enter is pressed. Exact up to 2^24.
+bool int_row(const char* label, const char* tip, int* value, int step);
+bool double_row(const char* label, const char* tip, double* value, double step, const char* format);
+bool size_row(const char* label, const char* tip, int* width, int* height);
+bool point_row(const char* label, const char* tip, float* xyz);
+
+/// One of several words; the labels are separated by '\0' and end with two.
+bool choice_row(const char* label, const char* tip, int* index, const char* labels);
+
+/// Linear red, green and blue in [0, 1].
+bool color_row(const char* label, const char* tip, float* rgb);
+
+/// Opens a list; if true, draw its items and end it with ImGui::EndCombo().
+bool begin_choice_row(const char* label, const char* tip, const char* shown);
+
+/// A full-width button.
+bool wide_button(const char* label, const char* tip);
+
+/// A section of the panel that can be folded.
+bool section(const char* title, bool open_at_first);
+
+/// A tab; if true, draw its content and end it with ImGui::EndTabItem().
+bool begin_tab(const char* title, ImGuiTabItemFlags flags = ImGuiTabItemFlags_None);
+
+/// Text that breaks lines.
+void text_line(const char* text, ImU32 color);
+/// The same in the faint color.
+void faint_text(const char* text);
+
+/// "12.3 M": three digits and a power of a thousand.
+std::string short_number(double value);
+/// At most six characters and a sign: "0.25", "2.7e-4".
+std::string short_value(double value);
+/// "1.25 s", "85 ms".
+std::string short_seconds(double seconds);
+
+}  // namespace pl

@@ -1,0 +1,183 @@
+#include "ui/input/actions.h"
+
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+#include <SDL_keycode.h>
+#include <SDL_scancode.h>
+
+namespace pl {
+namespace {
+
+using enum ActionId;
+using Group = ActionGroup;
+
+constexpr Modifiers kShift{.shift = true};
+constexpr Modifiers kCtrl{.ctrl = true};
+constexpr Modifiers kCtrlShift{.shift = true, .ctrl = true};
+
+constexpr Chord at(int scancode, Modifiers modifiers = {}) { return {Chord::By::Place, scancode, modifiers}; }
+constexpr Chord sign(int symbol, Modifiers modifiers = {}) { return {Chord::By::Symbol, symbol, modifiers}; }
+
+std::vector<Action> actions_before_methods() {
+    return {
+        {MoveForward, Group::Fly, "W", "fly forward", {at(SDL_SCANCODE_W)}, true},
+        {MoveBack, Group::Fly, "S", "fly back", {at(SDL_SCANCODE_S)}, true},
+        {MoveLeft, Group::Fly, "A", "fly left", {at(SDL_SCANCODE_A)}, true},
+        {MoveRight, Group::Fly, "D", "fly right", {at(SDL_SCANCODE_D)}, true},
+        {MoveUp, Group::Fly, "E", "fly up", {at(SDL_SCANCODE_E)}, true},
+        {MoveDown, Group::Fly, "Q", "fly down", {at(SDL_SCANCODE_Q)}, true},
+        {Fast, Group::Fly, "Shift", "four times as fast", {at(SDL_SCANCODE_LSHIFT), at(SDL_SCANCODE_RSHIFT)}, true},
+        {Slow, Group::Fly, "Alt", "a quarter as fast", {at(SDL_SCANCODE_LALT)}, true},
+        {SpeedUp,
+         Group::Fly,
+         "+",
+         "higher speed",
+         {at(SDL_SCANCODE_EQUALS), at(SDL_SCANCODE_EQUALS, kShift), at(SDL_SCANCODE_KP_PLUS)}},
+        {SpeedDown, Group::Fly, "-", "lower speed", {at(SDL_SCANCODE_MINUS), at(SDL_SCANCODE_KP_MINUS)}},
+        {CameraHome, Group::Fly, "Home", "the scene's own camera", {at(SDL_SCANCODE_HOME)}},
+
+        {Pause, Group::Render, "Space", "pause or continue", {at(SDL_SCANCODE_SPACE)}},
+        {SinglePass, Group::Render, "N", "one pass while paused", {sign(SDLK_n)}},
+        {SwitchBackend, Group::Render, "B", "other back end: CPU or CUDA", {sign(SDLK_b)}},
+        {Restart, Group::Render, "R", "restart the picture", {sign(SDLK_r)}},
+        {Forget, Group::Render, "Ctrl+Shift+R", "restart and forget the learned field", {sign(SDLK_r, kCtrlShift)}},
+    };
+}
+
+/// Digits by position, letters by symbol.
+Action method_action(const MethodInfo& method) {
+    Chord chord = sign(method.key);
+    if (method.key >= '1' && method.key <= '9') chord = at(SDL_SCANCODE_1 + method.key - '1');
+    if (method.key == '0') chord = at(SDL_SCANCODE_0);
+    return {ChooseMethod, Group::Method, std::string(1, method.key), "method: " + std::string(method.name), {chord},
+            false,        method.id};
+}
+
+std::vector<Action> actions_after_methods() {
+    return {
+        {NextEvent, Group::Method, "L", "next-event estimation on or off", {sign(SDLK_l)}},
+
+        {PreviousView, Group::View, ",", "previous view", {at(SDL_SCANCODE_COMMA)}},
+        {NextView, Group::View, ".", "next view", {at(SDL_SCANCODE_PERIOD)}},
+        {ExposureDown, Group::View, "[", "half a stop darker", {at(SDL_SCANCODE_LEFTBRACKET)}},
+        {ExposureUp, Group::View, "]", "half a stop brighter", {at(SDL_SCANCODE_RIGHTBRACKET)}},
+
+        {Cells, Group::Overlay, "V", "tint by radiance volume (Voronoi cells)", {sign(SDLK_v)}},
+        {CellsFainter, Group::Overlay, ";", "fainter tint", {at(SDL_SCANCODE_SEMICOLON)}},
+        {CellsStronger, Group::Overlay, "'", "stronger tint", {at(SDL_SCANCODE_APOSTROPHE)}},
+        {Hemisphere, Group::Overlay, "H", "hemisphere of the selected volume", {sign(SDLK_h)}},
+        {ShowDiagnostics, Group::Overlay, "T", "mark pixels with invalid samples, lost paths, ...", {sign(SDLK_t)}},
+
+        {Accuracy, Group::Compare, "P", "accuracy panel: error against time", {sign(SDLK_p)}},
+        {CompareNext, Group::Compare, "C", "compare two pictures: next mode", {sign(SDLK_c)}},
+        {CompareBack, Group::Compare, "Shift+C", "compare two pictures: previous mode", {sign(SDLK_c, kShift)}},
+        {Flip, Group::Compare, "G", "flip to the other picture", {sign(SDLK_g)}},
+        {Turns, Group::Compare, "X", "two methods in turns of equal time", {sign(SDLK_x)}},
+        {MakeReference, Group::Compare, "Ctrl+R", "render the reference, or continue it", {sign(SDLK_r, kCtrl)}},
+
+        {HidePanels, Group::Window, "Tab", "hide or show the panels", {at(SDL_SCANCODE_TAB)}},
+        {FullScreen, Group::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
+        {Help, Group::Window, "F1 or ?", "this list", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
+        {SelfTest, Group::Window, "F2", "self test of all back ends", {at(SDL_SCANCODE_F2)}},
+        {Cancel, Group::Window, "Esc", "close, cancel or deselect", {at(SDL_SCANCODE_ESCAPE)}},
+
+        {Reload, Group::File, "F5", "reload the scene", {at(SDL_SCANCODE_F5)}},
+        {Screenshot, Group::File, "F12", "save the picture as PNG", {at(SDL_SCANCODE_F12)}},
+        {ScreenshotWithPanels,
+         Group::File,
+         "Shift+F12",
+         "save the whole window as PNG",
+         {at(SDL_SCANCODE_F12, kShift)}},
+        {Save, Group::File, "Ctrl+S", "save the picture as EXR and PNG", {sign(SDLK_s, kCtrl)}},
+        {SaveField, Group::File, "Ctrl+Shift+S", "save the learned field", {sign(SDLK_s, kCtrlShift)}},
+        {LoadField, Group::File, "Ctrl+L", "continue from the newest saved field", {sign(SDLK_l, kCtrl)}},
+        {CopyCommand, Group::File, "Ctrl+C", "copy as command line", {sign(SDLK_c, kCtrl)}},
+        {Quit, Group::File, "Ctrl+Q", "quit", {sign(SDLK_q, kCtrl)}},
+    };
+}
+
+std::vector<Action> make_actions() {
+    std::vector<Action> actions = actions_before_methods();
+    for (const MethodInfo& method : all_methods()) actions.push_back(method_action(method));
+    for (Action& action : actions_after_methods()) actions.push_back(std::move(action));
+    return actions;
+}
+
+constexpr std::array kMouseActions{
+    MouseAction{"left drag", "look around"},
+    MouseAction{"right hold", "look around, pointer hidden"},
+    MouseAction{"wheel", "speed"},
+    MouseAction{"left click", "select the radiance volume and the material"},
+    MouseAction{"wheel on plot", "zoom; dragging pans, a double click fits"},
+    MouseAction{"drag on axis", "pictures at equal time, at equal error; right click: off"},
+    MouseAction{"drop a file", "open an .obj or .json scene, or a saved .field"},
+};
+
+/// "F1 or ?" is two keys.
+std::string code(const std::string& keys) {
+    const std::size_t split = keys.find(" or ");
+    if (split == std::string::npos) return fmt::format("`{}`", keys);
+    return fmt::format("`{}` or `{}`", keys.substr(0, split), keys.substr(split + 4));
+}
+
+}  // namespace
+
+std::span<const Action> all_actions() {
+    static const std::vector<Action> kActions = make_actions();
+    return kActions;
+}
+
+std::span<const MouseAction> mouse_actions() { return kMouseActions; }
+
+const Action& info_of(ActionId id) {
+    for (const Action& action : all_actions())
+        if (action.id == id) return action;
+    return all_actions().front();
+}
+
+const char* name_of(ActionGroup group) {
+    switch (group) {
+    case Group::Fly: return "Fly";
+    case Group::Render: return "Render";
+    case Group::Method: return "Method";
+    case Group::View: return "View";
+    case Group::Overlay: return "Overlays";
+    case Group::Compare: return "Compare";
+    case Group::Window: return "Window";
+    case Group::File: return "File";
+    }
+    return "";
+}
+
+bool matches(const Action& action, const KeyStroke& stroke) {
+    for (const Chord& chord : action.chords) {
+        const bool same_key = (chord.by == Chord::By::Place && chord.key == stroke.scancode) ||
+                              (chord.by == Chord::By::Symbol && chord.key == stroke.symbol);
+        if (same_key && (action.is_held ? !stroke.modifiers.ctrl : chord.modifiers == stroke.modifiers)) return true;
+    }
+    return false;
+}
+
+const Action* find_action(const KeyStroke& stroke) {
+    for (const Action& action : all_actions())
+        if (matches(action, stroke)) return &action;
+    return nullptr;
+}
+
+std::string key_table_markdown() {
+    std::string text = "| | key | does |\n| --- | --- | --- |\n";
+    std::string_view group;
+    for (const Action& action : all_actions()) {
+        const std::string_view name = name_of(action.group);
+        text += fmt::format("| {} | {} | {} |\n", group == name ? "" : name, code(action.keys), action.text);
+        group = name;
+    }
+    for (const MouseAction& action : kMouseActions)
+        text += fmt::format("| {} | {} | {} |\n", &action == kMouseActions.data() ? "Mouse" : "", action.keys,
+                            action.text);
+    return text;
+}
+
+}  // namespace pl

@@ -1,0 +1,118 @@
+#include "ui/input/perform_action.h"
+
+#include <fmt/format.h>
+
+#include "ui/draw/imgui_compat.h"
+
+namespace pl {
+namespace {
+
+constexpr float kOpacityStep = 0.1f;
+constexpr float kExposureStep = 0.5f;  ///< stops
+
+void copy_command(ViewerModel& model) {
+    Messages& messages = model.messages();
+    const std::string command = model.files().pictures().command_line();
+    if (command.empty()) {
+        messages.say(LogLevel::Warning, "this build cannot write the command line");
+        return;
+    }
+    ImGui::SetClipboardText(command.c_str());
+    messages.say(LogLevel::Info, "copied: " + command);
+    const std::size_t edited = model.scene().materials().edited_names().size();
+    if (edited > 0)
+        messages.say(LogLevel::Warning,
+                     fmt::format("it renders the materials of the file: {} {} edited in the window", edited,
+                                 edited == 1 ? "is" : "are"));
+}
+
+void step_opacity(DisplayControls& display, float step) {
+    display.set_cells(true);
+    display.set_cells_opacity(display.cells_opacity() + step);
+}
+
+void step_exposure(DisplayControls& display, float step) {
+    display.set_exposure(display.settings().exposure_ev + step);
+}
+
+/// Each function does a part of the actions; false for the others.
+bool perform_render_action(ViewerModel& model, ActionId id) {
+    RenderControls& render = model.render();
+    switch (id) {
+    case ActionId::SpeedUp: model.camera().change_speed(1.0f); return true;
+    case ActionId::SpeedDown: model.camera().change_speed(-1.0f); return true;
+    case ActionId::CameraHome: model.camera().go_home(); return true;
+    case ActionId::Restart: render.restart(); return true;
+    case ActionId::Forget: render.forget(); return true;
+    case ActionId::Pause: render.set_paused(!render.paused()); return true;
+    case ActionId::SinglePass: render.single_pass(); return true;
+    case ActionId::SwitchBackend: render.next_backend(); return true;
+    case ActionId::NextEvent: render.set_next_event(!render.settings().next_event); return true;
+    case ActionId::PreviousView: render.step_view(-1); return true;
+    case ActionId::NextView: render.step_view(1); return true;
+    default: return false;
+    }
+}
+
+bool perform_display_action(ViewerModel& model, ActionId id) {
+    DisplayControls& display = model.display();
+    WindowState& window = model.window();
+    switch (id) {
+    case ActionId::ExposureDown: step_exposure(display, -kExposureStep); return true;
+    case ActionId::ExposureUp: step_exposure(display, kExposureStep); return true;
+    case ActionId::Cells: display.set_cells(!display.cells()); return true;
+    case ActionId::CellsFainter: step_opacity(display, -kOpacityStep); return true;
+    case ActionId::CellsStronger: step_opacity(display, kOpacityStep); return true;
+    case ActionId::Hemisphere: window.hemisphere = !window.hemisphere; return true;
+    case ActionId::Accuracy: window.accuracy = !window.accuracy; return true;
+    case ActionId::HidePanels: window.panels = !window.panels; return true;
+    case ActionId::Help: window.help = !window.help; return true;
+    case ActionId::FullScreen: window.requests.full_screen = true; return true;
+    case ActionId::ScreenshotWithPanels: window.requests.window_shot = true; return true;
+    case ActionId::Quit: window.requests.quit = true; return true;
+    default: return false;
+    }
+}
+
+bool perform_compare_action(ViewerModel& model, ActionId id) {
+    Comparison& comparison = model.comparison();
+    switch (id) {
+    case ActionId::ShowDiagnostics: model.diagnostics().toggle(); return true;
+    case ActionId::CompareNext: comparison.step_mode(1); return true;
+    case ActionId::CompareBack: comparison.step_mode(-1); return true;
+    case ActionId::Flip: comparison.flip(); return true;
+    case ActionId::Turns: comparison.set_turns(!comparison.in_turns()); return true;
+    case ActionId::MakeReference: model.references().make(); return true;
+    case ActionId::SelfTest: model.self_test().is_shown() = !model.self_test().is_shown(); return true;
+    case ActionId::Cancel: model.cancel(); return true;
+    default: return false;
+    }
+}
+
+bool perform_file_action(ViewerModel& model, ActionId id) {
+    Files& files = model.files();
+    switch (id) {
+    case ActionId::Reload: model.scene().reload(); return true;
+    case ActionId::Screenshot: files.pictures().save_png(); return true;
+    case ActionId::Save: files.pictures().save_exr_and_png(); return true;
+    case ActionId::SaveField: files.fields().save(); return true;
+    case ActionId::LoadField: files.fields().load_newest(); return true;
+    case ActionId::CopyCommand: copy_command(model); return true;
+    default: return false;
+    }
+}
+
+}  // namespace
+
+bool perform(ViewerModel& model, const Action& action) {
+    if (action.method) {
+        model.render().set_method(*action.method);
+        return true;
+    }
+    return perform_render_action(model, action.id) || perform_display_action(model, action.id) ||
+           perform_compare_action(model, action.id) || perform_file_action(model, action.id);
+}
+
+bool perform(ViewerModel& model, ActionId id) { return perform(model, info_of(id)); }
+
+}  // namespace pl

@@ -1,0 +1,15 @@
+// What the actions of keys and menu items do to the viewer.
+#pragma once
+
+#include "ui/input/actions.h"
+#include "ui/model/viewer_model.h"
+
+namespace pl {
+
+/// False for held keys, which InputRouter adds up.
+bool perform(ViewerModel& model, const Action& action);
+
+/// An action without a parameter.
+bool perform(ViewerModel& model, ActionId id);
+
+}  // namespace pl

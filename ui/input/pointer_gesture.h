@@ -1,0 +1,61 @@
+// The meaning of a pressed mouse button: a click, a look around, or neither. Decided at the press and kept until the
+// release, so that a drag that began on a panel never turns the camera.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "core/kernel/base/math.h"
+
+namespace pl {
+
+enum class PointerButton { Left, Right };
+
+class PointerGesture {
+public:
+    static constexpr float kClickPixels = 4.0f;
+    static constexpr double kClickSeconds = 0.25;
+
+    /// A button goes down, over the image or not. A second button does not interrupt the first.
+    void press(PointerButton button, Vec2f position, double seconds, bool over_image) {
+        if (active_ || !over_image) return;
+        active_ = Press{button, position, seconds, button == PointerButton::Right};
+    }
+
+    /// The pointer moves. Returns the mouse movement that turns the camera.
+    Vec2f move(Vec2f position, Vec2f delta) {
+        if (!active_) return Vec2f{0.0f};
+        if (active_->turning) return delta;
+        const Vec2f from_press = position - active_->position;
+        if (std::fabs(from_press.x) < kClickPixels && std::fabs(from_press.y) < kClickPixels) return Vec2f{0.0f};
+        active_->turning = true;
+        return from_press;  // includes the pixels below the threshold
+    }
+
+    /// The button goes up. Returns the position of a click: a short left press without movement.
+    std::optional<Vec2f> release(PointerButton button, double seconds) {
+        if (!active_ || active_->button != button) return std::nullopt;
+        const Press press = *active_;
+        active_.reset();
+        if (press.turning || seconds - press.seconds > kClickSeconds) return std::nullopt;
+        return press.position;
+    }
+
+    /// The window lost the focus: no button is held any more.
+    void cancel() { active_.reset(); }
+
+    bool turning() const { return active_ && active_->turning; }
+    /// The right button hides the pointer and captures its movement.
+    bool captured() const { return active_ && active_->button == PointerButton::Right; }
+
+private:
+    struct Press {
+        PointerButton button;
+        Vec2f position;
+        double seconds;
+        bool turning;
+    };
+    std::optional<Press> active_;
+};
+
+}  // namespace pl

@@ -1,0 +1,49 @@
+// The comparison of pictures and methods: the runs of this session, the two sides, methods in turns.
+#pragma once
+
+#include "ui/compare/compare_plan.h"
+#include "ui/model/references.h"
+#include "ui/plot/accuracy_model.h"
+
+namespace pl {
+
+class Comparison {
+public:
+    Comparison(RenderLink& link, Messages& messages, const RenderControls& render, const References& references)
+        : link_(link), messages_(messages), render_(render), references_(references) {}
+
+    /// Takes the newest runs; once per frame of the window.
+    void update();
+
+    /// The runs of this session as the accuracy panel shows them.
+    AccuracyModel& accuracy() { return accuracy_; }
+    const AccuracyModel& accuracy() const { return accuracy_; }
+
+    const CompareState& state() const { return state_; }
+    /// What is drawn in `view`; no tiles without a comparison, and while the camera moves.
+    ComparePlan plan(const Rect& view) const;
+    void set_mode(CompareMode mode);
+    void step_mode(int steps);
+    void flip();  ///< to the other side
+    void choose_side(bool second, const SideChoice& choice);
+    void set_split(float share);
+    /// Sides are the pictures at the cursor: setting it starts a comparison.
+    void set_cursor(const Cursor& cursor);
+
+    /// The present method and the one it is compared with render in turns of equal time.
+    bool in_turns() const { return link_.turns().has_value(); }
+    void set_turns(bool on);
+
+private:
+    CompareInput input() const;
+    MethodId other_method() const;
+
+    RenderLink& link_;
+    Messages& messages_;
+    const RenderControls& render_;
+    const References& references_;
+    AccuracyModel accuracy_;
+    CompareState state_;
+};
+
+}  // namespace pl

@@ -1,0 +1,40 @@
+#include "ui/model/edited_materials.h"
+
+#include <fmt/format.h>
+
+#include "core/scene/validate.h"
+
+namespace pl {
+
+void EditedMaterials::open(std::shared_ptr<const SceneDescription> file) {
+    file_ = std::move(file);
+    now_ = file_->materials;
+}
+
+std::vector<std::string> EditedMaterials::edited_names() const {
+    std::vector<std::string> names;
+    for (std::uint32_t i = 0; i < now_.size(); ++i)
+        if (is_edited(i)) names.push_back(shown_name(now_[i], i));
+    return names;
+}
+
+void EditedMaterials::set(std::uint32_t index, const MaterialDescription& material) {
+    validate_material(material, *file_);
+    now_[index] = material;
+}
+
+std::string shown_name(const MaterialDescription& material, std::uint32_t index) {
+    return material.name.empty() ? fmt::format("material {}", index) : material.name;
+}
+
+bool may_move_volumes(const MaterialDescription& before, const MaterialDescription& after) {
+    const auto is_plain = [](const MaterialDescription& m) {
+        return m.kind == SurfaceKind::Diffuse && !m.textures.any();
+    };
+    const glm::vec3 black{0.0f};
+    return !is_plain(before) || !is_plain(after) || before.emission != after.emission ||
+           before.two_sided_emission != after.two_sided_emission ||
+           (before.albedo == black) != (after.albedo == black);
+}
+
+}  // namespace pl

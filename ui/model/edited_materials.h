@@ -1,0 +1,41 @@
+// The materials of the scene in the window, as edited since it was loaded.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene/description.h"
+
+namespace pl {
+
+class EditedMaterials {
+public:
+    explicit EditedMaterials(std::shared_ptr<const SceneDescription> file) { open(std::move(file)); }
+
+    /// Another scene, with unedited materials.
+    void open(std::shared_ptr<const SceneDescription> file);
+
+    const std::vector<MaterialDescription>& now() const { return now_; }
+    /// As in the file.
+    const MaterialDescription& in_file(std::uint32_t index) const { return file_->materials[index]; }
+    const SceneDescription& file() const { return *file_; }
+    bool is_edited(std::uint32_t index) const { return now_[index] != in_file(index); }
+    /// Names of all materials that differ from the file.
+    std::vector<std::string> edited_names() const;
+
+    /// Replaces a material. Throws Error(Input) as validate_material() does; the old one stays then.
+    void set(std::uint32_t index, const MaterialDescription& material);
+
+private:
+    std::shared_ptr<const SceneDescription> file_;
+    std::vector<MaterialDescription> now_;
+};
+
+/// Its name in lists: files may omit names.
+std::string shown_name(const MaterialDescription& material, std::uint32_t index);
+
+/// Whether the change may move radiance volumes: then the selected one is another one afterwards. See same_placement().
+bool may_move_volumes(const MaterialDescription& before, const MaterialDescription& after);
+
+}  // namespace pl

@@ -1,0 +1,81 @@
+#include "ui/model/field_files.h"
+
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/io/field_file.h"
+#include "ui/model/window_files.h"
+
+namespace pl {
+
+FieldFiles::FieldFiles(const ModelServices& services, FileNames& names, const ViewedScene& scene,
+                       RenderControls& render)
+    : options_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
+      names_(names), scene_(scene), render_(render) {}
+
+void FieldFiles::save() { link_.worker().request_learned(); }
+
+void FieldFiles::update() {
+    const std::optional<LearnedAnswer> answer = link_.worker().take_learned();
+    if (!answer) return;
+    if (!answer->field) {
+        messages_.say(LogLevel::Warning, answer->reason);
+        return;
+    }
+    const std::string suffix(kFieldSuffix);
+    const std::string_view method = info_of(answer->field->method).name;
+    const std::filesystem::path path = names_.next(scene_, method, {suffix.c_str()}).string() + suffix;
+    jobs_.push([this, path, field = answer->field]() -> JobThread::Report {
+        write_field(path, *field);
+        return [this, text = fmt::format("saved {}: {}", path.string(), summary_of(*field))] {
+            messages_.say(LogLevel::Info, text);
+        };
+    });
+}
+
+std::filesystem::path FieldFiles::newest_file() const {
+    std::filesystem::path newest;
+    std::filesystem::file_time_type newest_time{};
+    std::error_code error;
+    const std::string start = FileNames::stem_of(scene_) + "-";
+    for (const auto& entry : std::filesystem::directory_iterator(names_.folder(), error)) {
+        const std::filesystem::path& path = entry.path();
+        if (path.extension() != kFieldSuffix || !path.filename().string().starts_with(start)) continue;
+        const auto time = entry.last_write_time(error);
+        if (error || (!newest.empty() && time < newest_time)) continue;
+        newest = path;
+        newest_time = time;
+    }
+    return newest;
+}
+
+void FieldFiles::load_newest() {
+    const std::filesystem::path newest = newest_file();
+    if (newest.empty()) {
+        messages_.say(LogLevel::Warning,
+                      fmt::format("no learned field of {} was saved in {}", scene_.name(), names_.folder().string()));
+        return;
+    }
+    load(newest);
+}
+
+void FieldFiles::load(const std::filesystem::path& path) {
+    jobs_.push([this, path, scene = scene_.rendered()]() -> JobThread::Report {
+        const std::shared_ptr<LearnedField> field =
+            load_window_field(path, *scene.description, options_.settings.field);
+        return [this, field, path, scene] {
+            if (scene.description != link_.status().scene)
+                messages_.say(LogLevel::Error, fmt::format("{}: the scene was changed meanwhile", path.string()));
+            else
+                adopt(field, path);
+        };
+    });
+}
+
+void FieldFiles::adopt(const std::shared_ptr<LearnedField>& field, const std::filesystem::path& path) {
+    render_.adopt_field(field);
+    messages_.say(LogLevel::Info, fmt::format("continuing from {}: {}", path.string(), summary_of(*field)));
+}
+
+}  // namespace pl

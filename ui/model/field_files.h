@@ -1,0 +1,42 @@
+// Saving the learned field, and continuing from a saved one.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "ui/model/file_names.h"
+#include "ui/model/render_controls.h"
+#include "ui/model/services.h"
+#include "ui/model/viewed_scene.h"
+
+namespace pl {
+
+/// Suffix of learned fields that the viewer saves.
+inline constexpr std::string_view kFieldSuffix = ".field";
+
+class FieldFiles {
+public:
+    FieldFiles(const ModelServices& services, FileNames& names, const ViewedScene& scene, RenderControls& render);
+
+    /// Takes a field from the render thread to write; once per frame of the window.
+    void update();
+
+    void save();
+    void load(const std::filesystem::path& path);
+    /// The newest saved field of the scene in the window.
+    void load_newest();
+
+private:
+    void adopt(const std::shared_ptr<LearnedField>& field, const std::filesystem::path& path);
+    std::filesystem::path newest_file() const;
+
+    const ViewerOptions& options_;
+    Messages& messages_;
+    Jobs& jobs_;
+    RenderLink& link_;
+    FileNames& names_;
+    const ViewedScene& scene_;
+    RenderControls& render_;
+};
+
+}  // namespace pl

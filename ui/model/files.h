@@ -1,0 +1,36 @@
+// The files that the viewer opens and saves, on the helper thread.
+#pragma once
+
+#include <string>
+
+#include "ui/model/field_files.h"
+#include "ui/model/picture_files.h"
+
+namespace pl {
+
+class Files {
+public:
+    Files(const ModelServices& services, ViewedScene& scene, RenderControls& render, const DisplayControls& display)
+        : scene_(scene), names_(services.options.screenshot_dir), pictures_(services, names_, scene, render, display),
+          fields_(services, names_, scene, render) {}
+
+    PictureFiles& pictures() { return pictures_; }
+    const PictureFiles& pictures() const { return pictures_; }
+    FieldFiles& fields() { return fields_; }
+
+    /// A scene, or a learned field of the scene in the window: a file that ends in kFieldSuffix.
+    void open(const std::string& file) {
+        if (std::filesystem::path(file).extension() == kFieldSuffix)
+            fields_.load(file);
+        else
+            scene_.open(file);
+    }
+
+private:
+    ViewedScene& scene_;
+    FileNames names_;
+    PictureFiles pictures_;
+    FieldFiles fields_;
+};
+
+}  // namespace pl

@@ -1,0 +1,26 @@
+#include "ui/model/messages.h"
+
+namespace pl {
+namespace {
+
+constexpr double kToastSeconds = 4.0;
+constexpr double kErrorToastSeconds = 10.0;
+
+}  // namespace
+
+void Messages::drop_expired() {
+    std::erase_if(toasts_, [&](const Toast& toast) { return toast.until <= now_; });
+}
+
+void Messages::note(LogLevel level, const std::string& text) {
+    if (log_.size() >= kMaxLogLines) log_.erase(log_.begin());
+    log_.push_back({now_, level, text});
+}
+
+void Messages::say(LogLevel level, const std::string& text) {
+    note(level, text);
+    if (toasts_.size() >= kMaxToasts) toasts_.erase(toasts_.begin());
+    toasts_.push_back({level, text, now_ + (level == LogLevel::Info ? kToastSeconds : kErrorToastSeconds)});
+}
+
+}  // namespace pl

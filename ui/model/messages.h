@@ -1,0 +1,45 @@
+// Messages to the user: toasts over the picture, which expire, and the log, which keeps them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pl {
+
+enum class LogLevel { Info, Warning, Error };
+
+struct LogLine {
+    double seconds;  ///< since the start of the viewer
+    LogLevel level;
+    std::string text;
+};
+
+struct Toast {
+    LogLevel level;
+    std::string text;
+    double until;  ///< on the window's clock
+};
+
+class Messages {
+public:
+    static constexpr std::size_t kMaxToasts = 4;
+    static constexpr std::size_t kMaxLogLines = 1000;
+
+    /// The window's clock, in seconds since the start; set once per frame of the window.
+    void set_time(double seconds) { now_ = seconds; }
+    double now() const { return now_; }
+    void drop_expired();
+
+    void say(LogLevel level, const std::string& text);   ///< toast and log
+    void note(LogLevel level, const std::string& text);  ///< log only
+
+    const std::vector<LogLine>& log() const { return log_; }
+    const std::vector<Toast>& toasts() const { return toasts_; }
+
+private:
+    double now_ = 0.0;
+    std::vector<LogLine> log_;
+    std::vector<Toast> toasts_;
+};
+
+}  // namespace pl

@@ -1,0 +1,23 @@
+// Numbered file names that never overwrite an existing file.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+
+namespace pl {
+
+class NumberedNames {
+public:
+    /// "DIR/STEM-0001" without suffix. No file of this name with one of the suffixes exists, and it was not returned before.
+    std::filesystem::path next(const std::filesystem::path& dir, const std::string& stem,
+                               std::initializer_list<const char*> suffixes);
+
+private:
+    int last_ = 0;  ///< files of earlier names may not be written yet
+};
+
+/// Letters, digits, '-' and '_' of the text, the rest replaced by '-'.
+std::string file_name_part(const std::string& text);
+
+}  // namespace pl

@@ -1,0 +1,85 @@
+#include "ui/model/picture_files.h"
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "ui/model/window_files.h"
+
+namespace pl {
+namespace {
+
+constexpr double kSaveSeconds = 3.0;  ///< for the values of a picture to arrive from a failed render thread
+constexpr int kLastSaveMs = 3000;     ///< the same when the window closes
+
+}  // namespace
+
+PictureFiles::PictureFiles(const ModelServices& services, FileNames& names, const ViewedScene& scene,
+                           const RenderControls& render, const DisplayControls& display)
+    : options_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
+      names_(names), scene_(scene), render_(render), display_(display) {}
+
+void PictureFiles::update() {
+    if (!unsaved_.empty()) write_unsaved();
+}
+
+void PictureFiles::finish() {
+    for (int waited = 0; !unsaved_.empty() && waited < kLastSaveMs; ++waited) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        link_.take_frame();
+        update();
+    }
+}
+
+ViewerPicture PictureFiles::picture() const {
+    return {scene_.name(),       link_.status().backend, render_.settings(),
+            display_.settings(), render_.limits(),       scene_.materials().edited_names()};
+}
+
+std::string PictureFiles::command_line() const {
+    return options_.command_line ? options_.command_line(picture()) : "";
+}
+
+void PictureFiles::save(std::initializer_list<const char*> suffixes) {
+    if (!link_.frame()) {
+        messages_.say(LogLevel::Warning, "there is no picture to save yet");
+        return;
+    }
+    const std::filesystem::path name = names_.next(scene_, info_of(link_.frame()->settings.method).name, suffixes);
+    for (const char* suffix : suffixes) unsaved_.push_back(name.string() + suffix);
+    deadline_ = messages_.now() + kSaveSeconds;
+    link_.worker().set_values_wanted(true);
+    write_unsaved();
+}
+
+/// Frames carry pixel values only on request: until one does, there is nothing to write.
+void PictureFiles::write_unsaved() {
+    const auto& frame = link_.frame();
+    if (!frame->has_values()) {
+        if (link_.status().state != WorkerState::Failed || messages_.now() < deadline_) return;
+        unsaved_.clear();
+        messages_.say(LogLevel::Error, "the picture cannot be saved: rendering has failed");
+        return;
+    }
+    ViewerPicture shown = picture();
+    shown.settings = frame->settings;
+    shown.backend = frame->backend.name;
+    for (const std::filesystem::path& path : std::exchange(unsaved_, {})) {
+        jobs_.push([this, path, shown, frame]() -> JobThread::Report {
+            save_window_picture(path, frame->snapshot, shown,
+                                options_.command_line ? options_.command_line(shown) : "");
+            return [this, path] { messages_.say(LogLevel::Info, "saved " + path.string()); };
+        });
+    }
+}
+
+void PictureFiles::save_window(ScreenPixels pixels, std::filesystem::path path) {
+    jobs_.push([this, path, shared = std::make_shared<ScreenPixels>(std::move(pixels))]() -> JobThread::Report {
+        save_window_pixels(path, *shared);
+        return [this, path] { messages_.say(LogLevel::Info, "saved " + path.string()); };
+    });
+}
+
+}  // namespace pl

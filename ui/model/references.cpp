@@ -1,0 +1,87 @@
+#include "ui/model/references.h"
+
+#include <fmt/format.h>
+
+#include "ui/model/stored_reference.h"
+
+namespace pl {
+
+References::References(const ModelServices& services, const RenderControls& render, const ViewedScene& scene)
+    : options_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
+      render_(render), scene_(scene) {}
+
+const ReferencePicture* References::current() const {
+    return reference_ && reference_->picture == link_.status().picture ? &*reference_ : nullptr;
+}
+
+std::optional<ReferenceJob::Progress> References::progress() const {
+    return job_ ? std::optional(job_->progress()) : std::nullopt;
+}
+
+void References::update() {
+    look_up();
+    take_result();
+}
+
+/// Once for every new picture in the window.
+void References::look_up() {
+    const std::uint64_t picture = link_.status().picture;
+    if (picture == 0 || picture == looked_up_) return;
+    looked_up_ = picture;
+    if (current() != nullptr) return;
+    jobs_.push([this, scene = scene_.rendered(), settings = render_.settings()]() -> JobThread::Report {
+        const auto found = find_stored_reference(options_.reference_dir, *scene.description, settings);
+        if (!found) return {};
+        return [this, found] { adopt(found); };
+    });
+}
+
+/// A reference of another picture is kept until that picture is in the window again; errors are never measured
+/// against it.
+void References::adopt(const std::shared_ptr<const StoredReference>& found) {
+    const LiveReference& halves = found->halves;
+    const std::vector<Vec3f> mean = weighted_mean(halves.first, found->spp[0], halves.second, found->spp[1]);
+    reference_ = ReferencePicture{
+        .picture = halves.picture,
+        .pixels = std::make_shared<const HalfPicture>(half_picture(halves.width, halves.height, mean)),
+        .label = fmt::format("reference  {} + {} spp", found->spp[0], found->spp[1]),
+        .noise_relmse = found->noise_relmse};
+    link_.worker().set_reference({found, &found->halves});
+    messages_.say(LogLevel::Info,
+                  fmt::format("{}, its noise as relMSE is {:.2g}", reference_->label, found->noise_relmse));
+}
+
+void References::make() {
+    if (job_) return;
+    if (link_.status().picture == 0) {
+        messages_.say(LogLevel::Info, "a reference needs a camera at rest: wait for the first pass");
+        return;
+    }
+    link_.end_turns(render_.method());
+    job_ = std::make_unique<ReferenceJob>(
+        [this, scene = scene_.rendered(), settings = render_.settings()](const JobMonitor& monitor) {
+            return make_stored_reference(options_.reference_dir, scene, settings, options_.make_backend, monitor);
+        });
+    link_.hold(RenderLink::Hold::Reference, true);
+    messages_.say(LogLevel::Info, "rendering the reference: Esc ends it and keeps its samples");
+}
+
+void References::stop() {
+    if (job_) job_->stop();
+}
+
+void References::take_result() {
+    if (!job_) return;
+    const auto result = job_->take_result();
+    if (!result) return;
+    job_.reset();
+    link_.hold(RenderLink::Hold::Reference, false);
+    if (!result->failure.empty())
+        messages_.say(LogLevel::Error, "the reference could not be rendered: " + result->failure);
+    else if (result->value)
+        adopt(result->value);
+    else
+        messages_.say(LogLevel::Info, "the reference was ended before both halves had samples");
+}
+
+}  // namespace pl

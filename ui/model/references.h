@@ -1,0 +1,48 @@
+// References of the picture in the window: looked up when it changes, and rendered in the background.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "ui/compare/sides.h"
+#include "ui/model/background_job.h"
+#include "ui/model/render_controls.h"
+#include "ui/model/services.h"
+#include "ui/model/viewed_scene.h"
+
+namespace pl {
+
+class References {
+public:
+    References(const ModelServices& services, const RenderControls& render, const ViewedScene& scene);
+
+    /// Once per frame of the window: looks a reference up for a new picture, takes the one that was rendered.
+    void update();
+
+    /// The reference of the picture in the window; null without one.
+    const ReferencePicture* current() const;
+
+    /// Renders a reference of the picture, or continues the stored one. Rendering of the picture rests meanwhile.
+    void make();
+    /// Its samples so far are stored and used.
+    void stop();
+    bool is_making() const { return job_ != nullptr; }
+    std::optional<ReferenceJob::Progress> progress() const;
+
+private:
+    void look_up();
+    void take_result();
+    void adopt(const std::shared_ptr<const StoredReference>& found);
+
+    const ViewerOptions& options_;
+    Messages& messages_;
+    Jobs& jobs_;
+    RenderLink& link_;
+    const RenderControls& render_;
+    const ViewedScene& scene_;
+    std::optional<ReferencePicture> reference_;  ///< the newest; may be of another picture
+    std::uint64_t looked_up_ = 0;                ///< picture of the newest look-up
+    std::unique_ptr<ReferenceJob> job_;
+};
+
+}  // namespace pl

@@ -1,0 +1,165 @@
+#include "ui/model/render_controls.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace pl {
+
+RenderControls::RenderControls(const ModelServices& services, CameraMotion& camera, Selection& selection,
+                               const RenderSettings& settings)
+    : messages_(services.messages), link_(services.link), worker_(link_.worker()), camera_(camera),
+      selection_(selection), settings_(settings), limits_(services.options.limits),
+      previous_method_(baseline_method()) {}
+
+RenderSettings RenderControls::settings() const {
+    RenderSettings settings = settings_;
+    settings.camera = camera_.camera();
+    return settings;
+}
+
+void RenderControls::set_method(MethodId method) {
+    link_.end_turns(settings_.method);
+    if (method == settings_.method) return;
+    previous_method_ = settings_.method;
+    settings_.method = method;
+    worker_.submit(EditMethod{method});
+}
+
+void RenderControls::set_view(View view) {
+    if (view == settings_.view) return;
+    settings_.view = view;
+    worker_.submit(EditView{view});
+}
+
+void RenderControls::step_view(int steps) {
+    const int count = static_cast<int>(all_views().size());
+    const int index = (static_cast<int>(settings_.view) + steps % count + count) % count;
+    set_view(all_views()[static_cast<std::size_t>(index)].id);
+}
+
+void RenderControls::set_next_event(bool on) {
+    if (on == settings_.next_event) return;
+    settings_.next_event = on;
+    submit_estimator();
+    messages_.note(LogLevel::Info, on ? "next-event estimation on: pictures and fields start over"
+                                      : "next-event estimation off: pictures and fields start over");
+}
+
+void RenderControls::set_max_depth(int depth) {
+    if (depth == settings_.max_depth || depth < 1) return;
+    settings_.max_depth = depth;
+    submit_estimator();
+}
+
+void RenderControls::set_roulette(RouletteRule rule) {
+    if (rule == settings_.roulette) return;
+    settings_.roulette = rule;
+    submit_estimator();
+}
+
+void RenderControls::submit_estimator() {
+    worker_.submit(EditEstimator{settings_.max_depth, settings_.next_event, settings_.roulette});
+}
+
+void RenderControls::set_seed(std::uint64_t seed) {
+    if (seed == settings_.seed) return;
+    settings_.seed = seed;
+    worker_.submit(EditSeed{seed});
+}
+
+void RenderControls::set_mixture(MixtureSettings mixture) {
+    mixture.bsdf_fraction = std::clamp(mixture.bsdf_fraction, kMinBsdfFraction, 1.0f);
+    if (mixture == settings_.mixture) return;
+    settings_.mixture = mixture;
+    camera_.touch();
+    worker_.submit(EditMixture{mixture});
+}
+
+void RenderControls::set_field(const FieldSettings& field) {
+    if (field == settings_.field) return;
+    settings_.field = field;
+    selection_.deselect();
+    worker_.submit(EditField{field});
+}
+
+void RenderControls::set_size(int width, int height) {
+    if (width < 1 || height < 1 || (width == settings_.width && height == settings_.height)) return;
+    settings_.width = width;
+    settings_.height = height;
+    worker_.submit(EditSize{width, height});
+}
+
+void RenderControls::set_forced_effects(FeatureSet forced) {
+    if (forced == settings_.forced_effects) return;
+    settings_.forced_effects = forced;
+    worker_.submit(EditEffects{forced});
+}
+
+void RenderControls::adopt_field(const std::shared_ptr<LearnedField>& field) {
+    selection_.deselect();
+    link_.end_turns(settings_.method);
+    field->settings.lookup = settings_.field.lookup;
+    field->shape.lookup = settings_.field.lookup;
+    if (field->method != settings_.method) previous_method_ = settings_.method;
+    settings_.method = field->method;
+    settings_.field = field->settings;
+    worker_.submit(EditLearned{field});
+}
+
+// --- the progress of the rendering -----------------------------------------------------------------------------
+
+void RenderControls::set_limits(const SampleLimits& limits) {
+    if (limits == limits_) return;
+    limits_ = limits;
+    worker_.set_limits(limits);
+}
+
+void RenderControls::single_pass() {
+    if (!paused()) {
+        messages_.say(LogLevel::Info, "single passes need a paused picture: press Space first");
+        return;
+    }
+    worker_.step();
+}
+
+void RenderControls::restart() { worker_.submit(EditRestart{}); }
+
+void RenderControls::forget() {
+    worker_.submit(EditForget{});
+    messages_.say(LogLevel::Info, "forgot the learned field");
+}
+
+void RenderControls::cancel_precomputation() {
+    const bool back = previous_method_ != settings_.method;
+    set_method(back ? previous_method_ : baseline_method());
+    messages_.say(LogLevel::Info,
+                  fmt::format("precomputation interrupted, back to {}", info_of(settings_.method).name));
+}
+
+// --- back ends -------------------------------------------------------------------------------------------------
+
+void RenderControls::set_backend(const std::string& name) {
+    const auto& choices = *link_.status().backends;
+    const auto choice = std::ranges::find(choices, name, &BackendChoice::name);
+    if (choice == choices.end() || name == wanted_backend()) return;
+    if (!choice->unavailable.empty()) {
+        messages_.say(LogLevel::Warning,
+                      fmt::format("{} is unavailable: {}", back_end_label(name), choice->unavailable));
+        return;
+    }
+    backend_generation_ = worker_.switch_backend(name);
+}
+
+void RenderControls::next_backend() {
+    const auto& choices = *link_.status().backends;
+    if (choices.size() < 2) {
+        messages_.say(LogLevel::Info, "there is no other back end");
+        return;
+    }
+    const auto wanted = std::ranges::find(choices, wanted_backend(), &BackendChoice::name);
+    const auto index = static_cast<std::size_t>(wanted - choices.begin());
+    set_backend(choices[(index + 1) % choices.size()].name);
+}
+
+}  // namespace pl

@@ -1,0 +1,42 @@
+#include "ui/model/render_link.h"
+
+namespace pl {
+
+void RenderLink::update() {
+    if (const std::exception_ptr failure = worker_.failure()) std::rethrow_exception(failure);
+    take_frame();
+    status_ = worker_.status();
+}
+
+void RenderLink::take_frame() {
+    auto latest = worker_.latest();
+    if (latest == latest_) return;
+    latest_ = std::move(latest);
+    const MethodId method = latest_->snapshot.slot.method;
+    if (turns_ && frame_ && method == (*turns_)[1]) {
+        second_frame_ = latest_;
+    } else {
+        frame_ = latest_;
+        throughput_.observe(frame_->snapshot, frame_->backend.name);
+    }
+}
+
+void RenderLink::hold(Hold reason, bool on) {
+    holds_.set(static_cast<std::size_t>(reason), on);
+    worker_.set_paused(holds_.any());
+}
+
+void RenderLink::begin_turns(TurnMethods methods) {
+    turns_ = methods;
+    worker_.set_turns(turns_);
+}
+
+void RenderLink::end_turns(MethodId method) {
+    if (!turns_) return;
+    turns_.reset();
+    second_frame_.reset();
+    worker_.set_turns(std::nullopt);
+    worker_.submit(EditMethod{method});
+}
+
+}  // namespace pl

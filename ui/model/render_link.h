@@ -1,0 +1,55 @@
+// The window's end of the render thread: its newest frames and status, what holds it, and two methods in turns.
+#pragma once
+
+#include <bitset>
+#include <memory>
+#include <optional>
+
+#include "ui/model/throughput.h"
+#include "ui/worker/render_worker.h"
+
+namespace pl {
+
+class RenderLink {
+public:
+    /// Reasons for rendering to rest. Background work would slow down the passes that are timed, so that rendering
+    /// and its clocks rest during it.
+    enum class Hold { User, Reference, Diagnostics, SelfTest };
+
+    explicit RenderLink(WorkerSetup setup) : worker_(std::move(setup)), status_(worker_.status()) {}
+
+    /// Takes the newest frame and status; once per frame of the window. Throws the error that ended the render thread.
+    void update();
+    void take_frame();
+
+    RenderWorker& worker() { return worker_; }
+    const RenderWorker& worker() const { return worker_; }
+    /// The newest frame of the method in the window; null before the first.
+    const std::shared_ptr<const PublishedFrame>& frame() const { return frame_; }
+    /// In turns the newest frame of the second method; may be null.
+    const std::shared_ptr<const PublishedFrame>& second_frame() const { return second_frame_; }
+    const WorkerStatus& status() const { return status_; }
+    const Throughput& throughput() const { return throughput_; }
+
+    /// Rendering rests as long as any reason holds.
+    void hold(Hold reason, bool on);
+    bool is_held(Hold reason) const { return holds_.test(static_cast<std::size_t>(reason)); }
+
+    /// The two methods that render in turns; empty if none do.
+    const std::optional<TurnMethods>& turns() const { return turns_; }
+    void begin_turns(TurnMethods methods);
+    /// Ends turns and continues with `method`: the last turn may have been the other method's. Nothing without turns.
+    void end_turns(MethodId method);
+
+private:
+    RenderWorker worker_;
+    WorkerStatus status_;
+    std::shared_ptr<const PublishedFrame> frame_;
+    std::shared_ptr<const PublishedFrame> second_frame_;
+    std::shared_ptr<const PublishedFrame> latest_;  ///< the newer one of both
+    Throughput throughput_;
+    std::optional<TurnMethods> turns_;
+    std::bitset<4> holds_;
+};
+
+}  // namespace pl

@@ -1,0 +1,44 @@
+#include "ui/model/selection.h"
+
+#include <utility>
+
+namespace pl {
+
+void Selection::update() {
+    const std::optional<PickAnswer> answer = link_.worker().take_pick();
+    if (!answer) return;
+    if (!answer->point) {
+        messages_.say(LogLevel::Info, "nothing to select: the ray leaves the scene");
+        return;
+    }
+    picked_ = answer->point;
+    material_ = picked_->material;
+    if (picked_->volume == kNoVolume) {
+        messages_.say(LogLevel::Info, "no radiance volume serves this surface: it reflects nothing");
+        return;
+    }
+    select(picked_->volume);
+    is_new_ = true;
+}
+
+void Selection::select(std::int32_t volume) {
+    volume_ = volume;
+    hovered_cell_ = -1;
+    link_.worker().select_volume(volume);
+    display_.set_outline(volume != kNoVolume);
+}
+
+void Selection::deselect() {
+    picked_.reset();
+    select(kNoVolume);
+}
+
+bool Selection::take_new_volume() { return std::exchange(is_new_, false); }
+
+const VolumeInspection* Selection::inspection() const {
+    const auto& frame = link_.frame();
+    const bool fits = frame && frame->volume && frame->volume->volume == volume_ && frame->volume->side > 0;
+    return fits ? frame->volume.get() : nullptr;
+}
+
+}  // namespace pl

@@ -1,0 +1,96 @@
+#include "ui/model/viewer_model.h"
+
+#include <fmt/format.h>
+
+namespace pl {
+namespace {
+
+WorkerSetup worker_setup(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene,
+                         const RenderSettings& settings, double load_seconds) {
+    return {.make_backend = options.make_backend,
+            .backends = options.backends,
+            .first_backend = options.first_backend,
+            .scene = std::move(scene),
+            .settings = settings,
+            .limits = options.limits,
+            .load_seconds = load_seconds,
+            .display = options.display};
+}
+
+}  // namespace
+
+ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene,
+                         const RenderSettings& settings, double load_seconds)
+    : jobs_(messages_), link_(worker_setup(options, scene, settings, load_seconds)),
+      display_(options.display, link_.worker()),
+      camera_(options.settings.camera, CameraControls(settings.camera, bounds_of(*scene).diagonal()), link_.worker()),
+      selection_(link_, display_, messages_),
+      render_({options, messages_, jobs_, link_}, camera_, selection_, settings),
+      scene_({options, messages_, jobs_, link_}, camera_, selection_, scene), effects_(link_, messages_),
+      references_({options, messages_, jobs_, link_}, render_, scene_),
+      comparison_(link_, messages_, render_, references_), diagnostics_(link_, messages_, render_),
+      self_test_({options, messages_, jobs_, link_}),
+      files_({options, messages_, jobs_, link_}, scene_, render_, display_) {
+    if (options.field) link_.worker().submit(EditLearned{options.field});
+    for (const std::string& warning : scene->warnings) messages_.say(LogLevel::Warning, warning);
+    messages_.note(LogLevel::Info, fmt::format("opened {}: {} triangles", scene_.name(), scene->triangles.size()));
+}
+
+ViewerModel::~ViewerModel() {
+    files_.pictures().finish();
+    jobs_.finish();  // its jobs use the objects above it
+}
+
+void ViewerModel::update(double seconds) {
+    messages_.set_time(seconds);
+    camera_.update(seconds);
+    link_.update();
+    files_.pictures().update();
+    link_.worker().set_values_wanted(window_.values_shown || files_.pictures().is_waiting());
+    references_.update();
+    comparison_.update();
+    for (const WorkerMessage& message : link_.worker().take_messages())
+        messages_.say(message.is_error ? LogLevel::Error : LogLevel::Info, message.text);
+    effects_.update();
+    selection_.update();
+    files_.fields().update();
+    diagnostics_.update();
+    self_test_.update();
+    jobs_.update();
+    messages_.drop_expired();
+}
+
+bool ViewerModel::busy() const {
+    return jobs_.pending() > 0 || files_.pictures().is_waiting() || references_.is_making() ||
+           diagnostics_.is_searching() || self_test_.run().is_running();
+}
+
+std::string ViewerModel::title() const {
+    const std::string back_end = frame() != nullptr ? back_end_label(status().backend) : "starting";
+    std::string text = fmt::format("{} spp - {} - {} - {}", status().passes, info_of(render_.method()).label,
+                                   back_end, scene_.name());
+    if (status().state == WorkerState::Done) text = "done: " + text;
+    if (status().state == WorkerState::Paused) text = "paused: " + text;
+    return text;
+}
+
+void ViewerModel::cancel() {
+    if (window_.help)
+        window_.help = false;
+    else if (self_test_.is_shown() && self_test_.run().is_running())
+        self_test_.stop();
+    else if (self_test_.is_shown())
+        self_test_.is_shown() = false;
+    else if (status().state == WorkerState::Precomputing)
+        render_.cancel_precomputation();
+    else if (references_.is_making())
+        references_.stop();
+    else if (diagnostics_.is_searching() || diagnostics_.map())
+        diagnostics_.toggle();
+    else if (selection_.volume() != kNoVolume || comparison_.state().mode == CompareMode::Off)
+        selection_.deselect();
+    else
+        comparison_.set_mode(CompareMode::Off);
+}
+
+}  // namespace pl

@@ -1,0 +1,88 @@
+// The state of the viewer without its window, as objects of one concern each: keys, menus, panels and scripts call the
+// object concerned. Lives on the window's thread.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ui/model/comparison.h"
+#include "ui/model/diagnostics_search.h"
+#include "ui/model/effect_trials.h"
+#include "ui/model/files.h"
+#include "ui/model/self_test_control.h"
+#include "ui/model/window_state.h"
+
+namespace pl {
+
+class ViewerModel {
+public:
+    /// `settings` hold the final size and camera.
+    ViewerModel(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene,
+                const RenderSettings& settings, double load_seconds);
+    /// Pictures and fields that are still to be saved are written first.
+    ~ViewerModel();
+    ViewerModel(const ViewerModel&) = delete;
+    ViewerModel& operator=(const ViewerModel&) = delete;
+
+    /// Once per frame of the window, with its clock: takes the results of the other threads, ends motion, drops
+    /// expired messages. Throws the error that ended the render thread.
+    void update(double seconds);
+
+    /// Null before the first frame.
+    const PublishedFrame* frame() const { return link_.frame().get(); }
+    const WorkerStatus& status() const { return link_.status(); }
+
+    Messages& messages() { return messages_; }
+    const Messages& messages() const { return messages_; }
+    const RenderLink& link() const { return link_; }
+    WindowState& window() { return window_; }
+    const WindowState& window() const { return window_; }
+    DisplayControls& display() { return display_; }
+    const DisplayControls& display() const { return display_; }
+    CameraMotion& camera() { return camera_; }
+    const CameraMotion& camera() const { return camera_; }
+    Selection& selection() { return selection_; }
+    const Selection& selection() const { return selection_; }
+    RenderControls& render() { return render_; }
+    const RenderControls& render() const { return render_; }
+    ViewedScene& scene() { return scene_; }
+    const ViewedScene& scene() const { return scene_; }
+    EffectTrials& effects() { return effects_; }
+    const EffectTrials& effects() const { return effects_; }
+    References& references() { return references_; }
+    const References& references() const { return references_; }
+    Comparison& comparison() { return comparison_; }
+    const Comparison& comparison() const { return comparison_; }
+    DiagnosticsSearch& diagnostics() { return diagnostics_; }
+    const DiagnosticsSearch& diagnostics() const { return diagnostics_; }
+    SelfTestControl& self_test() { return self_test_; }
+    const SelfTestControl& self_test() const { return self_test_; }
+    Files& files() { return files_; }
+    const Files& files() const { return files_; }
+
+    /// Background work or unsaved files.
+    bool busy() const;
+    /// The window's title.
+    std::string title() const;
+    /// Closes, stops or deselects the topmost of all that can be: the action of Esc.
+    void cancel();
+
+private:
+    Messages messages_;
+    Jobs jobs_;
+    RenderLink link_;
+    WindowState window_;
+    DisplayControls display_;
+    CameraMotion camera_;
+    Selection selection_;
+    RenderControls render_;
+    ViewedScene scene_;
+    EffectTrials effects_;
+    References references_;
+    Comparison comparison_;
+    DiagnosticsSearch diagnostics_;
+    SelfTestControl self_test_;
+    Files files_;
+};
+
+}  // namespace pl

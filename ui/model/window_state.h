@@ -1,0 +1,42 @@
+// The look of the window: panels, overlays, scale. Nothing in it reaches the rendering.
+#pragma once
+
+#include "ui/draw/direction_disc.h"
+#include "ui/plot/plot_drag.h"
+
+namespace pl {
+
+/// What is drawn in the cells of the selected volume's hemisphere.
+struct CellDisplay {
+    CellQuantity quantity = CellQuantity::Radiance;
+    ColorScale scale = ColorScale::Logarithmic;  ///< a lamp is brighter than all other directions together
+};
+
+/// The plot of the accuracy panel, between frames.
+struct PlotState {
+    PlotDrag drag = PlotDrag::None;
+    bool has_wheel = false;  ///< the pointer is over it: the wheel zooms
+    Rect frame;              ///< the rectangle of its curves
+};
+
+/// Requests of keys and panels to the window itself; the window clears them.
+struct WindowRequests {
+    bool full_screen = false;
+    bool window_shot = false;
+    bool quit = false;
+    bool fit_size = false;  ///< make the picture as large as the window has room for
+};
+
+struct WindowState {
+    bool panels = true;
+    bool accuracy = true;  ///< the panel with the plot
+    bool help = false;
+    bool hemisphere = true;     ///< of the selected volume, in the picture
+    bool values_shown = false;  ///< the pixel tab shows values of the picture
+    float ui_scale = 1.0f;
+    CellDisplay cell_display;
+    PlotState plot;
+    WindowRequests requests;
+};
+
+}  // namespace pl

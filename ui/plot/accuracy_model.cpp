@@ -1,0 +1,91 @@
+#include "ui/plot/accuracy_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pl {
+namespace {
+
+bool is_measured(RunList runs, std::uint64_t picture, ErrorMetric metric) {
+    return std::ranges::any_of(runs, [&](const auto& run) {
+        return run->label.picture == picture && std::ranges::any_of(run->points, [&](const LivePoint& point) {
+                   return error_of(point, metric).has_value();
+               });
+    });
+}
+
+}  // namespace
+
+void AccuracyModel::update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor) {
+    if (runs == runs_ && picture == picture_ && floor == floor_) return;
+    runs_ = std::move(runs);
+    picture_ = picture;
+    floor_ = floor;
+    recompute();
+}
+
+void AccuracyModel::set_metric(ErrorMetric metric) {
+    if (metric == wanted_.metric) return;
+    wanted_.metric = metric;
+    if (cursor_.kind == Cursor::Kind::EqualError) cursor_ = {};  // the error of another metric
+    recompute();
+    fit_view();
+}
+
+void AccuracyModel::set_axis(CostAxis axis) {
+    if (axis == wanted_.axis) return;
+    wanted_.axis = axis;
+    if (cursor_.kind == Cursor::Kind::EqualCost) cursor_ = {};
+    recompute();
+    fit_view();
+}
+
+void AccuracyModel::set_cursor(const Cursor& cursor) {
+    cursor_ = cursor.at > 0.0 && std::isfinite(cursor.at) ? cursor : Cursor{};
+    rows_ = cursor_rows(runs(), picture_, kind_, cursor_);
+}
+
+void AccuracyModel::toggle_hidden(std::uint64_t run) {
+    if (hidden_.erase(run) == 0) hidden_.insert(run);
+    recompute();
+}
+
+double AccuracyModel::floor() const { return kind_.metric == ErrorMetric::RelMse ? floor_ : 0.0; }
+
+void AccuracyModel::fit_view() {
+    view_kept_ = false;
+    view_ = PlotView(fit_range(lines_));
+}
+
+void AccuracyModel::recompute() {
+    const ErrorMetric before = kind_.metric;
+    kind_ = wanted_;
+    if (!is_measured(runs(), picture_, kind_.metric)) kind_.metric = ErrorMetric::Noise;
+    if (kind_.metric != before && cursor_.kind == Cursor::Kind::EqualError) cursor_ = {};
+    make_lines();
+    headlines_ = make_headlines(runs(), picture_);
+    rows_ = cursor_rows(runs(), picture_, kind_, cursor_);
+    if (!view_kept_) view_ = PlotView(fit_range(lines_));
+}
+
+void AccuracyModel::make_lines() {
+    lines_.clear();
+    auto others = static_cast<std::size_t>(
+        std::ranges::count_if(runs(), [&](const auto& run) { return run->label.picture != picture_; }));
+    for (const auto& run : runs()) {
+        const RunLabel& label = run->label;
+        const bool comparable = label.picture == picture_;
+        if (!comparable && others-- > kOtherLines) continue;
+        lines_.push_back({.run = run->number,
+                          .name = name_of(label),
+                          .color = info_of(label.method).color,
+                          .style = style_of(label.backend),
+                          .warm = label.warm,
+                          .comparable = comparable,
+                          .hidden = hidden_.count(run->number) > 0,
+                          .in_progress = run->in_progress,
+                          .points = plot_points(*run, kind_)});
+    }
+}
+
+}  // namespace pl

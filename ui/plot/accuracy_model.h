@@ -1,0 +1,70 @@
+// The content and settings of the accuracy panel, without window: recomputed when runs or settings change, not for
+// every frame.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "ui/plot/cursor_table.h"
+#include "ui/plot/headlines.h"
+#include "ui/plot/plot_lines.h"
+
+namespace pl {
+
+class AccuracyModel {
+public:
+    AccuracyModel() { recompute(); }
+
+    /// Takes the newest runs. `picture` is that of the window (RunLabel::picture), `floor` the noise of its reference as
+    /// relMSE, 0 without one.
+    void update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor);
+
+    /// Null before the first update.
+    const LiveRunSet* set() const { return runs_.get(); }
+    RunList runs() const { return runs_ ? RunList(runs_->runs) : RunList(); }
+    std::uint64_t picture() const { return picture_; }
+
+    ErrorMetric wanted_metric() const { return wanted_.metric; }
+    /// The plotted metric: the picture's own noise if the wanted one was not measured in any run of the picture.
+    const CurveKind& kind() const { return kind_; }
+    const Cursor& cursor() const { return cursor_; }
+    void set_metric(ErrorMetric metric);
+    void set_axis(CostAxis axis);
+    /// A cost or error that is not positive removes the cursor.
+    void set_cursor(const Cursor& cursor);
+    void toggle_hidden(std::uint64_t run);
+
+    /// All runs of this picture, and the newest of others.
+    const std::vector<PlotLine>& lines() const { return lines_; }
+    static constexpr std::size_t kOtherLines = 6;
+    const std::vector<Headline>& headlines() const { return headlines_; }
+    const std::vector<CursorRow>& rows() const { return rows_; }
+    /// Noise of the reference in the plotted metric: smaller errors are not significant. 0 if unknown.
+    double floor() const;
+
+    PlotView& view() { return view_; }
+    const PlotView& view() const { return view_; }
+    /// Keeps the range of the axes after the user has changed it; otherwise it follows the curves.
+    void keep_view() { view_kept_ = true; }
+    void fit_view();
+
+private:
+    void recompute();
+    void make_lines();
+
+    std::shared_ptr<const LiveRunSet> runs_;
+    std::uint64_t picture_ = 0;
+    double floor_ = 0.0;
+    CurveKind wanted_;
+    CurveKind kind_;
+    Cursor cursor_;
+    std::set<std::uint64_t> hidden_;
+    std::vector<PlotLine> lines_;
+    std::vector<Headline> headlines_;
+    std::vector<CursorRow> rows_;
+    PlotView view_;
+    bool view_kept_ = false;
+};
+
+}  // namespace pl

@@ -1,0 +1,64 @@
+// Scripted input: keys and mouse as events of the real window, counted in frames of the window. The automated test of
+// the user interface, on SDL's dummy driver. One command per line, '#' starts a comment:
+//   FRAME move X Y | aim U V | aim_plot U V | aim_at U V LABEL | down B | up B | wheel N | key K [MODS] | keyup K
+//   FRAME tap K [MODS] | resize W H | drop FILE
+//   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE | wait_spp N | quit
+// B is left, right or middle; MODS are shift, ctrl, alt. `aim` points at the image: (0, 0) is its top left corner and
+// (1, 1) its bottom right one. `aim_plot` points at the curves of the accuracy panel in the same way, and beyond (1, 1)
+// at the numbers of its axes. `aim_at` points at the control with this label: also a tab or a button. OP is one of
+// == != < <= > >= ~ (contains). The frame count stands still while a script waits.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ui/input/actions.h"
+
+namespace pl {
+
+struct ScriptCondition {
+    std::string name;
+    std::string op;
+    std::string value;
+};
+
+/// Numbers are compared as numbers, everything else as text. A number and a text have no order.
+bool holds(const ScriptCondition& condition, const std::string& actual);
+
+struct ScriptCommand {
+    enum class Kind {
+        Move,
+        Aim,
+        AimPlot,
+        AimAt,
+        Down,
+        Up,
+        Wheel,
+        Key,
+        KeyUp,
+        Tap,
+        Resize,
+        Drop,
+        Shot,
+        Expect,
+        Wait,
+        Quit
+    };
+    Kind kind = Kind::Quit;
+    int frame = 0;
+    std::string where;  ///< file:line, for messages
+    double x = 0.0;     ///< also width, notches
+    double y = 0.0;     ///< also height
+    int button = 0;     ///< SDL's number
+    KeyStroke key{};
+    std::string text;  ///< file name, label
+    ScriptCondition condition;
+};
+
+/// Throws Error(Input) with file and line.
+std::vector<ScriptCommand> parse_script(std::string_view text, const std::string& file_name);
+std::vector<ScriptCommand> load_script(const std::filesystem::path& path);
+
+}  // namespace pl

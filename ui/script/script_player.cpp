@@ -1,0 +1,159 @@
+#include "ui/script/script_player.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <SDL.h>
+
+#include "core/base/error.h"
+#include "ui/draw/gui_memory.h"
+#include "ui/model/viewer_model.h"
+#include "ui/script/script_values.h"
+
+namespace pl {
+namespace {
+
+using Kind = ScriptCommand::Kind;
+
+Uint16 sdl_modifiers(const Modifiers& modifiers) {
+    int mod = KMOD_NONE;
+    if (modifiers.shift) mod |= KMOD_LSHIFT;
+    if (modifiers.ctrl) mod |= KMOD_LCTRL;
+    if (modifiers.alt) mod |= KMOD_LALT;
+    return static_cast<Uint16>(mod);
+}
+
+void require(const ScriptCommand& command, const ViewerModel& model) {
+    const ScriptCondition& condition = command.condition;
+    const std::string actual = script_value(model, condition.name);
+    if (!holds(condition, actual))
+        throw Error(ErrorKind::Runtime, fmt::format("{}: expected {} {} {}, got '{}'", command.where, condition.name,
+                                                    condition.op, condition.value, actual));
+}
+
+}  // namespace
+
+ScriptPlayer::ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* window)
+    : commands_(std::move(commands)), window_(window) {}
+
+void ScriptPlayer::step(ViewerModel& model, const Rect& image, double seconds) {
+    for (const KeyStroke& key : std::exchange(tapped_, {})) push_key(key, false);
+    while (next_ < commands_.size() && commands_[next_].frame <= frame_) {
+        if (!run(commands_[next_], model, image, seconds)) return;  // the frame count stands still
+        ++next_;
+    }
+    ++frame_;
+    if (next_ == commands_.size()) model.window().requests.quit = true;
+}
+
+std::optional<std::filesystem::path> ScriptPlayer::take_shot() { return std::exchange(shot_, std::nullopt); }
+
+bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, double seconds) {
+    if (holds(command.condition, script_value(model, command.condition.name))) {
+        waiting_since_.reset();
+        return true;
+    }
+    if (!waiting_since_) waiting_since_ = seconds;
+    if (seconds - *waiting_since_ < kHangSeconds) return false;
+    throw Error(ErrorKind::Runtime,
+                fmt::format("{}: waited {:.0f} s for {} {} {}, got '{}'", command.where, kHangSeconds,
+                            command.condition.name, command.condition.op, command.condition.value,
+                            script_value(model, command.condition.name)));
+}
+
+bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds) {
+    switch (command.kind) {
+    case Kind::Move: push_motion({static_cast<float>(command.x), static_cast<float>(command.y)}); break;
+    case Kind::Aim:
+        push_motion({image.x + static_cast<float>(command.x) * image.width,
+                     image.y + static_cast<float>(command.y) * image.height});
+        break;
+    case Kind::AimPlot: {
+        const Rect& plot = model.window().plot.frame;
+        push_motion({plot.x + static_cast<float>(command.x) * plot.width,
+                     plot.y + static_cast<float>(command.y) * plot.height});
+        break;
+    }
+    case Kind::AimAt: {
+        const auto& places = gui_memory().places;
+        const auto place = places.find(command.text);
+        if (place == places.end())
+            throw Error(ErrorKind::Runtime,
+                        fmt::format("{}: there is no control '{}' in the window", command.where, command.text));
+        push_motion({place->second.x + static_cast<float>(command.x) * place->second.width,
+                     place->second.y + static_cast<float>(command.y) * place->second.height});
+        break;
+    }
+    case Kind::Down:
+    case Kind::Up: push_button(command.button, command.kind == Kind::Down); break;
+    case Kind::Wheel: {
+        SDL_Event event{};
+        event.type = SDL_MOUSEWHEEL;
+        event.wheel.windowID = SDL_GetWindowID(window_);
+        event.wheel.y = static_cast<Sint32>(command.x);
+        SDL_PushEvent(&event);
+        break;
+    }
+    case Kind::Key: push_key(command.key, true); break;
+    case Kind::KeyUp: push_key(command.key, false); break;
+    case Kind::Tap:
+        push_key(command.key, true);
+        tapped_.push_back(command.key);
+        break;
+    case Kind::Resize: SDL_SetWindowSize(window_, static_cast<int>(command.x), static_cast<int>(command.y)); break;
+    case Kind::Drop: {
+        SDL_Event event{};
+        event.type = SDL_DROPFILE;
+        event.drop.windowID = SDL_GetWindowID(window_);
+        event.drop.file = SDL_strdup(command.text.c_str());
+        SDL_PushEvent(&event);
+        break;
+    }
+    case Kind::Shot: shot_ = command.text; break;
+    case Kind::Expect: require(command, model); break;
+    case Kind::Wait: return wait(command, model, seconds);
+    case Kind::Quit: model.window().requests.quit = true; break;
+    }
+    return true;
+}
+
+void ScriptPlayer::push_motion(Vec2f position) {
+    SDL_Event event{};
+    event.type = SDL_MOUSEMOTION;
+    event.motion.windowID = SDL_GetWindowID(window_);
+    event.motion.state = buttons_;
+    event.motion.x = static_cast<Sint32>(std::lround(position.x));
+    event.motion.y = static_cast<Sint32>(std::lround(position.y));
+    event.motion.xrel = event.motion.x - static_cast<Sint32>(std::lround(pointer_.x));
+    event.motion.yrel = event.motion.y - static_cast<Sint32>(std::lround(pointer_.y));
+    pointer_ = position;
+    SDL_PushEvent(&event);
+}
+
+void ScriptPlayer::push_button(int button, bool down) {
+    SDL_Event event{};
+    event.type = down ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP;
+    event.button.windowID = SDL_GetWindowID(window_);
+    event.button.button = static_cast<Uint8>(button);
+    event.button.state = down ? SDL_PRESSED : SDL_RELEASED;
+    event.button.clicks = 1;
+    event.button.x = static_cast<Sint32>(std::lround(pointer_.x));
+    event.button.y = static_cast<Sint32>(std::lround(pointer_.y));
+    const auto mask = SDL_BUTTON(static_cast<unsigned int>(button));
+    buttons_ = down ? buttons_ | mask : buttons_ & ~mask;
+    SDL_PushEvent(&event);
+}
+
+void ScriptPlayer::push_key(const KeyStroke& key, bool down) {
+    SDL_Event event{};
+    event.type = down ? SDL_KEYDOWN : SDL_KEYUP;
+    event.key.windowID = SDL_GetWindowID(window_);
+    event.key.state = down ? SDL_PRESSED : SDL_RELEASED;
+    event.key.keysym.scancode = static_cast<SDL_Scancode>(key.scancode);
+    event.key.keysym.sym = SDL_GetKeyFromScancode(event.key.keysym.scancode);
+    event.key.keysym.mod = sdl_modifiers(key.modifiers);
+    SDL_PushEvent(&event);
+}
+
+}  // namespace pl

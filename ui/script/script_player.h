@@ -1,0 +1,55 @@
+// Plays a script: pushes its input into the event queue of the window and checks its expectations.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "ui/draw/layout.h"
+#include "ui/script/script.h"
+
+struct SDL_Window;
+
+namespace pl {
+
+class ViewerModel;
+
+class ScriptPlayer {
+public:
+    static constexpr double kFrameSeconds = 1.0 / 60.0;
+    /// Only a guard against waits that never end, so that no verdict depends on the speed of the machine.
+    static constexpr double kHangSeconds = 3600.0;
+
+    ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* window);
+
+    /// Runs the commands of the next frame. `image` is the rectangle of the picture, `seconds` the real time.
+    /// Throws Error(Runtime) with file and line if an expectation fails or a wait hangs.
+    void step(ViewerModel& model, const Rect& image, double seconds);
+
+    /// The clock of the script: its frames at a sixtieth of a second. Clicks are timed by it, so that a slow frame makes
+    /// no difference.
+    double seconds() const { return frame_ * kFrameSeconds; }
+
+    /// The file to save the finished frame to, once.
+    std::optional<std::filesystem::path> take_shot();
+
+private:
+    bool run(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds);
+    bool wait(const ScriptCommand& command, const ViewerModel& model, double seconds);
+    void push_motion(Vec2f position);
+    void push_button(int button, bool down);
+    void push_key(const KeyStroke& key, bool down);
+
+    std::vector<ScriptCommand> commands_;
+    SDL_Window* window_;
+    std::size_t next_ = 0;
+    int frame_ = 0;
+    std::optional<double> waiting_since_;
+    std::vector<KeyStroke> tapped_;  ///< keys that go up in the next frame
+    std::optional<std::filesystem::path> shot_;
+    Vec2f pointer_{0.0f};
+    unsigned int buttons_ = 0;
+};
+
+}  // namespace pl

@@ -1,0 +1,213 @@
+#include "ui/script/script_values.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/scene/needed_effects.h"
+#include "ui/model/viewer_model.h"
+
+namespace pl {
+namespace {
+
+struct Value {
+    std::string_view name;
+    std::string (*read)(const ViewerModel& model);
+};
+
+std::string word(bool value) { return value ? "yes" : "no"; }
+
+std::string vector_text(Vec3f v) { return fmt::format("{:.3f},{:.3f},{:.3f}", v.x, v.y, v.z); }
+
+std::string last_message(const ViewerModel& model) {
+    return model.messages().log().empty() ? "" : model.messages().log().back().text;
+}
+
+std::string learned_passes(const ViewerModel& model) {
+    return fmt::format("{}", model.status().field ? model.status().field->passes : 0);
+}
+
+/// A property of the picture in the window, which follows the settings after the next pass.
+std::string shown(const ViewerModel& model, std::string (*read)(const PublishedFrame& frame)) {
+    return model.frame() != nullptr ? read(*model.frame()) : "none";
+}
+
+/// Stored points of the run in progress, else of the newest run.
+std::string point_count(const ViewerModel& model) {
+    std::size_t points = 0;
+    for (const auto& run : model.comparison().accuracy().runs()) {
+        points = run->points.size();
+        if (run->in_progress) break;
+    }
+    return fmt::format("{}", points);
+}
+
+/// Labels of the compared pictures, in a window of any size.
+std::string shown_sides(const ViewerModel& model) {
+    std::string text;
+    for (const CompareTile& tile : model.comparison().plan({0.0f, 0.0f, 600.0f, 600.0f}).tiles)
+        text += (text.empty() ? "" : " | ") + tile.label;
+    return text;
+}
+
+std::string cursor_kind(const ViewerModel& model) {
+    const Cursor::Kind kind = model.comparison().accuracy().cursor().kind;
+    return kind == Cursor::Kind::None ? "none" : (kind == Cursor::Kind::EqualCost ? "cost" : "error");
+}
+
+/// Of the kernel that serves every effect.
+std::string measured_pairs(const ViewerModel& model) {
+    const EffectCost* cost = model.effects().table().cost_of(kEveryFeature);
+    return fmt::format("{}", cost != nullptr ? cost->result.pairs : 0);
+}
+
+/// The marks in the picture.
+std::string diagnostics_found(const ViewerModel& model) {
+    const auto map = model.diagnostics().map();
+    return map ? summary_of(*map) : "not searched";
+}
+
+std::string turn_passes(const ViewerModel& model, std::size_t side) {
+    return fmt::format("{}", model.status().turns ? model.status().turns->passes[side] : 0);
+}
+
+constexpr std::array kValues{
+    Value{"method", [](const ViewerModel& m) { return std::string(info_of(m.render().settings().method).name); }},
+    Value{"view", [](const ViewerModel& m) { return std::string(info_of(m.render().settings().view).name); }},
+    Value{"state", [](const ViewerModel& m) { return std::string(name_of(m.status().state)); }},
+    Value{"spp", [](const ViewerModel& m) { return fmt::format("{}", m.status().passes); }},
+    Value{"learned", learned_passes},
+    Value{"backend", [](const ViewerModel& m) { return m.status().backend; }},
+    Value{"nee", [](const ViewerModel& m) { return word(m.render().settings().next_event); }},
+    Value{"exposure", [](const ViewerModel& m) { return fmt::format("{}", m.display().settings().exposure_ev); }},
+    Value{"opacity", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.display().cells_opacity()); }},
+    Value{"accuracy", [](const ViewerModel& m) { return word(m.window().accuracy); }},
+    Value{"runs", [](const ViewerModel& m) { return fmt::format("{}", m.comparison().accuracy().runs().size()); }},
+    Value{"points", point_count},
+    Value{"plotted",
+          [](const ViewerModel& m) { return std::string(info_of(m.comparison().accuracy().kind().metric).label); }},
+    Value{"headline", [](const ViewerModel& m) { return m.comparison().accuracy().headlines().front().text; }},
+    Value{"compare", [](const ViewerModel& m) { return std::string(name_of(m.comparison().state().mode)); }},
+    Value{"sides", shown_sides},
+    Value{"split", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.comparison().state().split); }},
+    Value{"cursor", cursor_kind},
+    Value{"cursor_at", [](const ViewerModel& m) { return fmt::format("{}", m.comparison().accuracy().cursor().at); }},
+    Value{"rows", [](const ViewerModel& m) { return fmt::format("{}", m.comparison().accuracy().rows().size()); }},
+    Value{"reference", [](const ViewerModel& m) { return word(m.references().current() != nullptr); }},
+    Value{"reference_share",
+          [](const ViewerModel& m) {
+              const auto making = m.references().progress();
+              return fmt::format("{}", making ? making->share : 0.0);
+          }},
+    Value{"making", [](const ViewerModel& m) { return word(m.references().progress().has_value()); }},
+    Value{"turns", [](const ViewerModel& m) { return word(m.comparison().in_turns()); }},
+    Value{"turn_a", [](const ViewerModel& m) { return turn_passes(m, 0); }},
+    Value{"turn_b", [](const ViewerModel& m) { return turn_passes(m, 1); }},
+    Value{"cells", [](const ViewerModel& m) { return word(m.display().cells()); }},
+    Value{"hemisphere", [](const ViewerModel& m) { return word(m.window().hemisphere); }},
+    Value{"help", [](const ViewerModel& m) { return word(m.window().help); }},
+    Value{"panels", [](const ViewerModel& m) { return word(m.window().panels); }},
+    Value{"moving", [](const ViewerModel& m) { return word(m.camera().is_moving()); }},
+    Value{"busy", [](const ViewerModel& m) { return word(m.busy()); }},
+    Value{"volume", [](const ViewerModel& m) { return fmt::format("{}", m.selection().volume()); }},
+    Value{"inspected", [](const ViewerModel& m) { return word(m.selection().inspection() != nullptr); }},
+    Value{"scene", [](const ViewerModel& m) { return m.scene().name(); }},
+    Value{"eye", [](const ViewerModel& m) { return vector_text(m.render().settings().camera.eye); }},
+    Value{"eye_z", [](const ViewerModel& m) { return fmt::format("{}", m.render().settings().camera.eye.z); }},
+    Value{"target", [](const ViewerModel& m) { return vector_text(m.render().settings().camera.target); }},
+    Value{"speed", [](const ViewerModel& m) { return fmt::format("{}", m.camera().speed()); }},
+    Value{"size",
+          [](const ViewerModel& m) {
+              return fmt::format("{}x{}", m.render().settings().width, m.render().settings().height);
+          }},
+    Value{"title", [](const ViewerModel& m) { return m.title(); }},
+    Value{"message", last_message},
+    Value{"toasts", [](const ViewerModel& m) { return fmt::format("{}", m.messages().toasts().size()); }},
+    Value{"shown_method",
+          [](const ViewerModel& m) {
+              return shown(m,
+                           [](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.method).name); });
+          }},
+    Value{"shown_view",
+          [](const ViewerModel& m) {
+              return shown(m,
+                           [](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.view).name); });
+          }},
+    Value{"shown_spp",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return fmt::format("{}", f.snapshot.passes); });
+          }},
+    Value{"shown_backend",
+          [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.backend.name; }); }},
+    Value{"shown_divider",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return fmt::format("{}", f.divider); });
+          }},
+    Value{"shown_cells",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return word(f.cells != nullptr); });
+          }},
+    Value{"material",
+          [](const ViewerModel& m) {
+              const auto index = m.scene().selected_material();
+              return index ? shown_name(m.scene().materials().now()[*index], *index) : std::string("none");
+          }},
+    Value{"forced",
+          [](const ViewerModel& m) {
+              const std::vector<std::string> names = effect_names(m.render().settings().forced_effects);
+              return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ","));
+          }},
+    Value{"measure_percent",
+          [](const ViewerModel& m) {
+              const LiveRunSet* set = m.comparison().accuracy().set();
+              const bool any = set != nullptr && set->charged_seconds > 0.0;
+              return fmt::format("{:.3f}", any ? 100.0 * set->measure_seconds / set->charged_seconds : 0.0);
+          }},
+    Value{"charged",
+          [](const ViewerModel& m) {
+              return fmt::format("{:.2f}", m.comparison().accuracy().set() != nullptr
+                                               ? m.comparison().accuracy().set()->charged_seconds
+                                               : 0.0);
+          }},
+    Value{"measuring", [](const ViewerModel& m) { return word(m.effects().measuring().has_value()); }},
+    Value{"effect_pairs", measured_pairs},
+    Value{"edited",
+          [](const ViewerModel& m) { return fmt::format("{}", m.scene().materials().edited_names().size()); }},
+    Value{"roughness",
+          [](const ViewerModel& m) {
+              const auto index = m.scene().selected_material();
+              return fmt::format("{:.3f}", index ? m.scene().materials().now()[*index].roughness : 0.0f);
+          }},
+    Value{"kernel",
+          [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
+    Value{"diagnostics", diagnostics_found},
+    Value{"searching", [](const ViewerModel& m) { return word(m.diagnostics().share().has_value()); }},
+    Value{"selftest", [](const ViewerModel& m) { return std::string(name_of(m.self_test().run().outcome())); }},
+    Value{"checks", [](const ViewerModel& m) { return fmt::format("{}", m.self_test().run().checks().size()); }},
+    Value{"invalid",
+          [](const ViewerModel& m) {
+              return shown(
+                  m, [](const PublishedFrame& f) { return fmt::format("{}", f.snapshot.counters.invalid_samples); });
+          }},
+};
+
+}  // namespace
+
+bool is_script_value(std::string_view name) {
+    return std::ranges::find(kValues, name, &Value::name) != kValues.end();
+}
+
+std::string script_value_names() {
+    std::string text;
+    for (const Value& value : kValues) text += (text.empty() ? "" : ", ") + std::string(value.name);
+    return text;
+}
+
+std::string script_value(const ViewerModel& model, std::string_view name) {
+    const auto value = std::ranges::find(kValues, name, &Value::name);
+    return value != kValues.end() ? value->read(model) : "";
+}
+
+}  // namespace pl

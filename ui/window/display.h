@@ -1,0 +1,57 @@
+// The window and its renderer.
+#pragma once
+
+#include <string>
+
+#include "ui/viewer.h"
+
+struct SDL_Window;
+struct SDL_Renderer;
+
+namespace pl {
+
+/// Keeps SDL's video subsystem running. Throws Error(Unavailable) with one line on machines without a screen, unless
+/// SDL_VIDEODRIVER names a driver that needs none. The check uses the connection that the window uses afterwards: an X
+/// server may restart when its last client disconnects, and refuse the next one for a moment.
+class VideoSubsystem {
+public:
+    VideoSubsystem();
+    ~VideoSubsystem();
+    VideoSubsystem(const VideoSubsystem&) = delete;
+    VideoSubsystem& operator=(const VideoSubsystem&) = delete;
+};
+
+/// Owner of window and renderer. Chooses an accelerated renderer only if it runs on hardware: SDL's software renderer is
+/// several times faster than a software implementation of OpenGL.
+class Display {
+public:
+    /// Throws Error(Unavailable).
+    Display(const std::string& title, int width, int height, bool software);
+    ~Display();
+    Display(const Display&) = delete;
+    Display& operator=(const Display&) = delete;
+
+    SDL_Window* window() const { return window_; }
+    SDL_Renderer* renderer() const { return renderer_; }
+    /// "opengl (NVIDIA ...)", "software".
+    const std::string& renderer_name() const { return name_; }
+    bool is_software() const { return software_; }
+
+    void set_title(const std::string& title);
+    void toggle_full_screen();
+    /// The pixels drawn since the last present; slow.
+    ScreenPixels read_pixels() const;
+
+private:
+    bool open(const std::string& title, int width, int height, bool software);
+    bool runs_on_hardware();
+    void close();
+
+    VideoSubsystem video_;
+    SDL_Window* window_ = nullptr;
+    SDL_Renderer* renderer_ = nullptr;
+    std::string name_;
+    bool software_ = false;
+};
+
+}  // namespace pl

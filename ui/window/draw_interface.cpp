@@ -1,0 +1,22 @@
+#include "ui/window/draw_interface.h"
+
+namespace pl {
+
+void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan,
+                    const std::optional<HoveredPixel>& hovered) {
+    if (layout.panels) {
+        draw_menu_bar(model, layout);
+        draw_settings_panel(model, layout);
+        draw_knowledge_panel(model, layout, hovered);
+        if (layout.accuracy.height > 0.0f) draw_accuracy_panel(model, layout);
+        draw_status_bar(model, layout);
+    }
+    if (plan.at_image) draw_hemisphere(model, image);
+    draw_comparison(model, plan);
+    if (layout.panels) draw_badges(model, layout, plan);
+    draw_toasts(model, layout, plan);
+    draw_self_test(model, layout);
+    draw_help(model, layout);
+}
+
+}  // namespace pl

@@ -1,0 +1,64 @@
+#include "ui/window/gui.h"
+
+#include <SDL.h>
+
+#include "core/base/error.h"
+#include "ui/draw/style.h"
+
+namespace pl {
+
+Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
+    : display_(display), font_(std::move(font)), draw_(display.renderer()) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;  // the layout follows from the window's size
+    io.LogFilename = nullptr;
+    io.UserData = &memory_;
+    if (!init_imgui_platform(display.window(), display.renderer())) {
+        ImGui::DestroyContext();
+        throw Error(ErrorKind::Unavailable, "cannot connect the user interface to the window");
+    }
+    set_scale(ui_scale);
+}
+
+Gui::~Gui() {
+    ImGui_ImplSDL2_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Gui::set_scale(float ui_scale) {
+    if (ui_scale == scale_) return;
+    scale_ = ui_scale;
+    apply_style(ui_scale);
+    load_fonts(font_, ui_scale);
+    draw_.upload_fonts();
+}
+
+void Gui::handle(const SDL_Event& event) {
+    ImGui_ImplSDL2_ProcessEvent(&event);
+    mouse_.handle(event);
+}
+
+void Gui::frame(double delta_seconds, const std::function<void()>& build) {
+    ImGui_ImplSDL2_NewFrame();
+    mouse_.write_to_imgui();
+    ImGuiIO& io = ImGui::GetIO();
+    io.DeltaTime = static_cast<float>(delta_seconds > 1.0e-4 ? delta_seconds : 1.0e-4);
+    // Older platform code takes the scale of the pixels from OpenGL, which is not used here.
+    int width = 0;
+    int height = 0;
+    SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
+    io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+    io.DisplayFramebufferScale = {1.0f, 1.0f};
+    ImGui::NewFrame();
+    const bool moves = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f;
+    memory_.pointer_rest_seconds = moves ? 0.0f : memory_.pointer_rest_seconds + io.DeltaTime;
+    memory_.places.clear();
+    build();
+    ImGui::Render();
+}
+
+void Gui::draw() { draw_.draw(*ImGui::GetDrawData()); }
+
+}  // namespace pl

@@ -1,0 +1,42 @@
+#include "ui/window/image_layer.h"
+
+#include "core/base/error.h"
+#include "core/diagnose/mark_diagnostics.h"
+#include "ui/draw/picture.h"
+
+namespace pl {
+
+Rect ImageLayer::place(const ViewerModel& model, const Rect& view) const {
+    const RenderSettings settings = model.frame() != nullptr ? model.frame()->settings : model.render().settings();
+    return place_image(view, settings.width, settings.height);
+}
+
+void ImageLayer::fill(const ViewerModel& model, const Key& key) {
+    const PublishedFrame& frame = *model.frame();
+    try {
+        (void)frame.picture.pixels();  // before locking, which loses the old pixels
+    } catch (const Error&) {
+        return;  // the device is lost: the render thread reports it and goes on with another one
+    }
+    CellOverlay overlay{frame.cells.get(), key.opacity, std::nullopt};
+    if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_.view());
+    texture_.fill([&](std::uint32_t* out, std::size_t pitch) {
+        write_picture(frame.picture, overlay, out, pitch);
+        if (key.diagnostics) mark_diagnostics(*key.diagnostics, {out, pitch});
+    });
+}
+
+void ImageLayer::draw(const ViewerModel& model, const Rect& image) {
+    if (model.frame() == nullptr) return;
+    const Snapshot& snapshot = model.frame()->snapshot;
+    if (texture_.resize(snapshot.width, snapshot.height)) key_ = {};
+    const Key key{model.frame()->serial, model.display().cells() ? model.display().cells_opacity() : 0.0f,
+                  model.selection().volume(), model.diagnostics().map()};
+    if (!(key == key_)) {
+        fill(model, key);
+        key_ = key;
+    }
+    texture_.draw(image, image);
+}
+
+}  // namespace pl

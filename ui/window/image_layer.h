@@ -1,0 +1,41 @@
+// The picture in the window: a texture that is refilled from the newest frame when that or an overlay changed.
+#pragma once
+
+#include <memory>
+
+#include "ui/draw/layout.h"
+#include "ui/draw/stream_texture.h"
+#include "ui/model/viewer_model.h"
+#include "ui/worker/cell_colors.h"
+
+namespace pl {
+
+class ImageLayer {
+public:
+    explicit ImageLayer(SDL_Renderer* renderer) : texture_(renderer) {}
+
+    /// The rectangle of the picture within `view`: of the frame in the window, else of the settings.
+    Rect place(const ViewerModel& model, const Rect& view) const;
+
+    /// Nothing before the first frame.
+    void draw(const ViewerModel& model, const Rect& image);
+
+private:
+    /// Everything that the texture's pixels depend on.
+    struct Key {
+        std::uint64_t serial = 0;  ///< of the frame
+        float opacity = 0.0f;
+        std::int32_t selected = kNoVolume;
+        std::shared_ptr<const DiagnosticsMap> diagnostics{};
+
+        friend bool operator==(const Key&, const Key&) = default;
+    };
+
+    void fill(const ViewerModel& model, const Key& key);
+
+    StreamTexture texture_;
+    Key key_;
+    ToneTable cell_table_{ToneCurve::Clamp};
+};
+
+}  // namespace pl
