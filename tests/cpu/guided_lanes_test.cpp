@@ -2,9 +2,9 @@
 #include <cstring>
 
 #include "cpu/guided_block.h"
-#include "tests/catch.hpp"
-#include "tests/kernel/field_fixture.h"
 #include "tests/kernel/guided_methods.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/field_fixture.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -43,7 +43,8 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
         const Vec3f normal = normals[random.below(volumes)];
         const Vec3f position = random.between(0.0f, 2.0f) * random.direction();
         if (volume >= 0)
-            group.set_volume(lane, method.field.served_point({volume}, SurfacePoint{}), method.bsdf_fraction({volume}));
+            group.set_volume(lane, method.field.served_point({volume}, SurfacePoint{}),
+                             method.bsdf_fraction({volume}));
         group.position.set(lane, position);
         group.shading_normal.set(lane, normal);
         group.choice[lane] = any_number(random);

@@ -1,9 +1,9 @@
 // Records of several threads end in the sums that one thread alone makes of them.
-#include "cpu/training_queue.h"
 #include "cpu/parallel_for.h"
-#include "tests/catch.hpp"
-#include "tests/kernel/field_fixture.h"
+#include "cpu/training_queue.h"
 #include "tests/kernel/guided_methods.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/field_fixture.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -2,11 +2,11 @@
 // CPU's own driver and agree with default path tracing by rule S2.
 #include "cpu/batch_tracer.h"
 #include "cpu/launchers.h"
-#include "tests/catch.hpp"
 #include "tests/cpu/small_room.h"
 #include "tests/extending/cosine_lobe_field.h"
 #include "tests/extending/uniform_method.h"
-#include "tests/statistical/sessions.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -3,11 +3,11 @@
 
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/default.h"
+#include "tests/kernel/guided_methods.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
-#include "tests/statistical/rules.h"
-#include "tests/statistical/scenes.h"
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/statistics/rules.h"
 
 namespace pl::test {
 
@@ -72,9 +72,8 @@ inline HostScene box_with_bright_wall() {
 inline Decision check_learned_cells() {
     const HostScene scene = box_with_bright_wall();
     SmallField field(scene, 30, 12);
-    trace_many<FeatureSet{}>(scene, camera_at_center(kFloor, kCubeLow, kCubeHigh),
-                             guided_by(field.view()), {.seed = 1}, {0, 20'000},
-                             [](const auto&, const auto&) {});
+    trace_many<FeatureSet{}>(scene, camera_at_center(kFloor, kCubeLow, kCubeHigh), guided_by(field.view()),
+                             {.seed = 1}, {0, 20'000}, [](const auto&, const auto&) {});
     field.update();
     const Vec3f middle = wall_center(kFloor, kCubeLow, kCubeHigh);
     return judge_cells(field, field.volume_at(middle, {0.0f, 1.0f, 0.0f}), middle);
@@ -92,8 +91,8 @@ inline Decision check_probed_cells() {
         for (std::uint32_t sample = 0; sample < 16; ++sample) {
             PathCounters counters;
             auto state = begin_probe<FeatureSet{}>(tables, settings, tables.cell_index(volume, cell), {sample, 4});
-            trace_path<FeatureSet{}>(PathContext<ProbeMethod>{view, ProbeMethod{}, settings}, BvhIntersector{view}, state,
-                                     counters);
+            trace_path<FeatureSet{}>(PathContext<ProbeMethod>{view, ProbeMethod{}, settings}, BvhIntersector{view},
+                                     state, counters);
             finish_probe(tables, state, counters.method);
         }
     field.update();
@@ -153,8 +152,7 @@ inline Decision check_mixture_density() {
     }
     for (std::uint32_t i = 0; i < kSamples; ++i) {
         const Rng rng{.seed = 1, .sample = i};
-        const DirectionSample sample =
-            method.sample_direction({volume}, surface, numbers_of(rng, 1));
+        const DirectionSample sample = method.sample_direction({volume}, surface, numbers_of(rng, 1));
         const Vec3f local{glm::dot(sample.wi, frame.x), glm::dot(sample.wi, frame.y), glm::dot(sample.wi, frame.z)};
         ++observed[static_cast<std::size_t>(bins.cell_of_direction(local))];
     }

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "core/kernel/methods/default.h"
+#include "tests/kernel/guided_methods.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
-#include "tests/statistical/cube_radiosity.h"
-#include "tests/statistical/rectangle_light.h"
-#include "tests/statistical/rules.h"
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/scenes/cube_radiosity.h"
+#include "tests/support/scenes/rectangle_light.h"
+#include "tests/support/statistics/rules.h"
 
 namespace pl::test {
 

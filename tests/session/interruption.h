@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "tests/statistical/sessions.h"
+#include "tests/support/session/sessions.h"
 
 namespace pl::test {
 

@@ -11,10 +11,10 @@
 #include "core/scene/pack_scene.h"
 #include "core/session/session.h"
 #include "cpu/cpu_backend.h"
-#include "tests/bumpy_ball.h"
-#include "tests/catch.hpp"
-#include "tests/io/temporary_folder.h"
-#include "tests/statistical/sessions.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/temporary_folder.h"
+#include "tests/support/scenes/bumpy_ball.h"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

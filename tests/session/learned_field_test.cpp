@@ -4,14 +4,14 @@
 #include <numeric>
 
 #include "core/session/shown_range.h"
-#include "tests/catch.hpp"
-#include "tests/io/input_error.h"
-#include "tests/kernel/shapes.h"
 #include "tests/session/interruption.h"
-#include "tests/session/same_bits.h"
-#include "tests/session/small_settings.h"
 #include "tests/session/through_file.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/input_error.h"
+#include "tests/support/scenes/shapes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -108,7 +108,8 @@ TEST_CASE("An imported field empties all pictures and the tables of other method
         CHECK(session.passes({method.id, View::Beauty}) == 0);
         const bool is_owner = method.id == MethodId::Reinforcement;
         CHECK(session.backend_access().has_field(method.id) == is_owner);
-        if (is_owner) CHECK(same_bits(tables_of(session.backend_access().download_field(method.id)), tables_of(field.field)));
+        if (is_owner)
+            CHECK(same_bits(tables_of(session.backend_access().download_field(method.id)), tables_of(field.field)));
     }
     // The others start as in a new session.
     settings.method = MethodId::Precomputed;

@@ -1,6 +1,6 @@
 #include "core/session/path_settings.h"
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 

@@ -2,8 +2,8 @@
 
 #include "core/scene/pack_scene.h"
 #include "cpu/cpu_backend.h"
-#include "tests/catch.hpp"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shipped_scenes.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -1,6 +1,6 @@
 #include "core/session/refinement_schedule.h"
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 

@@ -1,9 +1,9 @@
 // Whether closed surfaces surround the camera, so that an escaped path was lost.
 #include "core/session/session.h"
-#include "tests/catch.hpp"
-#include "tests/session/small_settings.h"
-#include "tests/statistical/scenes.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/small_settings.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -22,7 +22,9 @@ Session session_after(const SceneDescription& scene, const RenderSettings& setti
 TEST_CASE(
     "Session diagnostics: an open scene, a room that no path leaves and a camera outside of it are not closed") {
     const SceneDescription scene = shipped_scene("cornell");
-    CHECK_FALSE(session_after(scene, small_settings(scene, {MethodId::Default, false}), 1).summary({MethodId::Default, View::Beauty}).is_closed);
+    CHECK_FALSE(session_after(scene, small_settings(scene, {MethodId::Default, false}), 1)
+                    .summary({MethodId::Default, View::Beauty})
+                    .is_closed);
     SceneDescription room = furnace_scene(0.5f, 0.5f);
     Session session = session_after(room, small_settings(room, {MethodId::Default, false}), 1);
     CHECK(session.summary(slot_of(session.settings())).counters.path.escaped == 0);

@@ -1,7 +1,7 @@
 #include "core/session/session_films.h"
 
 #include "cpu/cpu_backend.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 

@@ -1,8 +1,8 @@
 #include "core/session/session_scene.h"
 
 #include "core/base/error.h"
-#include "tests/catch.hpp"
-#include "tests/statistical/scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
 
 using namespace pl;
 using namespace pl::test;

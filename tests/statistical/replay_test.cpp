@@ -3,10 +3,10 @@
 #include "core/kernel/integrator/trace_path.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
-#include "tests/catch.hpp"
-#include "tests/kernel/field_fixture.h"
-#include "tests/statistical/shipped_scenes.h"
 #include "tests/kernel/guided_methods.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/field_fixture.h"
+#include "tests/support/scenes/shipped_scenes.h"
 
 using namespace pl;
 using namespace pl::test;

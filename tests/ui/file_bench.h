@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/files/temporary_folder.h"
 #include "tests/ui/model_bench.h"
 
 namespace pl::test {

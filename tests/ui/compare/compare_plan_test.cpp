@@ -1,5 +1,5 @@
 // The rectangles of a comparison.
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/hand_made_comparison.h"
 
 using namespace pl;

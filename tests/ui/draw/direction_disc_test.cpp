@@ -3,7 +3,7 @@
 #include "core/kernel/base/frame.h"
 #include "core/kernel/base/rng.h"
 #include "core/kernel/guiding/direction_cells.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/draw/direction_disc.h"
 
 using namespace pl;

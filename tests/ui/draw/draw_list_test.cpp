@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/draw/draw_list.h"
 
 using namespace pl;

@@ -1,5 +1,5 @@
 // Every action of the key table does something.
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "ui/input/perform_action.h"
 

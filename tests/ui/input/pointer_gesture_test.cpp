@@ -1,4 +1,4 @@
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/input/pointer_gesture.h"
 
 using namespace pl;

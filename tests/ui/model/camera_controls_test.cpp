@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/model/camera_controls.h"
 
 using namespace pl;

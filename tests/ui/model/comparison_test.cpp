@@ -1,5 +1,5 @@
 // Comparisons: methods in turns, modes and cursors.
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 
 using namespace pl;

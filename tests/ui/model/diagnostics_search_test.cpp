@@ -1,5 +1,5 @@
 // The search for invalid samples: counted, found in the background, marked while the picture stands.
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "ui/script/script_values.h"
 

@@ -1,4 +1,4 @@
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/model/edited_materials.h"
 
 using namespace pl;

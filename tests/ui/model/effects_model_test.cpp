@@ -1,7 +1,7 @@
 // The table of effects: which are needed and why, and measured costs.
 #include <algorithm>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/fake_backend.h"
 #include "ui/model/effects_model.h"
 

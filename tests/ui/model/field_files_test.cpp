@@ -1,7 +1,7 @@
 // Learned fields: saved, loaded, and continued from.
 #include <fstream>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
 
 using namespace pl;

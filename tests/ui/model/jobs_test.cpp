@@ -1,7 +1,7 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/fake_backend.h"
 #include "ui/model/jobs.h"
 

@@ -1,4 +1,4 @@
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/model/messages.h"
 
 using namespace pl;

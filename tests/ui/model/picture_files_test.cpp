@@ -1,6 +1,6 @@
 #include <fstream>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
 
 using namespace pl;

@@ -1,7 +1,7 @@
 // References in the viewer: found for the picture in the window, made in the background, ended, refused.
 #include "core/base/error.h"
 #include "core/measure/picture_identity.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "tests/ui/worker_bench.h"
 #include "ui/model/viewer_model.h"

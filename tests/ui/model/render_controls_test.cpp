@@ -1,5 +1,5 @@
 // Settings of the rendering: views, back ends.
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
 #include "ui/script/script_values.h"
 

@@ -1,5 +1,5 @@
 // The window's end of the render thread, over fake back ends.
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker_bench.h"
 #include "ui/model/render_link.h"
 

@@ -4,7 +4,7 @@
 #include <condition_variable>
 
 #include "core/base/error.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/fake_backend.h"
 
 using namespace pl;

@@ -5,8 +5,8 @@
 #include "core/io/load_scene.h"
 #include "core/measure/picture_identity.h"
 #include "cpu/cpu_backend.h"
-#include "tests/catch.hpp"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/temporary_folder.h"
 
 namespace pl::test {
 namespace {

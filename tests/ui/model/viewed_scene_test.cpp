@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/measure/picture_identity.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
 
 using namespace pl;

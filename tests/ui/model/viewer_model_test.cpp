@@ -1,4 +1,4 @@
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
 
 using namespace pl;

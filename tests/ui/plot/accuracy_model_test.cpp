@@ -1,6 +1,6 @@
 #include <string>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
 #include "ui/plot/accuracy_model.h"
 

@@ -1,7 +1,7 @@
 // Runs at equal cost and at equal error, in hand-computed numbers.
 #include <string>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
 #include "ui/plot/cursor_table.h"
 

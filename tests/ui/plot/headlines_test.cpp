@@ -1,7 +1,7 @@
 // The sentence above the plot.
 #include <string>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
 #include "ui/plot/headlines.h"
 

@@ -1,4 +1,4 @@
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/plot/plot_drag.h"
 
 using namespace pl;

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/plot/plot_view.h"
 
 using namespace pl;

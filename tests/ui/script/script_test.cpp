@@ -2,7 +2,7 @@
 #include <SDL_scancode.h>
 
 #include "core/base/error.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/script/script.h"
 #include "ui/script/script_values.h"
 

@@ -1,5 +1,5 @@
-#include "tests/catch.hpp"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/temporary_folder.h"
 #include "ui/script/ui_trace.h"
 
 using namespace pl;

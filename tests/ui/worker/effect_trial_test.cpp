@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker/session_bench.h"
 #include "tests/ui/worker_bench.h"
 

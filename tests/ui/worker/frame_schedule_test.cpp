@@ -1,6 +1,6 @@
 #include "ui/worker/frame_schedule.h"
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;

@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 using namespace pl::test;

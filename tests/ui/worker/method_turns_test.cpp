@@ -1,6 +1,6 @@
 #include "ui/worker/method_turns.h"
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker/session_bench.h"
 #include "tests/ui/worker_bench.h"
 

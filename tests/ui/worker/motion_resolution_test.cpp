@@ -1,6 +1,6 @@
 #include "ui/worker/motion_resolution.h"
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 

@@ -1,6 +1,6 @@
 #include "ui/worker/outbox.h"
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 using namespace pl::test;

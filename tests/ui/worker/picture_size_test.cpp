@@ -1,6 +1,6 @@
 #include "ui/worker/picture_size.h"
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker/session_bench.h"
 
 using namespace pl;

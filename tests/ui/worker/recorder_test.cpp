@@ -2,7 +2,7 @@
 
 #include "core/measure/picture_identity.h"
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker/session_bench.h"
 
 using namespace pl;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 

@@ -1,0 +1,48 @@
+// Rule S4: equality of films, counters and tables down to the bit.
+#pragma once
+
+#include <cstring>
+
+#include "tests/support/session/sessions.h"
+
+namespace pl::test {
+
+template <class T, class Allocator>
+bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+inline bool same_bits(const HostTables& a, const HostTables& b) {
+    return same_bits(a.radiance, b.radiance) && same_bits(a.visits, b.visits) &&
+           same_bits(a.pending_sum, b.pending_sum) && same_bits(a.pending_count, b.pending_count) &&
+           same_bits(a.row_cdf, b.row_cdf) && same_bits(a.column_cdf, b.column_cdf) &&
+           same_bits(a.mean_radiance, b.mean_radiance);
+}
+
+inline bool same_events(const PassCounters& a, const PassCounters& b) {
+    static_assert(std::has_unique_object_representations_v<PassCounters>);
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// A film with its statistics, and the tables of its method.
+struct State {
+    Snapshot snapshot;
+    HostTables tables;
+};
+
+inline State state_of(Session& session, FilmSlot slot) {
+    return {session.snapshot_with_halves(slot), session.backend_access().download_field(slot.method)};
+}
+inline State state_of(Session& session) { return state_of(session, slot_of(session)); }
+
+inline bool same_film(const State& a, const State& b) {
+    const FilmHalves& x = a.snapshot.halves;
+    const FilmHalves& y = b.snapshot.halves;
+    return a.snapshot.passes == b.snapshot.passes && same_bits(a.snapshot.pixels, b.snapshot.pixels) &&
+           x.samples == y.samples && same_bits(x.mean[0], y.mean[0]) && same_bits(x.mean[1], y.mean[1]);
+}
+inline bool same_state(const State& a, const State& b) {
+    return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) && same_bits(a.tables, b.tables);
+}
+
+}  // namespace pl::test
