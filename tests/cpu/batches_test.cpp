@@ -156,9 +156,9 @@ TEST_CASE("Batches of probes equal single probes") {
         }
 }
 
+#if PL_EMBREE_MAJOR > 0
 // Embree may choose another triangle where two meet, so pictures may differ there, but not in any mean.
 TEST_CASE("Through Embree nearly every pixel has the same bits") {
-    if (PL_EMBREE_MAJOR == 0) return;
     const Room room;
     const Outcome expected = loop_over_paths<kLights, DefaultMethod>(room);
     const Outcome embree =
@@ -168,3 +168,4 @@ TEST_CASE("Through Embree nearly every pixel has the same bits") {
     CHECK(different <= 2);
     CHECK(embree.counters.path.escaped == 0);
 }
+#endif
