@@ -16,6 +16,18 @@ struct ProgressState {
     std::string detail;     ///< "12/64 spp, 3.1 M segments/s"
 };
 
+/// Grants one message in every interval, the first one at the end of the first interval.
+class MessagePace {
+public:
+    explicit MessagePace(double interval_seconds) : interval_(interval_seconds), next_(interval_seconds) {}
+    /// Whether a message is due `elapsed` seconds after the start; the next one is then due an interval later.
+    bool is_due(double elapsed);
+
+private:
+    double interval_;
+    double next_;
+};
+
 /// Shows what it is given as often as its medium can take it.
 class ProgressDisplay {
 public:
@@ -27,12 +39,10 @@ public:
     void show(const ProgressState& state);
 
 private:
-    double interval_seconds() const;
-
     Console& console_;
     bool enabled_;
     Stopwatch watch_;
-    double next_seconds_;
+    MessagePace pace_;
 };
 
 /// "[#######       ] text", at most `width` characters.

@@ -1,4 +1,6 @@
 // What the program tells: statistics, events, progress, information, and where each of them goes.
+#include <csignal>
+
 #include <fcntl.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -221,30 +223,34 @@ TEST_CASE("a warning about the scene is told once") {
 
 TEST_CASE("progress is a bar on a terminal only") {
     const TempDir folder;
-    const auto arguments = [&](const Arguments& more) {
-        Arguments all{"render", "cornell", "-o",         folder / "x.png", "--size",
-                      "64x64",  "--spp",   "1000000000", "--time-limit",   "0.5"};
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-    };
-    const auto on_terminal = [&](const Arguments& more) {
+    const Arguments endless{"render", "cornell", "-o", folder / "x.png", "--size", "64x64", "--spp", "1000000000"};
+    {
         const Terminal terminal;
-        CHECK(run_program(arguments(more), {.set = {"TERM=xterm"}, .terminal = terminal.device()}).code == 0);
-        return terminal.text();
-    };
-    CHECK_THAT(on_terminal({}), contains("\r\033[K[#") && contains(" spp"));
-    CHECK(on_terminal({"--no-progress"}).empty());
-    CHECK(on_terminal({"-q"}).empty());
-    // Less than five seconds: no line either.
-    CHECK(run_program(arguments({})).err.empty());
+        RunningProgram running(program(endless), {.set = {"TERM=xterm"}, .terminal = terminal.device()});
+        std::string text;
+        REQUIRE(running.wait_until([&] { return (text += terminal.text()).find(" spp") != std::string::npos; }));
+        running.send(SIGINT);
+        CHECK(running.wait().code == 130);
+        CHECK_THAT(text, contains("\r\033[K["));
+    }
+    // Long enough for five bars.
+    for (const char* silent : {"--no-progress", "-q"}) {
+        const Terminal terminal;
+        Arguments arguments = endless;
+        arguments.insert(arguments.end(), {"--time-limit", "0.5", silent});
+        CHECK(run_program(arguments, {.set = {"TERM=xterm"}, .terminal = terminal.device()}).code == 0);
+        CHECK(terminal.text().empty());
+    }
 }
 
-TEST_CASE("without a terminal progress is a plain line every five seconds", "[merge]") {
+TEST_CASE("without a terminal progress is plain lines", "[merge]") {
     const TempDir folder;
-    const ProgramResult result = run_program(
-        {"render", "cornell", "-o", folder / "x.png", "--size", "16x16", "--spp", "1000000000", "--time-limit", "6"});
-    CHECK(result.code == 0);
-    CHECK(lines_of(result.err).size() == 1);
+    RunningProgram running(
+        program({"render", "cornell", "-o", folder / "x.png", "--size", "16x16", "--spp", "1000000000"}));
+    REQUIRE(running.wait_until([&] { return running.err().find(" spp") != std::string::npos; }));
+    running.send(SIGINT);
+    const ProgramResult result = running.wait();
+    CHECK(result.code == 130);
     CHECK(result.err.find_first_of("\r\033") == std::string::npos);
 }
 

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -56,9 +57,13 @@ public:
     RunningProgram& operator=(const RunningProgram&) = delete;
 
     void send(int signal) const;
-    /// What it has printed so far on standard output.
+    /// Standard output so far.
     std::string out() const;
-    /// Waits until standard output holds `text`; false if the program ends or a minute passes first.
+    /// Standard error so far, if it goes to no terminal.
+    std::string err() const;
+    /// Waits until `holds()`; false if the program ends first. A program that hangs is stopped by the time limit of ctest.
+    bool wait_until(const std::function<bool()>& holds);
+    /// Waits until standard output holds `text`.
     bool wait_for_output(const std::string& text);
     ProgramResult wait();
 

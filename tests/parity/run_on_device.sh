@@ -87,7 +87,7 @@ time_switches() {
         frame=$((frame + 60))
     done
     echo "$frame quit" >>"$script"
-    SDL_VIDEODRIVER=dummy timeout 120 "$pathlight" view cornell --backend cpu --method reinforcement --size 1280x720 \
+    SDL_VIDEODRIVER=dummy timeout 600 "$pathlight" view cornell --backend cpu --method reinforcement --size 1280x720 \
         --script "$script" --ui-trace "$trace"
 }
 
