@@ -18,8 +18,8 @@
 #include "tests/bench/embree_loop.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
-#include "tests/bumpy_ball.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/files/temporary_folder.h"
+#include "tests/support/scenes/bumpy_ball.h"
 
 namespace pl::bench {
 namespace {

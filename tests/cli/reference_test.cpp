@@ -6,7 +6,7 @@
 
 #include "core/io/image.h"
 #include "core/measure/noise.h"
-#include "tests/cli/refusal.h"
+#include "tests/support/program/refusal.h"
 
 namespace pl::test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "core/kernel/methods/precomputed.h"
 #include "cpu/guided_block.h"
-#include "tests/catch.hpp"
-#include "tests/kernel/field_fixture.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/field_fixture.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -2,8 +2,8 @@
 #include "core/kernel/methods/reinforcement.h"
 #include "cpu/guided_records.h"
 #include "cpu/parallel_for.h"
-#include "tests/catch.hpp"
-#include "tests/kernel/field_fixture.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/field_fixture.h"
 
 using namespace pl;
 using namespace pl::test;

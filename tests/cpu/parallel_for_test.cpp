@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "cpu/parallel_for.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 

@@ -5,8 +5,8 @@
 
 #include "core/kernel/base/warp.h"
 #include "cpu/ray_batch.h"
-#include "tests/kernel/brute_force.h"
-#include "tests/kernel/shapes.h"
+#include "tests/support/rays/brute_force.h"
+#include "tests/support/scenes/shapes.h"
 
 namespace pl::test {
 

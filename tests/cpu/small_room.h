@@ -5,7 +5,7 @@
 #include "core/fields/volume_grid.h"
 #include "core/scene/needed_effects.h"
 #include "cpu/cpu_backend.h"
-#include "tests/kernel/shapes.h"
+#include "tests/support/scenes/shapes.h"
 
 namespace pl::test {
 

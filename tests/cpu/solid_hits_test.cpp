@@ -4,9 +4,9 @@
 #include "core/scene/pack_scene.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/cpu_backend.h"
-#include "tests/catch.hpp"
 #include "tests/cpu/random_rays.h"
-#include "tests/statistical/image_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/image_scenes.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -2,10 +2,10 @@
 // session that goes on with the CPU.
 #include "core/base/error.h"
 #include "cuda/cuda_backend.h"
-#include "tests/catch.hpp"
 #include "tests/cuda/shim/control.h"
-#include "tests/session/same_bits.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
 
 using namespace pl;
 using namespace pl::test;

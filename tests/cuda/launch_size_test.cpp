@@ -1,6 +1,6 @@
 #include "cuda/launch_size.h"
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using pl::cuda::LaunchSize;
 

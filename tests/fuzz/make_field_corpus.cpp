@@ -4,7 +4,7 @@
 
 #include "core/io/field_file.h"
 #include "core/io/files.h"
-#include "tests/io/small_field.h"
+#include "tests/support/field/small_field.h"
 
 using namespace pl;
 

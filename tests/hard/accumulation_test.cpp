@@ -1,10 +1,10 @@
 // Long runs in the arithmetic: sums of 1e10 samples, extreme neighbors, counters at their ends, sizes that change.
 #include "core/kernel/fields/table_update.h"
 #include "core/kernel/film/film_view.h"
-#include "tests/catch.hpp"
 #include "tests/hard/hard_scenes.h"
-#include "tests/session/same_bits.h"
-#include "tests/session/small_settings.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"
-#include "tests/catch.hpp"
 #include "tests/hard/meshes.h"
-#include "tests/statistical/rectangle_light.h"
-#include "tests/statistical/rules.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/rectangle_light.h"
+#include "tests/support/statistics/rules.h"
 
 using namespace pl;
 using namespace pl::test;

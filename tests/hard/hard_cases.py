@@ -22,7 +22,7 @@ Made by `tests/hard/hard_cases.py --write BUILD` of [tests/hard/catalogue.txt](.
 *Used* is the largest share of a tolerance that the tests of a case used: of the limit of a bound, or of the way to a false alarm of a rule
 that compares means, densities or pictures (one in a million; above 100 % the test fails). *exact* has no tolerance: bits, counts, words.
 *Seconds* are of one run on a machine that others kept busy, tests of a case together; where nothing stands, no run was kept.
-The rules S1 to S3 are in [tests/statistical/rules.h](../tests/statistical/rules.h): they pass only with the power to fail.
+The rules S1 to S3 are in [tests/support/statistics/rules.h](../tests/support/statistics/rules.h): they pass only with the power to fail.
 `./run test` runs the tier push, after which `tests/hard/hard_cases.py --write build/release` brings the numbers up to date; `./run test merge`
 and `./run test nightly` run the larger tiers, too.
 """

@@ -1,9 +1,9 @@
 // What can be done to a scene without changing its light, and small scenes with one thing wrong.
 #pragma once
 
-#include "tests/statistical/scenes.h"
-#include "tests/statistical/sessions.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/sessions.h"
 
 namespace pl::test {
 

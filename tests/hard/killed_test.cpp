@@ -9,8 +9,8 @@
 
 #include "core/io/field_file.h"
 #include "core/io/image.h"
-#include "tests/catch.hpp"
-#include "tests/cli/run_program.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/program/run_program.h"
 
 using namespace pl;
 using namespace pl::test;

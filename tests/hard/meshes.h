@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/cli/run_program.h"
+#include "tests/support/program/run_program.h"
 
 namespace pl::test {
 

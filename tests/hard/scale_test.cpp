@@ -1,11 +1,11 @@
 // Sizes and places: no length is special. Powers of two change no bit; other sizes, places and turns no mean.
 #include <algorithm>
 
-#include "tests/catch.hpp"
 #include "tests/hard/hard_scenes.h"
-#include "tests/session/same_bits.h"
-#include "tests/session/small_settings.h"
-#include "tests/statistical/film_samples.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/session/film_samples.h"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
 
 using namespace pl;
 using namespace pl::test;

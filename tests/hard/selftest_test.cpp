@@ -1,9 +1,9 @@
 // `pathlight selftest` as a shell sees it.
 #include <nlohmann/json.hpp>
 
-#include "tests/catch.hpp"
-#include "tests/cli/refusal.h"
-#include "tests/margin.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/margin.h"
+#include "tests/support/program/refusal.h"
 
 using namespace pl::test;
 using nlohmann::json;

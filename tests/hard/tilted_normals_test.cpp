@@ -1,7 +1,7 @@
 // Smooth normals that lean away from their surface, up to 89 degrees: no light is gained, and none comes through walls.
 #include "core/io/surface_names.h"
-#include "tests/catch.hpp"
 #include "tests/hard/hard_scenes.h"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 using namespace pl::test;

@@ -6,8 +6,8 @@
 #include "core/kernel/methods/reinforcement.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
-#include "tests/statistical/rules.h"
-#include "tests/statistical/scenes.h"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/statistics/rules.h"
 
 namespace pl::test {
 

@@ -5,9 +5,9 @@
 #include "core/kernel/methods/reinforcement.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
-#include "tests/statistical/cube_radiosity.h"
-#include "tests/statistical/rectangle_light.h"
-#include "tests/statistical/rules.h"
+#include "tests/support/scenes/cube_radiosity.h"
+#include "tests/support/scenes/rectangle_light.h"
+#include "tests/support/statistics/rules.h"
 
 namespace pl::test {
 

@@ -4,10 +4,10 @@
 
 #include <sstream>
 
-#include "tests/kernel/walk.h"
 #include "tests/mutants/trace_many.h"
-#include "tests/statistical/rules.h"
-#include "tests/statistical/scenes.h"
+#include "tests/support/rays/walk.h"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/statistics/rules.h"
 
 namespace pl::test {
 

@@ -1,9 +1,9 @@
-// Checks of lobes and of choosing among many lights: short versions of tests/kernel/bsdf_test.cpp and light_tree_test.cpp.
+// Checks of lobes and of choosing among many lights: short versions of tests/core/kernel/shading/bsdf_test.cpp and light_tree_test.cpp.
 #pragma once
 
-#include "tests/kernel/lobe_fixture.h"
-#include "tests/kernel/many_lights.h"
-#include "tests/statistical/rules.h"
+#include "tests/support/shading/lobe_fixture.h"
+#include "tests/support/shading/many_lights.h"
+#include "tests/support/statistics/rules.h"
 
 namespace pl::test {
 

@@ -8,7 +8,7 @@ namespace pl::test {
 
 inline constexpr FeatureSet kWithNextEvent = FeatureSet{}.with(Feature::NextEventEstimation);
 
-/// The unit cube of tests/statistical/cube_radiosity.h.
+/// The unit cube of tests/support/scenes/cube_radiosity.h.
 inline constexpr Vec3f kCubeLow{0.0f};
 inline constexpr Vec3f kCubeHigh{1.0f};
 

@@ -5,9 +5,9 @@
 
 #include "core/scene/pack_scene.h"
 #include "cuda/cuda_backend.h"
-#include "tests/catch.hpp"
-#include "tests/session/same_bits.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
 
 using namespace pl;
 using namespace pl::test;

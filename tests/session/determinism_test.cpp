@@ -2,14 +2,14 @@
 // what was rendered in between, or which compiled superset of effects ran.
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
-#include "tests/catch.hpp"
-#include "tests/kernel/shapes.h"
 #include "tests/session/interruption.h"
-#include "tests/session/same_bits.h"
-#include "tests/session/small_settings.h"
-#include "tests/statistical/image_scenes.h"
-#include "tests/statistical/shipped_scenes.h"
-#include "tests/statistical/variants.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/image_scenes.h"
+#include "tests/support/scenes/shapes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
+#include "tests/support/session/variants.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -4,10 +4,10 @@
 #include "core/base/error.h"
 #include "core/kernel/film/frame_pixel.h"
 #include "core/session/diagnostics.h"
-#include "tests/catch.hpp"
-#include "tests/session/small_settings.h"
-#include "tests/statistical/scenes.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/small_settings.h"
 
 using namespace pl;
 using namespace pl::test;

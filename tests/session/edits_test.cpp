@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "tests/catch.hpp"
-#include "tests/session/same_bits.h"
-#include "tests/session/small_settings.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -1,8 +1,8 @@
 // What is inside closed surfaces: by borders, by parity, for whatever is put together of quads.
 #include "core/scene/enclosure.h"
-#include "tests/catch.hpp"
-#include "tests/statistical/scenes.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/scenes/shipped_scenes.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -11,9 +11,9 @@
 #include "core/scene/pack_scene.h"
 #include "core/session/session.h"
 #include "cpu/cpu_backend.h"
-#include "tests/bumpy_ball.h"
-#include "tests/catch.hpp"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/temporary_folder.h"
+#include "tests/support/scenes/bumpy_ball.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -5,12 +5,12 @@
 
 #include "core/scene/pack_scene.h"
 #include "core/scene/scene_hash.h"
-#include "tests/catch.hpp"
-#include "tests/io/input_error.h"
 #include "tests/session/failing_backend.h"
-#include "tests/session/same_bits.h"
-#include "tests/session/small_settings.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/input_error.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
 
 using namespace pl;
 using namespace pl::test;

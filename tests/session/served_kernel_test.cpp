@@ -2,7 +2,7 @@
 #include "core/session/served_kernel.h"
 
 #include "core/scene/pack_scene.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl;
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/io/field_file.h"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/files/temporary_folder.h"
 
 namespace pl::test {
 

@@ -6,13 +6,13 @@
 #include <stdexcept>
 
 #include "core/io/field_file.h"
-#include "tests/catch.hpp"
-#include "tests/io/temporary_folder.h"
-#include "tests/kernel/shapes.h"
 #include "tests/session/interruption.h"
-#include "tests/session/same_bits.h"
-#include "tests/session/small_settings.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/temporary_folder.h"
+#include "tests/support/scenes/shapes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
 
 using namespace pl;
 using namespace pl::test;

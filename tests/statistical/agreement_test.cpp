@@ -1,8 +1,8 @@
 // All methods, with and without light samples, make the same picture: rule S2 on scenes without a closed form.
-#include "tests/catch.hpp"
-#include "tests/statistical/sessions.h"
-#include "tests/statistical/shipped_scenes.h"
-#include "tests/statistical/variants.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/sessions.h"
+#include "tests/support/session/variants.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -1,9 +1,9 @@
 // Scenes with a closed form or a solved radiosity, end to end through a session: unlike the furnace they see where
 // light comes from.
-#include "tests/catch.hpp"
-#include "tests/statistical/cube_radiosity.h"
-#include "tests/statistical/rectangle_light.h"
-#include "tests/statistical/sessions.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/cube_radiosity.h"
+#include "tests/support/scenes/rectangle_light.h"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -1,9 +1,9 @@
 // What is learned in a furnace: e/(1-rho) in every cell of every table.
 #include <algorithm>
 
-#include "tests/catch.hpp"
-#include "tests/statistical/scenes.h"
-#include "tests/statistical/sessions.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

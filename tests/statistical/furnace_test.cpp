@@ -1,10 +1,10 @@
 // Scenes in which radiance is the same everywhere: they see wrong weights, lost light and wrong counts, whatever the
 // directions. First without any sampling error, path by path; then every pixel and every cell of every table.
-#include "tests/catch.hpp"
-#include "tests/statistical/film_samples.h"
-#include "tests/statistical/scenes.h"
-#include "tests/statistical/sessions.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/film_samples.h"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

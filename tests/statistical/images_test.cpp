@@ -1,9 +1,9 @@
 // Textures, holes, light from far away and the lens in whole pictures: scenes whose radiance is known.
-#include "tests/catch.hpp"
-#include "tests/statistical/film_samples.h"
-#include "tests/statistical/image_scenes.h"
-#include "tests/statistical/sessions.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/image_scenes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/film_samples.h"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

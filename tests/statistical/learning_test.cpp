@@ -1,8 +1,8 @@
 // What learning is for: fewer paths without light, and less noise from the same number of samples. These compare
 // noise levels, so the means are not judged here.
-#include "tests/catch.hpp"
-#include "tests/statistical/sessions.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

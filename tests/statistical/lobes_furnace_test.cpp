@@ -1,8 +1,8 @@
 // Surfaces that absorb nothing under an even sky: whatever they do to directions, radiance is that of the sky. Glass is
 // invisible, pixel by pixel; rough surfaces are on the mean.
-#include "tests/catch.hpp"
-#include "tests/kernel/shapes.h"
-#include "tests/statistical/sessions.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -1,8 +1,8 @@
 // Closed scenes lose no ray, and no scene makes an invalid sample.
-#include "tests/catch.hpp"
-#include "tests/statistical/scenes.h"
-#include "tests/statistical/sessions.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -4,9 +4,9 @@
 #include "core/kernel/methods/monte_carlo.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
-#include "tests/catch.hpp"
-#include "tests/kernel/field_fixture.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/field_fixture.h"
+#include "tests/support/scenes/shipped_scenes.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -1,10 +1,10 @@
 // The rules judged on synthetic numbers of which the truth is known: they pass what is equal, find what is planted,
 // and refuse to decide without power. Every case states how often a correct rule would fail it.
-#include "tests/statistical/rules.h"
+#include "tests/support/statistics/rules.h"
 
 #include <random>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 
 using namespace pl::test;
 

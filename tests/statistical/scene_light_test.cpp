@@ -1,8 +1,8 @@
 // Light in the shipped scenes: hard ones hide it from paths that do not look for it, easy ones do not, and no path
 // leaves a sealed room.
-#include "tests/catch.hpp"
-#include "tests/statistical/sessions.h"
-#include "tests/statistical/shipped_scenes.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/sessions.h"
 
 using namespace pl;
 using namespace pl::test;

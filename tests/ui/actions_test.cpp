@@ -6,7 +6,7 @@
 
 #include <SDL.h>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/actions.h"
 
 using namespace pl;

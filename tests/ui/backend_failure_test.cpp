@@ -1,6 +1,6 @@
 // Back ends that fail or get lost while the worker renders, and who takes over.
 #include "core/base/error.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;

@@ -1,5 +1,5 @@
 // Changing the back end while the worker renders.
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/camera_controls.h"
 #include "ui/pointer_gesture.h"
 

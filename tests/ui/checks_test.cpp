@@ -3,7 +3,7 @@
 #include <condition_variable>
 
 #include "core/base/error.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "ui/script_values.h"
 

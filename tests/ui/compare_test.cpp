@@ -3,7 +3,7 @@
 
 #include "core/kernel/base/half.h"
 #include "core/kernel/film/frame_pixel.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
 #include "ui/compare/compare_plan.h"
 #include "ui/compare/half_image.h"

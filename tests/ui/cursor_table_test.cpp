@@ -1,7 +1,7 @@
 // What runs come to at equal cost and at equal error, in hand-computed numbers, and the sentence above the plot.
 #include <string>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
 #include "ui/accuracy/accuracy_model.h"
 

@@ -1,7 +1,7 @@
 // Effects in the window: which are needed and why, forcing them, and measuring what they cost on the running picture.
 #include <algorithm>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker_bench.h"
 #include "ui/effects_model.h"
 #include "ui/viewer_model.h"

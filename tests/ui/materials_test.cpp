@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/measure/picture_identity.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "ui/edit_queue.h"
 

@@ -4,7 +4,7 @@
 #include "core/kernel/base/rng.h"
 #include "core/kernel/fields/direction_cells.h"
 #include "core/scene/pack_scene.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/overlays/direction_disc.h"
 
 using namespace pl;

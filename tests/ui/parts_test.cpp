@@ -1,7 +1,7 @@
 #include <fstream>
 
-#include "tests/catch.hpp"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/temporary_folder.h"
 #include "ui/edit_queue.h"
 #include "ui/layout.h"
 #include "ui/motion_resolution.h"

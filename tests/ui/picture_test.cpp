@@ -2,7 +2,7 @@
 
 #include "core/kernel/inspect/views.h"
 #include "core/session/shown_range.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/picture.h"
 
 using namespace pl;

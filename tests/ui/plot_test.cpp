@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
 #include "ui/plot/plot_drag.h"
 #include "ui/plot/plot_lines.h"

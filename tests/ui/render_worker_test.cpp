@@ -1,5 +1,5 @@
 #include "core/base/error.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;

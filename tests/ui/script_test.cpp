@@ -2,7 +2,7 @@
 #include <SDL_scancode.h>
 
 #include "core/base/error.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "ui/script.h"
 #include "ui/script_values.h"
 

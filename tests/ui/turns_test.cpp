@@ -1,5 +1,5 @@
 // Two methods in turns on the render thread, and how the viewer shows and ends them; over fake back ends.
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "tests/ui/worker_bench.h"
 

@@ -3,8 +3,8 @@
 #include <mutex>
 
 #include "core/base/error.h"
-#include "tests/catch.hpp"
-#include "tests/io/temporary_folder.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/temporary_folder.h"
 #include "tests/ui/fake_backend.h"
 #include "ui/script_values.h"
 #include "ui/viewer_model.h"

@@ -3,7 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/measure/picture_identity.h"
-#include "tests/catch.hpp"
+#include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "tests/ui/worker_bench.h"
 #include "ui/viewer_model.h"

@@ -1,0 +1,243 @@
+// --save-field, --load-field and --lookup from outside.
+#include <csignal>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/image.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/program/refusal.h"
+
+namespace pl::test {
+namespace {
+
+using nlohmann::json;
+
+const std::vector<std::string> kMethods{"precomputed", "reinforcement"};
+
+Arguments joined(Arguments arguments, const Arguments& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+Arguments render(const std::string& output, const Arguments& more) {
+    return joined({"render", "door", "-o", output, "--size", "32x32", "--spp", "4"}, more);
+}
+
+/// Few volumes, so that tables know something after a few passes.
+const Arguments kSmall{"--volumes", "60", "--bins", "64"};
+
+/// Runs a command that has to succeed.
+ProgramResult run_well(const Arguments& arguments) {
+    ProgramResult result = run_program(arguments);
+    CAPTURE(arguments, result.err);
+    REQUIRE(result.code == 0);
+    return result;
+}
+
+json stats_of(const TempDir& folder) { return json::parse(read_all(folder / "s.json")); }
+
+}  // namespace
+
+TEST_CASE("a run that loads a field goes on from it") {
+    for (const std::string& method : kMethods) {
+        CAPTURE(method);
+        const TempDir folder;
+        run_well(joined(render(folder / "a.pfm", {"--method", method, "--save-field", folder / "f"}),
+                        joined(kSmall, {"--stats", folder / "s.json"})));
+        const json first = stats_of(folder);
+        run_well(render(folder / "b.pfm",
+                        {"--load-field", folder / "f", "--save-field", folder / "g", "--stats", folder / "s.json"}));
+        const json second = stats_of(folder);
+        CHECK(second["method"] == method);
+        CHECK(second["field"]["volumes"] == first["field"]["volumes"]);
+        CHECK(second["field"]["bins"] == 64);
+        CHECK(second["spp"] == 4);
+        CHECK(second["paths"] == 4 * 32 * 32);
+        // What was computed in the first run is not computed, and not charged, again.
+        CHECK(second["seconds"]["place"] == 0.0);
+        CHECK(second["seconds"]["precompute"] == 0.0);
+        CHECK(second["seconds"]["load"] > 0.0);
+        if (method == "precomputed") {
+            CHECK(first["seconds"]["precompute"] > 0.0);
+            CHECK(second["field"]["records"] == first["field"]["records"]);
+            CHECK(second["field"]["passes"] == 1);
+            // The map is frozen: the picture is the same, and so is the file, with the time of the first run.
+            CHECK(read_all(folder / "a.pfm") == read_all(folder / "b.pfm"));
+            CHECK(read_all(folder / "f") == read_all(folder / "g"));
+        } else {
+            CHECK(first["field"]["passes"] == 4);
+            CHECK(second["field"]["passes"] == 8);
+            CHECK(second["field"]["records"] > first["field"]["records"]);
+            CHECK(read_all(folder / "a.pfm") != read_all(folder / "b.pfm"));
+            // Guided paths find the light through the door's gap, and the first pass of a new field has none.
+            CHECK(second["zero_contribution_paths"] < first["zero_contribution_paths"]);
+        }
+        CHECK((folder.names() == std::vector<std::string>{"a.pfm", "b.pfm", "f", "g", "s.json"}));
+    }
+}
+
+TEST_CASE("field files have the same bits for any number of threads and any lookup") {
+    const TempDir folder;
+    for (const std::string& method : kMethods) {
+        const auto saved = [&](const Arguments& more) {
+            run_well(joined(render(folder / "x.pfm", {"--method", method, "--save-field", folder / "f"}),
+                            joined(kSmall, more)));
+            return read_all(folder / "x.pfm");
+        };
+        CAPTURE(method);
+        const std::string picture = saved({"-t", "1"});
+        const std::string field = read_all(folder / "f");
+        CHECK(saved({"-t", "2"}) == picture);
+        // Files of a map also tell the time that it took.
+        if (method == "reinforcement") CHECK(read_all(folder / "f") == field);
+        CHECK(saved({"--lookup", "linear"}) == picture);
+        CHECK(saved({"--lookup", "kdtree"}) == picture);
+
+        // Loaded, every lookup goes on with the same bits, whatever the file says.
+        const auto loaded = [&](const Arguments& more) {
+            run_well(render(folder / "y.pfm", joined({"--load-field", folder / "f"}, more)));
+            return read_all(folder / "y.pfm");
+        };
+        const std::string next = loaded({});
+        CHECK(loaded({"--lookup", "kdtree"}) == next);
+        CHECK(loaded({"--lookup", "grid"}) == next);
+        CHECK(loaded({"--lookup", "linear", "-t", "1"}) == next);
+    }
+    for (const std::string view : {"voronoi", "radiance-map"}) {
+        const Arguments arguments =
+            joined(render(folder / "v.pfm", {"--method", "reinforcement", "--view", view}), kSmall);
+        run_well(arguments);
+        const std::string picture = read_all(folder / "v.pfm");
+        for (const std::string lookup : {"linear", "kdtree"}) {
+            run_well(joined(arguments, {"--lookup", lookup}));
+            CHECK(read_all(folder / "v.pfm") == picture);
+        }
+    }
+}
+
+TEST_CASE("the command in a picture loads the field again") {
+    const TempDir folder;
+    run_well(joined(render(folder / "a.png", {"--method", "reinforcement", "--save-field", folder / "f"}), kSmall));
+    run_well(render(folder / "b.png", {"--load-field", folder / "f", "--lookup", "linear"}));
+    ImageMetadata metadata;
+    const std::vector<std::uint8_t> pixels = read_png8(folder / "b.png", &metadata).rgb;
+    const auto command =
+        std::find_if(metadata.begin(), metadata.end(), [](const auto& entry) { return entry.first == "command"; });
+    REQUIRE(command != metadata.end());
+    CHECK_THAT(command->second, contains("--load-field") && contains("--lookup linear"));
+    std::filesystem::remove(folder / "b.png");
+    REQUIRE(run_shell(command->second).code == 0);
+    CHECK((read_png8(folder / "b.png").rgb == pixels));
+}
+
+TEST_CASE("a field that was loaded is inspected as it is, unless training is asked for") {
+    for (const std::string& method : kMethods) {
+        CAPTURE(method);
+        const TempDir folder;
+        const auto inspected = [&](const Arguments& more) {
+            run_well(
+                joined({"inspect", "door", "--pixel", "16,28", "--size", "32x32", "-o", folder / "x.json"}, more));
+            return json::parse(read_all(folder / "x.json"));
+        };
+        const json first =
+            inspected(joined(kSmall, {"--method", method, "--spp", "3", "--save-field", folder / "f"}));
+        const json again = inspected({"--load-field", folder / "f"});
+        CHECK(again["method"] == method);
+        CHECK(again["spp"] == 0);
+        for (const char* key : {"volume", "position", "radiance", "probability", "visits", "mean_radiance"})
+            CHECK(again[key] == first[key]);
+        if (method == "reinforcement") {
+            const json trained = inspected({"--load-field", folder / "f", "--spp", "2"});
+            CHECK(trained["spp"] == 2);
+            CHECK(trained["radiance"] != first["radiance"]);
+        }
+    }
+}
+
+TEST_CASE("fields that do not fit are refused with the right exit code, and no picture is written") {
+    const TempDir folder;
+    run_well(joined(render(folder / "a.pfm", {"--method", "reinforcement", "--save-field", folder / "f"}), kSmall));
+    std::filesystem::remove(folder / "a.pfm");
+    const std::string good = read_all(folder / "f");
+    std::string damaged = good;
+    damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 4);
+    write_all(folder / "damaged", damaged);
+    write_all(folder / "cut", good.substr(0, good.size() / 2));
+    write_all(folder / "text", "v 0 0 0\n");
+    struct Wrong {
+        int code;
+        Arguments arguments;
+        std::string message;
+    };
+    const std::vector<Wrong> wrongs{
+        {3, render(folder / "a.pfm", {"--load-field", folder / "damaged"}),
+         "damaged: damaged field: expected the check"},
+        {3, render(folder / "a.pfm", {"--load-field", folder / "cut"}), "cut: damaged field: expected"},
+        {3, render(folder / "a.pfm", {"--load-field", folder / "text"}), "text: not a learned field"},
+        {3, render(folder / "a.pfm", {"--load-field", folder / "gone"}), "gone: cannot be read: no such file"},
+        {3,
+         {"render", "cornell", "-o", folder / "a.pfm", "--load-field", folder / "f"},
+         "f: the field was learned in an"},
+        {3,
+         {"inspect", "cornell", "--pixel", "1,1", "-o", folder / "a.csv", "--load-field", folder / "f"},
+         "f: the field was learned in another scene: expected scene hash"},
+        {2, render(folder / "a.pfm", {"--load-field", folder / "f", "--method", "default"}),
+         "--method reinforcement"},
+        {2, render(folder / "a.pfm", {"--load-field", folder / "f", "--bins", "256"}), "learned with --bins 64"},
+        {2, render(folder / "a.pfm", {"--save-field", folder / "g"}), "--method default learns nothing"},
+        {3,
+         {"view", "cornell", "--backend", "cpu", "--load-field", folder / "f"},
+         "f: the field was learned in another"},
+        {3, {"view", "door", "--backend", "cpu", "--load-field", folder / "gone"}, "gone: cannot be read"},
+        {2, {"view", "door", "--save-field", folder / "g"}, "--save-field: the viewer saves what was learned when"},
+        {1,
+         render(folder / "a.pfm",
+                {"--method", "reinforcement", "--save-field", folder / "gone/g", "--time-limit", "1000000"}),
+         "gone/g: cannot be written"},
+    };
+    for (const Wrong& wrong : wrongs) check_refused(wrong.code, wrong.arguments, wrong.message);
+    CHECK((folder.names() == std::vector<std::string>{"cut", "damaged", "f", "text"}));
+}
+
+TEST_CASE("an interruption keeps what was learned so far, and another run completes it") {
+    const TempDir folder;
+    RunningProgram running(
+        program({"render", "door", "-o", folder / "a.pfm", "--size", "32x32", "--spp", "1000000000", "--method",
+                 "reinforcement", "--volumes", "60", "--save-field", folder / "f", "--json"}));
+    REQUIRE(running.wait_for_output("\"event\":\"progress\""));
+    running.send(SIGINT);
+    const ProgramResult result = running.wait();
+    CHECK(result.code == 130);
+    CHECK_THAT(result.out, contains("\"event\":\"field\""));
+    CHECK((folder.names() == std::vector<std::string>{"a.pfm", "f"}));
+    run_well(render(folder / "b.pfm", {"--load-field", folder / "f", "--stats", folder / "s.json"}));
+    CHECK(stats_of(folder)["field"]["passes"] > 4);
+}
+
+TEST_CASE("a radiance map that was interrupted is completed by the run that loads it") {
+    const TempDir folder;
+    const Arguments map{"render", "door", "--size", "16x16", "--spp", "1", "--method", "precomputed", "-t", "2"};
+    const Arguments size{"--volumes", "500", "--bins", "256"};
+    run_well(joined(map, joined(size, {"-o", folder / "whole.pfm"})));
+    RunningProgram running(
+        program(joined(map, joined(size, {"-o", folder / "part.pfm", "--save-field", folder / "f", "--json"}))));
+    REQUIRE(running.wait_for_output("\"event\":\"start\""));
+    running.send(SIGINT);
+    const int code = running.wait().code;
+    CHECK((code == 130 || code == 0));  // 0: it was done before it was asked
+    run_well(joined(map, {"-o", folder / "rest.pfm", "--load-field", folder / "f"}));
+    CHECK(read_all(folder / "rest.pfm") == read_all(folder / "whole.pfm"));
+}
+
+TEST_CASE("a killed program leaves the old field") {
+    const TempDir folder;
+    write_all(folder / "f", "old");
+    RunningProgram running(program({"render", "door", "-o", folder / "a.pfm", "--size", "16x16", "--method",
+                                    "reinforcement", "--spp", "1000000000", "--save-field", folder / "f", "--json"}));
+    REQUIRE(running.wait_for_output("\"event\":\"start\""));
+    running.send(SIGKILL);
+    CHECK(running.wait().code == 128 + SIGKILL);
+    CHECK(read_all(folder / "f") == "old");
+}
+
+}  // namespace pl::test

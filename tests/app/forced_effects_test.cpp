@@ -1,0 +1,80 @@
+// Effects from outside: what a scene needs and why, forced ones that change nothing, and what being able costs.
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program/refusal.h"
+
+namespace pl::test {
+namespace {
+
+using nlohmann::json;
+
+json stats_of(const TempDir& folder, const std::string& scene, const Arguments& more) {
+    Arguments arguments{"render", scene,    "--size", "24x24", "--spp",          "2",       "--volumes",
+                        "40",     "--bins", "16",     "-o",    folder / "a.pfm", "--stats", folder / "s.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = run_program(arguments);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    return json::parse(read_all(folder / "s.json"));
+}
+
+}  // namespace
+
+TEST_CASE("forced effects change the kernel and no bit of the picture") {
+    const TempDir folder;
+    for (const char* method : {"default", "precomputed", "reinforcement"}) {
+        const json bare = stats_of(folder, "cornell", {"--method", method, "--backend", "cpu"});
+        const std::string picture = read_all(folder / "a.pfm");
+        CHECK_FALSE(bare.contains("effects_forced"));
+        for (const char* effects : {"specular", "textures,thin-lens", "all"}) {
+            const json forced =
+                stats_of(folder, "cornell", {"--method", method, "--backend", "cpu", "--force-effects", effects});
+            INFO(method << ", " << effects);
+            CHECK(read_all(folder / "a.pfm") == picture);
+            CHECK(forced["effects_needed"].empty());
+            CHECK(forced["effects_compiled"].size() >= forced["effects_forced"].size());
+            CHECK(forced["kernel"] != bare["kernel"]);
+        }
+    }
+}
+
+TEST_CASE("2: an effect that does not exist is answered with the nearest one") {
+    const TempDir folder;
+    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--force-effects", "speculr"}, "specular");
+    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--force-effects", ""}, "--force-effects");
+    CHECK(folder.names().empty());
+}
+
+TEST_CASE("info says which effects a scene needs, and why") {
+    const ProgramResult text = run_program({"info", "spheres"});
+    REQUIRE(text.code == 0);
+    CHECK(text.out.find("specular: of 2 materials: mirror, glass") != std::string::npos);
+    const json spheres = json::parse(run_program({"info", "spheres", "--json"}).out);
+    CHECK(spheres["effects_needed"].size() == 2);
+    CHECK(json::parse(run_program({"info", "cornell", "--json"}).out)["effects_needed"].empty());
+}
+
+TEST_CASE("bench --effects holds every larger kernel against the needed one") {
+    const TempDir folder;
+    const ProgramResult result = run_program({"bench", "cornell", "spheres", "--effects", "--method",
+                                              "default,reinforcement", "--backend", "cpu", "--size", "16x16",
+                                              "--seeds", "3", "--volumes", "40", "--bins", "16", "-o", folder / "e"});
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const json effects = json::parse(read_all(folder / "e/effects.json"));
+    CHECK(effects["schema"] == "pathlight.effects/1");
+    int rows_of_cornell = 0;
+    int rows_of_spheres = 0;
+    for (const json& cost : effects["costs"]) {
+        ++(cost["scene"] == "cornell" ? rows_of_cornell : rows_of_spheres);
+        CHECK(cost["ns_per_segment"] > 0.0);
+        CHECK(cost["ratio"]["value"] > 0.0);
+        CHECK(cost["ratio"]["low"] <= cost["ratio"]["value"]);
+        CHECK(cost["ratio"]["high"] >= cost["ratio"]["value"]);
+    }
+    CHECK(rows_of_cornell == 2 * 5);
+    CHECK(rows_of_spheres == 2 * 2);
+    CHECK(read_all(folder / "e/effects.md").find("| cornell") != std::string::npos);
+}
+
+}  // namespace pl::test

@@ -1,0 +1,155 @@
+// Every exit code of the program, with the message that goes with it.
+#include "tests/support/catch.hpp"
+#include "tests/support/program/refusal.h"
+
+namespace pl::test {
+namespace {
+
+/// A triangle seen from in front.
+const char* const kTriangle = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+
+Arguments render(const std::string& scene, const std::string& output, const Arguments& more = {}) {
+    Arguments arguments{"render", scene, "-o", output, "--size", "8x8", "--spp", "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+}  // namespace
+
+TEST_CASE("0: questions are answered on standard output") {
+    for (const Arguments& question : std::vector<Arguments>{
+             {"--help"}, {"--version"}, {"--list-methods"}, {"--list-views"}, {"render", "--help"}, {"devices"}}) {
+        const ProgramResult result = run_program(question);
+        CAPTURE(question, result.err);
+        CHECK(result.code == 0);
+        CHECK_FALSE(result.out.empty());
+        CHECK(result.err.empty());
+    }
+}
+
+TEST_CASE("1: what cannot be written is found out before rendering") {
+    const TempDir folder;
+    write_all(folder / "file", "");
+    for (const std::string& name :
+         {folder / "missing/x.png", folder / "file/x.png", folder.path().string() + "/d.png"}) {
+        std::filesystem::create_directory(folder / "d.png");
+        // A thousand years of rendering: only the check beforehand can end this.
+        const ProgramResult result = run_program({"render", "cornell", "-o", name, "--spp", "1000000000"});
+        CHECK(result.code == 1);
+        CHECK_THAT(result.err, contains(name) && contains("cannot be written"));
+    }
+    const ProgramResult stats = run_program(
+        {"render", "cornell", "-o", folder / "x.png", "--stats", folder / "missing/s.json", "--spp", "1000000000"});
+    CHECK(stats.code == 1);
+    CHECK((folder.names() == std::vector<std::string>{"d.png", "file"}));
+}
+
+TEST_CASE("1: a full disk leaves the old file and nothing else") {
+    const TempDir folder;
+    write_all(folder / "x.pfm", "old");
+    // 64x64 pixels are 48 kB; the shell allows one block of at most 1 kB.
+    const ProgramResult result =
+        run_shell("trap '' XFSZ; ulimit -f 1; pathlight render cornell -o x.pfm --size 64x64 --spp 1",
+                  {.folder = folder.path()});
+    CHECK(result.code == 1);
+    CHECK(read_all(folder / "x.pfm") == "old");
+    CHECK((folder.names() == std::vector<std::string>{"x.pfm"}));
+
+    std::filesystem::create_symlink("/dev/full", folder / "full.pfm");
+    const ProgramResult full = run_program(render("cornell", folder / "full.pfm"));
+    CHECK(full.code == 1);
+    CHECK_THAT(full.err, contains("No space left"));
+}
+
+TEST_CASE("1: standard output that cannot be written is not silent") {
+    const ProgramResult result = run_program({"devices"}, {.output_device = "/dev/full"});
+    CHECK(result.code == 1);
+    CHECK_THAT(result.err, contains("standard output"));
+}
+
+TEST_CASE("2: usage") {
+    const TempDir folder;
+    struct Wrong {
+        Arguments arguments;
+        std::string message;
+    };
+    const std::vector<Wrong> wrongs{
+        {{"rendr"}, "nearest: 'render'"},
+        {{"reference", "cornell"}, "needs a folder to write to"},
+        {{"bench", "cornell"}, "needs a folder to write to"},
+        {{"compare", "a.exr"}, "needs two pictures"},
+        {{"report"}, "needs one folder"},
+        {render("cornell", folder / "x.png", {"--expsure", "1"}), "nearest: '--exposure'"},
+        {render("cornell", folder / "x.png", {"--spp", "-1"}), "--spp: expected"},
+        {render("cornell", folder / "x.png", {"--view", "radiance-map"}), "precomputed or reinforcement"},
+        {render("cornell", folder / "x.png", {"--target-error", "0"}), "--target-error: expected"},
+        {render("cornell", folder / "x.png", {"--target-error", "0.1", "--view", "normal"}),
+         "expected --view beauty"},
+        {render("cornell", folder / "x.png", {"--reference", folder / "r"}), "expected --target-error"},
+        {render("cornell", folder / "x.jpg"), "expected .exr, .pfm or .png, got .jpg"},
+        {{"render", "cornell"}, "-o FILE"},
+        {{"render", "-o", folder / "x.png"}, "needs a SCENE"},
+        {{"inspect", "cornell", "-o", folder / "x.png"}, "--at"},
+        {{"inspect", "cornell", "--pixel", "8,0", "-o", folder / "x.csv", "--size", "8x8"},
+         "--pixel: expected a pixel of 8x8"},
+        {{"inspect", "cornell", "--pixel", "1,1", "-o", folder / "x.exr"}, "expected .json, .csv or .png"},
+    };
+    for (const Wrong& wrong : wrongs) check_refused(2, wrong.arguments, wrong.message);
+    CHECK(folder.names().empty());
+}
+
+TEST_CASE("3: input that is missing or invalid, with file and line") {
+    const TempDir folder;
+    write_all(folder / "good.obj", kTriangle);
+    struct Wrong {
+        std::string file;
+        std::string content;
+        std::string message;
+    };
+    const std::vector<Wrong> wrongs{
+        {"index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 9\n", "index.obj:5"},
+        {"number.obj", "v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n", "number.obj:2"},
+        {"empty.obj", "", "empty.obj"},
+        {"cut.json", "{\n\"schema\": \"pathlight.scene/1\",\n\"obj\": \"good.o", "cut.json:3"},
+        {"key.json", "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"good.obj\",\n\"camra\": {}}", "'camera'"},
+        {"key.json", "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"good.obj\",\n\"camra\": {}}", "key.json:3"},
+        {"gone.json", "{\"schema\": \"pathlight.scene/1\",\n\"obj\": \"gone.obj\"}", "gone.obj"},
+        {"set.json", "{\"schema\": \"pathlight.scene/1\", \"obj\": \"good.obj\",\n\"settings\": {\"bins\": 5}}",
+         "set.json:2"},
+    };
+    for (const Wrong& wrong : wrongs) {
+        write_all(folder / wrong.file, wrong.content);
+        const ProgramResult result = run_program(render(folder / wrong.file, folder / "x.png"));
+        CAPTURE(wrong.file, result.err);
+        CHECK(result.code == 3);
+        CHECK_THAT(result.err, contains(wrong.message));
+        CHECK_FALSE(std::filesystem::exists(folder / "x.png"));
+    }
+    const ProgramResult unknown = run_program(render("cornel", folder / "x.png"));
+    CHECK(unknown.code == 3);
+    CHECK_THAT(unknown.err, contains("'cornell'"));
+    CHECK(run_program({"info", folder / "missing.obj"}).code == 3);
+    CHECK(run_program({"info", folder.path().string() + "/"}).code == 3);
+    CHECK(run_program(render("cornell", folder / "x.png", {"--camera", folder / "missing.json"})).code == 3);
+}
+
+TEST_CASE("4: a back end or a display that is not there") {
+    const TempDir folder;
+    const ProgramResult cuda = run_program(render("cornell", folder / "x.png", {"--backend", "cuda"}));
+    if (cuda.code != 0) {
+        CHECK(cuda.code == 4);
+        CHECK_THAT(cuda.err, contains("--backend cuda: "));
+    }
+    const ProgramResult window =
+        run_program({"view", "cornell"}, {.unset = {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"}});
+    CHECK(window.code == 4);
+    CHECK_THAT(window.err, contains("pathlight render cornell -o "));
+}
+
+TEST_CASE("the message of an error is also an event") {
+    const ProgramResult result = run_program({"info", "cornel", "--json"});
+    CHECK(result.code == 3);
+    CHECK_THAT(result.out, contains("\"event\":\"error\"") && contains("\"exit_code\":3"));
+}
+
+}  // namespace pl::test

@@ -1,0 +1,92 @@
+// Knobs on the command line: --knob in the subcommands that take a scene, and what `info` tells of them.
+#include <nlohmann/json.hpp>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/program/refusal.h"
+
+namespace pl::test {
+namespace {
+
+ProgramResult info(const Arguments& more) {
+    Arguments arguments{"info"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments);
+}
+
+std::string hash_of(const Arguments& more) {
+    Arguments arguments = more;
+    arguments.emplace_back("--json");
+    const ProgramResult result = info(arguments);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    return nlohmann::json::parse(result.out).at("scene_hash");
+}
+
+}  // namespace
+
+TEST_CASE("info lists the knobs of a scene with value, range, default and what they do") {
+    const ProgramResult text = info({"door", "--knob", "opening=5"});
+    CHECK(text.code == 0);
+    CHECK_THAT(text.out, contains("opening=5 (from 1 to 45, default 17.9): angle"));
+    CHECK_THAT(info({"cornell"}).out, contains("knobs      none"));
+
+    const auto report = nlohmann::json::parse(info({"door", "--knob=opening=5", "--json"}).out);
+    REQUIRE(report.at("knobs").size() == 1);
+    const auto& knob = report.at("knobs")[0];
+    CHECK(knob.at("name") == "opening");
+    CHECK(knob.at("value") == 5.0);
+    CHECK(knob.at("default").get<float>() == 17.9f);
+    CHECK(knob.at("range") == nlohmann::json::array({1.0, 45.0}));
+}
+
+TEST_CASE("the scene's hash changes with a knob, and not with its default") {
+    const std::string plain = hash_of({"door"});
+    CHECK(hash_of({"door", "--knob", "opening=17.9"}) == plain);
+    const std::string narrow = hash_of({"door", "--knob", "opening=3"});
+    CHECK(narrow != plain);
+    CHECK(hash_of({"--knob", "opening=20", "--knob", "opening=3", "door"}) == narrow);  // the last one counts
+    CHECK(hash_of({"--knob", "opening=20,opening=3", "door"}) == narrow);
+}
+
+TEST_CASE("a knob at its default changes no bit of a picture, another value changes it, and the picture says so") {
+    const TempDir folder;
+    const auto picture = [&](const Arguments& more) {
+        Arguments arguments{"render", "door", "-o", folder / "x.pfm", "--size", "24x24", "--spp", "4", "--nee", "on"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run_program(arguments);
+        CAPTURE(result.err);
+        REQUIRE(result.code == 0);
+        return read_all(folder / "x.pfm");
+    };
+    const std::string plain = picture({});
+    CHECK(picture({"--knob", "opening=17.9"}) == plain);
+    CHECK(picture({"--knob", "opening=40"}) != plain);
+
+    const ProgramResult marked = run_program(
+        {"render", "door", "-o", folder / "x.png", "--size", "8x8", "--spp", "1", "--knob", "opening=40"});
+    REQUIRE(marked.code == 0);
+    CHECK_THAT(read_all(folder / "x.png"), contains("--knob opening=40"));
+}
+
+TEST_CASE("knobs that are wrong exit with 2 and tell the range or the nearest name") {
+    const TempDir folder;
+    struct Wrong {
+        Arguments arguments;
+        std::string told;
+    };
+    const std::vector<Wrong> wrongs{
+        {{"info", "door", "--knob", "opening=46"}, "--knob opening: expected a number from 1 to 45"},
+        {{"render", "door", "-o", folder / "x.png", "--knob", "openin=4"}, "nearest: 'opening'"},
+        {{"inspect", "door", "-o", folder / "x.json", "--pixel", "1,1", "--knob", "opening=0"}, "from 1 to 45"},
+        {{"info", "cornell", "--knob", "opening=4"}, "it has none"},
+        {{"info", "door", "--knob", "opening"}, "--knob: expected NAME=VALUE"},
+        {{"info", "door", "--knob", "=4"}, "--knob: expected NAME=VALUE"},
+        {{"info", "door", "--knob", "opening=wide"}, "--knob: expected a number, got 'wide'"},
+        {{"info", "door", "--knob", "opening=nan"}, "--knob: expected a number"},
+        {{"info", "door", "--knob", ""}, "--knob: expected NAME=VALUE"},
+    };
+    for (const Wrong& wrong : wrongs) check_refused(2, wrong.arguments, wrong.told);
+    CHECK(folder.names().empty());
+}
+
+}  // namespace pl::test

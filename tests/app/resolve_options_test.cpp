@@ -1,0 +1,238 @@
+// Options that are refused, and what is said then.
+#include "tests/app/parsing.h"
+#include "tests/support/program/run_program.h"
+
+namespace pl::test {
+namespace {
+
+/// A complete command with `words` at its end.
+std::vector<std::string> render_with(const std::vector<std::string>& words) {
+    std::vector<std::string> arguments{"render", "s", "-o", "x.png"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    return arguments;
+}
+
+}  // namespace
+
+TEST_CASE("wrong values name the option, what is expected and what was given") {
+    struct Wrong {
+        std::vector<std::string> words;
+        std::string expected;
+    };
+    const std::vector<Wrong> wrongs{
+        {{"--spp", "-4"}, "--spp: expected a whole number from 1"},
+        {{"--spp", "0"}, "--spp: expected"},
+        {{"--spp", "1.5"}, "--spp: expected"},
+        {{"--spp", ""}, "--spp: expected"},
+        {{"--spp", "12abc"}, "--spp: expected"},
+        {{"--spp", "99999999999999999999"}, "--spp: expected"},
+        {{"--time-limit", "0"}, "--time-limit: expected a number of seconds above 0"},
+        {{"--time-limit", "-1"}, "--time-limit: expected"},
+        {{"--time-limit", "nan"}, "--time-limit: expected"},
+        {{"--size", "0x512"}, "--size: expected WIDTHxHEIGHT, each from 1 to 16384"},
+        {{"--size", "512"}, "--size: expected"},
+        {{"--size", "512x"}, "--size: expected"},
+        {{"--size", "5x5x5"}, "--size: expected"},
+        {{"--size", "16385x1"}, "--size: expected"},
+        {{"--width", "0"}, "--width: expected a whole number from 1 to 16384"},
+        {{"--height", "16385"}, "--height: expected"},
+        {{"--bins", "200"}, "--bins: expected a square number"},
+        {{"--bins", "1"}, "--bins: expected"},
+        {{"--bins", "2025"}, "--bins: expected"},
+        {{"--fov", "0"}, "--fov: expected an angle between 0 and 180"},
+        {{"--fov", "180"}, "--fov: expected"},
+        {{"--fov", "inf"}, "--fov: expected"},
+        {{"--eye", "1,2"}, "--eye: expected three numbers X,Y,Z"},
+        {{"--eye", "1,2,nan"}, "--eye: expected"},
+        {{"--up", "0,0,0"}, "--up: expected a direction"},
+        {{"--eye", "4,5,6"}, "--eye, --target: expected two different points"},
+        {{"--bsdf-fraction", "0.05"}, "--bsdf-fraction: expected a number from 0.1 to 1, or learned, got '0.05'"},
+        {{"--bsdf-fraction", "1.01"}, "--bsdf-fraction: expected"},
+        {{"--nee", "yes"}, "--nee: expected on or off, got 'yes'"},
+        {{"--method", "reinforcment"},
+         "--method: expected default, precomputed or reinforcement, got 'reinforcment' "
+         "(nearest: 'reinforcement')"},
+        {{"--view", "voroni"}, "nearest: 'voronoi'"},
+        {{"--backend", "gpu"}, "--backend: expected auto, cpu or cuda"},
+        {{"--tonemap", "filmic"}, "--tonemap: expected clamp, reinhard or aces"},
+        {{"--exposure", "65"}, "--exposure: expected"},
+        {{"--max-depth", "0"}, "--max-depth: expected"},
+        {{"--threads", "0"}, "--threads: expected"},
+        {{"--volumes", "0"}, "--volumes: expected"},
+        {{"--field-budget", "0"}, "--field-budget: expected"},
+        {{"--refine", "1.01"}, "--refine: expected a number from 0 to 1, or auto, got '1.01'"},
+        {{"--refine", "-0.1"}, "--refine: expected a number from 0 to 1"},
+        {{"--refine", "nan"}, "--refine: expected"},
+        {{"--refine", "half"}, "--refine: expected"},
+        {{"--learning-rate", "means"},
+         "--learning-rate: expected mean, forgetful, power or floor, got 'means' (nearest: 'mean')"},
+        {{"--learn-target", "montecarlo"},
+         "--learn-target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo' (nearest: 'monte-carlo')"},
+        {{"--learn-from", "direct"}, "--learn-from: expected all or indirect, got 'direct' (nearest: 'indirect')"},
+        {{"--roulette", "feild"}, "--roulette: expected spare, albedo or field, got 'feild' (nearest: 'field')"},
+        {{"--lookup", "kd-tree"}, "--lookup: expected kdtree, linear or grid, got 'kd-tree' (nearest: 'kdtree')"},
+        {{"--seed", "-1"}, "--seed: expected a whole number of at least 0"},
+        {{"--seed", "18446744073709551616"}, "--seed: expected"},
+    };
+    for (const Wrong& wrong : wrongs) {
+        CAPTURE(wrong.words);
+        CHECK_THAT(complaint(render_with(wrong.words)), contains(wrong.expected));
+    }
+}
+
+TEST_CASE("the limits of values are values") {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"--bsdf-fraction", "0.1"},
+                                               {"--bsdf-fraction", "1"},
+                                               {"--bins", "4"},
+                                               {"--bins", "1024"},
+                                               {"--size", "16384x1"},
+                                               {"--seed", "18446744073709551615"},
+                                               {"--fov", "179.99"},
+                                               {"--max-depth", "1"},
+                                               {"--refine", "auto"},
+                                               {"--refine", "0"},
+                                               {"--refine", "1"}}) {
+        CAPTURE(words);
+        CHECK_NOTHROW(parse(render_with(words)));
+    }
+    CHECK(parse(render_with({"--bsdf-fraction", "0.1"})).render.mixture.bsdf_fraction >= 0.1f);
+    CHECK(parse(render_with({"--bsdf-fraction", "0.1"})).render.mixture.learned == 0);
+    CHECK(parse(render_with({"--bsdf-fraction", "learned"})).render.mixture == MixtureSettings{});
+}
+
+TEST_CASE("what a later version will have is refused by name") {
+    CHECK_THAT(complaint({"view", "s", "--target-error", "0.1"}),
+               contains("--target-error") && contains("this version does not have it"));
+    CHECK_THAT(complaint({"view", "s", "--save-field", "f"}),
+               contains("--save-field: the viewer saves") && contains("Ctrl+Shift+S"));
+}
+
+TEST_CASE("unknown words name the nearest one") {
+    CHECK_THAT(complaint({"rendr", "s"}), contains("nearest: 'render'"));
+    CHECK_THAT(complaint(render_with({"--sppp", "3"})), contains("nearest: '--spp'"));
+    CHECK_THAT(complaint(render_with({"--metod=default"})), contains("nearest: '--method'"));
+    CHECK_THAT(complaint({"devices", "--jsn"}), contains("nearest: '--json'"));
+    CHECK_THAT(complaint({"info", "s", "--bins", "4"}), contains("unknown option '--bins' of 'info'"));
+    CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), contains("unexpected argument 't'"));
+}
+
+TEST_CASE("views of what was learned need a method that learns") {
+    CHECK_THAT(complaint(render_with({"--view", "radiance-map"})), contains("precomputed or reinforcement"));
+    CHECK_NOTHROW(parse(render_with({"--view", "radiance-map", "--method", "precomputed"})));
+    CHECK_NOTHROW(parse(render_with({"--view", "voronoi"})));
+}
+
+TEST_CASE("only what is learned can be saved") {
+    CHECK_THAT(
+        complaint(render_with({"--save-field", "f"})),
+        contains("--save-field: --method default learns nothing: expected --method precomputed or reinforcement"));
+    CHECK_THAT(complaint(render_with({"--save-field", "f", "--method", "precomputed", "--view", "voronoi"})),
+               contains("--save-field: nothing is learned for --view voronoi: expected --view beauty or one of the "
+                        "learned field, such as radiance-map"));
+    for (const char* view : {"beauty", "radiance-map", "visits"})
+        CHECK(parse(render_with({"--save-field", "f", "--method", "reinforcement", "--view", view})).save_field ==
+              "f");
+    CHECK(parse({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--save-field", "f"}).save_field == "f");
+}
+
+namespace {
+
+Options parse_with_field(const std::vector<std::string>& arguments, const LearnedField& field,
+                         const SceneDescription& scene = plain_scene()) {
+    return resolve_options(parse_command_line(arguments), scene, &field);
+}
+
+std::vector<std::string> loading(const std::vector<std::string>& words) {
+    std::vector<std::string> arguments = render_with({"--load-field", "my.field"});
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    return arguments;
+}
+
+std::string complaint_with_field(const std::vector<std::string>& words, const LearnedField& field) {
+    try {
+        parse_with_field(loading(words), field);
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::Usage);
+        return error.what();
+    }
+    return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("a loaded field brings its method and settings") {
+    LearnedField field;
+    field.method = MethodId::Precomputed;
+    field.settings = {.volumes = 70, .bins = 64, .lookup = Lookup::Linear};
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"method", "reinforcement"}, {"volumes", "5"}, {"bins", "16"}, {"seed", "9"}};
+    const Options options = parse_with_field(loading({}), field, scene);
+    CHECK(options.render.method == MethodId::Precomputed);
+    CHECK((options.render.field == field.settings));
+    CHECK(options.render.seed == 9);
+    // Inspection does not need to be told the method either.
+    CHECK(parse_with_field({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--load-field", "f"}, field)
+              .render.method == MethodId::Precomputed);
+    // The command in the picture loads it again, and says nothing that contradicts it.
+    const std::string command = command_text(options, scene_defaults("s", scene));
+    CHECK_THAT(command, contains("--load-field my.field") && contains("--bins 64") && contains("--volumes 70"));
+}
+
+TEST_CASE("what is given beside a loaded field has to agree with it, but for the lookup") {
+    LearnedField field;
+    field.method = MethodId::Precomputed;
+    field.settings.bins = 64;
+    CHECK_NOTHROW(
+        parse_with_field(loading({"--bins", "64", "--method", "precomputed", "--field-budget", "16"}), field));
+    CHECK_NOTHROW(parse_with_field(loading({"--seed", "5", "--nee", "on", "--bsdf-fraction", "0.7"}), field));
+    struct Wrong {
+        std::vector<std::string> words;
+        std::string message;
+    };
+    const std::vector<Wrong> wrongs{
+        {{"--bins", "256"}, "--bins 256: the field in my.field was learned with --bins 64"},
+        {{"--volumes", "9"}, "--volumes 9: the field in my.field was learned without --volumes"},
+        {{"--field-budget", "1"}, "--field-budget 1: the field in my.field was learned with --field-budget 16"},
+        {{"--refine", "0.5"}, "--refine 0.5: the field in my.field was learned with --refine auto"},
+        {{"--method", "reinforcement"},
+         "--method reinforcement: the field in my.field was learned with --method prec"},
+        {{"--method", "default"}, "--method default: the field in my.field was learned with --method precomputed"},
+    };
+    for (const Wrong& wrong : wrongs) {
+        CAPTURE(wrong.words);
+        CHECK_THAT(complaint_with_field(wrong.words, field), contains(wrong.message));
+    }
+    CHECK(parse_with_field(loading({}), field).render.field.lookup == Lookup::Grid);
+    CHECK(parse_with_field(loading({"--lookup", "linear"}), field).render.field.lookup == Lookup::Linear);
+    field.settings.lookup = Lookup::Linear;
+    CHECK(parse_with_field(loading({"--lookup", "kdtree"}), field).render.field.lookup == Lookup::KdTree);
+}
+
+TEST_CASE("inspection is about a method that learns") {
+    const std::vector<std::string> arguments{"inspect", "s", "--pixel", "1,2", "-o", "x.csv"};
+    CHECK(parse(arguments).render.method == MethodId::Reinforcement);
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"method", "default"}};
+    CHECK(parse(arguments, scene).render.method == MethodId::Reinforcement);
+    CHECK_THAT(complaint({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--method", "default"}),
+               contains("precomputed or reinforcement"));
+}
+
+TEST_CASE("inspection needs one place") {
+    const auto inspect = [](std::vector<std::string> place) {
+        place.insert(place.begin(), {"inspect", "s", "-o", "x.csv"});
+        return place;
+    };
+    CHECK_THAT(complaint(inspect({})), contains("either --at"));
+    CHECK_THAT(complaint(inspect({"--at", "1,2,3", "--pixel", "1,2"})), contains("either --at"));
+    CHECK_THAT(complaint(inspect({"--at", "1,2,3,0,0,0"})), contains("normal"));
+    CHECK_THAT(complaint(inspect({"--at", "1,2,3,4"})), contains("three or six numbers"));
+    CHECK_THAT(complaint(inspect({"--pixel", "-1,0"})), contains("--pixel: expected"));
+    CHECK_THAT(complaint(inspect({"--pixel", "1"})), contains("--pixel: expected"));
+    const Options options = parse(inspect({"--at", "1,2,3,0,0,-2"}));
+    CHECK((options.at->position == glm::vec3(1, 2, 3)));
+    CHECK((*options.at->normal == glm::vec3(0, 0, -1)));
+}
+
+}  // namespace pl::test

@@ -1,0 +1,75 @@
+// `pathlight view` from outside, driven by a script on SDL's dummy driver: what the program lends to the window.
+#include "core/io/image.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/program/run_program.h"
+
+namespace pl::test {
+namespace {
+
+/// Runs the viewer on a script in a folder, at rest after two samples.
+ProgramResult run_script(const TempDir& folder, const std::string& script, const Arguments& more = {}) {
+    write_all(folder / "script", script);
+    Arguments arguments{"view",    "cornell", "--script", "script", "--software", "--window",
+                        "800x600", "--size",  "32x24",    "--spp",  "2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments, {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
+}
+
+std::string command_in(const std::filesystem::path& png) {
+    ImageMetadata metadata;
+    read_png8(png, &metadata);
+    for (const auto& [name, text] : metadata)
+        if (name == "command") return text;
+    return "";
+}
+
+std::filesystem::path only_file(const TempDir& folder, const std::string& suffix) {
+    for (const std::string& name : folder.names())
+        if (name.ends_with(suffix)) return folder / name;
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("the command of a saved picture makes that picture") {
+    const TempDir folder;
+    const ProgramResult result =
+        run_script(folder, "1 tap ]\n2 tap 3\n3 wait shown_method == reinforcement\n3 wait shown_spp == 2\n"
+                           "4 tap s ctrl\n5 wait message ~ saved\n6 quit\n");
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const std::filesystem::path shown = only_file(folder, ".png");
+    const std::filesystem::path linear = only_file(folder, ".exr");
+    REQUIRE_FALSE(shown.empty());
+    REQUIRE_FALSE(linear.empty());
+    const std::string command = command_in(shown);
+    CHECK_THAT(command, contains("--exposure 0.5") && contains("--method reinforcement") && contains("--size 32x24"));
+
+    REQUIRE(run_shell(command, {.folder = folder.path()}).code == 0);
+    CHECK((read_png8(folder / "cornell.png").rgb == read_png8(shown).rgb));
+    REQUIRE(run_shell(command + " -o again.exr", {.folder = folder.path()}).code == 0);
+    CHECK((read_exr(folder / "again.exr").pixels == read_exr(linear).pixels));
+}
+
+TEST_CASE("the window opens with what the command line asks for") {
+    const TempDir folder;
+    const ProgramResult result = run_script(
+        folder,
+        "1 expect method == precomputed\n1 expect nee == yes\n1 expect exposure == -1\n1 expect "
+        "size == 32x24\n"
+        "1 expect eye_z == -700\n2 wait state == done\n3 expect spp == 2\n4 quit\n",
+        {"--method", "precomputed", "--nee", "on", "--exposure", "-1", "--eye", "278,273,-700", "--volumes", "50"});
+    CAPTURE(result.err);
+    CHECK(result.code == 0);
+}
+
+TEST_CASE("a back end that is not there is told before a window opens") {
+    const TempDir folder;
+    const ProgramResult result = run_script(folder, "1 quit\n", {"--backend", "cuda"});
+    if (result.code != 0) {
+        CHECK(result.code == 4);
+        CHECK_THAT(result.err, contains("--backend cuda"));
+    }
+}
+
+}  // namespace pl::test

@@ -1,0 +1,144 @@
+// Whole field files whose numbers no session could have learned: each is refused by name.
+#include <functional>
+#include <limits>
+
+#include "core/io/field_file.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/small_field.h"
+#include "tests/support/files/input_error.h"
+#include "tests/support/files/temporary_folder.h"
+
+using namespace pl;
+using pl::test::contains;
+using pl::test::input_error;
+using pl::test::kVolumes;
+using pl::test::small_field;
+using pl::test::TemporaryFolder;
+
+namespace {
+
+struct Wrong {
+    std::string message;
+    std::function<void(LearnedField&, HostVolumes&)> change;
+};
+
+std::vector<Wrong> wrong_settings() {
+    using F = LearnedField;
+    using V = HostVolumes;
+    return {
+        {"a method that learns, got 'default'", [](F& f, V&) { f.method = MethodId::Default; }},
+        {"volumes asked for: expected 0 or more, got -1", [](F& f, V&) { f.settings.volumes = -1; }},
+        {"budget: expected a number of megabytes, got nan", [](F& f, V&) { f.settings.budget_megabytes = kNan; }},
+        {"bins: expected a square number from 4 to 1024, got 5", [](F& f, V&) { f.settings.bins = 5; }},
+        {"bins: expected a square number", [](F& f, V&) { f.settings.bins = 33 * 33; }},
+        {"bins: expected a square number", [](F& f, V&) { f.settings.bins = -4; }},
+        {"learning rate: expected 1 to 4, got 5", [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(5); }},
+        {"learning rate: expected 1 to 4, got 0", [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(0); }},
+        {"learning target: expected 0 to 2, got 3",
+         [](F& f, V&) { f.settings.learning.target = static_cast<LearningTarget>(3); }},
+        {"learned light: expected 0 or 1, got 2",
+         [](F& f, V&) { f.settings.learning.light = static_cast<LearnedLight>(2); }},
+        {"uniform share: expected 0 to 1, got nan", [](F& f, V&) { f.settings.uniform_floor = kNan; }},
+        {"precomputed samples: expected a square number", [](F& f, V&) { f.settings.precompute_samples = 0; }},
+        {"precomputed samples: expected a square number",
+         [](F& f, V&) { f.settings.precompute_samples = std::numeric_limits<int>::max(); }},
+        {"lookup: expected 0 to 2, got 7", [](F& f, V&) { f.settings.lookup = static_cast<Lookup>(7); }},
+        {"share of added volumes: expected 0 to 1, or -1, got nan", [](F& f, V&) { f.settings.refine_share = kNan; }},
+        {"added volumes: expected at most 3, got 4", [](F& f, V&) { f.refinement.added = 4; }},
+        {"cells to a side: expected the root of 4 bins, got 3", [](F& f, V&) { f.shape.cells.side = 3; }},
+        {"cells to a side: expected the root of 4 bins, got -2", [](F& f, V&) { f.shape.cells.side = -2; }},
+        {"cells to a side: expected the root of 4 bins, got 2147483647",
+         [](F& f, V&) { f.shape.cells.side = std::numeric_limits<int>::max(); }},
+        {"radiance unit: expected a power of two, got 3", [](F& f, V&) { f.shape.radiance_unit = 3.0f; }},
+        {"radiance unit: expected a power of two, got 0", [](F& f, V&) { f.shape.radiance_unit = 0.0f; }},
+        {"radiance unit: expected a power of two, got nan", [](F& f, V&) { f.shape.radiance_unit = kNan; }},
+        {"extent: expected 0 or more, got nan", [](F& f, V&) { f.shape.extent = kNan; }},
+        {"expected those of the settings", [](F& f, V&) { f.shape.rate = LearningRate::Forgetful; }},
+        {"expected those of the settings", [](F& f, V&) { f.shape.lookup = Lookup::KdTree; }},
+        {"precomputed slices: expected at most 9, got 10", [](F& f, V&) { f.progress.precomputed_slices = 10; }},
+        {"next probe: expected 0, or below 12, got 12", [](F& f, V&) { f.progress.next_probe = 12; }},
+        {"next probe: expected 0, or below 0, got 11", [](F& f, V&) { f.progress.precomputed_slices = 9; }},
+        {"seconds of precomputation: expected a time", [](F& f, V&) { f.progress.precompute_seconds = -1.0; }},
+    };
+}
+
+std::vector<Wrong> wrong_volumes() {
+    using F = LearnedField;
+    using V = HostVolumes;
+    return {
+        {"place of volume 1: expected a finite position, got 1,nan", [](F&, V& v) { v.sites[1].position.y = kNan; }},
+        {"place of volume 0: expected an error bound", [](F&, V& v) { v.sites[0].position_error = -1.0f; }},
+        {"normal of volume 2: expected a vector of length 1", [](F&, V& v) { v.normals[2].x = 0.1f; }},
+        {"normal of volume 2: expected a vector of length 1", [](F&, V& v) { v.sites[2].shading_normal.x = kNan; }},
+        {"places: expected 3 values, got 2", [](F&, V& v) { v.sites.pop_back(); }},
+        {"search tree: expected at most 3 values, got 4", [](F&, V& v) { v.kd_nodes.push_back(v.kd_nodes[0]); }},
+        {"node 2 of the search tree: expected a volume below 3, got 3", [](F&, V& v) { v.kd_nodes[2].volume = 3; }},
+        {"node 0 of the search tree: expected a volume below 3, got 4294967295",
+         [](F&, V& v) { v.kd_nodes[0].volume = 0xffffffffu; }},
+        {"node 1 of the search tree: expected an axis from 0 to 2, got 3", [](F&, V& v) { v.kd_nodes[1].axis = 3; }},
+        {"node 1 of the search tree: expected the position", [](F&, V& v) { v.kd_nodes[1].position.z = kNan; }},
+        {"node 1 of the search tree: expected the normal", [](F&, V& v) { v.kd_nodes[1].normal.y *= -1.0f; }},
+    };
+}
+
+std::vector<Wrong> wrong_tables() {
+    using F = LearnedField;
+    using V = HostVolumes;
+    return {
+        {"radiance: expected 12 values, got 11", [](F& f, V&) { f.tables.radiance.pop_back(); }},
+        {"visits: expected 12 values, got 13", [](F& f, V&) { f.tables.visits.push_back(1); }},
+        {"sums: expected 12 values, got 0", [](F& f, V&) { f.tables.pending_sum.clear(); }},
+        {"counts: expected 12 values, got 11", [](F& f, V&) { f.tables.pending_count.pop_back(); }},
+        {"row table: expected 6 values, got 7", [](F& f, V&) { f.tables.row_cdf.push_back(1.0f); }},
+        {"column table: expected 12 values, got 11", [](F& f, V&) { f.tables.column_cdf.pop_back(); }},
+        {"mean radiance: expected 3 values, got 2", [](F& f, V&) { f.tables.mean_radiance.pop_back(); }},
+        {"radiance of cell 7: expected 0 or more, got nan", [](F& f, V&) { f.tables.radiance[7] = kNan; }},
+        {"radiance of cell 7: expected 0 or more, got -1", [](F& f, V&) { f.tables.radiance[7] = -1.0f; }},
+        {"mean radiance of volume 2: expected 0 or more, got inf",
+         [](F& f, V&) { f.tables.mean_radiance[2] = std::numeric_limits<float>::infinity(); }},
+        {"inverse reaches: expected 3 values, got 2", [](F& f, V&) { f.tables.inverse_reach.pop_back(); }},
+        {"inverse reach of volume 1: expected 0 or more, got -1",
+         [](F& f, V&) { f.tables.inverse_reach[1] = -1.0f; }},
+        {"distance of volume 2: expected 0 to 5, got 6",
+         [](F& f, V&) { f.tables.pending_light[2] = 5, f.tables.pending_distance[2] = 6; }},
+        {"sum of cell 3: expected 0 to", [](F& f, V&) { f.tables.pending_sum[3] = -1; }},
+        {"sum of cell 3: expected 0 to 0", [](F& f, V&) { f.tables.pending_count[3] = 0; }},
+        {"entry 1 of the row table: expected 1, got 0.99", [](F& f, V&) { f.tables.row_cdf[1] = 0.99f; }},
+        {"entry 2 of the row table: expected a probability", [](F& f, V&) { f.tables.row_cdf[2] = 1.5f; }},
+        {"entry 4 of the column table: expected a probability", [](F& f, V&) { f.tables.column_cdf[4] = -0.1f; }},
+        {"entry 4 of the column table: expected a probability", [](F& f, V&) { f.tables.column_cdf[4] = kNan; }},
+        {"entry 11 of the column table: expected 1, got nan", [](F& f, V&) { f.tables.column_cdf[11] = kNan; }},
+    };
+}
+
+}  // namespace
+
+TEST_CASE("Whole field files with numbers that no session could have learned are refused") {
+    const TemporaryFolder folder;
+    for (const auto& wrongs : {wrong_settings(), wrong_volumes(), wrong_tables()}) {
+        for (const Wrong& wrong : wrongs) {
+            LearnedField field = small_field();
+            HostVolumes volumes = *field.volumes;
+            wrong.change(field, volumes);
+            field.volumes = std::make_shared<const HostVolumes>(std::move(volumes));
+            write_field(folder.path() / "field", field);
+            CHECK_THAT(input_error([&] { read_field(folder.path() / "field"); }),
+                       contains("field: damaged field: ") && contains(wrong.message));
+        }
+    }
+}
+
+// A table that falls again would give a direction a negative probability; four columns are needed to see it.
+TEST_CASE("Probabilities that fall are refused") {
+    const TemporaryFolder folder;
+    LearnedField field = small_field();
+    field.settings.bins = 16;
+    field.shape.cells.side = 4;
+    field.tables = make_tables(field.shape, kVolumes);
+    write_field(folder.path() / "field", field);
+    CHECK_NOTHROW(read_field(folder.path() / "field"));
+    std::swap(field.tables.column_cdf[5], field.tables.column_cdf[6]);
+    write_field(folder.path() / "field", field);
+    CHECK_THAT(input_error([&] { read_field(folder.path() / "field"); }),
+               contains("entry 6 of the column table: expected a probability from 0.75 to 1, got 0.5"));
+}

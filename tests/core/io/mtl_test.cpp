@@ -1,0 +1,199 @@
+// MTL files: values, their limits, what they mean, and what is left out.
+#include "core/io/mtl.h"
+
+#include <cmath>
+
+#include "core/io/image.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/input_error.h"
+#include "tests/support/files/temporary_folder.h"
+
+using namespace pl;
+using pl::test::contains;
+using pl::test::input_error;
+using pl::test::TemporaryFolder;
+
+namespace {
+
+SceneDescription load(const std::string& text) {
+    const TemporaryFolder folder;
+    SceneDescription scene;
+    load_mtl(folder.write("m.mtl", text), scene);
+    return scene;
+}
+
+/// The only material of a file with these lines.
+MaterialDescription material(const std::string& lines) { return load("newmtl a\n" + lines).materials.at(0); }
+
+}  // namespace
+
+TEST_CASE("Reflectance and emission, in the order of the file") {
+    const SceneDescription loaded = load("\xEF\xBB\xBF# colors\r\nnewmtl b\r\n\tKd 0.1 0.2 0.3\r\nKe 1e1 .5 "
+                                         "3\r\nnewmtl a\r\nKd 0.25 # gray\r\n");
+    REQUIRE(loaded.materials.size() == 2);
+    CHECK(loaded.warnings.empty());
+    CHECK(loaded.materials[0].name == "b");
+    CHECK(loaded.materials[0].albedo == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(loaded.materials[0].emission == glm::vec3(10.0f, 0.5f, 3.0f));
+    CHECK(loaded.materials[1].albedo == glm::vec3(0.25f));
+    CHECK(loaded.materials[1].emission == glm::vec3(0.0f));
+}
+
+TEST_CASE("Reflectance above 1 is clamped with a warning") {
+    const SceneDescription loaded = load("newmtl a\nKd 1.5 1 0.5\n");
+    CHECK(loaded.materials[0].albedo == glm::vec3(1.0f, 1.0f, 0.5f));
+    REQUIRE(loaded.warnings.size() == 1);
+    CHECK_THAT(loaded.warnings[0], contains("m.mtl:2: reflectance above 1"));
+}
+
+TEST_CASE("Only the light that reflects nothing is black") {
+    const SceneDescription loaded = load("newmtl lamp\nKe 5 5 5\nnewmtl nothing\nNs 10\n");
+    CHECK(loaded.materials[0].albedo == glm::vec3(0.0f));
+    CHECK(loaded.materials[1].albedo == kDefaultAlbedo);
+    REQUIRE(loaded.warnings.size() == 1);
+    CHECK_THAT(loaded.warnings[0], contains("'nothing' has neither Kd nor Ke"));
+}
+
+TEST_CASE("Of two materials with one name the first counts") {
+    const SceneDescription loaded =
+        load("newmtl a\nKd 0.1 0.1 0.1\nnewmtl a\nKd 0.9 0.9 0.9\nPl_two_sided 1\nnewmtl b\nKd 0.5\n");
+    REQUIRE(loaded.materials.size() == 2);
+    CHECK(loaded.materials[0].albedo == glm::vec3(0.1f));
+    CHECK_FALSE(loaded.materials[0].two_sided_emission);
+    CHECK(loaded.materials[1].albedo == glm::vec3(0.5f));
+    REQUIRE(loaded.warnings.size() == 1);
+    CHECK_THAT(loaded.warnings[0], contains("m.mtl:3: material 'a'"));
+}
+
+TEST_CASE("What changes the picture but is not supported is told once, the rest is silent") {
+    const SceneDescription loaded =
+        load("newmtl a\nKd 0.5 0.5 0.5\nbump c.png\nmap_Ks d.png\nmap_Ka e.png\nKa 1 1 1\n"
+             "newmtl b\nKd 0.5 0.5 0.5\nbump f.png\n");
+    REQUIRE(loaded.warnings.size() == 1);
+    CHECK_THAT(loaded.warnings[0], contains("does not show it: bump, map_Ks"));
+    CHECK(load("newmtl a\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 10\nd 1\nTr 0\nillum 2\n").warnings.empty());
+}
+
+TEST_CASE("Values that are wrong are refused with file and line") {
+    struct Case {
+        std::string line;
+        std::string told;
+    };
+    const Case sample =
+        GENERATE(Case{"Kd -0.1 0 0", "at least 0, got '-0.1'"}, Case{"Kd nan 0 0", "got 'nan'"},
+                 Case{"Kd 0 inf 0", "got 'inf'"}, Case{"Ke 0 0 -3", "got '-3'"}, Case{"Ke 1e39 0 0", "got '1e39'"},
+                 Case{"Ke 1e400 0 0", "got '1e400'"}, Case{"Kd 1,5 0 0", "got '1,5'"},
+                 Case{"Kd 0x1 0 0", "got '0x1'"}, Case{"Kd 0.5 0.5", "got 2 words"}, Case{"Kd", "got 0 words"},
+                 Case{"Kd spectral file.rfl", "got 2 words"}, Case{"Pl_two_sided yes", "expected 0 or 1"},
+                 Case{"Pl_surface metal", "diffuse, conductor, dielectric, plastic"},
+                 Case{"Pl_roughness 1.5", "within [0, 1]"}, Case{"Pl_ior 0.9", "within [1, 4]"},
+                 Case{"Pl_ior nan", "within [1, 4]"}, Case{"Pl_rough 1", "unknown key 'Pl_rough'"},
+                 Case{"newmtl", "expected a name"});
+    INFO(sample.line);
+    CHECK_THAT(input_error([&] { load("newmtl a\n\n" + sample.line + "\n"); }),
+               contains("m.mtl:3: ") && contains(sample.told));
+}
+
+TEST_CASE("A color before any material is refused") {
+    CHECK_THAT(input_error([] { load("Kd 1 1 1\n"); }), contains("m.mtl:1: 'Kd' before any 'newmtl'"));
+}
+
+TEST_CASE("Numbers of other programs that cannot be meant are told once and left out") {
+    const SceneDescription loaded =
+        load("newmtl a\nKd 0.5\nKs 0.5 nan 1\nNs -3\nNi 0\nd 7\nillum 77\nPr x\nPm\nNi -1\n");
+    CHECK(loaded.materials[0].kind == SurfaceKind::Diffuse);
+    CHECK(loaded.warnings.size() == 7);
+    for (const std::string& warning : loaded.warnings) CHECK_THAT(warning, contains("cannot be meant is left out"));
+    CHECK_THAT(loaded.warnings[1], contains("m.mtl:5: 'Ni'") && contains("(2 in all)"));
+}
+
+TEST_CASE("The table of illumination models") {
+    struct Case {
+        std::string lines;
+        SurfaceKind kind;
+    };
+    const std::string both = "Kd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nNs 225\n";
+    const Case sample = GENERATE_COPY(
+        Case{"Kd 0.5\n", SurfaceKind::Diffuse}, Case{"Kd 0.5\nillum 2\nKs 0 0 0\nNs 10\n", SurfaceKind::Diffuse},
+        Case{both + "illum 0\n", SurfaceKind::Diffuse}, Case{both + "illum 1\n", SurfaceKind::Diffuse},
+        Case{both + "illum 2\n", SurfaceKind::Plastic}, Case{both, SurfaceKind::Plastic},
+        Case{"Kd 0.5\nKs 1 1 1\n", SurfaceKind::Diffuse},  // no exponent: nobody knows how wide
+        Case{both + "illum 3\n", SurfaceKind::Conductor}, Case{both + "illum 5\n", SurfaceKind::Conductor},
+        Case{both + "illum 8\n", SurfaceKind::Conductor},
+        Case{"Kd 0.8\nKs 0.1\nNs 10\nillum 3\n", SurfaceKind::Plastic},
+        Case{"Kd 0.8\nKs 0 0 0\nNs 10\nillum 3\n", SurfaceKind::Diffuse},
+        Case{"Kd 0.8\nillum 4\n", SurfaceKind::Dielectric}, Case{"Kd 0.8\nillum 6\n", SurfaceKind::Dielectric},
+        Case{"Kd 0.8\nillum 7\n", SurfaceKind::Dielectric}, Case{"Kd 0.8\nillum 9\n", SurfaceKind::Dielectric},
+        Case{"Kd 0.8\nd 0.5\nNi 1.5\n", SurfaceKind::Dielectric},
+        Case{"Kd 0.8\nTr 0.5\nTf 1 1 1\n", SurfaceKind::Dielectric},
+        Case{"Kd 0.8\nd 1\nNi 1.5\nTf 1 1 1\n", SurfaceKind::Diffuse},
+        Case{"Kd 0.8\nd 0.5\nNi 1\n", SurfaceKind::Diffuse}, Case{"Kd 0.8\nPm 1\n", SurfaceKind::Conductor},
+        Case{both + "Pm 0\n", SurfaceKind::Plastic}, Case{"Kd 0.8\nPc 1\n", SurfaceKind::Plastic},
+        Case{both + "illum 7\nPl_surface diffuse\n", SurfaceKind::Diffuse},
+        Case{"Kd 0.8\nPl_surface dielectric\n", SurfaceKind::Dielectric});
+    INFO(sample.lines);
+    CHECK(material(sample.lines).kind == sample.kind);
+}
+
+TEST_CASE("Numbers and colors of surfaces") {
+    const MaterialDescription plastic = material("Kd 0.1 0.2 0.3\nKs 0.2 0.4 0.4\nNs 225\nNi 1.4\nillum 2\n");
+    CHECK(plastic.albedo == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(plastic.specular == glm::vec3(0.5f, 1.0f, 1.0f));
+    CHECK(plastic.roughness == Approx(std::pow(2.0 / 227.0, 0.25)));
+    CHECK(plastic.ior == 1.4f);
+    CHECK(material("Kd 0.1\nKs 0.5\nNs 225\nNi 1\n").ior == 1.5f);
+    CHECK(material("Kd 0.1\nKs 0.5\nNs 225\nPr 0.25\n").roughness == 0.25f);
+    CHECK(material("Kd 0.1\nKs 0.5\nNs 225\nPr 0.25\nPl_roughness 0.5\n").roughness == 0.5f);
+    CHECK(material("Kd 0.1\nKs 0.5\nPr 0.02\n").roughness == 0.0f);
+
+    const MaterialDescription mirror = material("Kd 0.1 0.1 0.1\nKs 0.9 0.8 0.7\nNs 1000\nillum 5\n");
+    CHECK(mirror.specular == glm::vec3(0.9f, 0.8f, 0.7f));
+    CHECK(mirror.roughness == 0.0f);
+    CHECK(mirror.albedo == glm::vec3(0.0f));
+    const MaterialDescription gold = material("Kd 1 0.8 0.3\nKs 0.5\nPm 1\nPr 0.3\n");
+    CHECK(gold.specular == glm::vec3(1.0f, 0.8f, 0.3f));
+    CHECK(gold.roughness == 0.3f);
+
+    const MaterialDescription glass = material("Kd 0.1\nKs 1\nNs 96\nNi 1.33\nTf 0.9 1 1\nillum 7\n");
+    CHECK(glass.roughness == 0.0f);
+    CHECK(glass.ior == 1.33f);
+    CHECK(glass.transmission == glm::vec3(0.9f, 1.0f, 1.0f));
+    CHECK(glass.specular == glm::vec3(1.0f));
+    CHECK(material("Kd 0.1\nillum 7\n").ior == 1.5f);
+    CHECK(material("Kd 0.1\nNi 1\nillum 7\n").ior == 1.0f);
+    CHECK(material("Kd 0.1\nPr 0.5\nNi 1\nillum 7\n").roughness == 0.0f);
+}
+
+TEST_CASE("Transparency that cannot be shown is told") {
+    const SceneDescription loaded = load("newmtl a\nKd 0.5\nd 0.5\n");
+    REQUIRE(loaded.warnings.size() == 1);
+    CHECK_THAT(loaded.warnings[0], contains("m.mtl:1: material 'a' is partly transparent"));
+    CHECK(load("newmtl a\nKd 0.5\nd 0.5\nNi 1.5\n").warnings.empty());
+}
+
+TEST_CASE("Images of a material: loaded once, missing ones shown as checkers") {
+    const TemporaryFolder folder;
+    write_png8(folder.path() / "a b.png", {.width = 2, .height = 1, .rgb = {255, 0, 0, 0, 0, 255}});
+    SceneDescription scene;
+    load_mtl(folder.write("m.mtl", "newmtl a\nmap_Kd -s 1 1 1 -blendu on a b.png # wood\nmap_d a b.png\n"
+                                   "newmtl b\nmap_Kd C:\\images\\a b.png\nmap_Ke -clamp on a b.png\n"
+                                   "newmtl c\nmap_Kd ../gone.png\nmap_d gone.png\nmap_Kd -o 0.5 gone.png\n"
+                                   "newmtl d\nKd 0.5\nmap_Pr a b.png\n"
+                                   "newmtl e\nKs 1 1 1\nillum 3\nPr 0.5\nmap_Pr a b.png\nmap_Kd -clamp on\n"),
+             scene);
+    const std::vector<MaterialDescription>& m = scene.materials;
+    CHECK(m[0].albedo == glm::vec3(1.0f));
+    CHECK(m[0].textures.albedo == m[1].textures.albedo);
+    CHECK(m[0].textures.opacity != m[0].textures.albedo);
+    CHECK(m[1].emission == glm::vec3(1.0f));
+    CHECK_FALSE(scene.textures[m[1].textures.emission].repeats);
+    CHECK(scene.textures[m[2].textures.albedo].texels.size() == 4);
+    CHECK(m[2].textures.opacity == kNoTexture);
+    CHECK(m[3].textures.roughness == kNoTexture);  // matte
+    CHECK(m[4].textures.roughness != kNoTexture);
+    CHECK(m[4].textures.albedo == kNoTexture);
+    std::string all;
+    for (const std::string& warning : scene.warnings) all += warning + "\n";
+    CHECK_THAT(all, contains("gone.png: cannot be read") && contains("shown as checkers") && contains("left out") &&
+                        contains("-o of map_Kd") && contains("'map_Kd': a value that cannot be meant"));
+}

@@ -1,0 +1,259 @@
+// OBJ files that are right: geometry, normals, materials, and what is corrected with a warning.
+#include "core/io/obj.h"
+
+#include <cmath>
+#include <fstream>
+
+#include "core/io/frame_camera.h"
+#include "core/io/load_scene.h"
+#include "core/io/mtl.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/input_error.h"
+#include "tests/support/files/temporary_folder.h"
+#include "tests/support/scenes/mesh_properties.h"
+
+using namespace pl;
+using pl::test::contains;
+using pl::test::TemporaryFolder;
+
+namespace {
+
+constexpr const char* kMtl = "newmtl red\nKd 0.6 0.1 0.2\nnewmtl lamp\nKd 0.1 0.2 0.3\nKe 4 5 6\nPl_two_sided 1\n";
+
+SceneDescription load(const std::string& obj, const std::string& mtl = kMtl) {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", mtl);
+    return load_obj(folder.write("s.obj", obj));
+}
+
+bool same_geometry(const SceneDescription& a, const SceneDescription& b) {
+    if (a.positions != b.positions || a.normals != b.normals || a.triangles.size() != b.triangles.size()) {
+        return false;
+    }
+    for (std::size_t i = 0; i < a.triangles.size(); ++i) {
+        if (a.triangles[i].vertex != b.triangles[i].vertex || a.triangles[i].normal != b.triangles[i].normal ||
+            a.triangles[i].material != b.triangles[i].material) {
+            return false;
+        }
+    }
+    return true;
+}
+
+const std::string kQuad = "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nusemtl red\nf 1 2 3 4\n";
+
+}  // namespace
+
+TEST_CASE("A triangle with its material") {
+    const SceneDescription scene = load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0.5\nusemtl lamp\nf 1 2 3\n");
+    REQUIRE(scene.triangles.size() == 1);
+    CHECK(scene.positions == std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5f}});
+    CHECK(scene.triangles[0].vertex == glm::uvec3(0, 1, 2));
+    CHECK(scene.triangles[0].normal == glm::uvec3(TriangleDescription::kNoNormal));
+    REQUIRE(scene.materials.size() == 2);
+    const MaterialDescription& lamp = scene.materials[scene.triangles[0].material];
+    CHECK(lamp.name == "lamp");
+    CHECK(lamp.albedo == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(lamp.emission == glm::vec3(4, 5, 6));
+    CHECK(lamp.two_sided_emission);
+    CHECK_FALSE(scene.materials[0].two_sided_emission);
+    CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("Polygons keep their area, their orientation and their vertices") {
+    const SceneDescription quad = load(kQuad);
+    CHECK(quad.triangles.size() == 2);
+    CHECK(quad.positions.size() == 4);
+    CHECK(test::area(quad) == Approx(2.0).epsilon(1e-12));
+    const SceneDescription pentagon = load("v 0 0 0\nv 2 0 0\nv 3 1 0\nv 1 3 0\nv -1 1 0\nf 1 2 3 4 5\n");
+    CHECK(pentagon.triangles.size() == 3);
+    CHECK(test::area(pentagon) == Approx(7.0).epsilon(1e-12));
+    const SceneDescription far_l =
+        load("v 10 10 1\nv 12 10 1\nv 12 11 1\nv 11 11 1\nv 11 12 1\nv 10 12 1\nf 1 2 3 4 5 6\n");
+    CHECK(far_l.triangles.size() == 4);
+    CHECK(test::area(far_l) == Approx(3.0).epsilon(1e-12));
+    for (const TriangleDescription& t : far_l.triangles) {
+        CHECK(test::area_vector(far_l, t).z > 0.0);
+    }
+}
+
+TEST_CASE("Negative indices count back from the face") {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    const SceneDescription scene = load(vertices + "f -3 -2 -1\n" + "v 5 0 0\n" + "f -1 -3 -2\n");
+    REQUIRE(scene.triangles.size() == 2);
+    CHECK(scene.triangles[0].vertex == glm::uvec3(0, 1, 2));
+    CHECK(scene.triangles[1].vertex == glm::uvec3(3, 1, 2));
+}
+
+TEST_CASE("Groups and objects are merged, vertices may follow their faces") {
+    const SceneDescription scene =
+        load("o a\ng one two\ns 1\nf 1 2 3\ng\no b\ns off\nf 2 4 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
+    CHECK(scene.triangles.size() == 2);
+    CHECK(test::bodies(scene).size() == 1);
+    CHECK(scene.warnings.size() == 1);  // no material
+}
+
+TEST_CASE("Smooth normals are kept per corner and made unit") {
+    const SceneDescription scene = load("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 2\nvn 0 3 4\nvt 0 0\n"
+                                        "f 1//1 2//2 3//1\nf 1/1/-1 3/1/2 4/1/1\nf 1/1 2/1 4/1\n");
+    REQUIRE(scene.normals.size() == 2);
+    CHECK(scene.normals[0] == glm::vec3(0, 0, 1));
+    CHECK(scene.normals[1].y == Approx(0.6));
+    CHECK(scene.normals[1].z == Approx(0.8));
+    CHECK(scene.triangles[0].normal == glm::uvec3(0, 1, 0));
+    CHECK(scene.triangles[1].normal == glm::uvec3(1, 1, 0));
+    CHECK(scene.triangles[2].normal == glm::uvec3(TriangleDescription::kNoNormal));
+}
+
+TEST_CASE("Normals that are not usable are ignored with one counted warning") {
+    const SceneDescription scene = load("mtllib m.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 0\nvn 0 0 1\n"
+                                        "f 1//1 2//2 3//2\nf 1//2 2 3//2\nf 1//2 2//2 3//2\n");
+    REQUIRE(scene.triangles.size() == 3);
+    CHECK(scene.triangles[0].normal == glm::uvec3(TriangleDescription::kNoNormal));
+    CHECK(scene.triangles[1].normal == glm::uvec3(TriangleDescription::kNoNormal));
+    CHECK(scene.triangles[2].normal == glm::uvec3(1));
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK_THAT(scene.warnings[0], contains("s.obj:8: normals ignored") && contains("(2 in all)"));
+}
+
+TEST_CASE("How lines are written does not matter") {
+    const SceneDescription plain = load(kQuad);
+    const auto rewritten = [](const std::string& end) {
+        std::string text;
+        for (const char c : kQuad) {
+            text += c == '\n' ? end : std::string(1, c);
+        }
+        return text;
+    };
+    const auto variant =
+        GENERATE_COPY(rewritten("\r\n"), rewritten("\r"), rewritten("  \t\n"), "\xEF\xBB\xBF" + kQuad,
+                      "# c\\\n\n   \n\t# d\n" + kQuad,
+                      std::string("mtllib m.mtl # here\nv\t0 0  0 # zero\nv 2 0 \\\n 0\nv +2 1. .0e3\nv 0 "
+                                  "1e0 1e-400\nusemtl red\n  f 1 2 \\\r\n3 4"));
+    const SceneDescription scene = load(variant);
+    CHECK(same_geometry(scene, plain));
+    CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("Names of materials may have blanks and any letters") {
+    const SceneDescription scene =
+        load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl  my  red \xE4# 1 \nf 1 2 3\n",
+             "newmtl my  red \xE4# 1\nKd 1 0 0\n");
+    CHECK(scene.warnings.empty());
+    CHECK(scene.materials[scene.triangles[0].material].name == "my  red \xE4# 1");
+}
+
+TEST_CASE("What has no material gets the default one and one warning") {
+    struct Case {
+        const char* name;
+        std::string obj;
+        std::string told;
+    };
+    const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    const Case sample =
+        GENERATE_COPY(Case{"no library", triangle + "f 1 2 3\nf 1 3 2\n", "no material given; 2 faces"},
+                      Case{"library missing", "mtllib gone.mtl\n" + triangle + "usemtl red\nf 1 2 3\n",
+                           "s.obj:1: material file 'gone.mtl' not found"},
+                      Case{"material missing", "mtllib m.mtl\n" + triangle + "usemtl rde\nf 1 2 3\n",
+                           "s.obj:5: no material 'rde'; 1 faces"},
+                      Case{"used before it is named", "mtllib m.mtl\n" + triangle + "f 1 2 3\nusemtl red\n",
+                           "no material given; 1 faces"});
+    INFO(sample.name);
+    const SceneDescription scene = load(sample.obj);
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK_THAT(scene.warnings[0], contains(sample.told));
+    CHECK(scene.materials[scene.triangles[0].material].albedo == kDefaultAlbedo);
+}
+
+TEST_CASE("Only faces without a material get the default one") {
+    const SceneDescription scene = load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl lamp\nf 1 "
+                                        "2 3\nusemtl other\nf 1 2 3\nusemtl red\nf 1 2 3\n");
+    REQUIRE(scene.materials.size() == 3);
+    CHECK(scene.triangles[0].material == 2);
+    CHECK(scene.triangles[1].material == 1);
+    CHECK(scene.triangles[2].material == 2);
+    CHECK(scene.triangles[3].material == 0);
+    CHECK(scene.warnings.size() == 1);
+}
+
+TEST_CASE("Several libraries, and names of libraries with blanks") {
+    const TemporaryFolder folder;
+    folder.write("a.mtl", "newmtl a\nKd 1 0 0\n");
+    folder.write("sub/b c.mtl", "newmtl b\nKd 0 1 0\n");
+    const SceneDescription scene =
+        load_obj(folder.write("s.obj", "mtllib a.mtl a.mtl\nmtllib sub/b c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 "
+                                       "0\nusemtl b\nf 1 2 3\nusemtl a\nf 1 2 3\n"));
+    CHECK(scene.warnings.empty());
+    CHECK(scene.materials.size() == 2);
+    CHECK(scene.triangles[0].material == 1);
+}
+
+TEST_CASE("What cannot be used is left out with one counted warning each") {
+    const SceneDescription scene =
+        load("mtllib m.mtl\nusemtl red\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1\nv 2 0 0\n"
+             "f 1 2\nf 3\nf 1 2 4\nf 1 2 2 3\nf 1 1 1\ncurv 1 2\nf 1 2 3\nl 1 2\n");
+    CHECK(scene.triangles.size() == 2);  // the last face, and the quad with one corner twice
+    CHECK(test::area(scene) == Approx(1.0));
+    REQUIRE(scene.warnings.size() == 5);
+    CHECK_THAT(scene.warnings[0], contains("s.obj:7: face with fewer than 3 corners left out (2 in all)"));
+    CHECK_THAT(scene.warnings[1], contains("s.obj:4: vertex color left out") && contains("(1 in all)"));
+    CHECK_THAT(scene.warnings[2], contains("s.obj:3: fourth vertex coordinate left out (2 in all)"));
+    CHECK_THAT(scene.warnings[3], contains("s.obj:12: unknown statement 'curv' left out (1 in all)"));
+    CHECK_THAT(scene.warnings[4], contains("s.obj:9: triangle without area removed (3 in all)"));
+}
+
+TEST_CASE("A tall file keeps every face in place") {
+    constexpr std::uint32_t kRows = 100000;
+    std::string text = "mtllib m.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\n";
+    for (std::uint32_t i = 1; i <= kRows; ++i) {
+        const std::string y = std::to_string(i);
+        text += "v 0 " + y + " 0\nv 1 " + y + " 0\nf -4 -3 -1 -2\n";
+    }
+    const SceneDescription scene = load(text);
+    CHECK(scene.positions.size() == 2 * (kRows + 1));
+    CHECK(scene.triangles.size() == 2 * kRows);
+    CHECK(test::area(scene) == Approx(static_cast<double>(kRows)).epsilon(1e-12));
+    CHECK(test::open_edges(scene.triangles).size() == 2 * kRows + 2);
+}
+
+TEST_CASE("A face on one line of a megabyte") {
+    std::string text = "mtllib m.mtl\nusemtl red\n";
+    std::string face = "f";
+    constexpr int kCorners = 1000;
+    for (int i = 0; i < kCorners; ++i) {  // a comb: every second corner is inside
+        const int x = i < kCorners / 2 ? i : kCorners - 1 - i;
+        const int y = i < kCorners / 2 ? -(i % 2) - 1 : (i % 2) + 1;
+        text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+        face += std::string(1000, ' ') + std::to_string(i + 1);
+    }
+    const SceneDescription scene = load(text + face);
+    CHECK(scene.warnings.empty());
+    CHECK(scene.triangles.size() == kCorners - 2);
+    CHECK(test::area(scene) == Approx(3.0 * (kCorners / 2 - 1)).epsilon(1e-9));
+}
+
+TEST_CASE("An OBJ alone opens with a camera that sees all of it") {
+    const std::string text = GENERATE(std::string("v -3 7 100\nv 5 9 104\nv 0 0.5 90\nf 1 2 3\n"),
+                                      std::string("v 1e-6 0 1000\nv 0 1e-6 1000\nv 0 0 1000\nf 1 2 3\n"),
+                                      std::string("v 1e17 0 0\nv 0 1e17 0\nv 0 0 1e17\nf 1 2 3\n"));
+    const TemporaryFolder folder;
+    const SceneDescription scene = load_scene(folder.write("thing.obj", text).string(), folder.path());
+    CHECK(scene.name == "thing");
+    const glm::dvec3 eye(scene.camera.eye);
+    CHECK(scene.camera.eye.x == scene.camera.target.x);
+    CHECK(scene.camera.eye.y == scene.camera.target.y);
+    const double tangent = std::tan(0.5 * static_cast<double>(scene.camera.fov_deg) * 3.14159265358979 / 180.0);
+    const double side = scene.camera.eye.z > scene.camera.target.z ? 1.0 : -1.0;
+    for (const glm::vec3& p : scene.positions) {
+        const double depth = side * (eye.z - static_cast<double>(p.z));
+        CHECK(depth > 0.0);
+        CHECK(std::abs(static_cast<double>(p.x) - eye.x) < depth * tangent);
+        CHECK(std::abs(static_cast<double>(p.y) - eye.y) < depth * tangent);
+    }
+}
+
+TEST_CASE("The framing camera looks into a box that is open on one side only") {
+    const SceneDescription cornell = load_obj(std::string(PL_SOURCE_DIR) + "/assets/scenes/cornell/cornell.obj");
+    CHECK(frame_camera(cornell).eye.z < 0.0f);
+    const SceneDescription furnace = load_obj(std::string(PL_SOURCE_DIR) + "/assets/scenes/furnace/furnace.obj");
+    CHECK(frame_camera(furnace).eye.z > 1.5f);
+}

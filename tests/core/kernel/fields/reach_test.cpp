@@ -1,0 +1,114 @@
+// The distance of the light that a volume learns: a weighted mean, whatever the order and however bad the numbers are.
+#include "core/kernel/fields/reach.h"
+
+#include "core/kernel/methods/monte_carlo.h"
+#include "core/kernel/methods/reinforcement.h"
+#include "core/kernel/methods/sarsa.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/field_fixture.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr float kExtent = 10.0f;
+
+struct Field : TestField {
+    Field() : TestField(4) {
+        shape.extent = kExtent;
+        tables = make_tables(shape, 1);
+        tables.mean_radiance[0] = 1.0f;
+    }
+    void add(float weight, float distance) { record_reach(view(), 0, weight, distance); }
+    double reach() {
+        move_reach(publication(), 0);
+        return 1.0 / static_cast<double>(tables.inverse_reach[0]);
+    }
+};
+
+/// Mean distance of records with what is believed before the first.
+double expected_reach(double distance, double weight) {
+    const double unknown = static_cast<double>(kUnknownWeight);
+    const double mean =
+        (weight * distance + unknown * static_cast<double>(kUnknownDistance * kExtent)) / (weight + unknown);
+    return static_cast<double>(kReachPerDistance) * mean;
+}
+
+/// A path that leaves the volume, finds light at a distance, and ends there.
+template <class M>
+double reach_after_one_path(LearningSettings learning) {
+    Field field;
+    M method;
+    method.field = field.view();
+    if constexpr (requires { method.learning = learning; }) method.learning = learning;
+    MethodCounters counters;
+    DirectionSample direction;
+    direction.pdf_sa = direction.bsdf_pdf_sa = 1.0f;
+    direction.cell = 3;
+    for (int path = 0; path < 100; ++path) {
+        auto memory = method.remember({0}, direction);
+        method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}, .distance = 2.0f}, {kNoVolume}, counters));
+        if constexpr (FollowingMethod<M>) method.finish(memory, counters);
+    }
+    return field.reach();
+}
+
+}  // namespace
+
+TEST_CASE("The reach follows the mean distance, by how much light came from there") {
+    Field field;
+    CHECK(field.reach() == Approx(expected_reach(0.0, 0.0)));
+    field.add(100.0f, 2.0f);
+    field.add(300.0f, 6.0f);
+    CHECK(field.reach() == Approx(expected_reach(5.0, 400.0)).epsilon(1e-4));
+    field.add(4000.0f, 1.0f);  // of all passes, not of the last
+    CHECK(field.reach() == Approx(expected_reach((400.0 * 5.0 + 4000.0) / 4400.0, 4400.0)).epsilon(1e-4));
+    CHECK(field.tables.pending_distance[0] == 0);
+    CHECK(field.tables.pending_light[0] == 0);
+}
+
+TEST_CASE("Light from beyond the scene is as far as the scene is large") {
+    Field field;
+    field.add(1e6f, kInfinity);
+    CHECK(field.reach() == Approx(expected_reach(static_cast<double>(kExtent), 1e6)).epsilon(1e-4));
+}
+
+TEST_CASE("The order of records does not move the reach by a bit") {
+    Uniforms random(1);
+    std::vector<Vec2f> records;
+    for (int i = 0; i < 1000; ++i) records.push_back({random.between(0.0f, 100.0f), random.between(0.0f, 20.0f)});
+    Field forward;
+    Field backward;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        forward.add(records[i].x, records[i].y);
+        backward.add(records[records.size() - 1 - i].x, records[records.size() - 1 - i].y);
+    }
+    CHECK(forward.reach() == backward.reach());
+}
+
+TEST_CASE("Bad and huge numbers leave a reach that is one") {
+    for (const float weight : {0.0f, -1.0f, kNan, kInfinity, 3e38f, 1e-38f})
+        for (const float distance : {0.0f, -1.0f, kNan, kInfinity, 3e38f, 1e-38f}) {
+            Field field;
+            for (int i = 0; i < 10000; ++i) field.add(weight, distance);
+            INFO("weight " << weight << ", distance " << distance);
+            const double reach = field.reach();
+            CHECK(reach >= static_cast<double>(kLeastReach * kExtent) * 0.999);
+            CHECK(reach <= static_cast<double>(kReachPerDistance * kExtent) * 1.001);
+        }
+    for (const float extent : {0.0f, 1e-44f, kInfinity, kNan}) {
+        const float inverse = inverse_reach_of(extent, kUnknownDistance);
+        INFO("extent " << extent);
+        CHECK(inverse == 0.0f);
+    }
+}
+
+TEST_CASE("Every target of learning tells the reach how far its direction led") {
+    const double expected = expected_reach(2.0, 100.0);
+    CHECK(reach_after_one_path<ReinforcementMethod>({}) == Approx(expected).epsilon(1e-4));
+    CHECK(reach_after_one_path<SarsaMethod>({LearningTarget::Sarsa, LearnedLight::All}) ==
+          Approx(expected).epsilon(1e-4));
+    CHECK(reach_after_one_path<MonteCarloMethod>({LearningTarget::MonteCarlo, LearnedLight::All}) ==
+          Approx(expected).epsilon(1e-4));
+}

@@ -1,0 +1,199 @@
+// Targets of reinforcement, one call at a time: what each of them records for a path whose light is known.
+#include "core/kernel/methods/learning_target.h"
+
+#include "core/kernel/methods/monte_carlo.h"
+#include "core/kernel/methods/sarsa.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/field_fixture.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr int kSide = 2;
+constexpr GuidedVertex kVertex{0};
+
+/// Two volumes of four cells that have learned something, so that tables answer.
+struct Learner {
+    TestField field{kSide, {Vec3f{0, 0, 1}, Vec3f{0, 0, 1}}};
+    MethodCounters counters;
+
+    Learner() {
+        field.tables.mean_radiance = {0.5f, 2.0f};
+        for (std::size_t i = 0; i < 4; ++i) {
+            field.tables.radiance[i] = 1.0f + static_cast<float>(i);
+            field.tables.visits[i] = i == 3 ? 0 : 1;
+        }
+    }
+    template <class M>
+    M method(LearningTarget target, LearnedLight light) {
+        M method;
+        method.field = field.view();
+        method.mixture.learned = 0;
+        method.learning = {target, light};
+        return method;
+    }
+    float recorded(std::size_t cell) const {
+        return from_fixed_point(field.tables.pending_sum[cell], 1, field.shape.radiance_unit);
+    }
+    std::uint32_t count(std::size_t cell) const { return field.tables.pending_count[cell]; }
+};
+
+DirectionSample towards(std::int32_t cell) {
+    DirectionSample direction;
+    direction.pdf_sa = direction.bsdf_pdf_sa = 1.0f;
+    direction.cell = cell;
+    return direction;
+}
+Scattering going(float weight, std::int32_t cell) { return {Vec3f{weight}, Vec3f{0.5f}, towards(cell)}; }
+Arrival meeting(float emitted, float share = 1.0f, float albedo = 0.5f) {
+    return {.emitted = Vec3f{emitted}, .albedo = Vec3f{albedo}, .light_share = share};
+}
+
+}  // namespace
+
+TEST_CASE("The kernel that keeps least serves each target") {
+    using enum LearningTarget;
+    using enum LearnedLight;
+    for (const bool lights : {false, true}) {
+        CHECK(kernel_for({}, lights) == LearningKernel::Immediate);
+        CHECK(kernel_for({Sarsa, All}, lights) == LearningKernel::Late);
+        CHECK(kernel_for({MonteCarlo, All}, lights) == LearningKernel::WholePath);
+        CHECK(kernel_for({MonteCarlo, Indirect}, lights) == LearningKernel::WholePath);
+    }
+    CHECK(kernel_for({ExpectedSarsa, Indirect}, false) == LearningKernel::Immediate);
+    CHECK(kernel_for({ExpectedSarsa, Indirect}, true) == LearningKernel::Late);
+}
+
+TEST_CASE("Sarsa records what the table says of the direction that was drawn") {
+    Learner learner;
+    const auto method = learner.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
+    SarsaMethod::Memory memory;
+    method.depart(memory, kVertex, going(1.0f, 1), learner.counters);  // from the first vertex: nothing to record
+    CHECK(learner.counters.records == 0);
+    method.learn(memory, meeting(3.0f, 0.25f), kVertex, learner.counters);
+    CHECK(learner.counters.records == 0);  // not before the next direction is known
+    method.request_light(memory, Vec3f{7.0f});
+    method.depart(memory, kVertex, going(0.5f, 2), learner.counters);
+    method.receive_light(memory, learner.counters);  // all light: it is in the table
+    CHECK(learner.recorded(1) == Approx(3.0f + 0.5f * 3.0f));
+    method.learn(memory, meeting(0.0f), {1}, learner.counters);
+    method.stop(memory, learner.counters);
+    CHECK(learner.recorded(2) == 0.0f);
+    CHECK(learner.count(2) == 1);
+    CHECK(learner.counters.records == 2);
+}
+
+TEST_CASE("Records that are too bright for the sums are counted by every target") {
+    Learner late;
+    const auto sarsa = late.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
+    const float most = kMaxRecordedUnits * sarsa.field.radiance_unit;
+    Learner whole;
+    const auto monte_carlo = whole.method<MonteCarloMethod>(LearningTarget::MonteCarlo, LearnedLight::All);
+    const auto walk = [&](const auto& method, auto memory, Learner& learner) {
+        for (const float emitted : {most, 1.01f * most}) {
+            method.depart(memory, kVertex, going(1.0f, 1), learner.counters);
+            method.learn(memory, meeting(emitted, 1.0f, 0.0f), {kNoVolume}, learner.counters);
+            method.stop(memory, learner.counters);
+            method.finish(memory, learner.counters);
+        }
+        CHECK(learner.counters.records == 2);
+        CHECK(learner.counters.clamped_records == 1);
+    };
+    walk(sarsa, SarsaMethod::Memory{}, late);
+    walk(monte_carlo, MonteCarloMethod::Memory{}, whole);
+}
+
+TEST_CASE("Sarsa takes the mean where a cell knows nothing, and records nothing where no volume is") {
+    Learner learner;
+    const auto method = learner.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
+    for (const std::int32_t unknown : {3, -1}) {  // never visited, below the volume's horizon
+        SarsaMethod::Memory memory = method.remember(kVertex, towards(0));
+        method.learn(memory, meeting(1.0f), kVertex, learner.counters);
+        method.depart(memory, kVertex, going(2.0f, unknown), learner.counters);
+    }
+    CHECK(learner.recorded(0) == Approx(2.0f * (1.0f + 2.0f * 0.5f)));
+    SarsaMethod::Memory memory = method.remember(kVertex, towards(1));
+    method.learn(memory, meeting(1.0f), {kNoVolume}, learner.counters);
+    method.depart(memory, {kNoVolume}, going(1.0f, -1), learner.counters);
+    CHECK(learner.count(1) == 0);
+    memory = method.remember(kVertex, towards(2));
+    method.learn(memory, meeting(4.0f, 1.0f, 0.0f), {}, learner.counters);  // a lamp that reflects nothing
+    CHECK(learner.recorded(2) == Approx(4.0f));
+}
+
+TEST_CASE("Indirect light: emission by its share, and what the next vertex reflects of its light sample") {
+    for (const LearningTarget target : {LearningTarget::ExpectedSarsa, LearningTarget::Sarsa}) {
+        Learner learner;
+        const auto method = learner.method<SarsaMethod>(target, LearnedLight::Indirect);
+        SarsaMethod::Memory memory = method.remember(kVertex, towards(0));
+        method.learn(memory, meeting(4.0f, 0.25f), {1}, learner.counters);
+        method.request_light(memory, Vec3f{7.0f});
+        method.depart(memory, {1}, going(0.5f, 0), learner.counters);
+        method.receive_light(memory, learner.counters);
+        // Volume 1 has a mean of 2 and no visits.
+        CHECK(learner.recorded(0) == Approx(1.0f + 0.5f * 2.0f + 7.0f));
+        CHECK(learner.count(0) == 1);
+        // A light sample that is blocked brings nothing, also not later.
+        method.learn(memory, meeting(0.0f), {1}, learner.counters);
+        method.request_light(memory, Vec3f{7.0f});
+        method.stop(memory, learner.counters);
+        const float before = learner.recorded(4);
+        method.learn(memory, meeting(0.0f), {1}, learner.counters);
+        method.receive_light(memory, learner.counters);
+        CHECK(learner.recorded(4) == before);
+    }
+}
+
+TEST_CASE("Monte Carlo records the light that the path brought") {
+    for (const LearnedLight light : {LearnedLight::All, LearnedLight::Indirect}) {
+        Learner learner;
+        const auto method = learner.method<MonteCarloMethod>(LearningTarget::MonteCarlo, light);
+        MonteCarloMethod::Memory memory;
+        method.learn(memory, meeting(9.0f), kVertex, learner.counters);  // the camera learns nothing
+        method.request_light(memory, Vec3f{9.0f});
+        method.depart(memory, kVertex, going(1.0f, 0), learner.counters);
+        method.receive_light(memory, learner.counters);
+        method.learn(memory, meeting(4.0f, 0.25f), kVertex, learner.counters);
+        method.request_light(memory, Vec3f{2.0f});
+        method.depart(memory, kVertex, going(0.5f, 1), learner.counters);
+        method.receive_light(memory, learner.counters);
+        method.learn(memory, meeting(0.0f), {kNoVolume}, learner.counters);
+        method.request_light(memory, Vec3f{100.0f});  // blocked
+        method.depart(memory, {kNoVolume}, going(0.25f, -1), learner.counters);
+        method.learn(memory, meeting(8.0f, 0.5f, 0.0f), {}, learner.counters);
+        CHECK(learner.counters.records == 0);
+        method.finish(memory, learner.counters);
+        CHECK(learner.counters.records == 2);
+        const float third = 0.5f * 8.0f;
+        const float second = 0.25f * third;
+        const float first = 0.25f * 4.0f + 2.0f + 0.5f * second;
+        const bool all = light == LearnedLight::All;
+        CHECK(learner.recorded(0) == Approx(first + (all ? 3.0f : 0.0f)));
+        CHECK(learner.recorded(1) == Approx(second));
+        CHECK(learner.counters.cut_returns == 0);
+        method.finish(memory, learner.counters);  // nothing is left
+        CHECK(learner.counters.records == 2);
+    }
+}
+
+TEST_CASE("Monte Carlo cuts paths that are too long, takes the table for the rest, and counts them") {
+    for (const LearnedLight light : {LearnedLight::All, LearnedLight::Indirect}) {
+        Learner learner;
+        const auto method = learner.method<MonteCarloMethod>(LearningTarget::MonteCarlo, light);
+        MonteCarloMethod::Memory memory;
+        for (int i = 0; i < 3 * MonteCarloMethod::kMostSteps; ++i) {
+            method.learn(memory, meeting(0.0f), kVertex, learner.counters);
+            method.request_light(memory, Vec3f{i == MonteCarloMethod::kMostSteps ? 3.0f : 0.0f});
+            method.depart(memory, kVertex, going(1.0f, i == MonteCarloMethod::kMostSteps - 1 ? 1 : 0),
+                          learner.counters);
+            method.receive_light(memory, learner.counters);
+        }
+        method.finish(memory, learner.counters);
+        CHECK(learner.counters.cut_returns == 1);
+        CHECK(learner.counters.records == MonteCarloMethod::kMostSteps);
+        // rho V of the vertex where it was cut, and its light sample unless V holds it.
+        CHECK(learner.recorded(1) == Approx(0.5f * 0.5f + (light == LearnedLight::Indirect ? 3.0f : 0.0f)));
+    }
+}

@@ -1,0 +1,55 @@
+// The lens: what is in focus is met by all rays, and a lens without an aperture is a pinhole.
+#include "core/kernel/scene/camera.h"
+
+#include "core/scene/pack_scene.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+Camera lens(float aperture_radius) {
+    return make_camera({.eye = {1, 2, 3},
+                        .target = {-2, 1, -4},
+                        .fov_deg = 70.0f,
+                        .aperture_radius = aperture_radius,
+                        .focus_distance = 5.0f},
+                       200, 100);
+}
+
+}  // namespace
+
+TEST_CASE("All rays of a lens meet in the plane of focus") {
+    const Camera camera = lens(0.25f);
+    Uniforms random(1);
+    float farthest = 0.0f;
+    Vec3f sum{0.0f};
+    for (int i = 0; i < 100000; ++i) {
+        const Vec2f film = random.square() * Vec2f{200, 100};
+        const Ray center = generate_ray(camera, film, {200, 100});
+        const Ray ray = through_lens(camera, center, random.square());
+        const auto in_focus = [&](const Ray& r) {
+            const float distance = 5.0f - glm::dot(r.origin - camera.eye, camera.forward);
+            return r.origin + (distance / glm::dot(r.direction, camera.forward)) * r.direction;
+        };
+        REQUIRE(glm::length(in_focus(ray) - in_focus(center)) < 1e-5f);
+        REQUIRE(std::fabs(glm::length(ray.direction) - 1.0f) < 1e-6f);
+        const Vec3f offset = ray.origin - camera.eye;
+        REQUIRE(std::fabs(glm::dot(offset, camera.forward)) < 1e-6f);
+        farthest = max_of(farthest, glm::length(offset));
+        sum += offset;
+    }
+    CHECK(farthest <= 0.25f * (1.0f + 1e-6f));
+    CHECK(farthest > 0.249f);
+    CHECK(glm::length(sum) / 100000.0f < 0.005f);  // six standard errors
+}
+
+TEST_CASE("A lens that is closed sees what a pinhole sees") {
+    const Camera camera = lens(0.0f);
+    const Ray center = generate_ray(camera, {30, 40}, {200, 100});
+    const Ray ray = through_lens(camera, center, {0.3f, 0.9f});
+    CHECK(ray.origin == center.origin);
+    CHECK(glm::length(ray.direction - center.direction) < 1e-6f);
+}

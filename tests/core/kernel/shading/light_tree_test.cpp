@@ -1,0 +1,163 @@
+// Choosing among many lights: frequencies and probabilities, bounds that never lose a light, and less noise for it.
+#include "core/kernel/shading/light_tree.h"
+
+#include "core/scene/needed_effects.h"
+#include "core/scene/pack_light_tree.h"
+#include "tests/core/kernel/shading/light_density.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/shading/many_lights.h"
+#include "tests/support/statistics/sampling_rule.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+/// Lights on a sphere around the origin that face it: none hides another.
+SceneDescription shell() {
+    SceneDescription scene;
+    scene.materials.assign(7, gray());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        scene.materials[i].emission = Vec3f{static_cast<float>(1 + 3 * i)};
+    Uniforms random(8);
+    for (std::uint32_t i = 0; i < 60; ++i) {
+        const float height = -0.95f + 1.9f * static_cast<float>(i) / 59.0f;
+        const float around = 2.399963f * static_cast<float>(i);
+        const float r = std::sqrt(1.0f - height * height);
+        const Vec3f out{r * std::cos(around), height, r * std::sin(around)};
+        const Vec3f side = glm::normalize(glm::cross(out, Vec3f{0.3f, 0.5f, 0.8f}));
+        const Vec3f up = glm::cross(side, out);
+        const Vec3f center = random.between(1.0f, 4.0f) * out;
+        const float size = 0.28f * glm::length(center);
+        add_triangle(scene, center, center + size * up, center + size * side, i % 7);
+    }
+    return scene;
+}
+
+double sum_of_probabilities(const LightTree& tree, Vec3f from) {
+    double sum = 0.0;
+    for (std::uint32_t light = 0; light < tree.of_light.count; ++light)
+        sum += static_cast<double>(light_probability(tree, light, from));
+    return sum;
+}
+
+}  // namespace
+
+// S3: 200 lights seen from four points inside and outside; N = 1e6 each: probabilities off by 2 % are found.
+TEST_CASE("Lights of a tree are chosen as often as their probabilities say") {
+    const HostScene packed = pack_scene(scattered_lights());
+    const LightTree tree = packed.view().light_tree;
+    REQUIRE(tree.of_light.count == kLights);
+    for (const Vec3f from : {Vec3f{0.0f}, Vec3f{1.5f, -1, 0.3f}, Vec3f{0, 0, 7}, Vec3f{-50, 3, 3}}) {
+        std::vector<double> expected;
+        for (std::uint32_t light = 0; light < kLights; ++light)
+            expected.push_back(static_cast<double>(light_probability(tree, light, from)));
+        CHECK(sum_of_probabilities(tree, from) == Approx(1.0).epsilon(1e-5));
+        std::vector<std::uint64_t> counts(kLights);
+        Uniforms random(1);
+        for (int i = 0; i < 1000000; ++i) {
+            const ChosenLight chosen = choose_light(tree, from, random.next());
+            ++counts[chosen.light];
+            // One rule for both strategies: their weights add up to 1.
+            if (chosen.probability != light_probability(tree, chosen.light, from)) FAIL("light " << chosen.light);
+        }
+        CHECK(sampler_matches(counts, expected, 0.02));
+    }
+}
+
+// As for few lights. S1: seed 2, N = 4e6, resolves 3 %.
+TEST_CASE("The density of samples of many lights integrates to one over directions") {
+    const HostScene packed = pack_scene(shell());
+    const SceneView scene = packed.view();
+    REQUIRE_FALSE(scene.light_tree.empty());
+    CHECK(mean_equals(density_over_sphere<kMany>(scene), {1.0, 1e-4}, 0.03));
+}
+
+// S1: seed 9, N = 1e6, resolves 3 %; the sum over a grid is good to 1e-3.
+TEST_CASE("Irradiance from many lights does not depend on how they are chosen, but its noise does") {
+    const HostScene packed = pack_scene(scattered_lights());
+    const SceneView scene = packed.view();
+    for (const Vec3f position : {Vec3f{0.2f, 0.1f, 0.0f}, Vec3f{1.9f, 1.7f, -1.8f}}) {
+        const SurfacePoint surface = receiver_at(position, {0, 1, 0});
+        const Moments by_power = irradiance<FeatureSet{}>(scene, surface, 1000000);
+        const Moments by_tree = irradiance<kMany>(scene, surface, 1000000);
+        const double expected = summed_irradiance(scene, surface);
+        CHECK(mean_equals(by_power, {expected, 1e-3 * expected}, 0.05));
+        CHECK(mean_equals(by_tree, {expected, 1e-3 * expected}, 0.03));
+        INFO("variance " << by_power.variance() << " by power, " << by_tree.variance() << " by the tree");
+        CHECK(by_tree.variance() < 0.85 * by_power.variance());
+    }
+}
+
+// A hundred equal lamps in a row: a handful is near, wherever one stands. By power, a hundredth of the samples go to each.
+TEST_CASE("Below a long row of lamps the near ones get the samples") {
+    SceneDescription row;
+    row.materials.push_back(gray());
+    row.materials[0].emission = Vec3f{1.0f};
+    for (int i = 0; i < 100; ++i) {
+        const auto x = static_cast<float>(i);
+        add_triangle(row, Vec3f{x, 1, 0}, Vec3f{x + 0.1f, 1, 0}, Vec3f{x, 1, 0.1f});
+    }
+    const HostScene packed = pack_scene(row);
+    const SurfacePoint surface = receiver_at({41.3f, 0, 0}, {0, 1, 0});
+    const Moments by_power = irradiance<FeatureSet{}>(packed.view(), surface, 100000);
+    const Moments by_tree = irradiance<kMany>(packed.view(), surface, 100000);
+    INFO("variance " << by_power.variance() << " by power, " << by_tree.variance() << " by the tree");
+    CHECK(by_tree.variance() < 0.05 * by_power.variance());
+}
+
+// Every corner of a light that sees a point with its front bounds the light from below.
+TEST_CASE("No light that shines on a point is ever left out") {
+    const HostScene packed = pack_scene(scattered_lights());
+    const SceneView scene = packed.view();
+    Uniforms random(3);
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3f from = random.cube(-3, 3);
+        for (std::uint32_t light = 0; light < kLights; ++light) {
+            const std::uint32_t primitive = scene.lights[light].primitive;
+            const Triangle& t = scene.triangles[primitive];
+            const float height = glm::dot(scene.planes[primitive].normal, from - scene.positions[t.v0]);
+            const bool shines = height > 1e-4f || scene.materials[t.material].two_sided_emission != 0;
+            if (shines && !(light_probability(scene.light_tree, light, from) > 0.0f))
+                FAIL("light " << light << " from " << from.x << ' ' << from.y << ' ' << from.z);
+        }
+    }
+}
+
+TEST_CASE("Probabilities of lights do not depend on the unit of length") {
+    const HostScene packed = pack_scene(scattered_lights());
+    const LightTree tree = packed.view().light_tree;
+    const Vec3f from{0.3f, -0.7f, 2.1f};
+    for (const float scale : {0x1p-20f, 0x1p20f}) {
+        const HostScene other = pack_scene(scattered_lights(scale));
+        for (std::uint32_t light = 0; light < kLights; ++light)
+            REQUIRE(light_probability(other.view().light_tree, light, scale * from) ==
+                    light_probability(tree, light, from));
+    }
+}
+
+TEST_CASE("Lights in one place, points on them and points far away have probabilities that add up to one") {
+    SceneDescription pile;
+    pile.materials.push_back(gray());
+    pile.materials[0].emission = Vec3f{1.0f};
+    for (int i = 0; i < 40; ++i) add_triangle(pile, Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0});
+    const HostScene packed = pack_scene(pile);
+    const LightTree tree = packed.view().light_tree;
+    for (const Vec3f from : {Vec3f{0.5f, 0.5f, 0}, Vec3f{0, 0, 0}, Vec3f{0.3f, 0.3f, -5}, Vec3f{1e15f, 0, 1e15f},
+                             Vec3f{3e19f, 3e19f, 3e19f}, Vec3f{5, 0, 0}})
+        CHECK(sum_of_probabilities(tree, from) == Approx(1.0).epsilon(1e-5));
+}
+
+TEST_CASE("Few lights have no tree, and none is an effect that is needed") {
+    SceneDescription few;
+    few.materials.push_back(gray());
+    few.materials[0].emission = Vec3f{1.0f};
+    for (std::size_t i = 0; i < kFewLights; ++i)
+        add_triangle(few, Vec3f{0, 0, static_cast<float>(i)}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0});
+    const HostScene packed = pack_scene(few);
+    CHECK(packed.light_nodes.empty());
+    CHECK(packed.light_places.empty());
+    CHECK_FALSE(needed_effects(packed).has(Feature::ManyLights));
+    add_triangle(few, Vec3f{0, 1, 0}, Vec3f{1, 0, 2}, Vec3f{0, 1, 3});
+    CHECK(needed_effects(pack_scene(few)).has(Feature::ManyLights));
+}

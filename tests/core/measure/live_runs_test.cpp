@@ -1,0 +1,395 @@
+// Runs as a viewer records them, on real sessions of a furnace: what is one run and what another, what is measured when,
+// and what memory takes away.
+#include "core/measure/live_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/measure/picture_identity.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/session/sessions.h"
+
+namespace pl::test {
+namespace {
+
+constexpr int kSide = 16;
+constexpr std::size_t kPictureBytes = kSide * kSide * 6;
+constexpr std::size_t kPlenty = 1u << 24;
+constexpr LiveRuns::Allowance kAlways{std::numeric_limits<double>::infinity(), 0.0};
+constexpr float kEmission = 0.5f;
+constexpr float kAlbedo = 0.5f;
+
+/// A session and the runs that follow it.
+struct Recording {
+    SceneDescription scene = furnace_scene(kEmission, kAlbedo);
+    Session session;
+    LiveRuns runs;
+
+    explicit Recording(std::size_t cap = kPlenty, LiveRuns::Allowance allowance = kAlways,
+                       MethodId method = MethodId::Default)
+        : session(make_session(scene, quick_learner(scene, {method, false}, kSide, 1))), runs(cap, {}, allowance) {}
+
+    /// So many samples per pixel more, observed one by one; how often the set changed.
+    int render(std::uint32_t passes) {
+        int changes = 0;
+        const std::uint32_t target = session.passes() + passes;
+        while (session.passes() < target) {
+            session.advance();
+            changes += runs.observe(session) ? 1 : 0;
+        }
+        return changes;
+    }
+    /// Until the picture has so many points more. However long the machine was busy with something else in between.
+    void record(std::size_t points) {
+        for (std::size_t added = 0; added < points;) {
+            const std::size_t before = points_in_progress();
+            render(1);
+            added += points_in_progress() > before ? 1 : 0;
+        }
+    }
+    std::size_t points_in_progress() const {
+        for (const auto& run : runs.current()->runs)
+            if (run->in_progress) return run->points.size();
+        return 0;
+    }
+    std::size_t count() const { return runs.current()->runs.size(); }
+    const LiveRun& run(std::size_t i) const { return *runs.current()->runs.at(i); }
+    const LiveRun& last() const { return *runs.current()->runs.back(); }
+
+    std::shared_ptr<LiveReference> truth() const {
+        const std::vector<Vec3f> exact(kSide * kSide, Vec3f(kEmission / (1.0f - kAlbedo)));
+        return std::make_shared<LiveReference>(LiveReference{.picture = picture_key(scene, session.settings()),
+                                                             .width = kSide,
+                                                             .height = kSide,
+                                                             .first = exact,
+                                                             .second = exact});
+    }
+};
+
+/// What points are spaced by.
+double seconds_of(const LivePoint& point) { return point.clocks.learn + point.clocks.render; }
+
+std::size_t points_of(const LiveRunSet& set) {
+    std::size_t count = 0;
+    for (const auto& run : set.runs) count += run->points.size();
+    return count;
+}
+
+std::size_t pictures_of(const LiveRun& run) {
+    std::size_t count = 0;
+    for (const LivePoint& point : run.points) count += point.picture ? 1 : 0;
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("the charged time is told while no point is due") {
+    Recording recording(kPlenty, {1e-9, 0.0});  // measuring may take next to nothing: one point, and then none
+    recording.render(2);
+    REQUIRE(recording.last().points.size() == 1);
+    const double told = recording.runs.current()->charged_seconds;
+    const double spent = recording.runs.current()->measure_seconds;
+    while (charged_seconds(recording.session.clocks()) < 3.0 * told) recording.render(1);
+    CHECK(recording.last().points.size() == 1);
+    CHECK(recording.runs.current()->charged_seconds > 2.0 * told);
+    CHECK(recording.runs.current()->measure_seconds == spent);
+}
+
+TEST_CASE("points are a twelfth of a decade apart and tell cost, noise and picture") {
+    Recording recording;
+    CHECK(recording.runs.current()->runs.empty());
+    CHECK(recording.runs.current()->picture_bytes_cap == kPlenty);
+    CHECK(recording.render(1) == 0);  // one sample has no halves
+    CHECK(recording.render(1) == 1);
+    recording.record(12);
+    REQUIRE(recording.count() == 1);
+    const LiveRun& run = recording.run(0);
+    CHECK(run.in_progress);
+    CHECK(run.label.method == MethodId::Default);
+    CHECK(run.label.backend == "cpu");
+    CHECK_FALSE(run.label.warm);
+    CHECK(run.label.picture == picture_key(recording.scene, recording.session.settings()));
+    REQUIRE(run.points.size() == 13);
+    for (std::size_t i = 1; i < run.points.size(); ++i)
+        CHECK(seconds_of(run.points[i]) >= std::pow(10.0, 1.0 / 12.0) * seconds_of(run.points[i - 1]));
+    const LivePoint& point = run.points.back();
+    CHECK(point.counters.paths == std::uint64_t{point.spp} * kSide * kSide);
+    CHECK_FALSE(point.metrics);
+    // The furnace's noise is known from its truth; 256 pixels of alike channels leave sqrt(2/256) = 9 % on each.
+    std::vector<Vec3f> picture = pixels_of(*point.picture);
+    const Metrics error = measure_error(picture, recording.truth()->first);
+    CHECK_THAT(point.noise, WithinRel(error.relmse, 0.6));
+    CHECK(recording.runs.current()->picture_bytes == kPictureBytes * run.points.size());
+    CHECK(recording.runs.current()->measure_seconds > 0.0);
+}
+
+TEST_CASE("a set that was handed out never changes") {
+    Recording recording;
+    recording.render(4);
+    const auto before = recording.runs.current();
+    const std::size_t points = before->runs.at(0)->points.size();
+    recording.record(2);
+    CHECK(before->runs.at(0)->points.size() == points);
+    CHECK(recording.run(0).points.size() > points);
+}
+
+TEST_CASE("another method is another run, and the way back goes on with the first one") {
+    Recording recording;
+    recording.record(2);
+    recording.session.apply(EditMethod{MethodId::Reinforcement});
+    recording.record(2);
+    REQUIRE(recording.count() == 2);
+    CHECK_FALSE(recording.run(0).in_progress);
+    CHECK(recording.run(1).in_progress);
+    CHECK(recording.run(1).label.method == MethodId::Reinforcement);
+    CHECK_FALSE(recording.run(1).label.warm);
+    CHECK(recording.run(1).points.front().clocks.place > 0.0);
+    CHECK(recording.run(0).points.front().clocks.place == 0.0);
+    const std::size_t points = recording.run(0).points.size();
+    recording.session.apply(EditMethod{MethodId::Default});
+    recording.record(2);
+    REQUIRE(recording.count() == 2);
+    CHECK(recording.run(0).in_progress);
+    CHECK(recording.run(0).points.size() > points);
+    // What the other method needed is not charged here.
+    CHECK(recording.run(0).points.back().clocks.place == 0.0);
+}
+
+TEST_CASE("a restart begins a new run, a warm one where something was learned, and the old one stays") {
+    for (const MethodId method : {MethodId::Default, MethodId::Precomputed, MethodId::Reinforcement}) {
+        INFO(info_of(method).name);
+        const bool learns = info_of(method).uses_field;
+        Recording recording(kPlenty, kAlways, method);
+        recording.record(3);
+        recording.session.apply(EditRestart{});
+        recording.record(3);
+        REQUIRE(recording.count() == 2);
+        CHECK_FALSE(recording.run(0).label.warm);
+        CHECK(recording.run(1).label.warm == learns);
+        CHECK(recording.run(0).number < recording.run(1).number);
+        CHECK(recording.run(0).points.size() > 1);
+        CHECK_FALSE(recording.run(0).in_progress);
+        if (learns) CHECK(recording.run(0).points.front().clocks.place > 0.0);
+        // What a warm run found there was not spent by it.
+        CHECK(recording.run(1).points.front().clocks.place == 0.0);
+        CHECK(recording.run(1).points.front().clocks.precompute == 0.0);
+        recording.session.apply(EditForget{});
+        recording.record(3);
+        CHECK_FALSE(recording.last().label.warm);
+    }
+}
+
+TEST_CASE("another camera or size is another picture, and what hardly began is forgotten") {
+    Recording recording;
+    recording.record(3);
+    CameraDescription camera = recording.session.settings().camera;
+    for (int i = 0; i < 5; ++i) {  // a drag: a sample or two from each camera
+        camera.eye.x += 0.01f;
+        recording.session.apply(EditCamera{camera});
+        recording.render(2);
+    }
+    recording.record(3);
+    REQUIRE(recording.count() == 2);
+    CHECK(recording.run(0).label.picture != recording.run(1).label.picture);
+    recording.session.apply(EditSize{kSide, kSide / 2});
+    recording.record(3);
+    REQUIRE(recording.count() == 3);
+    CHECK(recording.last().label.picture != recording.run(1).label.picture);
+    CHECK(recording.last().points.front().picture->height == kSide / 2);
+}
+
+TEST_CASE(
+    "another back end is another run, warm with what moves along, and the way back goes on with the first one") {
+    const SceneDescription scene = furnace_scene(kEmission, kAlbedo);
+    const std::shared_ptr<RenderBackend> first = make_cpu_backend({.threads = 1});
+    const std::shared_ptr<RenderBackend> second = make_cpu_backend({.threads = 1});
+    Session session(first, std::make_shared<const SceneDescription>(scene),
+                    quick_learner(scene, {MethodId::Reinforcement, false}, kSide, 1));
+    CHECK(session.clocks().upload > 0.0);
+    LiveRuns runs(kPlenty, {}, kAlways);
+    const auto render_on = [&](const std::shared_ptr<RenderBackend>& backend) {
+        session.apply(EditBackend{.backend = backend});
+        for (int points = 0; points < 3;) {
+            session.advance();
+            const std::size_t before = points_of(*runs.current());
+            runs.observe(session);
+            points += points_of(*runs.current()) > before ? 1 : 0;
+        }
+        return runs.current();
+    };
+    const auto one = render_on(first);
+    REQUIRE(one->runs.size() == 1);
+    const auto two = render_on(second);
+    REQUIRE(two->runs.size() == 2);
+    CHECK_FALSE(two->runs[0]->label.warm);
+    CHECK(two->runs[1]->label.warm);
+    CHECK_FALSE(two->runs[0]->in_progress);
+    CHECK(two->runs[1]->in_progress);
+    const auto back = render_on(first);
+    CHECK(back->runs.size() == 2);
+    CHECK(back->runs[0]->in_progress);
+    CHECK(back->runs[0]->points.back().spp > one->runs[0]->points.back().spp);
+}
+
+TEST_CASE("other views are not measured, and interrupt no run") {
+    Recording recording;
+    recording.record(2);
+    const std::size_t points = recording.run(0).points.size();
+    recording.session.apply(EditView{View::Normal});
+    recording.render(50);
+    CHECK(recording.count() == 1);
+    CHECK(recording.run(0).points.size() == points);
+    CHECK_FALSE(recording.run(0).in_progress);
+    recording.session.apply(EditView{View::Beauty});
+    recording.record(2);
+    CHECK(recording.count() == 1);
+    CHECK(recording.run(0).in_progress);
+    CHECK(recording.run(0).points.size() > points);
+}
+
+TEST_CASE("the first measurement waits until it is paid for, too") {
+    Recording patient(kPlenty, {0.01, 1.0});  // 256 s for the whole picture
+    patient.render(200);
+    CHECK(patient.count() == 0);
+    CHECK(patient.runs.current()->measure_seconds == 0.0);
+    Recording modest(kPlenty, {0.01, 1e-15});  // a fraction of a clock tick, which the second pass has paid for
+    modest.render(2);
+    CHECK(modest.count() == 1);
+}
+
+// The rule itself is tested with made-up seconds in measure_budget_test.cpp.
+TEST_CASE("the share of measuring is one of all runs together") {
+    Recording never(kPlenty, {0.0, 0.0});
+    never.render(500);
+    REQUIRE(never.count() == 1);
+    CHECK(never.run(0).points.size() == 1);  // nothing was known of what it would cost
+    CHECK(never.runs.current()->measure_seconds > 0.0);
+    never.session.apply(EditMethod{MethodId::Reinforcement});
+    never.render(50);
+    CHECK(never.count() == 1);
+    CHECK_FALSE(never.run(0).in_progress);
+}
+
+TEST_CASE("errors are measured against the reference of the same picture, in the past too, and against no other") {
+    Recording recording;
+    recording.record(3);
+    const auto wrong = recording.truth();
+    wrong->picture += 1;
+    recording.runs.set_reference(wrong);
+    recording.record(3);
+    for (const LivePoint& point : recording.run(0).points) CHECK_FALSE(point.metrics);
+
+    recording.runs.set_reference(recording.truth());
+    const std::size_t past = recording.run(0).points.size();
+    for (const LivePoint& point : recording.run(0).points) {
+        REQUIRE(point.metrics);
+        CHECK_FALSE(point.squared_bias);
+        CHECK_THAT(point.metrics->relmse,
+                   WithinRel(measure_error(pixels_of(*point.picture), recording.truth()->first).relmse, 1e-12));
+    }
+    recording.record(2);
+    REQUIRE(recording.run(0).points.size() > past);
+    const LivePoint& last = recording.run(0).points.back();
+    REQUIRE(last.metrics);
+    REQUIRE(last.signed_bias);
+    CHECK(last.squared_bias);
+    // Half floats below 2 are off by at most 2^-11, and so is the root of the mean square (triangle inequality).
+    const double from_halves = measure_error(pixels_of(*last.picture), recording.truth()->first).relmse;
+    CHECK_THAT(std::sqrt(from_halves), WithinAbs(std::sqrt(last.metrics->relmse), std::ldexp(1.0, -11)));
+
+    CameraDescription camera = recording.session.settings().camera;
+    camera.eye.x += 0.1f;
+    recording.session.apply(EditCamera{camera});
+    recording.record(3);
+    for (const LivePoint& point : recording.last().points) CHECK_FALSE(point.metrics);
+
+    recording.runs.set_reference(nullptr);
+    CHECK(recording.run(0).points.back().metrics);  // what was measured stays
+    auto broken = recording.truth();
+    broken->second.pop_back();
+    CHECK_THROWS_AS(recording.runs.set_reference(broken), Error);
+}
+
+TEST_CASE("pictures keep within their memory, the figures stay") {
+    constexpr std::size_t kRoom = 5;
+    Recording recording(kRoom * kPictureBytes + kPictureBytes / 2);
+    recording.record(kRoom + 7);
+    CHECK(pictures_of(recording.run(0)) == kRoom);
+    CHECK(recording.runs.current()->picture_bytes == kRoom * kPictureBytes);
+    CHECK(recording.run(0).points.back().picture != nullptr);
+    // Those that stay are spread over the run: in log time, no gap is much longer than the mean one and the longest one that
+    // there was when all were there.
+    std::vector<double> all, kept;
+    for (const LivePoint& point : recording.run(0).points) {
+        all.push_back(std::log(seconds_of(point)));
+        if (point.picture) kept.push_back(all.back());
+    }
+    double longest = 0.0;
+    for (std::size_t i = 1; i < all.size(); ++i) longest = std::max(longest, all[i] - all[i - 1]);
+    const double mean = (all.back() - all.front()) / kRoom;
+    for (std::size_t i = 1; i < kept.size(); ++i) CHECK(kept[i] - kept[i - 1] < longest + 2.0 * mean);
+
+    // Another method of the same picture shares the room, one of another picture takes it.
+    recording.session.apply(EditMethod{MethodId::Reinforcement});
+    recording.record(3);
+    CHECK(pictures_of(recording.run(0)) > 0);
+    CHECK(pictures_of(recording.run(1)) > 0);
+    CameraDescription camera = recording.session.settings().camera;
+    camera.eye.x += 0.1f;
+    recording.session.apply(EditCamera{camera});
+    recording.record(kRoom + 2);
+    CHECK(pictures_of(recording.run(0)) == 0);
+    CHECK(pictures_of(recording.run(1)) == 0);
+    CHECK(pictures_of(recording.last()) == kRoom);
+    CHECK(recording.run(0).points.size() > kRoom);
+
+    Recording none(0);
+    none.record(2);
+    CHECK(none.runs.current()->picture_bytes == 0);
+}
+
+TEST_CASE("a run that is forgotten while it renders begins anew") {
+    Recording recording;
+    recording.render(100);
+    const std::uint64_t number = recording.run(0).number;
+    recording.runs.forget(number);
+    CHECK(recording.count() == 0);
+    recording.runs.forget(number);
+    recording.render(1);
+    REQUIRE(recording.count() == 1);
+    CHECK(recording.run(0).number == number);
+    CHECK(recording.run(0).points.front().spp == 101);
+    recording.runs.forget_all();
+    CHECK(recording.count() == 0);
+    CHECK(recording.runs.current()->picture_bytes == 0);
+}
+
+TEST_CASE("words for other settings are those of the newest point") {
+    const SceneDescription scene = furnace_scene(kEmission, kAlbedo);
+    Session session = make_session(scene, quick_learner(scene, {MethodId::Default, true}, kSide, 1));
+    int asked = 0;
+    LiveRuns runs(
+        kPlenty,
+        [&](const Session& s) {
+            ++asked;
+            return s.passes() < 20 ? std::string("as begun")
+                                   : "--max-depth " + std::to_string(s.settings().max_depth);
+        },
+        kAlways);
+    const auto newest_spp = [&] {
+        const auto set = runs.current();
+        return set->runs.empty() ? 0u : set->runs.front()->points.back().spp;
+    };
+    while (newest_spp() < 20) {
+        session.advance();
+        runs.observe(session);
+    }
+    CHECK(asked == static_cast<int>(runs.current()->runs.at(0)->points.size()));
+    CHECK(runs.current()->runs.at(0)->label.details == "--max-depth 64");
+    CHECK(runs.current()->runs.at(0)->label.next_event);
+}
+
+}  // namespace pl::test

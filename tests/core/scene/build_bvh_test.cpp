@@ -1,0 +1,192 @@
+// The hierarchy's structure: complete, tight, shallow and always the same, whatever it is built from.
+#include "core/scene/build_bvh.h"
+
+#include <algorithm>
+
+#include "core/base/host_array.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+struct Mesh {
+    std::vector<Vec3f> positions;
+    std::vector<Triangle> triangles;
+
+    void add(Vec3f a, Vec3f b, Vec3f c) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        positions.insert(positions.end(), {a, b, c});
+        triangles.push_back({first, first + 1, first + 2, 0});
+    }
+    Bvh build() const { return build_bvh(view_of(positions), view_of(triangles)); }
+};
+
+struct Shape {
+    int depth = 0;  ///< of the deepest leaf; a root alone has 1
+    std::uint32_t largest_leaf = 0;
+    std::uint64_t inner_nodes = 0;
+    std::uint64_t visited = 0;
+    bool contained = true;  ///< every child lies in its parent, every triangle in its leaf
+};
+
+bool contains(const BvhNode& node, Vec3f p) {
+    return p.x >= node.low.x && p.y >= node.low.y && p.z >= node.low.z && p.x <= node.high.x && p.y <= node.high.y &&
+           p.z <= node.high.z;
+}
+
+Shape shape_of(const Mesh& mesh, const Bvh& bvh) {
+    struct Visit {
+        std::uint32_t node;
+        int depth;
+    };
+    Shape shape;
+    std::vector<Visit> stack;
+    if (!bvh.nodes.empty()) stack.push_back({0, 1});
+    while (!stack.empty()) {
+        const Visit visit = stack.back();
+        stack.pop_back();
+        const BvhNode& node = bvh.nodes[visit.node];
+        ++shape.visited;
+        shape.depth = std::max(shape.depth, visit.depth);
+        if (node.count == 0) {
+            ++shape.inner_nodes;
+            for (const std::uint32_t child : {node.first, node.first + 1}) {
+                const BvhNode& c = bvh.nodes[child];
+                shape.contained = shape.contained && contains(node, c.low) && contains(node, c.high);
+                stack.push_back({child, visit.depth + 1});
+            }
+            continue;
+        }
+        shape.largest_leaf = std::max(shape.largest_leaf, node.count);
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Triangle& t = mesh.triangles[bvh.primitives[i]];
+            for (const std::uint32_t v : {t.v0, t.v1, t.v2})
+                shape.contained = shape.contained && contains(node, mesh.positions[v]);
+        }
+    }
+    return shape;
+}
+
+void check_sound(const Mesh& mesh) {
+    const Bvh bvh = mesh.build();
+    const Shape shape = shape_of(mesh, bvh);
+    CHECK(shape.contained);
+    CHECK(shape.depth <= kMaxBvhDepth);
+    CHECK(shape.visited == bvh.nodes.size());
+    CHECK(shape.largest_leaf <= 4);
+    std::vector<std::uint32_t> sorted = bvh.primitives;
+    std::sort(sorted.begin(), sorted.end());
+    REQUIRE(sorted.size() == mesh.triangles.size());
+    bool permutation = true;
+    for (std::uint32_t i = 0; i < sorted.size(); ++i) permutation = permutation && sorted[i] == i;
+    CHECK(permutation);
+    const Bvh again = mesh.build();
+    CHECK(again.primitives == bvh.primitives);
+    REQUIRE(again.nodes.size() == bvh.nodes.size());
+    bool same = true;
+    for (std::size_t i = 0; i < bvh.nodes.size(); ++i)
+        same = same && again.nodes[i].low == bvh.nodes[i].low && again.nodes[i].high == bvh.nodes[i].high &&
+               again.nodes[i].first == bvh.nodes[i].first && again.nodes[i].count == bvh.nodes[i].count;
+    CHECK(same);
+}
+
+Mesh random_mesh(int triangles) {
+    Uniforms random(1);
+    Mesh mesh;
+    for (int i = 0; i < triangles; ++i) {
+        const Vec3f p = random.cube(-1, 1);
+        const Vec3f q = p + random.cube(-0.05f, 0.05f);
+        mesh.add(p, q, p + random.cube(-0.05f, 0.05f));
+    }
+    return mesh;
+}
+
+Mesh all_at_one_place(int triangles) {
+    Mesh mesh;
+    for (int i = 0; i < triangles; ++i) mesh.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    return mesh;
+}
+
+/// Sizes and places 2^-i: the best split by area takes off one triangle at a time.
+Mesh halving_sizes(int triangles) {
+    Mesh mesh;
+    for (int i = 0; i < triangles; ++i) {
+        const float s = std::ldexp(1.0f, -(i % 120));
+        mesh.add({s, 0, 0}, {s, s, 0}, {s, 0, s});
+    }
+    return mesh;
+}
+
+Mesh on_a_line(int triangles) {
+    Mesh mesh;
+    for (int i = 0; i < triangles; ++i) {
+        const auto x = static_cast<float>(i);
+        mesh.add({x, 0, 0}, {x + 1, 0, 0}, {x + 2, 0, 0});
+    }
+    return mesh;
+}
+
+Mesh spiral(int triangles) {
+    Mesh mesh;
+    for (int i = 0; i < triangles; ++i) {
+        const double angle = 0.1 * i;
+        const double radius = std::pow(1.01, i % 5000);
+        const Vec3f p{Vec3d{radius * std::cos(angle), radius * std::sin(angle), radius}};
+        mesh.add(p, 1.001f * p, p + Vec3f{0.01f * p.y, 0, 0.01f * p.x});
+    }
+    return mesh;
+}
+
+/// Each triangle is nested in the one before, so that no split separates their boxes.
+Mesh nested(int triangles) {
+    Mesh mesh;
+    for (int i = 0; i < triangles; ++i) {
+        const float s = 1.0f + static_cast<float>(i);
+        mesh.add({-s, -s, -s}, {s, s, s}, {s, -s, 0.5f * s});
+    }
+    return mesh;
+}
+
+void check_hard_inputs(int triangles) {
+    check_sound(random_mesh(triangles));
+    check_sound(all_at_one_place(triangles));
+    check_sound(halving_sizes(triangles));
+    check_sound(on_a_line(triangles));
+    check_sound(spiral(triangles));
+    check_sound(nested(triangles));
+}
+
+}  // namespace
+
+TEST_CASE("A hierarchy holds every triangle once") {
+    for (const int triangles : {1, 2, 3, 4, 5, 8, 9, 100}) check_hard_inputs(triangles);
+}
+
+TEST_CASE("Hierarchies of 2e4 hard triangles stay shallow") { check_hard_inputs(20000); }
+
+TEST_CASE("Hierarchies of 1e6 hard triangles stay shallow", "[nightly]") { check_hard_inputs(1000000); }
+
+TEST_CASE("No triangles give no nodes") {
+    const Bvh bvh = Mesh{}.build();
+    CHECK(bvh.nodes.empty());
+    CHECK(bvh.primitives.empty());
+}
+
+// Two distant clusters must end up under different children of the root, and empty space between them in neither.
+TEST_CASE("The first split separates clusters") {
+    Uniforms random(2);
+    Mesh mesh;
+    for (int i = 0; i < 200; ++i) {
+        const Vec3f p = random.cube(-1, 1) + Vec3f{i % 2 == 0 ? -10.0f : 10.0f, 0, 0};
+        mesh.add(p, p + Vec3f{0.1f, 0, 0}, p + Vec3f{0, 0.1f, 0});
+    }
+    const Bvh bvh = mesh.build();
+    REQUIRE(bvh.nodes[0].count == 0);
+    const BvhNode& left = bvh.nodes[bvh.nodes[0].first];
+    const BvhNode& right = bvh.nodes[bvh.nodes[0].first + 1];
+    CHECK(left.high.x < -8.0f);
+    CHECK(right.low.x > 8.0f);
+}

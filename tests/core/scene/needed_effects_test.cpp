@@ -1,0 +1,83 @@
+// The scan of what a scene calls for, against a look at each material of random descriptions; and that what is not needed
+// has no memory.
+#include "core/scene/needed_effects.h"
+
+#include "core/scene/pack_scene.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr SurfaceKind kKinds[] = {SurfaceKind::Diffuse, SurfaceKind::Conductor, SurfaceKind::Dielectric,
+                                  SurfaceKind::Plastic};
+
+/// A box of a few materials, each diffuse two times out of three.
+SceneDescription random_scene(Uniforms& random) {
+    SceneDescription scene;
+    const std::uint32_t materials = 1 + random.below(3);
+    for (std::uint32_t i = 0; i < materials; ++i) {
+        MaterialDescription material = gray();
+        if (random.below(3) == 0) material.kind = kKinds[random.below(4)];
+        // One table for all, so that packing stays quick.
+        if (material.kind == SurfaceKind::Conductor && random.below(2) == 0) material.roughness = 0.5f;
+        scene.materials.push_back(material);
+    }
+    for (std::uint32_t i = 0; i < 4; ++i)
+        add_triangle(scene, random.cube(-1, 1), random.cube(-1, 1), random.cube(-1, 1), random.below(materials));
+    if (random.below(3) == 0) scene.environment = Vec3f{0.5f};
+    if (random.below(3) == 0) {
+        scene.normals = {Vec3f{0, 1, 0}};
+        scene.triangles.front().normal = {0, 0, 0};
+    }
+    if (random.below(4) == 0) scene.sun.radiance = Vec3f{10.0f};
+    return scene;
+}
+
+FeatureSet needed_by_look(const SceneDescription& scene) {
+    FeatureSet set;
+    for (const MaterialDescription& m : scene.materials) {
+        if (m.kind == SurfaceKind::Diffuse) continue;
+        set = set.with(m.roughness > 0.0f ? Feature::Rough : Feature::Specular);
+        if (m.kind == SurfaceKind::Plastic) set = set.with(Feature::Plastic);
+    }
+    if (scene.environment != glm::vec3{0.0f}) set = set.with(Feature::Environment);
+    if (scene.sun.radiance != glm::vec3{0.0f}) set = set.with(Feature::EnvironmentMap);
+    for (const TriangleDescription& t : scene.triangles)
+        if (t.normal.x != TriangleDescription::kNoNormal) set = set.with(Feature::SmoothNormals);
+    return set;
+}
+
+}  // namespace
+
+TEST_CASE("The scan of a scene finds what a look at every part of it finds") {
+    Uniforms random(1);
+    std::uint32_t seen = 0;
+    for (int i = 0; i < 60; ++i) {
+        const SceneDescription scene = random_scene(random);
+        const FeatureSet needed = needed_effects(pack_scene(scene));
+        CHECK(needed == needed_by_look(scene));
+        seen |= needed.bits;
+    }
+    // All but light samples, images and the lens, which the random scenes have none of.
+    CHECK(seen == features(Feature::SmoothNormals, Feature::Environment, Feature::Specular, Feature::Rough,
+                           Feature::Plastic, Feature::EnvironmentMap)
+                      .bits);
+}
+
+TEST_CASE("What a scene does not need takes no memory") {
+    SceneDescription scene;
+    scene.materials = {gray()};
+    add_box(scene, Vec3f{-1.0f}, Vec3f{1.0f}, true);
+    const HostScene packed = pack_scene(scene);
+    CHECK(packed.normals.capacity() == 0);
+    CHECK(packed.triangle_normals.capacity() == 0);
+    CHECK(packed.lobes.capacity() == 0);
+    CHECK(packed.directional_albedo.capacity() == 0);
+    CHECK(packed.images.capacity() == 0);
+    CHECK(packed.material_images.capacity() == 0);
+    CHECK(packed.map_texels.capacity() == 0);
+    CHECK(needed_effects(packed) == FeatureSet{});
+}

@@ -1,0 +1,84 @@
+// Random numbers that are drawn for many paths at once are those that are drawn for each alone.
+#include <cstring>
+
+#include "core/kernel/methods/default.h"
+#include "cpu/path_source.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
+
+using namespace pl;
+using test::Uniforms;
+
+namespace {
+
+bool same_bits(Vec4f a, Vec4f b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+}  // namespace
+
+TEST_CASE("The baseline kernels are there and every usable set is named") {
+    REQUIRE_FALSE(usable_lane_kernels().empty());
+    CHECK(std::string(usable_lane_kernels().front().isa) == "baseline");
+    for (const LaneKernels& kernels : usable_lane_kernels()) UNSCOPED_INFO(kernels.isa);
+    SUCCEED();
+}
+
+TEST_CASE("Every instruction set draws the bits of Rng") {
+    for (const LaneKernels& kernels : usable_lane_kernels()) {
+        INFO(kernels.isa);
+        Uniforms random(7);
+        for (int round = 0; round < 200; ++round) {
+            const DrawKey key{(std::uint64_t{random.bits()} << 32) | random.bits(),
+                              static_cast<Stream>(random.below(3)), static_cast<Purpose>(random.below(6))};
+            CounterGroup counters[2];
+            NumberGroup numbers[2];
+            for (std::uint32_t i = 0; i < 2 * kGroupSize; ++i) {
+                counters[i / kGroupSize].pixel[i % kGroupSize] = random.bits();
+                counters[i / kGroupSize].sample[i % kGroupSize] = random.bits();
+                counters[i / kGroupSize].vertex[i % kGroupSize] = random.bits() >> 8;
+            }
+            kernels.draw(key, counters, numbers, 2);
+            for (std::uint32_t i = 0; i < 2 * kGroupSize; ++i) {
+                const CounterGroup& group = counters[i / kGroupSize];
+                const std::uint32_t lane = i % kGroupSize;
+                const Rng rng{key.seed, key.stream, group.pixel[lane], group.sample[lane]};
+                REQUIRE(same_bits(numbers[i / kGroupSize].get(lane), rng.draw(group.vertex[lane], key.purpose)));
+            }
+        }
+    }
+}
+
+TEST_CASE("A batch of numbers gives what a vertex draws alone") {
+    constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);
+    const PathSettings settings{.seed = 0x123456789abcdef0u, .stream = Stream::Precompute, .next_event = 1};
+    Uniforms random(8);
+    std::vector<PathState<kLights, DefaultMethod>> states(37);
+    NumberBatch batch(37, true);
+    for (std::uint32_t i = 0; i < 37; ++i) {
+        states[i].pixel = random.bits();
+        states[i].sample = random.bits();
+        states[i].vertices = random.below(64);
+        batch.set_path(i, states[i]);
+    }
+    batch.draw(settings, 37);
+    for (std::uint32_t i = 0; i < 37; ++i) {
+        const VertexNumbers expected = draw_vertex_numbers<kLights>(settings, states[i]);
+        CHECK(same_bits(batch.numbers(i).scatter, expected.scatter));
+        CHECK(same_bits(batch.numbers(i).light, expected.light));
+    }
+}
+
+TEST_CASE("A source gives every path of the queue with the numbers it starts with") {
+    constexpr std::uint32_t kFirst = 100;
+    constexpr std::uint32_t kEnd = 100 + 3 * kPathChunk + 17;
+    ChunkQueue queue(kFirst, kEnd, kPathChunk);
+    PathSource source(queue, {.seed = 5, .stream = Stream::Picture, .purpose = Purpose::Pixel, .sample = 9});
+    std::uint32_t number = 0;
+    Vec4f u;
+    for (std::uint32_t expected = kFirst; expected < kEnd; ++expected) {
+        REQUIRE(source.next(number, u));
+        REQUIRE(number == expected);
+        REQUIRE(same_bits(u, Rng{5, Stream::Picture, number, 9}.draw(0, Purpose::Pixel)));
+    }
+    CHECK_FALSE(source.next(number, u));
+    CHECK_FALSE(source.next(number, u));
+}

@@ -1,0 +1,210 @@
+// The whole CUDA back end, run on the host: films, tables and counters have the bits of the CPU back end, because both
+// run the same steps with the same random numbers. On a device rounding may differ: tests/parity looks at that.
+#include "cuda/cuda_backend.h"
+
+#include <algorithm>
+
+#include "core/kernel/base/rng.h"
+#include "tests/cuda/shim/control.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/scenes/image_scenes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
+#include "tests/support/session/variants.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+Session make_cuda_session(const SceneDescription& scene, const RenderSettings& settings) {
+    return Session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
+}
+
+std::vector<std::uint32_t> pixels_of(const DisplayFrame& frame) {
+    const std::uint32_t* pixels = frame.pixels();
+    return {pixels, pixels + frame.width * frame.height};
+}
+
+State render(Session session, std::uint32_t passes = 3) {
+    render_passes(session, passes);
+    return state_of(session);
+}
+
+}  // namespace
+
+TEST_CASE("Every method gives the bits of the CPU back end") {
+    for (const SceneDescription& scene :
+         {shipped_scene("cornell"), shipped_scene("door"), shipped_scene("furnace"), every_effect()}) {
+        for (const Estimator estimator : kEstimators) {
+            INFO(scene.name << ", " << estimator);
+            const RenderSettings settings = small_settings(scene, estimator);
+            const State expected = render(make_session(scene, settings));
+            for (const int threads : {1, 3}) {
+                shim::reset();
+                shim::set_threads(threads);
+                const State got = render(make_cuda_session(scene, settings));
+                CHECK(same_film(got, expected));
+                CHECK(same_events(got.snapshot.counters, expected.snapshot.counters));
+                CHECK(same_bits(got.tables, expected.tables));
+            }
+        }
+    }
+    CHECK(shim::live_objects() == 0);
+}
+
+TEST_CASE("Every target, rate and rule of roulette gives the bits of the CPU back end") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    for (const Variant& variant : kVariants) {
+        INFO(variant.name);
+        const RenderSettings settings =
+            variant.of(small_settings(scene, {MethodId::Reinforcement, variant.next_event}));
+        CHECK(same_state(render(make_cuda_session(scene, settings)), render(make_session(scene, settings))));
+    }
+}
+
+TEST_CASE("Every view gives the bits of the CPU back end") {
+    shim::reset();
+    for (const SceneDescription& scene : {shipped_scene("cornell"), every_effect()})
+        for (const ViewInfo& view : all_views())
+            for (const MethodInfo& method : all_methods()) {
+                INFO(view.name << ", " << method.name);
+                RenderSettings settings = small_settings(scene, {method.id, false});
+                settings.view = view.id;
+                const State expected = render(make_session(scene, settings));
+                const State got = render(make_cuda_session(scene, settings));
+                CHECK(same_film(got, expected));
+                CHECK(same_events(got.snapshot.counters, expected.snapshot.counters));
+            }
+}
+
+TEST_CASE("Invalid samples are counted at the pixels of the CPU back end") {
+    shim::reset();
+    BoxLook look;
+    look.albedo.fill(glm::vec3{0.9f});
+    look.emission[kFloor] = look.emission[kWallX1] = glm::vec3{2.5e38f};  // together they are no number
+    SceneDescription scene = box_scene(look);
+    scene.camera.fov_deg = 90.0f;
+    RenderSettings settings = small_settings(scene, {MethodId::Default, false});
+    Session cpu = make_session(scene, settings);
+    Session cuda = make_cuda_session(scene, settings);
+    render_passes(cpu, 3);
+    render_passes(cuda, 3);
+    const FilmSlot slot{MethodId::Default, View::Beauty};
+    const std::vector<std::uint32_t> counts = cuda.backend_access().invalid_samples(slot);
+    CHECK(counts == cpu.backend_access().invalid_samples(slot));
+    CHECK(std::count(counts.begin(), counts.end(), 0u) > 100);
+    CHECK(std::count(counts.begin(), counts.end(), 1u) > 10);
+}
+
+TEST_CASE("Frames of every view have the bits of the CPU back end") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    for (const ViewInfo& view : all_views()) {
+        RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
+        settings.view = view.id;
+        Session cpu = make_session(scene, settings);
+        Session cuda = make_cuda_session(scene, settings);
+        render_passes(cpu, 2);
+        render_passes(cuda, 2);
+        for (const ToneCurve curve : {ToneCurve::Clamp, ToneCurve::Reinhard, ToneCurve::Aces})
+            for (const float ev : {-2.0f, 0.0f, 1.5f}) {
+                INFO(view.name << ", curve " << static_cast<int>(curve) << ", exposure " << ev);
+                const ShownFilm expected = cpu.show_film({.exposure_ev = ev, .curve = curve});
+                const ShownFilm got = cuda.show_film({.exposure_ev = ev, .curve = curve});
+                CHECK(got.range.high == expected.range.high);
+                CHECK(pixels_of(got.frame) == pixels_of(expected.frame));
+                CHECK(pixels_of(got.frame) == pixels_of(got.frame));  // asked twice
+            }
+    }
+}
+
+TEST_CASE("A frame is that of its moment, however long it is on its way, and outlives its back end") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("cornell");
+    const RenderSettings settings = small_settings(scene, {MethodId::Default, false});
+    std::vector<DisplayFrame> frames;
+    std::vector<std::vector<std::uint32_t>> expected;
+    {
+        Session cpu = make_session(scene, settings);
+        Session cuda = make_cuda_session(scene, settings);
+        for (int i = 0; i < 5; ++i) {
+            render_passes(cpu, 1);
+            render_passes(cuda, 1);
+            expected.push_back(pixels_of(cpu.show_film({}).frame));
+            frames.push_back(cuda.show_film({}).frame);
+            if (i == 2) frames[0] = {};  // its memory serves a later one
+        }
+        render_passes(cuda, 1);
+    }
+    for (std::size_t i = 1; i < frames.size(); ++i) CHECK(pixels_of(frames[i]) == expected[i]);
+    CHECK(expected[1] != expected[4]);
+    frames.clear();
+    CHECK(shim::live_objects() == 0);
+}
+
+TEST_CASE("All searches for volumes give the same bits") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
+    const State grid = render(make_cuda_session(scene, settings));
+    for (const Lookup lookup : {Lookup::KdTree, Lookup::Linear}) {
+        settings.field.lookup = lookup;
+        CHECK(same_state(render(make_cuda_session(scene, settings)), grid));
+    }
+}
+
+TEST_CASE("Launches of any size, stopped and resumed, give the same bits") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("cornell");
+    const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true});
+    const State expected = render(make_session(scene, settings), 2);
+
+    Session session = make_cuda_session(scene, settings);
+    StopFlag stop = true;
+    CHECK(session.advance(&stop) == Progress::Stopped);
+    CHECK(session.passes() == 0);
+    render_passes(session, 2);
+    CHECK(same_state(state_of(session), expected));
+}
+
+TEST_CASE("A field moves to the device and back in mid-learning without changing a bit") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
+        const RenderSettings settings = small_settings(scene, {method, false});
+        Session session = make_session(scene, settings);
+        Session expected = make_session(scene, settings);
+        const std::shared_ptr<RenderBackend> cpu = make_cpu_backend({.threads = 2});
+        const std::shared_ptr<RenderBackend> other_cpu = make_cpu_backend({.threads = 1});
+        const std::shared_ptr<RenderBackend> cuda = make_cuda_backend();
+        session.advance();
+        expected.advance();
+        session.apply(EditBackend{cuda});
+        expected.apply(EditBackend{other_cpu});
+        CHECK(same_bits(state_of(session).tables, state_of(expected).tables));
+        render_passes(session, 2);
+        render_passes(expected, 2);
+        CHECK(same_state(state_of(session), state_of(expected)));
+        session.apply(EditBackend{cpu});
+        expected.apply(EditBackend{cpu});
+        CHECK(session.backend().name == "cpu");
+        CHECK(same_bits(state_of(session).tables, state_of(expected).tables));
+    }
+}
+
+TEST_CASE("Invalid samples are counted and shown on the device too") {
+    shim::reset();
+    SceneDescription scene = shipped_scene("furnace");
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    RenderSettings settings = small_settings(scene, {MethodId::Default, false});
+    for (MaterialDescription& material : scene.materials) material.emission = Vec3f{nan};
+    const State expected = render(make_session(scene, settings), 1);
+    const State got = render(make_cuda_session(scene, settings), 1);
+    CHECK(got.snapshot.counters.invalid_samples == expected.snapshot.counters.invalid_samples);
+    CHECK(got.snapshot.counters.invalid_samples > 0);
+    CHECK(got.snapshot.pixels[0].x != got.snapshot.pixels[0].x);
+}

@@ -1,0 +1,47 @@
+// Rule S4: equality of films, counters and tables down to the bit.
+#pragma once
+
+#include <cstring>
+
+#include "tests/support/session/sessions.h"
+
+namespace pl::test {
+
+template <class T, class Allocator>
+bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// Every array of the tables, so that a new one is compared as well.
+inline bool same_bits(const HostTables& a, const HostTables& b) {
+    bool same = true;
+    zip(a, b, [&](const auto& x, const auto& y) { same = same && same_bits(x, y); });
+    return same;
+}
+
+inline bool same_events(const PassCounters& a, const PassCounters& b) {
+    static_assert(std::has_unique_object_representations_v<PassCounters>);
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// Everything a session has produced with its current method.
+struct State {
+    Snapshot snapshot;
+    HostTables tables;
+};
+
+inline State state_of(Session& session) {
+    return {session.snapshot_with_halves(), session.backend_access().download_tables(session.settings().method)};
+}
+
+inline bool same_film(const State& a, const State& b) {
+    const FilmHalves& x = a.snapshot.halves;
+    const FilmHalves& y = b.snapshot.halves;
+    return a.snapshot.passes == b.snapshot.passes && same_bits(a.snapshot.pixels, b.snapshot.pixels) &&
+           x.samples == y.samples && same_bits(x.mean[0], y.mean[0]) && same_bits(x.mean[1], y.mean[1]);
+}
+inline bool same_state(const State& a, const State& b) {
+    return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) && same_bits(a.tables, b.tables);
+}
+
+}  // namespace pl::test
