@@ -1,4 +1,4 @@
-// What the statistics file promises.
+// The keys of the statistics file, in their order.
 #pragma once
 
 #include <string>

@@ -68,7 +68,7 @@ TEST_CASE("a viewer's reference of other light, camera, size or depth is not fou
     other = settings;
     other.max_depth = 5;
     CHECK(find_viewer_reference(folder.path(), *scene, other) == nullptr);
-    other = settings;  // what decides the noise alone does not count
+    other = settings;  // settings that decide the noise alone do not count
     other.method = MethodId::Default;
     other.next_event = true;
     other.seed = 99;
