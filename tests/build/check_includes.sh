@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # check_includes.sh ROOT: does every file keep to the arrows of the architecture? Prints each breach, exits 1 if any.
 #   app -> ui -> core/session -> core/scene, core/fields -> core/kernel;  core/io -> core/scene, and learned_field.h
-# and what core/kernel may not contain, since it is compiled for devices too.
+# and the words that core/kernel may not contain, since it is compiled for devices too.
 set -u
 cd "$1" || exit 2
 
@@ -11,7 +11,7 @@ breach() {
     breaches=$((breaches + 1))
 }
 
-# folder: what it may include with quotes. The longest matching folder rules; a name ending in .h is one file.
+# folder: the folders it may include with quotes. The longest matching folder rules; a name ending in .h is one file.
 arrows='
 core/kernel:  core/kernel
 core/base:    core/base core/kernel/base

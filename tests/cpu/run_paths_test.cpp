@@ -1,5 +1,5 @@
 // A batch of paths does what a loop over single paths does, bit for bit: films, tables and counters. The loop is the
-// kernel's own trace_path with the scalar hierarchy, so this also says that intersectors and random numbers agree.
+// kernel's own trace_path with the scalar hierarchy, so this also compares intersectors and random numbers.
 #include <cstring>
 
 #include "core/kernel/integrator/probe.h"

@@ -28,7 +28,7 @@ std::vector<std::string> contents_of(const fs::path& folder, const std::string& 
     return contents;
 }
 
-/// The entry's own corpus, and what tests/corpus has of its kind.
+/// The entry's own corpus, and the files of its kind in tests/corpus.
 std::vector<std::string> corpus_of(const std::string& name) {
     const fs::path tests = fs::path(PL_SOURCE_DIR) / "tests";
     std::vector<std::string> corpus = contents_of(tests / "fuzz/corpus" / name);

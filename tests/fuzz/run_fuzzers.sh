@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # run_fuzzers.sh SOURCE BUILD CLANG SECONDS ENTRY...: builds the fuzzers in BUILD and runs each for so many seconds over its
-# committed corpus. What it finds anew stays in BUILD/corpus, what ends a fuzzer in BUILD/found, and that is a failure.
+# committed corpus. New inputs stay in BUILD/corpus, those that end a fuzzer in BUILD/found, and that is a failure.
 set -euo pipefail
 source=$1 build=$2 clang=$3 seconds=$4
 shift 4

@@ -104,7 +104,7 @@ TEST_CASE("Beside a pixel of 1e8 others keep every bit", "[hard]") {
     CHECK(within(pixels[1].sum.x / alone[1].sum.x / 1e8 - 1.0, 1e-7));
 }
 
-// By every method: what was accumulated or learned before the change of size leaves no trace in default path tracing.
+// By every method: the films and fields from before the change of size leave no trace in default path tracing.
 TEST_CASE("Another size and back is a fresh start", "[hard]") {
     const SceneDescription scene = shipped_scene("cornell");
     const RenderSettings settings = small_settings(scene, {MethodId::Default, true});
@@ -129,7 +129,7 @@ TEST_CASE("Numbers of samples that split a run anywhere make the same picture", 
         const StopFlag stop{true};
         for (int i = 0; i < 20; ++i) {
             CHECK(parts.advance(&stop) == Progress::Stopped);
-            parts.snapshot_with_halves();  // a look changes nothing
+            parts.snapshot_with_halves();  // reading changes nothing
             render_passes(parts, 1);
         }
         INFO(estimator);

@@ -1,4 +1,4 @@
-// Cameras at their limits: angles, places, lenses, pictures of odd shapes; and what half of a view shows.
+// Cameras at their limits: angles, places, lenses, pictures of odd shapes; and views that are half lit.
 #include "tests/hard/hard_scenes.h"
 #include "tests/support/catch.hpp"
 

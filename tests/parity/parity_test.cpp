@@ -1,4 +1,4 @@
-// CPU and CUDA side by side. Pictures and tables that paths make agree by rule S2; views that no random choice decides
+// CPU and CUDA side by side. Pictures of paths agree by rule S2; views without random choices
 // agree pixel by pixel; an update with the same training samples is equal to the bit. Built twice: against the stand-in for the
 // runtime, where CI runs it, and against the device, where run_on_device.sh does.
 #include <cmath>
@@ -74,7 +74,7 @@ TEST_CASE("Pictures of both back ends agree for every scene and method", "[merge
         const SceneDescription scene = shipped_scene(name);
         for (const Estimator estimator : kEstimators) {
             INFO(name << ", " << estimator);
-            // Furthest from the light where only chance finds it.
+            // Noisiest where only scattering finds the light.
             const std::uint32_t passes = estimator.next_event ? 8 : 32;
             const Picture cpu = picture_of(make_session(scene, quick_learner(scene, estimator, kSide, 1)), passes);
             const Picture cuda =

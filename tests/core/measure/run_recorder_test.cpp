@@ -74,7 +74,7 @@ TEST_CASE("the error of the furnace family falls as one over the samples", "[mer
     check_slope(0.8f, MethodId::Precomputed);
 }
 
-TEST_CASE("what a run's halves call noise is its error where nothing is biased") {
+TEST_CASE("the noise estimated from a run's halves is its error where nothing is biased") {
     const auto series = FurnaceRun(0.8f, MethodId::Default, 64, 3).record({.spp = 48});
     const RunPoint& last = series->points.back();
     REQUIRE(last.noise);
@@ -96,7 +96,7 @@ TEST_CASE("a planted bias of half a percent is shown as bias, not as noise") {
     CHECK_FALSE(std::fabs(a.signed_bias->value) > 4.9 * a.signed_bias->error);
     CHECK(std::fabs(b.signed_bias->value) > 4.9 * b.signed_bias->error);
     CHECK_THAT(b.signed_bias->value, WithinAbs(-0.005, 4.9 * b.signed_bias->error));
-    // The noise does not know of it.
+    // The estimate of noise does not see it.
     CHECK_THAT(*b.noise, WithinRel(*a.noise, 0.02));
 }
 

@@ -36,7 +36,7 @@ struct ProgramResult {
 
 using Arguments = std::vector<std::string>;
 
-/// The built program's path, and what follows it.
+/// The built program's path, and its arguments.
 Arguments program(const Arguments& arguments);
 
 /// How the program is started.
@@ -48,7 +48,7 @@ struct ProgramSetup {
     std::string output_device{};       ///< that standard output goes to instead of a file
 };
 
-/// A program that runs. What it prints goes to files, so that it never has to wait for a reader.
+/// A running program. Its output goes to files, so that it never has to wait for a reader.
 class RunningProgram {
 public:
     explicit RunningProgram(Arguments command, const ProgramSetup& setup = {});

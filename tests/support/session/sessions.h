@@ -11,7 +11,7 @@
 
 namespace pl::test {
 
-/// What decides an estimate of a scene's light: a method, with or without sampling lights.
+/// An estimator of a scene's light: a method, with or without light samples.
 struct Estimator {
     MethodId method = MethodId::Default;
     bool next_event = false;
@@ -37,7 +37,7 @@ inline RenderSettings settings_for(const SceneDescription& scene, Estimator esti
     return settings;
 }
 
-/// A square picture with small tables that are learned from few samples, so that guiding is at work within the time of a
+/// A square picture with small tables that are learned from few samples, so that guiding sets in within the time of a
 /// test.
 inline RenderSettings quick_learner(const SceneDescription& scene, Estimator estimator, int side,
                                     std::uint64_t seed) {
@@ -53,7 +53,7 @@ inline Session make_session(const SceneDescription& scene, const RenderSettings&
     return Session(make_cpu_backend({.threads = threads}), std::make_shared<const SceneDescription>(scene), settings);
 }
 
-/// Advances until `passes` more samples per pixel are in the picture, after whatever has to come first.
+/// Advances until `passes` more samples per pixel are in the picture, after precomputation.
 inline void render_passes(Session& session, std::uint32_t passes) {
     const std::uint32_t target = session.passes() + passes;
     while (session.passes() < target) session.advance();
@@ -77,7 +77,7 @@ struct Picture {
     }
 };
 
-/// What a film holds, times its number of samples. Means are read as floats, so differences of sums keep 24 bits of
+/// A film's means times its number of samples. Means are read as floats, so differences of sums keep 24 bits of
 /// the larger one, which is far below any sampling error here.
 inline std::vector<Vec3d> film_sums(const Session& session) {
     const Snapshot snapshot = session.snapshot();

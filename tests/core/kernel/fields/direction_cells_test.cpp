@@ -1,4 +1,4 @@
-// Cells of directions: which one holds a direction, where they are, and that both agree.
+// Cells of directions: from a direction to its cell and back.
 #include "core/kernel/fields/direction_cells.h"
 
 #include "core/kernel/base/frame.h"

@@ -145,7 +145,7 @@ TEST_CASE("A fraction of one is the BSDF alone") {
     }
 }
 
-TEST_CASE("Reinforcement learning records its target in the cell of the direction") {
+TEST_CASE("Reinforcement learning adds its target to the cell of the direction") {
     TestField field(4, {Vec3f{0, 0, 1}, leaning_normal()});
     field.tables.mean_radiance = {0.0f, 2.0f};
     ReinforcementMethod method;
@@ -166,7 +166,7 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     CHECK(field.tables.pending_count[9] == 2);
     CHECK(counters.records == 2);
 
-    // More than the sums can hold is counted, and added as the most that they can.
+    // Radiance beyond the sums' range is counted, and added as their largest value.
     CHECK(counters.clamped_records == 0);
     const float most = kMaxRecordedUnits * field.view().radiance_unit;
     method.commit(method.learn(memory, {.emitted = Vec3f{2.0f * most}}, {kNoVolume}, counters));
@@ -174,7 +174,7 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     CHECK(counters.records == 3);
     CHECK(field.tables.pending_sum[9] == static_cast<std::int64_t>((quarter_gray + 1.0 + 65536.0) * 16777216.0));
 
-    // Nothing is known where the surface reflects but no volume serves it, and nothing where none was left.
+    // No estimate at a reflecting surface without a volume, and none behind a vertex without one.
     method.commit(method.learn(memory, {.emitted = Vec3f{1.0f}, .albedo = Vec3f{0.5f}}, {kNoVolume}, counters));
     ReinforcementMethod::Memory none{};
     method.commit(method.learn(none, {.emitted = Vec3f{1.0f}}, {1}, counters));

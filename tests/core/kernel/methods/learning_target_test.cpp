@@ -1,4 +1,4 @@
-// Targets of reinforcement, one call at a time: what each of them records for a path whose light is known.
+// Targets of reinforcement learning, one call at a time: their training samples for a path of known radiance.
 #include "core/kernel/methods/learning_target.h"
 
 #include "core/kernel/methods/monte_carlo.h"
@@ -14,7 +14,7 @@ namespace {
 constexpr int kSide = 2;
 constexpr GuidedVertex kVertex{0};
 
-/// Two volumes of four cells that have learned something, so that tables answer.
+/// Two volumes of four cells with learned values.
 struct Learner {
     TestField field{kSide, {Vec3f{0, 0, 1}, Vec3f{0, 0, 1}}};
     MethodCounters counters;
@@ -66,14 +66,14 @@ TEST_CASE("The kernel that keeps least serves each target") {
     CHECK(kernel_for({ExpectedSarsa, Indirect}, true) == LearningKernel::Late);
 }
 
-TEST_CASE("Sarsa records what the table says of the direction that was drawn") {
+TEST_CASE("Sarsa takes the learned radiance of the sampled direction") {
     Learner learner;
     const auto method = learner.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
     SarsaMethod::Memory memory;
-    method.depart(memory, kVertex, going(1.0f, 1), learner.counters);  // from the first vertex: nothing to record
+    method.depart(memory, kVertex, going(1.0f, 1), learner.counters);  // from the first vertex: no training sample
     CHECK(learner.counters.records == 0);
     method.learn(memory, meeting(3.0f, 0.25f), kVertex, learner.counters);
-    CHECK(learner.counters.records == 0);  // not before the next direction is known
+    CHECK(learner.counters.records == 0);  // not before the next direction is sampled
     method.request_light(memory, Vec3f{7.0f});
     method.depart(memory, kVertex, going(0.5f, 2), learner.counters);
     method.receive_light(memory, learner.counters);  // all light: it is in the table
@@ -85,7 +85,7 @@ TEST_CASE("Sarsa records what the table says of the direction that was drawn") {
     CHECK(learner.counters.records == 2);
 }
 
-TEST_CASE("Records that are too bright for the sums are counted by every target") {
+TEST_CASE("Training samples that are too bright for the sums are counted by every target") {
     Learner late;
     const auto sarsa = late.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
     const float most = kMaxRecordedUnits * sarsa.field.radiance_unit;
@@ -105,7 +105,7 @@ TEST_CASE("Records that are too bright for the sums are counted by every target"
     walk(monte_carlo, MonteCarloMethod::Memory{}, whole);
 }
 
-TEST_CASE("Sarsa takes the mean where a cell knows nothing, and records nothing where no volume is") {
+TEST_CASE("Sarsa takes the volume's mean for a cell without visits, and has no sample without a volume") {
     Learner learner;
     const auto method = learner.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
     for (const std::int32_t unknown : {3, -1}) {  // never visited, below the volume's horizon
@@ -123,7 +123,7 @@ TEST_CASE("Sarsa takes the mean where a cell knows nothing, and records nothing 
     CHECK(learner.recorded(2) == Approx(4.0f));
 }
 
-TEST_CASE("Indirect light: emission by its share, and what the next vertex reflects of its light sample") {
+TEST_CASE("Indirect light: emission by its share, and the reflected light sample of the next vertex") {
     for (const LearningTarget target : {LearningTarget::ExpectedSarsa, LearningTarget::Sarsa}) {
         Learner learner;
         const auto method = learner.method<SarsaMethod>(target, LearnedLight::Indirect);
@@ -135,7 +135,7 @@ TEST_CASE("Indirect light: emission by its share, and what the next vertex refle
         // Volume 1 has a mean of 2 and no visits.
         CHECK(learner.recorded(0) == Approx(1.0f + 0.5f * 2.0f + 7.0f));
         CHECK(learner.count(0) == 1);
-        // A light sample that is blocked brings nothing, also not later.
+        // An occluded light sample adds nothing, now or later.
         method.learn(memory, meeting(0.0f), {1}, learner.counters);
         method.request_light(memory, Vec3f{7.0f});
         method.stop(memory, learner.counters);
@@ -146,12 +146,12 @@ TEST_CASE("Indirect light: emission by its share, and what the next vertex refle
     }
 }
 
-TEST_CASE("Monte Carlo records the light that the path brought") {
+TEST_CASE("Monte-Carlo targets are the radiance of the path") {
     for (const LearnedLight light : {LearnedLight::All, LearnedLight::Indirect}) {
         Learner learner;
         const auto method = learner.method<MonteCarloMethod>(LearningTarget::MonteCarlo, light);
         MonteCarloMethod::Memory memory;
-        method.learn(memory, meeting(9.0f), kVertex, learner.counters);  // the camera learns nothing
+        method.learn(memory, meeting(9.0f), kVertex, learner.counters);  // the camera has no volume
         method.request_light(memory, Vec3f{9.0f});
         method.depart(memory, kVertex, going(1.0f, 0), learner.counters);
         method.receive_light(memory, learner.counters);
@@ -173,7 +173,7 @@ TEST_CASE("Monte Carlo records the light that the path brought") {
         CHECK(learner.recorded(0) == Approx(first + (all ? 3.0f : 0.0f)));
         CHECK(learner.recorded(1) == Approx(second));
         CHECK(learner.counters.cut_returns == 0);
-        method.finish(memory, learner.counters);  // nothing is left
+        method.finish(memory, learner.counters);  // no sample is pending
         CHECK(learner.counters.records == 2);
     }
 }
