@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/app/stats_keys.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/program/run_program.h"
 

@@ -10,12 +10,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::vector<std::string> keys_of(const ordered_json& object) {
-    std::vector<std::string> keys;
-    for (const auto& [key, value] : object.items()) keys.push_back(key);
-    return keys;
-}
-
 ordered_json stats_of(const Arguments& more) {
     const TempDir folder;
     Arguments arguments{
