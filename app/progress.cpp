@@ -18,22 +18,27 @@ std::string time_left(double share, double elapsed) {
     return fmt::format(", {} left", duration_text(elapsed * (1.0 - share) / share));
 }
 
+double interval_of(Console& console) {
+    if (console.json()) return kEventSeconds;
+    return console.log().is_terminal() ? kBarSeconds : kLineSeconds;
+}
+
 }  // namespace
 
 ProgressDisplay::ProgressDisplay(Console& console, bool enabled)
-    : console_(console), enabled_(enabled), next_seconds_(interval_seconds()) {}
+    : console_(console), enabled_(enabled), pace_(interval_of(console)) {}
 
 ProgressDisplay::~ProgressDisplay() { clear(); }
 
-double ProgressDisplay::interval_seconds() const {
-    if (console_.json()) return kEventSeconds;
-    return console_.log().is_terminal() ? kBarSeconds : kLineSeconds;
+bool MessagePace::is_due(double elapsed) {
+    if (elapsed < next_) return false;
+    next_ = elapsed + interval_;
+    return true;
 }
 
 void ProgressDisplay::show(const ProgressState& state) {
     const double elapsed = watch_.seconds();
-    if (!enabled_ || elapsed < next_seconds_) return;
-    next_seconds_ = elapsed + interval_seconds();
+    if (!enabled_ || !pace_.is_due(elapsed)) return;
     if (console_.json()) {
         console_.event("progress", {{"run", 1},
                                     {"activity", state.activity},

@@ -9,6 +9,18 @@
 
 namespace pl {
 
+/// Grants one message per interval, the first at the end of the first interval.
+class MessagePace {
+public:
+    explicit MessagePace(double interval_seconds) : interval_(interval_seconds), next_(interval_seconds) {}
+    /// Whether a message is due `elapsed` seconds after the start; the next one is due an interval later.
+    bool is_due(double elapsed);
+
+private:
+    double interval_;
+    double next_;
+};
+
 /// Shows progress as often as its medium can take it.
 class ProgressDisplay {
 public:
@@ -22,12 +34,10 @@ public:
     void clear() { console_.log().clear_status(); }
 
 private:
-    double interval_seconds() const;
-
     Console& console_;
     bool enabled_;
     Stopwatch watch_;
-    double next_seconds_;
+    MessagePace pace_;
 };
 
 /// "[#######       ] text", at most `width` characters.

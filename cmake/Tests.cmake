@@ -3,9 +3,10 @@
 include(Catch)
 
 # pl_add_test(NAME SOURCES a.cpp... [LIBS target...] [LABELS label...] [PROCESSORS n])
-# One Catch2 program build/<preset>/bin/NAME; its cases become tests named "NAME.case".
-# PROCESSORS: number of cores of a case (default 1). OMP_WAIT_POLICY=passive: tests run concurrently, some with more threads than
-# cores, and spinning threads would block working ones.
+# One Catch2 program build/<preset>/bin/NAME; its cases become tests called "NAME.case".
+# The time limit of a case is a guard against hangs, far beyond its time on a busy machine: no verdict depends on speed.
+# PROCESSORS: how many cores a case needs for itself (default 1). Threads that wait do so asleep: tests run side by side,
+# some with more threads than there are cores, and each spinning thread would keep a working one from its core.
 function(pl_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "PROCESSORS" "SOURCES;LIBS;LABELS")
     pl_check_arguments(pl_add_test "${name}" "${arg_SOURCES}" "${arg_UNPARSED_ARGUMENTS}")
@@ -17,10 +18,10 @@ function(pl_add_test name)
     target_compile_definitions(${name} PRIVATE PL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 
-    pl_discover(${name} push "~[merge]~[nightly]~[.]" 300)
+    pl_discover(${name} push "~[merge]~[nightly]~[.]" 1200)
     pl_has_tag(in_merge merge ${arg_SOURCES})
     if(in_merge)
-        pl_discover(${name} merge "[merge]~[nightly]" 1800)
+        pl_discover(${name} merge "[merge]~[nightly]" 3600)
     endif()
     pl_has_tag(in_nightly nightly ${arg_SOURCES})
     if(in_nightly)

@@ -1,4 +1,4 @@
-// --save-field, --load-field and --lookup from outside.
+// --save-field, --load-field and --lookup as a shell sees them.
 #include <csignal>
 
 #include <nlohmann/json.hpp>
@@ -23,7 +23,7 @@ Arguments render(const std::string& output, const Arguments& more) {
     return joined({"render", "door", "-o", output, "--size", "32x32", "--spp", "4"}, more);
 }
 
-/// Few volumes, so that tables know something after a few passes.
+/// Few volumes, so that tables have samples after a few passes.
 const Arguments kSmall{"--volumes", "60", "--bins", "64"};
 
 /// Runs a command that has to succeed.
@@ -53,7 +53,7 @@ TEST_CASE("a run that loads a field goes on from it") {
         CHECK(second["field"]["bins"] == 64);
         CHECK(second["spp"] == 4);
         CHECK(second["paths"] == 4 * 32 * 32);
-        // What was computed in the first run is not computed, and not charged, again.
+        // The map of the first run is neither computed nor charged again.
         CHECK(second["seconds"]["place"] == 0.0);
         CHECK(second["seconds"]["precompute"] == 0.0);
         CHECK(second["seconds"]["load"] > 0.0);
@@ -88,12 +88,12 @@ TEST_CASE("field files have the same bits for any number of threads and any look
         const std::string picture = saved({"-t", "1"});
         const std::string field = read_all(folder / "f");
         CHECK(saved({"-t", "2"}) == picture);
-        // Files of a map also tell the time that it took.
+        // Files of a map also hold the seconds of its precomputation.
         if (method == "reinforcement") CHECK(read_all(folder / "f") == field);
         CHECK(saved({"--lookup", "linear"}) == picture);
         CHECK(saved({"--lookup", "kdtree"}) == picture);
 
-        // Loaded, every lookup goes on with the same bits, whatever the file says.
+        // Loaded, every lookup goes on with the same bits, whatever lookup the file names.
         const auto loaded = [&](const Arguments& more) {
             run_well(render(folder / "y.pfm", joined({"--load-field", folder / "f"}, more)));
             return read_all(folder / "y.pfm");
@@ -130,7 +130,7 @@ TEST_CASE("the command in a picture loads the field again") {
     CHECK((read_png8(folder / "b.png").rgb == pixels));
 }
 
-TEST_CASE("a field that was loaded is inspected as it is, unless training is asked for") {
+TEST_CASE("a loaded field is inspected as it is, unless training is requested") {
     for (const std::string& method : kMethods) {
         CAPTURE(method);
         const TempDir folder;
@@ -199,7 +199,7 @@ TEST_CASE("fields that do not fit are refused with the right exit code, and no p
     CHECK((folder.names() == std::vector<std::string>{"cut", "damaged", "f", "text"}));
 }
 
-TEST_CASE("an interruption keeps what was learned so far, and another run completes it") {
+TEST_CASE("an interruption keeps the field learned so far, and another run completes it") {
     const TempDir folder;
     RunningProgram running(
         program({"render", "door", "-o", folder / "a.pfm", "--size", "32x32", "--spp", "1000000000", "--method",
@@ -224,7 +224,7 @@ TEST_CASE("a radiance map that was interrupted is completed by the run that load
     REQUIRE(running.wait_for_output("\"event\":\"start\""));
     running.send(SIGINT);
     const int code = running.wait().code;
-    CHECK((code == 130 || code == 0));  // 0: it was done before it was asked
+    CHECK((code == 130 || code == 0));  // 0: it had ended before the signal
     run_well(joined(map, {"-o", folder / "rest.pfm", "--load-field", folder / "f"}));
     CHECK(read_all(folder / "rest.pfm") == read_all(folder / "whole.pfm"));
 }

@@ -1,4 +1,4 @@
-// Effects from outside: what a scene needs and why, forced ones that change nothing, and what being able costs.
+// Effects on the command line: those a scene needs and why, forced ones that change no bit, and the cost of the larger kernels.
 #include <nlohmann/json.hpp>
 
 #include "tests/support/program/refusal.h"

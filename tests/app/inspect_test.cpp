@@ -1,4 +1,4 @@
-// `pathlight inspect` from outside.
+// `pathlight inspect` as a shell sees it.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -103,7 +103,7 @@ TEST_CASE("the table has a row per cell with the numbers of the JSON file") {
     }
 }
 
-TEST_CASE("the picture of a hemisphere has a legend and says where it is from") {
+TEST_CASE("the picture of a hemisphere has a legend with its place") {
     const TempDir folder;
     REQUIRE(run_program(inspect(folder / "x.png", {"--pixel", "16,28"})).code == 0);
     ImageMetadata metadata;
@@ -114,7 +114,7 @@ TEST_CASE("the picture of a hemisphere has a legend and says where it is from") 
                     std::pair<std::string, std::string>("method", "reinforcement")) != metadata.end());
 }
 
-TEST_CASE("where no volume is, that is said before any training") {
+TEST_CASE("a place without a volume is told before any training") {
     const TempDir folder;
     const auto refused = [&](const Arguments& place, const std::string& message) {
         Arguments arguments{"inspect", "cornell", "-o", folder / "x.json", "--spp", "1000000000"};

@@ -27,13 +27,13 @@ TEST_CASE("0: questions are answered on standard output") {
     }
 }
 
-TEST_CASE("1: what cannot be written is found out before rendering") {
+TEST_CASE("1: files that cannot be written are found out before rendering") {
     const TempDir folder;
     write_all(folder / "file", "");
     for (const std::string& name :
          {folder / "missing/x.png", folder / "file/x.png", folder.path().string() + "/d.png"}) {
         std::filesystem::create_directory(folder / "d.png");
-        // A thousand years of rendering: only the check beforehand can end this.
+        // Rendering would take a thousand years: only the check before it can end this.
         const ProgramResult result = run_program({"render", "cornell", "-o", name, "--spp", "1000000000"});
         CHECK(result.code == 1);
         CHECK_THAT(result.err, contains(name) && contains("cannot be written"));

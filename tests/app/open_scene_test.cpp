@@ -1,4 +1,4 @@
-// Knobs on the command line: --knob in the subcommands that take a scene, and what `info` tells of them.
+// Knobs on the command line: --knob in the subcommands that take a scene, and the knobs that `info` lists.
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.hpp"
@@ -24,7 +24,7 @@ std::string hash_of(const Arguments& more) {
 
 }  // namespace
 
-TEST_CASE("info lists the knobs of a scene with value, range, default and what they do") {
+TEST_CASE("info lists the knobs of a scene with value, range, default and effect") {
     const ProgramResult text = info({"door", "--knob", "opening=5"});
     CHECK(text.code == 0);
     CHECK_THAT(text.out, contains("opening=5 (from 1 to 45, default 17.9): angle"));

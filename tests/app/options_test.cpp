@@ -1,4 +1,4 @@
-// The words: parsing, precedence, and the way back to a command line.
+// Options: parsing, precedence, and the way back to a command line.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -34,7 +34,7 @@ float any_float(std::mt19937& random) {
 
 glm::vec3 any_vector(std::mt19937& random) { return {any_float(random), any_float(random), any_float(random)}; }
 
-/// Options that a person can have, far from the defaults.
+/// Options that can be given, far from the defaults.
 Options any_options(std::mt19937& random) {
     const auto whole = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
     const auto real = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
@@ -111,19 +111,19 @@ TEST_CASE("a copied command gives back the options it was made from") {
     }
 }
 
-TEST_CASE("a copied command leaves out what the scene sets already") {
+TEST_CASE("a copied command leaves out the settings of the scene") {
     SceneDescription scene = plain_scene();
     scene.settings = {{"method", "precomputed"}, {"size", "640x360"}, {"nee", "on"}};
     Options options = scene_defaults("plain.json", scene);
     CHECK(command_text(options, scene_defaults("plain.json", scene)) == "pathlight render plain.json");
 
-    // What differs from the scene is said, also where it is the program's own default.
+    // Settings that differ from the scene's are part of the command, also if they are the program's defaults.
     options.render.method = MethodId::Default;
     options.render.next_event = false;
     CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
           "pathlight render plain.json --method default --nee off");
 
-    // Words that other subcommands have too are said once.
+    // Options that other subcommands have too are listed once.
     options.spp = 7;
     CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
           "pathlight render plain.json --method default --nee off --spp 7");
@@ -261,7 +261,7 @@ TEST_CASE("scene files may set exactly the options that the table says") {
             CHECK_THAT(error.what(), contains("unknown key"));
             accepted = false;
         }
-        // A word may mean different things in different subcommands.
+        // An option may mean different things in different subcommands.
         const bool may_be_set =
             std::any_of(option_table().begin(), option_table().end(),
                         [&spec](const OptionSpec& other) { return other.name == spec.name && other.in_scene_files; });
@@ -284,7 +284,7 @@ TEST_CASE("a wrong setting of a scene file is told with its file and line") {
     }
 }
 
-TEST_CASE("numbers print as what reads back to the same bits") {
+TEST_CASE("numbers print as text that reads back to the same bits") {
     std::mt19937 random(3);
     for (int i = 0; i < 10000; ++i) {
         const float value = any_float(random);

@@ -1,4 +1,4 @@
-// What the tests of the options share: parsing against a scene without settings.
+// Parsing of options against a scene without settings.
 #pragma once
 
 #include "app/options.h"

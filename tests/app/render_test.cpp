@@ -1,4 +1,4 @@
-// `pathlight render` from outside: pictures, repeatability, limits, interruption.
+// `pathlight render` as a shell sees it: pictures, repeatability, limits, interruption.
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -63,7 +63,7 @@ TEST_CASE("every method renders every view") {
             const ByteImage image = read_png8(folder / "x.png");
             CHECK(image.width == 8);
             CHECK(image.height == 8);
-            // Something is seen, and not the same everywhere: the box fills the picture.
+            // The picture is neither black nor constant: the box fills it.
             CHECK(std::set<std::uint8_t>(image.rgb.begin(), image.rgb.end()).size() > 2);
         }
 }
@@ -126,7 +126,7 @@ TEST_CASE("linear files hold the same numbers, and sizes need not be square") {
     CHECK((pfm.pixels == exr.pixels));
 }
 
-TEST_CASE("pictures tell what they were made with") {
+TEST_CASE("pictures hold the settings that they were made with") {
     const TempDir folder;
     ImageMetadata metadata;
     REQUIRE(run_program(render(folder / "x.png", {"--seed", "9", "--method", "reinforcement"})).code == 0);
@@ -155,7 +155,7 @@ TEST_CASE("the camera of the command line is the camera of the picture") {
     CHECK(rendered_bytes({"--camera", folder / "camera.json"}) == rendered_bytes({"--eye", "278,273,-700"}));
 }
 
-TEST_CASE("display options change what is shown and leave what is linear") {
+TEST_CASE("display options change shown pictures and no linear ones") {
     const TempDir folder;
     REQUIRE(run_program(render(folder / "a.png")).code == 0);
     for (const Arguments& display :
@@ -212,7 +212,7 @@ TEST_CASE("rendering stops at a target error, and 5 tells that another limit cam
     CHECK(read_pfm(folder / "x.pfm").width == 32);  // the picture is there all the same
     CHECK(run({"--target-error", "1e-9", "--time-limit", "0.1"}).code == 5);
     CHECK(stats()["ended_by"] == "time-limit");
-    // Good enough when another limit ends it: not missed. One sample has no halves, so nothing is known.
+    // Within the target when another limit ends it: not missed. One sample has no halves, so its noise is unknown.
     CHECK(run({"--target-error", "1000", "--spp", "2"}).code == 0);
     CHECK(run({"--target-error", "1000", "--spp", "1"}).code == 5);
     CHECK(stats()["target_error"]["measured"].is_null());

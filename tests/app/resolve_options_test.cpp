@@ -14,7 +14,7 @@ std::vector<std::string> render_with(const std::vector<std::string>& words) {
 
 }  // namespace
 
-TEST_CASE("wrong values name the option, what is expected and what was given") {
+TEST_CASE("wrong values name the option, the expected and the given value") {
     struct Wrong {
         std::vector<std::string> words;
         std::string expected;
@@ -101,7 +101,7 @@ TEST_CASE("the limits of values are values") {
     CHECK(parse(render_with({"--bsdf-fraction", "learned"})).render.mixture == MixtureSettings{});
 }
 
-TEST_CASE("what a later version will have is refused by name") {
+TEST_CASE("options of later versions are refused by name") {
     CHECK_THAT(complaint({"view", "s", "--target-error", "0.1"}),
                contains("--target-error") && contains("this version does not have it"));
     CHECK_THAT(complaint({"view", "s", "--save-field", "f"}),
@@ -117,13 +117,13 @@ TEST_CASE("unknown words name the nearest one") {
     CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), contains("unexpected argument 't'"));
 }
 
-TEST_CASE("views of what was learned need a method that learns") {
+TEST_CASE("views of the field need a method with a field") {
     CHECK_THAT(complaint(render_with({"--view", "radiance-map"})), contains("precomputed or reinforcement"));
     CHECK_NOTHROW(parse(render_with({"--view", "radiance-map", "--method", "precomputed"})));
     CHECK_NOTHROW(parse(render_with({"--view", "voronoi"})));
 }
 
-TEST_CASE("only what is learned can be saved") {
+TEST_CASE("only a learned field can be saved") {
     CHECK_THAT(
         complaint(render_with({"--save-field", "f"})),
         contains("--save-field: --method default learns nothing: expected --method precomputed or reinforcement"));
@@ -171,15 +171,15 @@ TEST_CASE("a loaded field brings its method and settings") {
     CHECK(options.render.method == MethodId::Precomputed);
     CHECK((options.render.field == field.settings));
     CHECK(options.render.seed == 9);
-    // Inspection does not need to be told the method either.
+    // Inspection takes the method from the field, too.
     CHECK(parse_with_field({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--load-field", "f"}, field)
               .render.method == MethodId::Precomputed);
-    // The command in the picture loads it again, and says nothing that contradicts it.
+    // The command in the picture loads the field again and has no option that contradicts it.
     const std::string command = command_text(options, scene_defaults("s", scene));
     CHECK_THAT(command, contains("--load-field my.field") && contains("--bins 64") && contains("--volumes 70"));
 }
 
-TEST_CASE("what is given beside a loaded field has to agree with it, but for the lookup") {
+TEST_CASE("options beside a loaded field have to agree with it, but for the lookup") {
     LearnedField field;
     field.method = MethodId::Precomputed;
     field.settings.bins = 64;

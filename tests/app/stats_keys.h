@@ -1,8 +1,10 @@
-// What the statistics file promises.
+// The keys of the statistics file, in their order.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace pl::test {
 
@@ -43,5 +45,11 @@ inline const std::vector<std::string> kSecondsKeys{"load",       "build", "uploa
 
 inline const std::vector<std::string> kFieldKeys{"volumes", "added_volumes", "bins",         "bytes",
                                                  "passes",  "records",       "lookup_misses"};
+
+inline std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : object.items()) keys.push_back(key);
+    return keys;
+}
 
 }  // namespace pl::test

@@ -1,4 +1,4 @@
-// `pathlight view` from outside, driven by a script on SDL's dummy driver: what the program lends to the window.
+// `pathlight view` as a shell sees it, driven by a script on SDL's dummy driver: options, files and commands of the window.
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/program/run_program.h"
@@ -51,7 +51,7 @@ TEST_CASE("the command of a saved picture makes that picture") {
     CHECK((read_exr(folder / "again.exr").pixels == read_exr(linear).pixels));
 }
 
-TEST_CASE("the window opens with what the command line asks for") {
+TEST_CASE("the window opens with the settings of the command line") {
     const TempDir folder;
     const ProgramResult result = run_script(
         folder,

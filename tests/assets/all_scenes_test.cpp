@@ -97,7 +97,7 @@ TEST_CASE("Every knob changes its scene at both ends of its range, and nothing a
     CHECK(count == 8);
 }
 
-TEST_CASE("The door turns about its hinge by the angle asked for") {
+TEST_CASE("The door turns about its hinge by the given angle") {
     const SceneDescription plain = load_scene("door", kAssets);
     const SceneDescription wide = load_scene("door", kAssets, {{"opening", 40.0f}});
     const std::vector<std::size_t> moved = moved_points(plain, wide);
@@ -116,7 +116,7 @@ TEST_CASE("The door turns about its hinge by the angle asked for") {
     }
 }
 
-TEST_CASE("The thin wall is as thick as asked, the lights as far apart") {
+TEST_CASE("The thin wall is as thick as given, the lights as far apart") {
     const auto extent = [](const SceneDescription& scene, const Body& body) {
         float low = INFINITY;
         float high = -INFINITY;

@@ -1,4 +1,4 @@
-// The shipped scenes are what they claim to be: numbers of the measured box, closed bodies, fronts to the inside.
+// The shipped scenes against their sources: the published numbers of the box, closed bodies, fronts to the inside.
 #include <algorithm>
 #include <cmath>
 #include <map>

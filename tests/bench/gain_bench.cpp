@@ -1,8 +1,8 @@
-// How much less noise learning leaves than default path tracing: mean squared error at equal samples and at equal time,
+// The gain of guiding over default path tracing: mean squared error at equal samples and at equal time,
 // which is processor time, because other work on the machine comes and goes.
 // Usage: gain_bench SCENE... [KEY=NUMBER]...; keys and their defaults are in Setup. The error is measured against two
 // independent halves of a reference, (x-r1)(x-r2), whose noise drops out of the mean. With uniform=1 a last column has the gain
-// over directions that are even over the hemisphere.
+// over directions uniform over the hemisphere.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -22,7 +22,7 @@
 namespace pl::bench {
 namespace {
 
-/// What the command line can change.
+/// Settings of the command line.
 struct Setup {
     std::map<std::string, double> numbers{
         {"spp", 128},        {"seeds", 5},      {"side", 128},

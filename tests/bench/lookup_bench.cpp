@@ -1,4 +1,4 @@
-// How long the searches for a point's radiance volume take, at points where diffuse paths hit.
+// The time of a lookup, at the hit points of diffuse paths.
 // Usage: lookup_bench [SCENE [ROUNDS]]. The searches alternate, and have to agree at every point.
 #include <algorithm>
 #include <cstdio>

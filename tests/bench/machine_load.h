@@ -1,4 +1,4 @@
-// What else the machine did while something was measured.
+// The load of the machine during a measurement.
 #pragma once
 
 #include <ctime>
@@ -9,7 +9,7 @@
 
 namespace pl::bench {
 
-/// Started before a measurement, asked after it. All in processors: 1 is one busy core.
+/// Begun before a measurement and read after it. All in processors: 1 is one busy core.
 class MachineLoad {
 public:
     MachineLoad() : start_(read()) {}

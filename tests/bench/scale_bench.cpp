@@ -1,4 +1,4 @@
-// Large models: what it takes to open, build and trace them, next to Embree in the same run.
+// Large models: the time to open, build and trace them, next to Embree in the same run.
 // Usage: scale_bench [THREADS [SCENE...]]. Without scenes: balls of ten thousand, a hundred thousand and a million
 // triangles. Passes of the three ways
 // to trace alternate, and ratios are those of neighbors, because other work on the machine comes and goes.
@@ -28,7 +28,7 @@ const std::filesystem::path kAssets = std::filesystem::path(PL_SOURCE_DIR) / "as
 constexpr int kSide = 512;
 constexpr int kRounds = 7;
 
-/// Seconds until the first picture of a file is there, as a person waits for it.
+/// Wall-clock seconds from opening a file to its first picture.
 double seconds_to_first_picture(const std::string& name, int threads) {
     const Stopwatch watch;
     const auto scene = std::make_shared<const SceneDescription>(load_scene(name, kAssets));
@@ -38,7 +38,7 @@ double seconds_to_first_picture(const std::string& name, int threads) {
     return watch.seconds();
 }
 
-/// A way to trace, and what it reached.
+/// A tracer and its measured rates.
 struct Tracer {
     const char* name;
     std::unique_ptr<RenderBackend> backend;  ///< none: the plain loop

@@ -1,4 +1,4 @@
-// What a segment of a guided path costs, compared with one of default path tracing.
+// The cost of a segment of a guided path, compared with one of default path tracing.
 // Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER]]]]]; the scene "ball" has a million triangles, the tracer is
 // auto, dense, bvh or embree. Processor time, of one thread unless told otherwise. The methods take turns, one pass each,
 // so that other work on the machine meets all of them; a checksum tells whether two builds make the same pictures.
@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kSide = 512;      ///< of the picture
 constexpr int kWarmUp = 4;      ///< passes before the first that counts
-constexpr int kPrecompute = 4;  ///< paths per cell: what is in the tables hardly matters here
+constexpr int kPrecompute = 4;  ///< paths per cell: the learned values hardly matter to the time
 
 /// One method under way, and the time of its passes.
 class Run {

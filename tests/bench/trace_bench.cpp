@@ -1,4 +1,4 @@
-// How fast the CPU back end traces, next to a plain loop over Embree's single-ray query that does the same work.
+// The speed of the CPU back end, next to a plain loop over Embree's single-ray query that does the same work.
 // Usage: trace_bench [SCENE [PAIRS]]. Passes of both alternate, and only ratios of neighbors are compared, because
 // other work on the machine comes and goes.
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Path tracing whose directions are even over the hemisphere: the yardstick of the thesis, and nothing to render with.
+// Path tracing with directions uniform over the hemisphere: a yardstick, and no method to render with.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace pl::bench {
 
-/// Picture of a scene of diffuse surfaces, `samples` paths per pixel, by the scalar loop of the kernel. Unbiased, so it converges
-/// to what the methods converge to; how long it takes says nothing about them.
+/// Picture of a scene of diffuse surfaces, `samples` paths per pixel, by the scalar loop of the kernel. Unbiased, so it
+/// converges to the picture of the methods; its time says nothing about theirs.
 std::vector<Vec3f> render_uniform(const SceneDescription& scene, const RenderSettings& settings,
                                   std::uint32_t samples, int threads);
 

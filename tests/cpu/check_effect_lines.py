@@ -12,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from callgrind import count_instructions, sum_by
 
 # File of core/kernel: a scene that needs it.
@@ -44,7 +44,7 @@ def spent_in(counts, file):
     return sum(count for name, count in counts.items() if name.endswith("core/kernel/" + file))
 
 
-# What a quick look leaves out: many runs under callgrind take long.
+# Left out by the quick check: many runs under callgrind take long.
 QUICK_PLAIN = PLAIN[2:3]
 QUICK_SCENES = ("coats",)
 

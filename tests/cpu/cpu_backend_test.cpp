@@ -1,4 +1,4 @@
-// What a back end promises to a session besides its pictures: what it refuses, what it keeps, what it says.
+// The contract of a back end besides its pictures: requests that it refuses, state that it keeps, its description.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -28,7 +28,7 @@ std::unique_ptr<RenderBackend> with_empty_film(const Room& room, FilmSlot slot) 
     return backend;
 }
 
-/// What one pass makes of an empty film.
+/// An empty film after one pass.
 std::vector<Vec3f> whole_pass(const Room& room, FilmSlot slot) {
     const auto backend = with_empty_film(room, slot);
     backend->run_pass(pass_of(room, slot));
@@ -176,7 +176,7 @@ TEST_CASE("A pass in parts is the whole pass, and each part keeps to its pixels"
     }
 }
 
-TEST_CASE("Publication in parallel equals publication volume by volume") {
+TEST_CASE("An update in parallel equals an update volume by volume") {
     const Room room;
     HostTables expected = room.empty_tables();
     Uniforms random(9);
@@ -235,7 +235,7 @@ TEST_CASE("Films are kept apart by method and view, and emptied when reset") {
     CHECK(is_black(empty.mean[5]));
 }
 
-TEST_CASE("New volumes forget what was learned, a new scene does not") {
+TEST_CASE("New volumes clear the tables, a new scene does not") {
     const Room room;
     const auto backend = make_backend(room, {.threads = 1});
     CHECK_FALSE(backend->has_field(MethodId::Reinforcement));
@@ -249,7 +249,7 @@ TEST_CASE("New volumes forget what was learned, a new scene does not") {
     CHECK_FALSE(backend->has_field(MethodId::Reinforcement));
 }
 
-TEST_CASE("What is missing is named, not read") {
+TEST_CASE("Missing tables and volumes are named, not read") {
     const Room room;
     const auto bare = make_cpu_backend({.threads = 1});
     bare->reset_film(kBeauty, kWidth, kHeight);
@@ -282,7 +282,7 @@ TEST_CASE("Settings that make no sense are refused") {
     CHECK(make_cpu_backend({})->info().threads >= 1);
 }
 
-TEST_CASE("The back end says what it runs on") {
+TEST_CASE("The back end names its device") {
     const Room room;
     const auto backend = make_backend(room, {.threads = 2});
     CHECK(backend->info().name == "cpu");

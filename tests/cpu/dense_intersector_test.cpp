@@ -72,7 +72,7 @@ std::vector<NamedScene> small_scenes() {
     return scenes;
 }
 
-/// What the tests have seen, so that they cannot pass by seeing nothing.
+/// Counts of the cases met, so that a test cannot pass without meeting any.
 struct Seen {
     int hits = 0;
     int misses = 0;
@@ -117,7 +117,7 @@ TEST_CASE("The hierarchy finds the same hits in a batch") {
     }
 }
 
-// Power of the test above: the rays must hit what is treated apart.
+// Power of the test above: the rays must meet the cases that the code treats apart.
 TEST_CASE("Test rays run exactly through edges") {
     std::vector<NamedScene> scenes = small_scenes();
     const auto grid = std::find_if(scenes.begin(), scenes.end(), [](auto& s) { return s.name == "grid"; });
@@ -156,7 +156,7 @@ TEST_CASE("Batches that do not fill a group are answered in full") {
     }
 }
 
-TEST_CASE("The dense intersector refuses what is too large for it") {
+TEST_CASE("The dense intersector refuses scenes that are too large for it") {
     SceneDescription description;
     description.materials.push_back(gray());
     add_random_triangles(description, 65, 1);

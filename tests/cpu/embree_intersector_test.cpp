@@ -41,7 +41,7 @@ std::vector<Ray> generic_rays(std::uint64_t seed) {
     return rays;
 }
 
-/// Distance between the line of a ray and a segment, relative to how far away the segment is.
+/// Distance between the line of a ray and a segment, relative to the segment's distance.
 double relative_distance(const Ray& ray, Vec3f p, Vec3f q) {
     const Vec3d direction = glm::normalize(Vec3d{ray.direction});
     const auto across = [&](Vec3f point) {

@@ -1,8 +1,8 @@
-// Directions that are chosen for many paths at once are those that are chosen for each alone.
+// Guided directions sampled in SIMD lanes are those sampled for each path alone.
 #include <cstring>
 
 #include "cpu/guided_block.h"
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 
@@ -20,13 +20,13 @@ std::vector<Vec3f> all_around(int count, Uniforms& random) {
     return normals;
 }
 
-/// Mostly any, sometimes the ends of [0, 1) and the middle, where maps and tents change their form.
+/// Mostly uniform, sometimes the ends of [0, 1) and the middle, at which maps and tents change their form.
 float any_number(Uniforms& random) {
     constexpr float kSpecial[] = {0.0f, 0.5f, 0.25f, 0.75f, 1.0f - 0x1p-24f, 0x1p-24f};
     return random.below(8) == 0 ? kSpecial[random.below(6)] : random.next();
 }
 
-/// Fills the groups for one round and compares what comes back with the scalar code.
+/// Fills the groups for one round and compares their directions with those of the scalar code.
 void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, const std::vector<Vec3f>& normals,
                  Uniforms& random) {
     constexpr std::uint32_t kGroups = 3;
@@ -97,7 +97,7 @@ TEST_CASE("Every instruction set chooses the guided directions of one path alone
     }
 }
 
-TEST_CASE("Where there is no volume at all a block of paths is sent on by the BSDF") {
+TEST_CASE("Without volumes a block of paths scatters by the BSDF") {
     PrecomputedMethod method;
     const PathSettings settings;
     ScatterBlock<FeatureSet{}, PrecomputedMethod> block(method, settings);

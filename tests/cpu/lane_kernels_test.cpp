@@ -1,4 +1,4 @@
-// Random numbers that are drawn for many paths at once are those that are drawn for each alone.
+// Random numbers drawn in SIMD lanes are those drawn for each path alone.
 #include <cstring>
 
 #include "core/kernel/methods/default.h"
@@ -47,7 +47,7 @@ TEST_CASE("Every instruction set draws the bits of Rng") {
     }
 }
 
-TEST_CASE("A batch of numbers gives what a vertex draws alone") {
+TEST_CASE("A batch of numbers gives the numbers of a vertex alone") {
     constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);
     const PathSettings settings{.seed = 0x123456789abcdef0u, .stream = Stream::Precompute, .next_event = 1};
     Uniforms random(8);

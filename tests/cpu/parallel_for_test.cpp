@@ -54,7 +54,7 @@ TEST_CASE("Threads together see every index once") {
     }
 }
 
-TEST_CASE("Threads are numbered below the number that was asked for") {
+TEST_CASE("Threads are numbered below the requested number") {
     std::atomic<int> highest{-1};
     std::atomic<int> calls{0};
     run_on_threads(7, [&](int thread) {

@@ -1,4 +1,4 @@
-// Rays that try what an intersector can get wrong: along axes, at edges and corners, from surfaces, of limited length.
+// Rays that are hard for an intersector: along axes, at edges and corners, from surfaces, of limited length.
 #pragma once
 
 #include <vector>
@@ -65,7 +65,7 @@ inline std::vector<Ray> random_rays(const SceneView& scene, std::size_t count, s
     return rays;
 }
 
-/// The closest hits of all rays, and whether anything is in their way.
+/// The closest hits of all rays, and whether they are occluded.
 template <BatchIntersector I>
 RayBatch find_all(const I& intersector, const std::vector<Ray>& rays) {
     const auto count = static_cast<std::uint32_t>(rays.size());

@@ -1,4 +1,4 @@
-// A small room with a lamp and a block, guided by a few volumes, and the back end that holds it.
+// A small room with a lamp and a block, a field of a few volumes, and a back end with both.
 #pragma once
 
 #include "core/fields/place_volumes.h"

@@ -50,7 +50,7 @@ TEST_CASE("Batches of rays through holes have the bits of single rays, by every 
     }
 }
 
-TEST_CASE("A set without cut-outs asks for no more than the closest hits") {
+TEST_CASE("A set without cut-outs finds no more than the closest hits") {
     const HostScene packed = sheets();
     const SceneView scene = packed.view();
     const BvhIntersector single{scene};
@@ -58,8 +58,8 @@ TEST_CASE("A set without cut-outs asks for no more than the closest hits") {
         REQUIRE(same_bits(closest_solid_hit<FeatureSet{}>(scene, single, ray), single.closest_hit(ray)));
 }
 
-// Distances go on behind holes, and segments end where they ended.
-TEST_CASE("What is behind a hole has its true distance, and what is behind the end of a segment is not met") {
+// Distances go on behind holes, and the ends of segments do not move.
+TEST_CASE("Surfaces behind a hole have their true distance, and those behind the end of a segment are not hit") {
     SceneDescription description;
     description.materials = {gray(), gray()};
     description.materials[1].textures.opacity = 0;

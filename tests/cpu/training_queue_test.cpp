@@ -1,7 +1,7 @@
 // Records of several threads end in the sums that one thread alone makes of them.
 #include "cpu/parallel_for.h"
 #include "cpu/training_queue.h"
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 using Record = ReinforcementMethod::Sample;
 
-/// A field of `volumes` volumes whose means are not zero, so that records reach all six sums.
+/// A field of `volumes` volumes whose means are not zero, so that training samples reach all six sums.
 TestField expecting_field(std::size_t volumes) {
     TestField field(2, std::vector<Vec3f>(volumes, Vec3f{0, 0, 1}));
     field.shape.extent = 1.0f;
@@ -20,7 +20,7 @@ TestField expecting_field(std::size_t volumes) {
     return field;
 }
 
-/// Records of all kinds, some of no volume.
+/// Training samples of all kinds, some of no volume.
 std::vector<Record> any_records(std::size_t count, std::size_t volumes, Uniforms& random) {
     std::vector<Record> records(count);
     for (Record& record : records) {
@@ -41,7 +41,7 @@ bool same_sums(const HostTables& a, const HostTables& b) {
 
 }  // namespace
 
-TEST_CASE("Records of many threads give the sums of one, for any number of volumes") {
+TEST_CASE("Training samples of many threads give the sums of one, for any number of volumes") {
     constexpr int kThreads = 4;
     constexpr std::size_t kRecords = 5000;
     Uniforms random(11);

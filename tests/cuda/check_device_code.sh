@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check_device_code.sh NVCC ROOT quick|all|--write: what the device compiler makes of the kernels, without a device.
+# check_device_code.sh NVCC ROOT quick|all|--write: rules for the compiled device code, checked without a device.
 #   - no contraction: not one fused multiply-add, so that a hit is the same on every back end
 #   - no float is summed by atomics, whose order is another in each run
 #   - double arithmetic only in the exact edge test of triangles, once per ray that is traced
@@ -67,8 +67,8 @@ for file in "${files[@]}"; do
     expect "atomic sums of floats in $file" "$(grep -cE '(atom|red)[a-z0-9_.]*\.b?f(16|32|64)' "$work/$file.ptx" || true)" -eq 0
 done
 # Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 63 lobes too, 2047 all. Philox' key schedule and its
-# first multiplier show how many draws there are; doubles how many traversals; rounding down only images and maps need. Smooth
-# normals are told by their roots: what else they add is less than what the compiler makes of the same code in two kernels.
+# first multiplier count the draws; doubles count the traversals; rounding down only images and maps need. Smooth
+# normals are recognized by their square roots: the rest of their code is less than the difference of two compilations.
 measure() {
     local file=$1 bits
     shift

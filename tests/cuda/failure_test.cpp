@@ -19,7 +19,7 @@ RenderSettings small_settings(const SceneDescription& scene) {
     return settings;
 }
 
-/// What a person would do; the message of the error that ended it, empty if none did.
+/// A session as a person drives it; the message of the error that ended it, empty if none did.
 std::string use(const SceneDescription& scene, const RenderSettings& settings) {
     try {
         Session session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
@@ -53,7 +53,7 @@ TEST_CASE("Whatever call fails, the error says so and nothing leaks") {
     for (const std::string call : kCalls)
         for (const bool lasting : {false, true}) {
             int failures = 0;
-            // What fails for good fails in the same places: every third has to do.
+            // A lasting failure fails in the same places: every third has to do.
             for (int successes = 0; successes < 400; successes += lasting ? 3 : 1) {
                 shim::reset();
                 shim::fail(call, cudaErrorMemoryAllocation, successes, lasting);
@@ -85,7 +85,7 @@ TEST_CASE("Without a device the back end says why") {
     CHECK_THAT(text, contains("CUDA: ") && contains("driver"));
 }
 
-TEST_CASE("The CPU takes over: what was learned is kept if it can be fetched, else learned anew") {
+TEST_CASE("The CPU takes over: the field is kept if it can be fetched, else learned anew") {
     const SceneDescription scene = shipped_scene("furnace");
     const RenderSettings settings = small_settings(scene);
     for (const bool lost : {false, true}) {

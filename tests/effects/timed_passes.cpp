@@ -1,4 +1,4 @@
-// Renders passes of a plain scene when it is told to, and says what each took: a program for check_effect_time.py.
+// Renders passes of a plain scene on request and prints the time of each: a program for check_effect_time.py.
 // Usage: timed_passes METHOD [forced]: for each line of input one pass with one thread, answered by a line with its seconds
 // of processor time, at the end of input by a checksum of all pictures. A line "anew" begins another picture first, in
 // other memory. 'forced': the kernel that can do every effect.

@@ -117,7 +117,7 @@ void run_field(std::string_view bytes) {
     read_or_refuse([&] { read_field(sealed); });
 }
 
-/// The first byte says what kind of image the rest pretends to be.
+/// The first byte chooses the kind of image of the rest.
 void run_image(std::string_view bytes) {
     constexpr std::array kSuffixes{".exr", ".pfm", ".hdr", ".png", ".tga", ".bmp", ".jpg"};
     if (bytes.empty()) return;
@@ -181,7 +181,7 @@ const FuzzEntry* find_fuzz_entry(std::string_view name) {
 }
 
 std::string sealed_field(std::string bytes) {
-    constexpr std::size_t kSizeAt = 8 + 4;  // behind what the file is, and its version
+    constexpr std::size_t kSizeAt = 8 + 4;  // behind the magic word and the version
     constexpr std::size_t kChecksumBytes = 8;
     if (bytes.size() < kSizeAt + 8 + kChecksumBytes) return bytes;
     const auto put = [&](std::size_t offset, std::uint64_t value) {

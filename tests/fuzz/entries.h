@@ -1,4 +1,4 @@
-// What fuzzing runs: one entry per kind of input. Each takes any bytes; whatever it does besides reading them or refusing
+// The targets of fuzzing: one entry per kind of input. Each takes any bytes; whatever it does besides reading them or refusing
 // them with an Error(Input) is a defect. libFuzzer calls them in clang builds, a plain test over the corpora everywhere.
 #pragma once
 
@@ -18,7 +18,7 @@ std::span<const FuzzEntry> fuzz_entries();
 /// Null if there is none of this name.
 const FuzzEntry* find_fuzz_entry(std::string_view name);
 
-/// For corpora: a field file whose size and checksum are right, so that what lies behind them is looked at.
+/// For corpora: a field file whose size and checksum are right, so that the checks behind them are reached.
 std::string sealed_field(std::string bytes);
 
 }  // namespace pl::test

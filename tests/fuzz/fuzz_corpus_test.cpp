@@ -30,7 +30,7 @@ std::vector<std::string> contents_of(const fs::path& folder, const std::string& 
     return contents;
 }
 
-/// The entry's own corpus, and what tests/corpus has of its kind.
+/// The entry's own corpus, and the files of its kind in tests/corpus.
 std::vector<std::string> corpus_of(const std::string& name) {
     const fs::path tests = fs::path(PL_SOURCE_DIR) / "tests";
     std::vector<std::string> corpus = contents_of(tests / "fuzz/corpus" / name);
@@ -94,7 +94,7 @@ TEST_CASE("Scripts of the corpora are played on the viewer's model and panels", 
 }
 #endif
 
-// A field of today in the corpus is of another version tomorrow: it would only be refused.
+// A file of an older version is only refused: then the program make_field_corpus has to write the corpus anew.
 TEST_CASE("The corpus of fields holds one of this version", "[hard]") {
     const TemporaryFolder folder;
     bool found = false;

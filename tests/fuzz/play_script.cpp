@@ -46,7 +46,7 @@ SDL_Window* hidden_window() {
     return window;
 }
 
-/// Dear ImGui without anything to draw with, new for each script: what one leaves behind would change the next.
+/// Dear ImGui without a renderer, new for each script: the state of one would change the next.
 class Panels {
 public:
     explicit Panels(SDL_Window* window) : window_(window) {
@@ -132,7 +132,7 @@ std::vector<ScriptCommand> shortened(std::vector<ScriptCommand> commands) {
     return commands;
 }
 
-/// Every value can be read, and what a picture is made with is made of numbers.
+/// Every value can be read, and the settings of the picture are finite.
 void check(const ViewerModel& model, const std::vector<ScriptCommand>& conditions) {
     for (const ScriptCommand& command : conditions)
         holds(command.condition, script_value(model, command.condition.name));

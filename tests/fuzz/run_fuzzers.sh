@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # run_fuzzers.sh SOURCE BUILD CLANG SECONDS ENTRY...: builds the fuzzers in BUILD and runs each for so many seconds over its
-# committed corpus. What it finds anew stays in BUILD/corpus, what ends a fuzzer in BUILD/found, and that is a failure.
+# committed corpus. New inputs stay in BUILD/corpus, those that end a fuzzer in BUILD/found, and that is a failure.
 set -euo pipefail
 source=$1 build=$2 clang=$3 seconds=$4
 shift 4
@@ -18,7 +18,7 @@ for entry in "$@"; do
     esac
     mkdir -p "$build/corpus/$entry" "$build/found"
     echo "fuzz_$entry: $seconds s"
-    "$build/fuzz/fuzz_$entry" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=16384 -print_final_stats=1 \
+    "$build/fuzz/fuzz_$entry" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 -max_len=16384 -print_final_stats=1 \
         -artifact_prefix="$build/found/$entry-" "$build/corpus/$entry" "${seeds[@]}" >"$build/$entry.log" 2>&1 ||
         { failed=1; tail -40 "$build/$entry.log"; }
     grep -E 'number_of_executed_units|new_units_added' "$build/$entry.log" || true

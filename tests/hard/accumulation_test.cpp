@@ -104,7 +104,7 @@ TEST_CASE("Beside a pixel of 1e8 others keep every bit", "[hard]") {
     CHECK(within(pixels[1].sum.x / alone[1].sum.x / 1e8 - 1.0, 1e-7));
 }
 
-// By every method: what was accumulated or learned before the change of size leaves no trace in default path tracing.
+// By every method: the films and fields from before the change of size leave no trace in default path tracing.
 TEST_CASE("Another size and back is a fresh start", "[hard]") {
     const SceneDescription scene = shipped_scene("cornell");
     const RenderSettings settings = small_settings(scene, {MethodId::Default, true});

@@ -35,7 +35,7 @@ const std::vector<std::string> kWays{"--method default", "--method default --nee
                                      "--method reinforcement", "--method reinforcement --nee on"};
 const std::vector<std::string> kLightWays{"--method default --nee on", "--method reinforcement --nee on"};
 
-/// Rule S1 with the pixels as samples: they see the same, each with numbers of its own.
+/// Rule S1 with the pixels as samples: they show the same point with independent random numbers.
 Decision mean_of(const LinearImage& picture, Reference reference, double delta, int channel = 1) {
     Moments pixels;
     for (const glm::vec3& pixel : picture.pixels) pixels.add(static_cast<double>(pixel[channel]));

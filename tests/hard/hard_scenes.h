@@ -1,4 +1,4 @@
-// What can be done to a scene without changing its light, and small scenes with one thing wrong.
+// Changes of a scene that keep its light, and small scenes with one thing wrong.
 #pragma once
 
 #include "tests/support/scenes/closed_scenes.h"
@@ -63,7 +63,7 @@ inline SceneDescription mirrored(const SceneDescription& scene) {
     return result;
 }
 
-/// Vertices of its own, fronts towards where the corners run counter-clockwise.
+/// Vertices of its own; the corners run counter-clockwise as seen from the front.
 inline void add_own_quad(SceneDescription& scene, const std::array<Vec3f, 4>& corners, std::uint32_t material) {
     std::uint32_t v[4];
     for (std::size_t i = 0; i < 4; ++i) v[i] = add_vertex(scene, corners[i]);
@@ -114,14 +114,14 @@ inline double worst_pixel(const Snapshot& snapshot, double expected) {
     return worst;
 }
 
-/// Rule S1 with the pixels as samples: they all see the same, each with numbers of its own.
+/// Rule S1 with the pixels as samples: they all show the same point with independent random numbers.
 inline Decision pixels_mean(const Snapshot& snapshot, Reference reference, double delta) {
     Moments pixels;
     for (const Vec3f& pixel : snapshot.pixels) pixels.add(static_cast<double>(pixel.y));
     return mean_equals(pixels, reference, delta);
 }
 
-/// Nothing a picture may hold: counted samples that are no light, and means that are no numbers.
+/// Defects of a picture: samples counted as invalid, and means that are not finite.
 inline std::uint64_t count_broken(const Snapshot& snapshot) {
     std::uint64_t broken = snapshot.counters.invalid_samples;
     for (const Vec3f& pixel : snapshot.pixels)

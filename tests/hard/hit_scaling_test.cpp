@@ -19,7 +19,7 @@ SceneDescription make_scene(float scale) {
     return scene;
 }
 
-/// What a walk meets, with lengths divided by the scale again.
+/// The hits of a walk, with lengths divided by the scale again.
 struct Step {
     Hit hit;
     Vec3f position, normal, origin;

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Starts the command and kills it after so many seconds, unless it has ended by then.
+/// Starts the command and kills it after so many seconds, unless it has ended before. No verdict depends on the moment.
 void kill_after(const Arguments& command, double seconds) {
     RunningProgram running(program(command));
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -32,8 +32,8 @@ void kill_after(const Arguments& command, double seconds) {
     CHECK((code == 0 || code == 128 + SIGKILL));
 }
 
-/// Names in a folder and below that are not what the program leaves when nothing goes wrong, but for hidden ones of a
-/// writer that was killed.
+/// Names in a folder that are neither expected nor hidden files of a
+/// killed writer.
 std::vector<std::string> strange_names(const fs::path& folder, const std::vector<std::string>& expected) {
     std::vector<std::string> strange;
     for (const auto& entry : fs::directory_iterator(folder)) {

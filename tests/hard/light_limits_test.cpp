@@ -25,7 +25,7 @@ TEST_CASE("A receiver in the plane of a lamp gets nothing from it, to the bit", 
     }
 }
 
-// The floor sees nothing but the lamp: albedo times radiance, less what comes past its edge.
+// The floor receives light from the lamp only: albedo times radiance, less the directions past its edge.
 TEST_CASE("Right under a large lamp the floor is as bright as its albedo says", "[hard]") {
     for (const float height : {1e-3f, 1e-2f}) {
         SceneDescription scene = floor_and_lamp(1.0f, height, 1.0f);
@@ -98,7 +98,7 @@ TEST_CASE("Both sides of a lamp of two sides shine alike", "[hard]") {
     for (const float side : {1.0f, -1.0f}) {
         SceneDescription scene = lamp_above(0.1f, 0.05f).scene;
         scene.materials[1].two_sided_emission = true;
-        for (glm::vec3& position : scene.positions) position.y *= side;  // the front stays where the corners say
+        for (glm::vec3& position : scene.positions) position.y *= side;  // the order of the corners keeps the front
         scene.camera.eye.y *= side;
         INFO("side " << side);
         CHECK(pixels_mean(picture_of(scene, kLightSamples, 64, 16), {lamp_above(0.1f, 0.05f).floor_radiance, 1e-6},
@@ -154,7 +154,7 @@ TEST_CASE("Many lamps whose powers span 24 decades give the light of the bright 
 }
 
 TEST_CASE("A lamp in a closed box leaves it black outside", "[hard]") {
-    SceneDescription scene = floor_and_lamp(10.0f, 20.0f, 0.0f);  // only something to look at
+    SceneDescription scene = floor_and_lamp(10.0f, 20.0f, 0.0f);  // dark: only a floor to render
     scene.materials.push_back({.name = "bright", .emission = Vec3f{1e6f}});
     add_box(scene, {-0.5f, 0.1f, -0.5f}, {0.5f, 1.1f, 0.5f}, false);
     add_own_quad(scene, {Vec3f{-0.4f, 1.0f, -0.4f}, {0.4f, 1.0f, -0.4f}, {0.4f, 1.0f, 0.4f}, {-0.4f, 1.0f, 0.4f}}, 2);

@@ -40,7 +40,7 @@ TEST_CASE("On black surfaces paths end, in one segment each", "[hard]") {
     }
 }
 
-// Nothing is absorbed and nothing gets out: the true answer with emission is infinite. What is left is the net.
+// Nothing is absorbed and nothing gets out: the true radiance with emission is infinite. Only the cut at the depth ends paths.
 TEST_CASE("White closed rooms end at the net, black without a lamp and finite with one", "[hard]") {
     for (const float emission : {0.0f, 1.0f}) {
         const SceneDescription scene = furnace_scene(emission, 1.0f);

@@ -109,7 +109,7 @@ void check_equilibrium(const SceneDescription& scene, std::uint64_t allowed_esca
     CHECK(samples.counters.path.zero_directions <= 2);
     CHECK(samples.counters.path.escaped <= allowed_escapes);
     CHECK(samples.counters.invalid_samples == 0);
-    // 4 operations per vertex, and what is cut off after 64 of them.
+    // 4 operations per vertex, and the cut after 64 of them.
     CHECK(within(off[skipped], 4.0 * 65.0 * 0x1p-24 + std::pow(0.8, 64.0)));
 }
 

@@ -82,7 +82,7 @@ SceneDescription spiky_ball() {
     return scene;
 }
 
-/// What arrives at surfaces less what they reflect is what all of them emit: sum A (1-rho) H = sum A E, in each channel.
+/// The absorbed power equals the emitted power: sum A (1-rho) H = sum A E, in each channel.
 template <FeatureSet F>
 void check_energy(const SceneDescription& description, std::uint32_t paths, double delta) {
     const HostScene packed = pack_scene(description);
@@ -195,8 +195,8 @@ void check_form_factors(int rays, double delta) {
 }  // namespace
 
 // R4. Seeds 5, 6 and 11; 4 scenes, 3 channels each. Enough paths for a resolution of 5 % (0.5 %) by rule S1.
-TEST_CASE("Surfaces of closed scenes absorb what they emit", "[hard]") { check_energy(150000, 0.05); }
-TEST_CASE("Surfaces of closed scenes absorb what they emit, finely", "[hard][nightly]") {
+TEST_CASE("Surfaces of closed scenes absorb the light they emit", "[hard]") { check_energy(150000, 0.05); }
+TEST_CASE("Surfaces of closed scenes absorb the light they emit, finely", "[hard][nightly]") {
     check_energy(16000000, 0.005);
 }
 

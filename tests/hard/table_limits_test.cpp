@@ -26,7 +26,7 @@ HostTables tables_after(const SceneDescription& scene, Estimator estimator, std:
 
 }  // namespace
 
-TEST_CASE("In a dark room nothing is learned, and directions stay possible", "[hard]") {
+TEST_CASE("In a dark room the learned radiance is zero, and directions stay possible", "[hard]") {
     BoxLook look;
     look.albedo.fill(glm::vec3{0.7f});
     const SceneDescription scene = box_scene(look);
@@ -40,8 +40,8 @@ TEST_CASE("In a dark room nothing is learned, and directions stay possible", "[h
     }
 }
 
-// The true answer is infinite: what is learned has to stay a number.
-TEST_CASE("In a white closed room with a lamp what is learned stays finite", "[hard]") {
+// The true radiance is infinite: the learned one has to stay finite.
+TEST_CASE("In a white closed room with a lamp the learned radiance stays finite", "[hard]") {
     for (const float emission : {1e-20f, 1.0f, 1e20f}) {
         const SceneDescription scene = furnace_scene(emission, 1.0f);
         for (const Estimator estimator : kLearners) {
@@ -57,7 +57,7 @@ TEST_CASE("In a white closed room with a lamp what is learned stays finite", "[h
 
 namespace {
 
-/// Fills what a session has learned with one number, as damaged memory or another program might.
+/// Fills a session's tables with one number, as damaged memory or another program might.
 void poison(Session& session, MethodId method, float value) {
     HostTables tables = tables_of(session.backend_access().download_field(method));
     for (LargeArray<float>* list :
@@ -69,7 +69,7 @@ void poison(Session& session, MethodId method, float value) {
 
 }  // namespace
 
-// Tables decide only where paths go: whatever they hold, the picture has to be the same. Seed 1, 1024 pixels, resolves 6 %.
+// Tables decide only directions: whatever they hold, the picture has to be the same. Seed 1, 1024 pixels, resolves 6 %.
 TEST_CASE("Tables full of zeros, infinities, NaN or huge numbers leave the picture right", "[hard]") {
     const SceneDescription scene = furnace_scene(0.5f, 0.5f);
     for (const float value : {0.0f, kInfinity, kNan, -1.0f, 3e38f, 1e-45f}) {
@@ -87,7 +87,7 @@ TEST_CASE("Tables full of zeros, infinities, NaN or huge numbers leave the pictu
     }
 }
 
-// Two volumes stand back to back on a sheet: what one side learns must not reach the other.
+// Two volumes stand back to back on a sheet: training samples of one side must not reach the other.
 TEST_CASE("The dark side of a sheet of no thickness learns nothing", "[hard]") {
     for (const float gap : {0.0f, 1e-5f}) {
         SceneDescription scene;

@@ -1,9 +1,9 @@
-// Checks of what is learned, and of directions drawn from it.
+// Checks of the learned field, and of the directions sampled from it.
 #pragma once
 
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/default.h"
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
 #include "tests/support/scenes/closed_scenes.h"
@@ -11,13 +11,13 @@
 
 namespace pl::test {
 
-/// What a cell of a volume on the floor of the unit cube sees, judged at 17 x 17 directions.
+/// The part of the unit cube in view of a cell of a volume on its floor, judged at 17 x 17 directions.
 enum class Sees { WallX0, Others, Both };
 
 /// Written without the direction map of core/kernel/fields, which may be the mutant.
 inline Sees seen_by_cell(const TableField& field, std::int32_t volume, int cell, Vec3f origin) {
     constexpr int kSteps = 16;
-    // Covers what lies between two directions, and that paths do not all start in one point.
+    // Covers the gaps between the directions, and the spread of the paths' starting points.
     constexpr float kMargin = 1.03f;
     const int side = field.cells.side;
     const Frame frame = field.frame(volume);
@@ -40,8 +40,8 @@ inline Sees seen_by_cell(const TableField& field, std::int32_t volume, int cell,
     return wall == kAll ? Sees::WallX0 : (others == kAll ? Sees::Others : Sees::Both);
 }
 
-/// What a volume on the floor learned is exactly 1 in cells that see only the bright wall, exactly 0 in those that see
-/// none of it; there have to be eight of each kind at least.
+/// The learned radiance of a volume on the floor is exactly 1 in cells that face only the bright wall, exactly 0 in those that
+/// face none of it; there have to be eight of each kind at least.
 inline Decision judge_cells(SmallField& field, std::int32_t volume, Vec3f origin) {
     const TableField view = field.view();
     int bright = 0;
@@ -99,8 +99,8 @@ inline Decision check_probed_cells() {
     return judge_cells(field, volume, field.site(volume).position);
 }
 
-/// In a furnace every target is the fixed point's image of what is known, so cells approach 1 without noise; the
-/// error falls like 1/passes^2 here. 64 passes of 1000 paths, seed 1: every cell with records in half of the passes
+/// In a furnace every target is a function of the learned radiance alone, so cells approach 1 without noise; the
+/// error falls like 1/passes^2 here. 64 passes of 1000 paths, seed 1: every cell with samples in half of the passes
 /// has to be within 2 %.
 inline Decision check_furnace_cells() {
     const HostScene scene = pack_scene(furnace_scene(0.5f, 0.5f));

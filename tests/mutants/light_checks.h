@@ -1,8 +1,8 @@
-// Checks of what paths bring: short versions of tests/statistical/furnace_test.cpp and closed_form_test.cpp.
+// Checks of the radiance of paths: short versions of tests/statistical/furnace_test.cpp and closed_form_test.cpp.
 #pragma once
 
 #include "core/kernel/methods/default.h"
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
 #include "tests/support/scenes/cube_radiosity.h"
@@ -74,7 +74,7 @@ inline Decision check_roulette() {
     return worse_of(mean_equals(radiance, {1.0}, 0.01), mean_equals(squared_deviation, {kRho}, 0.03));
 }
 
-/// Multiplies the albedos of everything that a path meets.
+/// Multiplies the albedos of all vertices of a path.
 struct AlbedoProduct {
     BvhIntersector scene;
     Vec3d* product;

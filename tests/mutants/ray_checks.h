@@ -1,4 +1,4 @@
-// What never happens to a ray: passing between two triangles that share an edge, leaving a closed room, going through a wall
+// Failures of rays: passing between two triangles that share an edge, leaving a closed room, going through a wall
 // whose shading normals lean.
 #pragma once
 

@@ -1,4 +1,4 @@
-// cuda_bench [SECONDS]: what the CUDA back end reaches on the device that is there, as one table. Medians of passes;
+// cuda_bench [SECONDS]: the speed of the CUDA back end on the present device, as one table. Medians of passes;
 // each row runs about SECONDS (default 1). Linear search and tree are compared in the same run.
 #include <algorithm>
 #include <chrono>
@@ -26,7 +26,7 @@ double median(std::vector<double> values) {
 }
 
 struct Row {
-    double milliseconds = 0.0;  ///< a pass and the publication after it
+    double milliseconds = 0.0;  ///< a pass and the update after it
     double paths_per_second = 0.0;
     double ns_per_segment = 0.0;
 };

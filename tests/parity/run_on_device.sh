@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # run_on_device.sh [--built DIR] [RESULTS]: everything that needs a GPU, in under ten minutes: the parity suite, both back
 # ends' pictures bit by bit, a short run of each kernel under compute-sanitizer, the switch of back ends in the viewer, the
-# benchmark, and what Nsight Compute says of the kernels. Tools that are not there are left out, and named. Builds for the
-# GPU that is there, or takes programs that were built elsewhere: DIR is a build folder with pathlight, bin/device_parity,
+# benchmark, and Nsight Compute's analysis of the kernels. Missing tools are left out, and named. Builds for the
+# present GPU, or takes programs that were built elsewhere: DIR is a build folder with pathlight, bin/device_parity,
 # bench/cuda_bench, and in lib/ the shared libraries that the machine lacks. Leaves one file, RESULTS (default cuda-results.md).
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.." || exit 2
@@ -87,7 +87,7 @@ time_switches() {
         frame=$((frame + 60))
     done
     echo "$frame quit" >>"$script"
-    SDL_VIDEODRIVER=dummy timeout 120 "$pathlight" view cornell --backend cpu --method reinforcement --size 1280x720 \
+    SDL_VIDEODRIVER=dummy timeout 600 "$pathlight" view cornell --backend cpu --method reinforcement --size 1280x720 \
         --script "$script" --ui-trace "$trace"
 }
 

@@ -1,5 +1,5 @@
-// The parts that each edit clears, and no others: the table of core/session/edits.h, one case per edit, on real sessions in
-// which every method has rendered and learned.
+// The films, tables, volumes and scene that each edit clears, and no more: the table of core/session/edits.h, at least one
+// case for every alternative of SessionEdit, on real sessions in which all methods have rendered and learned.
 #include <algorithm>
 #include <set>
 
@@ -15,12 +15,12 @@ namespace {
 
 constexpr std::uint32_t kPasses = 2;
 
-/// Even sizes suffice: these tests compare sessions, not pixels.
+/// Odd numbers of rows and columns are for the tests of pictures.
 RenderSettings tiny_settings(const SceneDescription& scene) {
     return small_settings(scene, {MethodId::Default, false}, 40, 30);
 }
 
-/// The parts that an edit may clear, seen from outside.
+/// Everything that an edit may clear, as a caller of the session sees it.
 struct Contents {
     std::array<State, kMethodCount> methods;
     std::shared_ptr<const HostScene> scene;
@@ -64,38 +64,70 @@ bool all_tables_kept(const Contents& before, const Contents& after) {
                               [](const State& a, const State& b) { return same_bits(a.tables, b.tables); });
 }
 
+/// The tables of a learned field's method are those of the field, and the other methods have learned nothing.
+bool only_has(const Contents& contents, const LearnedField& field) {
+    return std::ranges::all_of(all_methods(), [&](const MethodInfo& method) {
+        const HostTables& tables = contents.methods[static_cast<std::size_t>(method.id)].tables;
+        return method.id == field.method ? same_bits(tables, field.tables)
+                                         : std::ranges::all_of(tables.visits, [](std::uint32_t n) { return n == 0; });
+    });
+}
+
+/// A field of other size than that of `settings`, learned elsewhere in the same scene.
+std::shared_ptr<const LearnedField> field_from_elsewhere(const SceneDescription& scene, RenderSettings settings) {
+    settings.method = MethodId::Reinforcement;
+    settings.seed = 11;
+    settings.field.volumes = 50;
+    Session session = make_session(scene, settings, 2);
+    render_passes(session, kPasses);
+    return std::make_shared<const LearnedField>(session.export_field());
+}
+
 struct Case {
     std::string name;
     SessionEdit edit;
     Invalidation cleared;
 };
 
-std::vector<Case> all_cases(const RenderSettings& settings) {
+/// `scene` is the scene of the session.
+std::vector<Case> all_cases(const SceneDescription& scene, const RenderSettings& settings) {
     CameraDescription camera = settings.camera;
     camera.eye.x += 0.1f;
     FieldSettings field = settings.field;
     field.volumes = 50;
     SceneDescription brighter = shipped_scene("door");
     for (MaterialDescription& material : brighter.materials) material.emission *= 2.0f;
+    MaterialDescription darker = scene.materials[0];
+    darker.albedo *= 0.5f;
     return {
         {"camera", EditCamera{camera}, {.films = true}},
         {"size", EditSize{50, 20}, {.films = true}},
         {"seed", EditSeed{7}, {.films = true, .tables = true}},
         {"depth", EditEstimator{10, false}, {.films = true, .tables = true}},
         {"light samples", EditEstimator{64, true}, {.films = true, .tables = true}},
+        {"roulette", EditEstimator{64, false, RouletteRule::Albedo}, {.films = true, .tables = true}},
         {"mixture", EditMixture{{.learned = 0, .bsdf_fraction = 0.3f}}, {.films = true}},
         {"field", EditField{field}, {.films = true, .tables = true, .volumes = true}},
         {"scene",
          EditScene{std::make_shared<const SceneDescription>(brighter)},
          {.films = true, .tables = true, .volumes = true, .scene = true}},
+        {"material", EditMaterial{0, darker}, {.films = true, .tables = true}},
         {"effects", EditEffects{kEveryFeature}, {}},
         {"back end", EditBackend{make_cpu_backend({.threads = 1})}, {}},
         {"restart", EditRestart{}, {.films = true}},
         {"forget", EditForget{}, {.films = true, .tables = true}},
+        {"learned field", EditLearned{field_from_elsewhere(scene, settings)}, {.films = true}},
     };
 }
 
-/// The settings that a session should have after an edit; those of commands and scenes stay.
+/// The scene of a session after an edit.
+SceneDescription edited(SceneDescription scene, const SessionEdit& edit) {
+    if (const auto* replaced = std::get_if<EditScene>(&edit)) return *replaced->scene;
+    if (const auto* changed = std::get_if<EditMaterial>(&edit)) scene.materials[changed->index] = changed->material;
+    return scene;
+}
+
+/// The settings of a session after an edit, but for its method; those of commands and scenes stay.
 RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
     if (const auto* camera = std::get_if<EditCamera>(&edit)) settings.camera = camera->camera;
     if (const auto* size = std::get_if<EditSize>(&edit)) {
@@ -106,25 +138,30 @@ RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
     if (const auto* estimator = std::get_if<EditEstimator>(&edit)) {
         settings.max_depth = estimator->max_depth;
         settings.next_event = estimator->next_event;
+        settings.roulette = estimator->roulette;
     }
     if (const auto* mixture = std::get_if<EditMixture>(&edit)) settings.mixture = mixture->mixture;
     if (const auto* field = std::get_if<EditField>(&edit)) settings.field = field->field;
+    if (const auto* effects = std::get_if<EditEffects>(&edit)) settings.forced_effects = effects->forced;
+    if (const auto* learned = std::get_if<EditLearned>(&edit)) settings.field = learned->field->settings;
     return settings;
 }
 
 }  // namespace
 
-TEST_CASE("Every kind of edit has a case") {
-    std::set<std::size_t> kinds;
-    for (const Case& c : all_cases(tiny_settings(shipped_scene("door")))) kinds.insert(c.edit.index());
-    kinds.insert(SessionEdit(EditMaterial{}).index());  // materials_test.cpp
-    kinds.insert(SessionEdit(EditLearned{}).index());   // learned_field_test.cpp
-    CHECK(kinds.size() == std::variant_size_v<SessionEdit>);
+TEST_CASE("Every kind of edit has a case here") {
+    const SceneDescription scene = shipped_scene("door");
+    std::set<std::size_t> covered;
+    for (const Case& c : all_cases(scene, tiny_settings(scene))) covered.insert(c.edit.index());
+    for (std::size_t i = 0; i < std::variant_size_v<SessionEdit>; ++i) {
+        INFO("alternative " << i << " of SessionEdit");
+        CHECK(covered.contains(i));
+    }
 }
 
 TEST_CASE("Every edit clears what the table says and keeps the rest") {
     const SceneDescription scene = shipped_scene("door");
-    for (const Case& c : all_cases(tiny_settings(scene))) {
+    for (const Case& c : all_cases(scene, tiny_settings(scene))) {
         INFO(c.name);
         CHECK(invalidated_by(c.edit) == c.cleared);
         const std::shared_ptr<RenderBackend> backend = make_cpu_backend({.threads = 2});
@@ -139,21 +176,25 @@ TEST_CASE("Every edit clears what the table says and keeps the rest") {
         CHECK(all_films_empty(after) == c.cleared.films);
         CHECK(all_films_kept(before, after) == !c.cleared.films);
         CHECK(all_tables_empty(after) == c.cleared.tables);
-        CHECK(all_tables_kept(before, after) == !c.cleared.tables);
+        if (const auto* learned = std::get_if<EditLearned>(&c.edit)) {
+            CHECK(only_has(after, *learned->field));
+        } else {
+            CHECK(all_tables_kept(before, after) == !c.cleared.tables);
+        }
         CHECK((after.place_seconds == before.place_seconds) == !c.cleared.volumes);
-        CHECK((after.scene == before.scene) == !c.cleared.scene);
+        const bool repacked = c.cleared.scene || std::holds_alternative<EditMaterial>(c.edit);
+        CHECK((after.scene == before.scene) == !repacked);
     }
 }
 
-TEST_CASE("An edit that clears tables leaves a session like a new one") {
+TEST_CASE("An edit that clears the tables leaves a session like a new one") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = tiny_settings(scene);
-    for (const Case& c : all_cases(settings)) {
+    for (const Case& c : all_cases(scene, settings)) {
         if (!c.cleared.tables) continue;
         Session session = used_session(scene, settings);
         session.apply(c.edit);
-        const auto* replaced = std::get_if<EditScene>(&c.edit);
-        const SceneDescription& new_scene = replaced != nullptr ? *replaced->scene : scene;
+        const SceneDescription new_scene = edited(scene, c.edit);
         for (const MethodInfo& method : all_methods()) {
             INFO(c.name << ", " << method.name);
             RenderSettings fresh_settings = edited(settings, c.edit);
@@ -171,7 +212,7 @@ TEST_CASE("An edit that clears tables leaves a session like a new one") {
 TEST_CASE("An edit that clears the films leaves default path tracing like a new session") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = tiny_settings(scene);
-    for (const Case& c : all_cases(settings)) {
+    for (const Case& c : all_cases(scene, settings)) {
         if (!c.cleared.films || c.cleared.tables) continue;
         INFO(c.name);
         Session session = used_session(scene, settings);
@@ -183,8 +224,8 @@ TEST_CASE("An edit that clears the films leaves default path tracing like a new 
     }
 }
 
-// The first pass after a camera edit is guided by the field that was learned from the old view.
-TEST_CASE("A moved camera keeps the learned field") {
+// The tables that a moved camera keeps are used at once: they guide the first pass of the new view.
+TEST_CASE("A moved camera goes on with the learned field") {
     const SceneDescription scene = shipped_scene("door");
     RenderSettings settings = tiny_settings(scene);
     settings.method = MethodId::Reinforcement;

@@ -1,6 +1,7 @@
 // Work that is stopped at some moment, so that tests can examine sessions in the middle of a pass.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -8,15 +9,22 @@
 
 namespace pl::test {
 
-/// Advances once while another thread sets the stop flag after up to 4 milliseconds, for `delay` in [0, 1].
+/// Advances once while another thread sets the stop flag after the share delay^2 of the time that such a piece of work
+/// takes, for `delay` in [0, 1]. That time is learned from the pieces before, so that stops fall into the work on fast and
+/// on slow machines alike.
 inline Progress advance_interrupted(Session& session, float delay) {
+    static double expected_seconds = 1.0e-3;
     StopFlag stop{false};
-    std::thread other([&] {
-        std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(4000.0f * delay * delay)));
+    std::thread other([&, share = static_cast<double>(delay * delay)] {
+        std::this_thread::sleep_for(std::chrono::duration<double>(share * expected_seconds));
         stop = true;
     });
     const Progress progress = session.advance(slot_of(session), &stop);
     other.join();
+    if (progress == Progress::Stopped)
+        expected_seconds = std::max(expected_seconds, seconds);
+    else
+        expected_seconds = 0.5 * (expected_seconds + seconds);
     return progress;
 }
 

@@ -21,7 +21,7 @@ std::uint32_t passes_for(Estimator estimator, double resolution) {
     else if (estimator.next_event)
         variation = 3.0;
     else if (estimator.method == MethodId::Precomputed)
-        variation = 10.0;  // rare paths through cells that were thought dark weigh much
+        variation = 10.0;  // rare paths through cells learned as dark weigh much
     const double paths = std::pow(variation / (2.0 / 3.0 * resolution / 8.0), 2);
     return static_cast<std::uint32_t>(std::ceil(paths / (kBatches * kSide * kSide)));
 }
@@ -31,7 +31,7 @@ constexpr std::uint64_t kReferenceSeed = 2;
 constexpr std::uint64_t kSeed = 1;
 constexpr std::uint64_t kFirstRunSeed = 1000;
 
-/// One long run; reinforcement learns while it goes, and each pass uses what the passes before it have learned.
+/// One long run; reinforcement learns while it renders, and each pass samples the field of the passes before it.
 Picture one_run(const SceneDescription& scene, Estimator estimator, std::uint64_t seed, double resolution,
                 double noise = 1.0) {
     Session session = make_session(scene, quick_learner(scene, estimator, kSide, seed));
@@ -40,7 +40,7 @@ Picture one_run(const SceneDescription& scene, Estimator estimator, std::uint64_
     return picture;
 }
 
-/// Many runs that know nothing, one batch of four passes each: all samples come from the beginning of learning.
+/// Many runs that begin with an empty field, one batch of four passes each: all samples come from the beginning of learning.
 Picture first_passes(const SceneDescription& scene, Estimator estimator, int runs) {
     constexpr std::uint32_t kPasses = 4;
     Session session = make_session(scene, quick_learner(scene, estimator, kSide, kSeed));
@@ -53,7 +53,7 @@ Picture first_passes(const SceneDescription& scene, Estimator estimator, int run
     return picture;
 }
 
-/// Default path tracing with light samples: learns nothing, and is the least noisy of those that do not.
+/// Default path tracing with light samples: the least noisy estimator without a learned field.
 constexpr Estimator kReference{MethodId::Default, true};
 
 /// `noise`: by how much the scene is noisier than those that passes_for() was measured on.
@@ -129,7 +129,7 @@ TEST_CASE("All methods agree on the row before the lens") { check_agreement("len
 
 TEST_CASE("Refining the placement agrees on the door ajar") { check_refined("door", 0, 0.08); }
 
-// The same with 36 times the samples and more, and what the short ones leave out.
+// The same with 36 times the samples and more, and the cases that the short ones leave out.
 TEST_CASE("All methods agree on the Cornell box within 2 %", "[merge]") { check_agreement("cornell", 0.02); }
 TEST_CASE("All methods agree on the door ajar within 2 %", "[merge]") { check_agreement("door", 0.02); }
 TEST_CASE("The first passes of learning agree on the Cornell box within 2 %", "[merge]") {

@@ -31,7 +31,7 @@ std::uint32_t passes_for(const CubeReference& reference, Estimator estimator, do
     return static_cast<std::uint32_t>(std::ceil(base * (0.04 / delta) * (0.04 / delta)));
 }
 
-/// Middles of the walls of a cube, one after the other in one session: what was learned is kept.
+/// Middles of the walls of a cube, one after the other in one session: the learned field is kept.
 void check_cube(const CubeReference& reference, const std::vector<Wall>& walls, double delta) {
     const SceneDescription scene = cube_scene(reference);
     for (const Estimator estimator : kEstimators) {

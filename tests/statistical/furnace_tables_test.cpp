@@ -1,4 +1,4 @@
-// What is learned in a furnace: e/(1-rho) in every cell of every table.
+// The learned field of a furnace: e/(1-rho) in every cell of every table.
 #include <algorithm>
 
 #include "tests/support/catch.hpp"
@@ -24,7 +24,7 @@ HostTables learned_tables(Session& session) {
     return tables_of(session.backend_access().download_field(session.settings().method));
 }
 
-/// What is left of the old mean where this share of the visits is new.
+/// The share of the old mean that remains where this share of the visits is new.
 double kept_share(double share, LearningRate rate) {
     switch (rate) {
     case LearningRate::SampleMean: return 1.0 - share;
@@ -35,7 +35,7 @@ double kept_share(double share, LearningRate rate) {
     return std::pow(1.0 - share, 4.0);
 }
 
-/// Follows a table through its publications and bounds how far each cell can still be from the fixed point. Targets
+/// Follows a table through its updates and bounds the distance of each cell from the fixed point. Targets
 /// are e + rho V of some volume, so a cell that starts with error E and takes the share s of new targets is left with
 /// at most (1-s) E + s rho max V-error; V averages the cells that were visited. The bound needs nothing of the table
 /// but its visits.
@@ -62,7 +62,7 @@ public:
     double worst_mean() const { return worst_mean_; }
 
 private:
-    /// A volume that saw nothing says 0: an error of 1.
+    /// A volume without samples has mean 0: an error of 1.
     double mean_error(std::size_t volume) const {
         Moments visited;
         for (std::size_t i = volume * cells_; i < (volume + 1) * cells_; ++i)
@@ -77,7 +77,7 @@ private:
     double worst_mean_ = 1.0;
 };
 
-/// Rounding of what is learned, in units of the fixed point 1: the target (4 operations), its fixed-point step, the
+/// Rounding of the learned radiance, in units of the fixed point 1: the target (4 operations), its fixed-point step, the
 /// mean and the update (6), and the sum over 16 cells in V; errors come back multiplied by rho: 1/(1-rho) = 2.
 constexpr double kTableRounding = 2.0 * (4 + 1 + 6 + 16) * static_cast<double>(kRoundoff);
 
@@ -109,7 +109,7 @@ TEST_CASE("Reinforcement learns e/(1-rho) in every cell of the furnace") {
             ErrorBound bound(empty);
             bound.publish(tables, rate);
             for (std::uint32_t pass = 1; pass < passes; ++pass) {
-                session.apply(EditRestart{});  // after the first pass of a picture tables are always published
+                session.apply(EditRestart{});  // tables are always updated after the first pass of a picture
                 render_passes(session, 1);
                 tables = learned_tables(session);
                 bound.publish(tables, rate);

@@ -1,4 +1,4 @@
-// Scenes in which radiance is the same everywhere: they see wrong weights, lost light and wrong counts, whatever the
+// Scenes in which radiance is the same everywhere: they show wrong weights, lost light and wrong counts, whatever the
 // directions. First without any sampling error, path by path; then every pixel and every cell of every table.
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/closed_scenes.h"
@@ -113,7 +113,7 @@ TEST_CASE("Roulette that starts late has the variance of its walk") {
 
 namespace {
 
-/// Small tables: a furnace has nothing to learn but one number, and tables cost a publication per pass.
+/// Small tables: a furnace has nothing to learn but one number, and tables cost an update per pass.
 FieldSettings small_field() {
     FieldSettings field;
     field.volumes = 24;

@@ -36,7 +36,7 @@ Decision shows(const SceneDescription& scene, Estimator estimator, double expect
 
 }  // namespace
 
-// Whatever a path meets, what is emitted and what is reflected add up to 1: no sampling error but that of the cut after 64
+// At every vertex emission and reflected radiance add up to 1: no sampling error but that of the cut after 64
 // vertices. A path brings 1 minus the product of the albedos it met.
 TEST_CASE("Painted rooms in equilibrium show 1 in every pixel of every path, through lattices and a lens too") {
     SceneDescription lens = latticed_furnace();
@@ -87,7 +87,7 @@ TEST_CASE("A plane under a large sun shows its closed form by every method") {
     }
 }
 
-// What each light brings alone adds up: the shares of samples among map, sun and surfaces are weighed rightly. A lamp of
+// The irradiances of the single lights add up: the probabilities of map, sun and surfaces are divided out. A lamp of
 // side 1 at height 1 in the middle of a sky that it hides a part of; S1 against the sum of closed forms would need the
 // hidden part, so it is black and the sky behind it counted out: with light samples and without must agree.
 TEST_CASE("Map, sun and a lamp together are the same with light samples and without") {

@@ -1,4 +1,4 @@
-// What learning is for: fewer paths without light, and less noise from the same number of samples. These compare
+// The gain of learning: fewer paths without light, and less noise from the same number of samples. These compare
 // noise levels, so the means are not judged here.
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shipped_scenes.h"
@@ -45,7 +45,7 @@ double mean_squared_error(const Outcome& a, const Outcome& b) {
     return sum / static_cast<double>(a.pixels.size());
 }
 
-/// What the volumes of a scene have learned on the average.
+/// The learned radiance of a scene's volumes, on the average.
 double learned_light(const SceneDescription& scene, bool next_event, LearningSettings learning,
                      std::uint32_t passes) {
     RenderSettings settings = quick_learner(scene, {MethodId::Reinforcement, next_event}, 64, 1);
@@ -104,7 +104,7 @@ void check_that_guiding_is_not_noisier(const std::string& name, Pictures picture
 
 struct Gain {
     double error;     ///< of default path tracing over that of the method
-    double dark_map;  ///< paths without light, likewise; a map that does not learn from what it brings leaves half to
+    double dark_map;  ///< paths without light, likewise; a map that does not learn while it renders leaves half to
                       ///< the BSDF
     double dark_learned;
 };
@@ -121,15 +121,15 @@ void check_gain_on_the_door(Pictures picture, Gain least) {
                                   << " times as large, paths without light " << guided.zero_share << " against "
                                   << plain.zero_share);
         CHECK(error < plain_error / least.error);
-        // Roulette ends most of those that are left, whose directions were as good.
+        // Roulette ends most of the others, whose directions were as good.
         CHECK(guided.zero_share <= plain.zero_share / (info_of(method).learns ? least.dark_learned : least.dark_map));
     }
 }
 
 }  // namespace
 
-// 64 x 64 pixels, seed 1, 200 volumes of 64 cells. What a path brings is the reference. Targets that ask the table of the
-// next volume get its mean over all points that it serves, and over what came before: with so few volumes that is up to
+// 64 x 64 pixels, seed 1, 200 volumes of 64 cells. The Monte-Carlo target is the reference. Targets that use the table of the
+// next volume get its mean over all points that it serves, and over earlier passes: with so few volumes that is up to
 // 8 % more on these scenes. Where only indirect light is learned, most of a target comes from the light sample of the very
 // point, and the targets agree better, to 3.4 % here.
 TEST_CASE("All targets learn the same light in the Cornell box") {

@@ -1,4 +1,4 @@
-// Surfaces that absorb nothing under an even sky: whatever they do to directions, radiance is that of the sky. Glass is
+// Surfaces that absorb nothing under an even sky: whatever directions they scatter to, radiance is that of the sky. Glass is
 // invisible, pixel by pixel; rough surfaces are on the mean.
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"

@@ -35,7 +35,7 @@ void check_closed(const SceneDescription& scene, std::uint64_t segments) {
     }
 }
 
-/// A room that makes it hard: turned, far from the origin, with walls that meet at acute angles inside.
+/// A hard room: turned, far from the origin, with walls that meet at acute angles inside.
 SceneDescription turned_room(float scale, Vec3f move) {
     SceneDescription scene = shipped_scene("door");
     transform(scene, true, scale, move);

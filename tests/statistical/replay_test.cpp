@@ -1,9 +1,9 @@
-// What a method is told of a path is all that the path brought: from the records alone its radiance comes out again.
+// The training samples of a path are complete: its radiance follows from them alone.
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/integrator/trace_path.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 #include "tests/support/scenes/shipped_scenes.h"
@@ -13,15 +13,15 @@ using namespace pl::test;
 
 namespace {
 
-/// Writes down the first vertex, which has no record, and leaves the others to the method under test.
+/// Notes the first vertex, which has no training sample, and leaves the others to the method under test.
 struct ReplayedMethod : MonteCarloMethod {
     struct Memory : MonteCarloMethod::Memory {
         bool has_met = false;
         bool has_left = false;
         bool first_light_waits = false;
-        Vec3f brought{0.0f};  ///< emission of the first surface, and what it reflects of its light sample
+        Vec3f brought{0.0f};  ///< emission of the first surface, and the part of its light sample that it reflects
         Vec3f first_light{0.0f};
-        Vec3f weight{0.0f};  ///< with which the first vertex was left
+        Vec3f weight{0.0f};  ///< of the direction scattered at the first vertex
     };
 
     Sample observe(Memory& memory, const Observation& observation, const Vertex& vertex,
@@ -57,7 +57,7 @@ struct ReplayedMethod : MonteCarloMethod {
 };
 static_assert(Method<ReplayedMethod>);
 
-/// Paths of a scene whose records give another radiance than the path; those cut for learning are left out.
+/// Paths of a scene whose training samples give another radiance than the path; those cut for learning are left out.
 template <FeatureSet F>
 void check_replay(const std::string& name, bool next_event) {
     constexpr std::uint32_t kSide = 32;
@@ -97,11 +97,11 @@ void check_replay(const std::string& name, bool next_event) {
 
 }  // namespace
 
-TEST_CASE("Records of whole paths give back what the paths brought") {
+TEST_CASE("Training samples of whole paths give back the radiance of the paths") {
     for (const char* name : {"cornell", "open-box", "two-lights", "sky", "spheres"}) {
         check_replay<kCompiledSets[kCompiledSetCount - 1]>(name, false);
         check_replay<kCompiledSets[kCompiledSetCount - 1]>(name, true);
     }
-    // What surfaces without tables get by light samples is in the picture, but the vertex before learns from directions alone.
+    // Light samples at surfaces without tables are in the picture, but the vertex before learns from directions alone.
     for (const char* name : {"coats", "plates"}) check_replay<kCompiledSets[kCompiledSetCount - 1]>(name, false);
 }

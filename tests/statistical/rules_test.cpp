@@ -1,4 +1,4 @@
-// The rules judged on synthetic numbers of which the truth is known: they pass what is equal, find what is planted,
+// The rules judged on synthetic numbers of which the truth is known: they pass equal means, find planted differences,
 // and refuse to decide without power. Every case states how often a correct rule would fail it.
 #include "tests/support/statistics/rules.h"
 
@@ -186,7 +186,7 @@ TEST_CASE("S3 passes a matching density and finds planted errors") {
     CHECK(count_verdicts(moved, Verdict::Fail) == kRepeats);
 }
 
-TEST_CASE("S3 pools small bins, knows impossible ones, and does not decide without power") {
+TEST_CASE("S3 pools small bins, refuses samples in impossible ones, and does not decide without power") {
     const std::vector<std::uint64_t> observed{4, 5, 6, 7, 8, 0};
     const std::vector<double> expected{5, 5, 5, 5, 10, 0};
     CHECK(follows_density(observed, expected, 1.5).verdict == Verdict::Pass);

@@ -1,4 +1,4 @@
-// Light in the shipped scenes: hard ones hide it from paths that do not look for it, easy ones do not, and no path
+// Light in the shipped scenes: unguided paths seldom find it in hard ones, often in easy ones, and no path
 // leaves a sealed room.
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shipped_scenes.h"

@@ -1,4 +1,4 @@
-// What a field holds after training: densities that integrate to one, the light that is really there, and pictures that
+// The field after training: densities that integrate to one, the true incident radiance, and pictures that
 // stay true even if all of it is wrong.
 #include <cmath>
 
@@ -14,7 +14,7 @@ using namespace pl::test;
 
 namespace {
 
-/// Everything that fills a field: the methods, and the targets of the one that learns on the way.
+/// All ways to fill a field: the methods, and the targets of reinforcement learning.
 struct Learner {
     MethodId method = MethodId::Reinforcement;
     LearningSettings learning{};
@@ -92,7 +92,7 @@ double divergence(const std::vector<double>& truth, const std::vector<float>& ta
     return sum;
 }
 
-/// A map of the scene in which all light seems to come through one cell of each volume, the same for all.
+/// A field in which all light comes through one cell of each volume, the same for all.
 LearnedField map_of_one_cell(const SceneDescription& scene) {
     Session session = make_session(scene, quick_learner(scene, {MethodId::Precomputed, false}, 8, 1));
     render_passes(session, 1);
@@ -127,9 +127,9 @@ TEST_CASE("After training every table's density integrates to one") {
     }
 }
 
-// A lamp that reflects nothing over a floor that cannot see itself: the light that arrives is known. The camera sees the
-// floor where a volume stands, so that all records are of the light that arrives there. 1024 paths a pass, seed 1.
-TEST_CASE("What is learned under a lamp comes ever closer to the lamp, whatever the target") {
+// A lamp that reflects nothing over a flat floor: the incident radiance is known. The camera sees the
+// floor at a volume, so that all training samples are of the light at that point. 1024 paths a pass, seed 1.
+TEST_CASE("The field under a lamp comes ever closer to the lamp, whatever the target") {
     const LampOverFloor somewhere = lamp_above(0.1f, 0.05f);
     for (const LearningTarget target : kTargets) {
         RenderSettings settings = Learner{.learning = {target, LearnedLight::All}}.settings(somewhere.scene, 32);
@@ -154,7 +154,7 @@ TEST_CASE("What is learned under a lamp comes ever closer to the lamp, whatever 
             CHECK(now < before);
             before = now;
         }
-        // The uniform share costs at most its logarithm; the rest is noise of 64 cells from 60 000 records, of which each
+        // The uniform share costs at most its logarithm; the rest is noise of 64 cells from 60 000 samples, of which each
         // lit cell gets hundreds.
         CHECK(before < kUniformCost + 0.005);
         CHECK(before > 0.0);
@@ -180,7 +180,7 @@ TEST_CASE("A precomputed map under a lamp holds the lamp") {
 
 namespace {
 
-/// S2: 64 batches of 32 x 32 pixels, seeds 1 and 2. Half of all directions are drawn from tables that know but one cell
+/// S2: 64 batches of 32 x 32 pixels, seeds 1 and 2. Half of all directions are drawn from tables of one bright cell
 /// and their uniform floor.
 void check_wrong_map(std::uint32_t plain_passes, std::uint32_t misled_passes, double resolution) {
     constexpr int kSide = 32;

@@ -1,4 +1,4 @@
-// How much of their tolerances tests use: tests/hard keeps the table of hard cases by it.
+// The share of their tolerances that tests use: a column of the table of hard cases, tests/hard.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace pl::test {
 /// Set by tests/support/margins.cpp in Catch2 programs; elsewhere nobody asks.
 inline void (*on_used_share)(double share) = nullptr;
 
-/// The running test used this share of a tolerance; its largest one counts. Beyond 1 it should have failed.
+/// Notes that the running test used this share of a tolerance; the largest one counts. Beyond 1 it should have failed.
 inline void note_used_share(double share) {
     if (on_used_share != nullptr) on_used_share(share);
 }

@@ -1,4 +1,4 @@
-// Part of every test program: leaves one small file per test with what it took and how much of its tolerances it used,
+// Part of every test program: writes one small file per test with its seconds and the used share of its tolerances,
 // in the folder `margins` of the build. tests/hard makes its table of them.
 #if !__has_include(<catch2/catch_all.hpp>)
 #define CATCH_CONFIG_EXTERNAL_INTERFACES

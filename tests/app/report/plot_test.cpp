@@ -1,7 +1,6 @@
-// Parts of the report: markup, base64, and plots drawn from known numbers.
+// Plots of the report, drawn from known numbers, as SVG and as PNG.
 #include <algorithm>
 
-#include "app/report/markup.h"
 #include "app/report/plot.h"
 #include "tests/support/catch.hpp"
 
@@ -31,22 +30,6 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-TEST_CASE("markup in names is text") {
-    CHECK(escape_markup("<a href='x'>\"&\"") == "&lt;a href=&#39;x&#39;&gt;&quot;&amp;&quot;");
-    CHECK(escape_markup("").empty());
-}
-
-TEST_CASE("base64 of the standard's examples") {
-    CHECK(base64("").empty());
-    CHECK(base64("f") == "Zg==");
-    CHECK(base64("fo") == "Zm8=");
-    CHECK(base64("foo") == "Zm9v");
-    CHECK(base64("foob") == "Zm9vYg==");
-    CHECK(base64("fooba") == "Zm9vYmE=");
-    CHECK(base64("foobar") == "Zm9vYmFy");
-    CHECK(base64(std::string("\xff\xfe\x00", 3)) == "//4A");
-}
 
 TEST_CASE("an SVG plot has ticks, units, a legend, one color per method and one style per back end") {
     const std::string svg = svg_plot(two_lines());

@@ -1,4 +1,4 @@
-// `pathlight report` from outside: one page that needs nothing else, and plots beside it.
+// `pathlight report` as a shell sees it: one page that needs no other file, and plots beside it.
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"
@@ -68,7 +68,7 @@ TEST_CASE("a report is one page with plots, sentences, tables and pictures") {
     CHECK_THAT(read_all(folder / "b/report.html"), contains("class=\"headline\""));
 }
 
-TEST_CASE("2 and 3: what report refuses") {
+TEST_CASE("2 and 3: reports that are refused") {
     const TempDir folder;
     check_refused(2, {"report"}, "'report' needs one folder of 'bench', DIR: got 0");
     check_refused(2, {"report", folder / "a", folder / "b"}, "got 2");

@@ -1,4 +1,4 @@
-// The volume that serves a point: the tree gives the answer of a linear search and of nanoflann, for every kind of input.
+// The lookup of a volume: the tree gives the result of a linear search and of nanoflann, for every kind of input.
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -30,7 +30,7 @@ std::vector<KdNode> tree_of(const Sites& sites) { return build_kd_tree(view_of(s
 
 KdTreeView view(const std::vector<KdNode>& nodes) { return {view_of(nodes)}; }
 
-/// Linear search over the sites themselves: knows nothing of the tree, not even its order.
+/// Linear search over the sites themselves, independent of the tree and its order.
 Nearest search_sites(const Sites& sites, Vec3f position, Vec3f normal) {
     Nearest nearest;
     for (std::uint32_t i = 0; i < sites.size(); ++i)

@@ -1,4 +1,4 @@
-// A scene with sides that light reaches and sides that it does not.
+// A scene with lit and unlit sides of surfaces.
 #pragma once
 
 #include "tests/support/scenes/shapes.h"

@@ -1,4 +1,4 @@
-// Where volumes stand: in proportion to area, on every surface, on the sides that light reaches, reproducibly.
+// Placement of volumes: in proportion to area, on every surface, on the sides that light reaches, reproducibly.
 #include <algorithm>
 #include <set>
 
@@ -47,7 +47,7 @@ std::vector<SideCount> count_sides(const HostScene& scene, const Surfaces& surfa
 
 }  // namespace
 
-TEST_CASE("Counts are the number asked for in proportion to area") {
+TEST_CASE("Counts are the requested number in proportion to area") {
     const HostScene scene = pack_scene(lit_room());
     const Surfaces surfaces = find_surfaces(scene);
     double total = 0.0;
@@ -62,7 +62,7 @@ TEST_CASE("Counts are the number asked for in proportion to area") {
             const double share = surfaces.list[i].area / total * asked;
             CHECK(counts[i].front >= 1);
             CHECK(counts[i].back == 0);
-            // Rounded up or down, and less what surfaces below their share have taken: at most one each.
+            // Rounded up or down, and less the volumes of surfaces below their share: at most one each.
             CHECK(std::fabs(counts[i].front - share) <= 1.0 + 12.0 * share / asked);
         }
     }

@@ -1,4 +1,4 @@
-// Splitting volumes: which ones, where the new ones stand, what they begin with, and that nothing is lost.
+// Refinement: the volumes that are split, the places and first tables of the new ones, and that no sample is lost.
 #include "core/fields/refine_placement.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 constexpr int kSide = 4;
 constexpr std::size_t kCells = kSide * kSide;
 
-/// A placement with tables in which all volumes have seen light from one side, in so many records for each cell.
+/// A placement with tables in which all volumes have received light from one side, in so many samples for each cell.
 struct Learned {
     HostScene scene;
     FieldSettings settings;
@@ -65,7 +65,7 @@ double sum(const Array& values) {
 
 }  // namespace
 
-TEST_CASE("Tables that say the same do not disagree, and the distance grows to 1 with what they differ in") {
+TEST_CASE("Equal tables do not disagree, and the distance grows to 1 with their difference") {
     Learned field(lit_room(), 100);
     // A volume and its neighbour on one plane, and with one frame: around other axes, frames tell 0 from -0.
     const TableField view = field.view();
@@ -78,7 +78,7 @@ TEST_CASE("Tables that say the same do not disagree, and the distance grows to 1
     const std::int32_t other = pair.volume[1];
     CHECK(hellinger2(view, one, other) < 1e-6);
     double before = 0.0;
-    for (const float floor : {0.9f, 0.5f, 0.1f, 0.001f}) {  // a large one hides what differs
+    for (const float floor : {0.9f, 0.5f, 0.1f, 0.001f}) {  // a large one hides the difference
         field.shape.uniform_floor = floor;
         field.teach(static_cast<std::size_t>(one), 1000, false);
         field.teach(static_cast<std::size_t>(other), 1000, true);
@@ -91,18 +91,18 @@ TEST_CASE("Tables that say the same do not disagree, and the distance grows to 1
     CHECK(before > 0.6);
 }
 
-TEST_CASE("The volume that many paths ask and that its neighbours contradict is split") {
+TEST_CASE("The volume that serves many paths and that its neighbours contradict is split") {
     for (const std::size_t planted : {3u, 40u, 77u}) {
         Learned field(lit_room(), 100);
-        field.teach(planted, 1000, true);            // asked for often, unlike the others
-        field.teach((planted + 10) % 100, 1, true);  // unlike the others, but hardly asked for
+        field.teach(planted, 1000, true);            // many samples, unlike the others
+        field.teach((planted + 10) % 100, 1, true);  // unlike the others, but few samples
         const RefinedPlacement refined = field.refine(1);
         REQUIRE(refined.parents.size() == 1);
         CHECK(refined.parents[0] == planted);
     }
 }
 
-TEST_CASE("Volumes are asked for in vain where nothing was learned or all agree") {
+TEST_CASE("No volume is split where nothing was learned or all agree") {
     Learned blank(lit_room(), 50, 0);
     CHECK(blank.refine(50).parents.empty());
     Learned single(lit_room(), 1);
@@ -160,7 +160,7 @@ TEST_CASE("A child stands well away from its parent, and takes about half of its
     CHECK(share < 0.65);
 }
 
-TEST_CASE("No more volumes than asked for, and none beyond the budget") {
+TEST_CASE("No more volumes than requested, and none beyond the budget") {
     Learned field(lit_room(), 100);
     for (std::size_t i = 0; i < field.count(); i += 2) field.teach(i, 100, true);
     for (const std::size_t most : {0u, 1u, 7u, 30u}) CHECK(field.refine(most).parents.size() == most);
@@ -208,7 +208,7 @@ TEST_CASE("All lookups find the same volumes of a refined placement") {
     CHECK(points >= 20 * 200);
 }
 
-TEST_CASE("A child begins with its parent's table, and no record is lost or counted twice") {
+TEST_CASE("A child begins with its parent's table, and no training sample is lost or counted twice") {
     Learned field(lit_room(), 30, 5);
     for (std::size_t i = 0; i < field.count(); i += 2) field.teach(i, 1 + static_cast<std::uint32_t>(i), true);
     Uniforms random(3);

@@ -1,4 +1,4 @@
-// Surfaces: what is joined, what is not, and that any volume on one may serve all of it.
+// Surfaces: triangles that are joined, triangles that are not, and that any volume on a surface may serve all of it.
 #include "core/fields/surfaces.h"
 
 #include <algorithm>

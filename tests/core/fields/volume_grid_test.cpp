@@ -1,4 +1,4 @@
-// Grids on triangles answer what a linear search answers, for every point that rays can find, and for stranger ones.
+// Lookups in the grids on triangles equal a linear search, for every point that rays can hit, and for others.
 #include "core/fields/volume_grid.h"
 
 #include <algorithm>
@@ -179,7 +179,7 @@ TEST_CASE("Grids answer like a linear search in the scenes of the program") {
             const Tally seen = compare_on_paths(placed, description, 20000);
             CHECK(all.wrong == 0);
             CHECK(seen.wrong == 0);
-            CHECK(seen.searched < seen.points / 50);  // of what is lit, hardly anything is left to the tree
+            CHECK(seen.searched < seen.points / 50);  // on lit surfaces hardly a lookup is left to the tree
             CHECK(within_bounds(placed));
         }
 }
@@ -337,7 +337,7 @@ TEST_CASE("Grids do not depend on the number of threads") {
         CHECK(same(one.volumes.grid, with_grid(description, 2000, threads).volumes.grid));
 }
 
-TEST_CASE("Cells keep what they are given") {
+TEST_CASE("Cells keep their entries") {
     const VolumeCell three{0, VolumeCell::kMaxNode, 7};
     CHECK((three.has_nodes() && !three.has_list() && !three.is_searched()));
     CHECK(three.node(0) == 0);

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kPrefixBytes = 8 + 4 + 8;  // what the file is, version, bytes
+constexpr std::size_t kPrefixBytes = 8 + 4 + 8;  // magic word, version, bytes
 constexpr std::size_t kChecksumBytes = 8;
 
 template <class T, class Allocator>
@@ -54,7 +54,7 @@ void check_same(const LearnedField& a, const LearnedField& b) {
     zip(tables_of(a.field), tables_of(b.field), check);
 }
 
-/// Another checksum behind changed bytes, and their number in front: what a broken writer would leave.
+/// A right checksum behind changed bytes, and their right number in front, as a broken writer would write them.
 std::string sealed(std::string bytes) {
     bytes.resize(bytes.size() - kChecksumBytes);
     const auto put = [&](std::size_t offset, std::uint64_t value) {
@@ -142,7 +142,7 @@ TEST_CASE("A field file with any bit flipped is refused") {
 }
 
 // The checksum is right here, as if another program had written the file: sizes, counts and numbers of every kind.
-// Nothing but Error(Input) may come of it; a count that was believed would ask for more memory than there is.
+// Only Error(Input) is allowed; a count that is trusted would allocate more memory than there is.
 TEST_CASE("A field file with any byte replaced and sealed again is read or refused") {
     const TemporaryFolder folder;
     const std::string bytes = written(folder, small_field());

@@ -40,7 +40,7 @@ TEST_CASE("A byte order mark is no part of a text") {
     CHECK(read_text_file(folder.write("b", "\xEF\xBB")) == "\xEF\xBB");
 }
 
-TEST_CASE("What cannot be written is told with the path and leaves nothing behind") {
+TEST_CASE("A file that cannot be written is told with its path and leaves nothing behind") {
     const TemporaryFolder folder;
     const auto message = [&](const fs::path& path) {
         return error_message(ErrorKind::Runtime, [&] { write_file_atomic(path, "new"); });
@@ -169,7 +169,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("What a killed writer left is removed by the next one, and what a living one writes is not", "[hard]") {
+TEST_CASE("Leftovers of a killed writer are removed by the next one, files of a living one are not", "[hard]") {
     const TemporaryFolder folder;
     const OtherWriter killed(folder.path() / "a");
     const OtherWriter living(folder.path() / "b");

@@ -128,7 +128,7 @@ TEST_CASE("Pictures that cannot be written leave nothing behind") {
     CHECK(folder.file_count() == 0);
 }
 
-TEST_CASE("Pictures that are not what they should be are refused") {
+TEST_CASE("Files that are no pictures of their kind are refused") {
     const TemporaryFolder folder;
     const std::string path = folder.write("a", "something else entirely").string();
     CHECK_THAT(input_error([&] { read_exr(path); }), contains("not an EXR file"));
@@ -164,7 +164,7 @@ TEST_CASE("Truncated pictures are refused at every length") {
     }
 }
 
-TEST_CASE("EXR files of half floats keep three digits, limit what is too bright, and are smaller") {
+TEST_CASE("EXR files of half floats keep three digits, limit radiance that is too bright, and are smaller") {
     const TemporaryFolder folder;
     LinearImage image{.width = 64, .height = 64, .pixels = {}};
     for (int i = 0; i < 64 * 64; ++i) image.pixels.emplace_back(0.001f * static_cast<float>(i) + 0.1f);

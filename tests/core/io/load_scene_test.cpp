@@ -28,7 +28,7 @@ std::vector<std::filesystem::path> scenes_in(const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE("Corpus: what must be refused") {
+TEST_CASE("Corpus: files to be refused") {
     const auto paths = scenes_in("refused");
     CHECK(paths.size() >= 10);
     for (const auto& path : paths) {
@@ -37,7 +37,7 @@ TEST_CASE("Corpus: what must be refused") {
     }
 }
 
-TEST_CASE("Corpus: what must load") {
+TEST_CASE("Corpus: files to be loaded") {
     const auto paths = scenes_in("accepted");
     CHECK(paths.size() >= 5);
     for (const auto& path : paths) {

@@ -1,4 +1,4 @@
-// What is read and written does not depend on the language of the machine.
+// Files are read and written alike in every locale.
 #include <clocale>
 #include <cstring>
 #include <locale>
@@ -21,7 +21,7 @@ class CommaPunctuation : public std::numpunct<char> {
     std::string do_grouping() const override { return "\3"; }
 };
 
-/// What a scene and a picture become, byte by byte.
+/// A scene and a picture, read and written, byte by byte.
 std::string outcome() {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl a\nKd 0.125 0.3 0.7\nKe 1.5 2500.25 0\n");

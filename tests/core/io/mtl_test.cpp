@@ -1,4 +1,4 @@
-// MTL files: values, their limits, what they mean, and what is left out.
+// MTL files: values, their limits, their meaning, and entries that are left out.
 #include "core/io/mtl.h"
 
 #include <cmath>
@@ -65,7 +65,7 @@ TEST_CASE("Of two materials with one name the first counts") {
     CHECK_THAT(loaded.warnings[0], contains("m.mtl:3: material 'a'"));
 }
 
-TEST_CASE("What changes the picture but is not supported is told once, the rest is silent") {
+TEST_CASE("Unsupported entries that change the picture are told once, the rest is silent") {
     const SceneDescription loaded =
         load("newmtl a\nKd 0.5 0.5 0.5\nbump c.png\nmap_Ks d.png\nmap_Ka e.png\nKa 1 1 1\n"
              "newmtl b\nKd 0.5 0.5 0.5\nbump f.png\n");
@@ -118,7 +118,7 @@ TEST_CASE("The table of illumination models") {
         Case{"Kd 0.5\n", SurfaceKind::Diffuse}, Case{"Kd 0.5\nillum 2\nKs 0 0 0\nNs 10\n", SurfaceKind::Diffuse},
         Case{both + "illum 0\n", SurfaceKind::Diffuse}, Case{both + "illum 1\n", SurfaceKind::Diffuse},
         Case{both + "illum 2\n", SurfaceKind::Plastic}, Case{both, SurfaceKind::Plastic},
-        Case{"Kd 0.5\nKs 1 1 1\n", SurfaceKind::Diffuse},  // no exponent: nobody knows how wide
+        Case{"Kd 0.5\nKs 1 1 1\n", SurfaceKind::Diffuse},  // no exponent: unknown width
         Case{both + "illum 3\n", SurfaceKind::Conductor}, Case{both + "illum 5\n", SurfaceKind::Conductor},
         Case{both + "illum 8\n", SurfaceKind::Conductor},
         Case{"Kd 0.8\nKs 0.1\nNs 10\nillum 3\n", SurfaceKind::Plastic},

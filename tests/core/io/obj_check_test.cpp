@@ -1,4 +1,4 @@
-// Files that are wrong: a message with file and line, never a crash. Most worth when run with sanitizers.
+// Malformed files: a message with file and line, never a crash. Most effective with sanitizers.
 #include <random>
 #include <string>
 #include <vector>
@@ -149,7 +149,7 @@ TEST_CASE("Vertices with too few numbers are refused") {
     CHECK_THAT(load_text("v 1 2 3\nvn\n"), contains("bad.obj:2: 'vn': expected 3 numbers, got 0"));
 }
 
-TEST_CASE("Numbers of many digits are read as what they are") {
+TEST_CASE("Numbers of many digits keep their value") {
     const TemporaryFolder folder;
     const std::string zeros(400, '0');
     const std::string text = "v 1" + zeros + "e-400 0." + zeros + "1 0" + zeros + "2\nv 5 0 0\nv 0 5 0\nf 1 2 3\n";
@@ -184,7 +184,7 @@ TEST_CASE("Large faces are triangulated, larger ones refused") {
     CHECK_THAT(load_text(kTriangle + face), contains("bad.obj:4: a face with 65537 corners"));
 }
 
-TEST_CASE("What is missing or not a file is named") {
+TEST_CASE("Missing files and folders in place of files are named") {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder.path() / "dir.obj");
     std::filesystem::create_directories(folder.path() / "dir.json");

@@ -1,4 +1,4 @@
-// OBJ files that are right: geometry, normals, materials, and what is corrected with a warning.
+// Valid OBJ files: geometry, normals, materials, and faults that are corrected with a warning.
 #include "core/io/obj.h"
 
 #include <cmath>
@@ -142,7 +142,7 @@ TEST_CASE("Names of materials may have blanks and any letters") {
     CHECK(scene.materials[scene.triangles[0].material].name == "my  red \xE4# 1");
 }
 
-TEST_CASE("What has no material gets the default one and one warning") {
+TEST_CASE("Faces without a material get the default one and one warning") {
     struct Case {
         const char* name;
         std::string obj;
@@ -187,7 +187,7 @@ TEST_CASE("Several libraries, and names of libraries with blanks") {
     CHECK(scene.triangles[0].material == 1);
 }
 
-TEST_CASE("What cannot be used is left out with one counted warning each") {
+TEST_CASE("Entries that cannot be used are left out with one counted warning each") {
     const SceneDescription scene =
         load("mtllib m.mtl\nusemtl red\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1\nv 2 0 0\n"
              "f 1 2\nf 3\nf 1 2 4\nf 1 2 2 3\nf 1 1 1\ncurv 1 2\nf 1 2 3\nl 1 2\n");

@@ -1,4 +1,4 @@
-// Scene files, scenes by name, and where the scenes are.
+// Scene files, scenes by name, and the folder of the scenes.
 #include "core/io/scene_json.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::string refused(const std::string& members) {
 
 }  // namespace
 
-TEST_CASE("A scene file with only what is required frames its geometry") {
+TEST_CASE("A scene file with only the required members frames its geometry") {
     const SceneDescription scene = load("");
     CHECK(scene.name == "scene");
     CHECK(scene.source.filename() == "scene.json");

@@ -1,4 +1,4 @@
-// Knobs of scene files: what they move, what they leave alone, and how wrong ones are refused.
+// Knobs of scene files: the vertices that they move and those that stay, and refusals of wrong ones.
 #include "core/io/scene_knobs.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ SceneDescription load(const std::string& knob, const KnobValues& asked = {}) {
     return load_scene(folder.write("scene.json", text).string(), folder.path(), asked);
 }
 
-/// A knob "k" from -10 to 10 with default 1, and what it does.
+/// A knob "k" from -10 to 10 with default 1, with this effect.
 std::string knob_that(const std::string& does) {
     return R"("k": {"default": 1, "range": [-10, 10], "does": "turn it",)"
            "\n" +

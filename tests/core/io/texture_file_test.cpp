@@ -85,7 +85,7 @@ TEST_CASE("HDR files are linear and their rows go from the top") {
     CHECK(texture.texels[1] == glm::vec4(1.0f));
 }
 
-// The decoder would wait for ever for a run of no length to end.
+// The decoder would wait for ever for the end of a run of length zero.
 TEST_CASE("Coded lines of HDR files are whole, or the file is refused") {
     const auto coded = [](const std::string& runs) { return hdr(8, 1, std::string("\x02\x02\x00\x08", 4) + runs); };
     const std::string run("\x88\x80", 2);                                         // eight times the same
@@ -105,7 +105,7 @@ TEST_CASE("Coded lines of HDR files are whole, or the file is refused") {
     }
 }
 
-// The decoder takes what is missing for black or gray: 23 bytes made a texture of 25 million texels.
+// The decoder fills missing data with black or gray: 23 bytes made a texture of 25 million texels.
 TEST_CASE("Images that end too early are refused, wherever they are cut") {
     constexpr int kWidth = 13;
     constexpr int kHeight = 6;
@@ -120,7 +120,7 @@ TEST_CASE("Images that end too early are refused, wherever they are cut") {
     REQUIRE(stbi_write_tga_to_func(append, &coded_tga, kWidth, kHeight, 3, rgb.data()) != 0);
     struct File {
         std::string name, bytes;
-        std::size_t filling;  ///< bytes at the end that hold nothing
+        std::size_t filling;  ///< bytes of padding at the end
     };
     for (const File& file : {File{"a.jpg", jpeg, 0}, File{"a.bmp", bmp, kWidth % 4}, File{"a.tga", coded_tga, 0},
                              File{"a.tga", tga(3, 2, std::string(4 * 6, '\x50')), 0}}) {
@@ -138,7 +138,7 @@ TEST_CASE("Images that end too early are refused, wherever they are cut") {
     CHECK_THAT(input_error([&] { read("a.tga", promised, TextureContent::Color); }), contains("ends too early"));
 }
 
-TEST_CASE("What is no light counts as 0, with one warning that counts") {
+TEST_CASE("Values that are no radiance count as 0, with one counted warning") {
     const TemporaryFolder folder;
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInf = std::numeric_limits<float>::infinity();

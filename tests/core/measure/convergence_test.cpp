@@ -52,7 +52,7 @@ TEST_CASE("runs that miss a target are counted, not dropped") {
     CHECK(std::isnan(none.cost.value));
 }
 
-TEST_CASE("slopes tell noise from a floor") {
+TEST_CASE("slopes distinguish noise from a floor") {
     CHECK_THAT(log_slope(noise_curve(8.0)), WithinRel(-1.0, 1e-12));
     Curve biased = noise_curve(8.0);
     for (CurvePoint& point : biased) point.error += 0.5;

@@ -1,4 +1,4 @@
-// FLIP on pictures without structure, where the paper's formulas can be followed by hand, and what holds for all pictures.
+// FLIP on pictures without structure, for which the paper's formulas can be followed by hand, and properties of all pictures.
 #include "core/measure/flip.h"
 
 #include <cmath>
@@ -38,7 +38,7 @@ float linear(double srgb) {
 TEST_CASE("equal pictures differ nowhere, and the largest difference of colors is one") {
     const Picture a = random_picture(1);
     for (const float value : flip_map(a, a, kSide)) CHECK(value == 0.0f);
-    // Green and blue are what the scale ends with.
+    // Green and blue are the ends of the scale.
     for (const float value : flip_map(plain({0, 1, 0}), plain({0, 0, 1}), kSide))
         CHECK_THAT(value, WithinAbs(1.0, 1e-6));
 }
@@ -96,7 +96,7 @@ TEST_CASE("noise is seen less where pixels are finer") {
     CHECK(flip(a, b, 67.0) < flip(a, b, 20.0));
 }
 
-TEST_CASE("what a display cannot show makes no difference") {
+TEST_CASE("differences that a display cannot show count nothing") {
     CHECK(flip(plain(Vec3f(1.0f)), plain(Vec3f(100.0f))) == 0.0);
     CHECK(flip(plain(Vec3f(0.0f)), plain(Vec3f(-1.0f))) == 0.0);
     CHECK(flip(plain(Vec3f(0.0f)), plain(Vec3f(std::numeric_limits<float>::quiet_NaN()))) == 0.0);

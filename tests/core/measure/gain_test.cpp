@@ -1,4 +1,4 @@
-// Gains by hand: who needs how many samples at what cost, who is ahead when, and how that is put.
+// Gains by hand: samples needed and their cost, the time from which a method is ahead, and the sentences about it.
 #include "core/measure/gain.h"
 
 #include <cmath>
@@ -45,7 +45,7 @@ TEST_CASE("fewer samples, dearer samples, and their product") {
                         "(95 %: 2.8 to 3.2), ahead from 0.5 s on"));
 }
 
-TEST_CASE("a loss is told like a gain") {
+TEST_CASE("a loss is reported like a gain") {
     const Gain gain = gain_of(Runs(2.0, 0.0, 50.0), Runs(6.0, 0.0, 100.0));
     CHECK_THAT(gain.net.value, WithinRel(1.0 / 3.0, 1e-9));
     CHECK_FALSE(gain.ahead_from_seconds);
@@ -73,7 +73,7 @@ TEST_CASE("equal methods are undecided, few runs have no interval, no error no r
     CHECK_THAT(headline(gain_of(Runs(2.0, 0.0, 50.0), below), "default"), contains("cannot be compared"));
 }
 
-TEST_CASE("what all runs cover") {
+TEST_CASE("the range that all runs cover") {
     const Runs a(1.0, 0.0, 1.0), b(1.0, 4.0, 1.0);
     std::vector<Curve> both = a.curves;
     both.insert(both.end(), b.curves.begin(), b.curves.end());

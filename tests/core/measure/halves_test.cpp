@@ -63,7 +63,7 @@ TEST_CASE("a bias of half a percent is found as bias, and noise alone is not tak
         CHECK(parts.signed_bias.error < 0.001);
         CHECK_THAT(parts.signed_bias.value, WithinAbs(bias, 5.0 * parts.signed_bias.error));
         CHECK((std::fabs(parts.signed_bias.value) > 5.0 * parts.signed_bias.error) == (bias != 0.0));
-        // The variance is the same with bias and without: what is planted does not show up as noise.
+        // The variance is the same with and without bias: the planted bias does not show up as noise.
         CHECK_THAT(parts.variance, WithinRel(0.5 * 0.01 / 1.01, 0.06));
         CHECK_THAT(parts.reference_noise, WithinRel(0.5 * 1e-4 / 1.01, 0.06));
         CHECK_THAT(parts.squared_bias.value, WithinAbs(bias * bias / 1.01, 5.0 * parts.squared_bias.error));
@@ -80,7 +80,7 @@ TEST_CASE("the squared bias is seen where it exceeds the noise of its estimate")
     CHECK(std::fabs(none.squared_bias.value) < 4.9 * none.squared_bias.error);
 }
 
-TEST_CASE("what cannot be taken apart") {
+TEST_CASE("errors that cannot be taken apart") {
     const Picture four(4, Vec3f(1.0f));
     CHECK_THROWS_AS(take_apart({four, four}, {four, Picture(3)}, 2), Error);
     CHECK_THROWS_AS(take_apart({four, four}, {four, four}, 3), Error);
@@ -90,7 +90,7 @@ TEST_CASE("what cannot be taken apart") {
     const ErrorParts parts = take_apart({four, broken}, {four, four}, 2);
     CHECK(parts.pixels == 3);
     CHECK(parts.invalid == 1);
-    // One block says nothing about how much blocks differ.
+    // One block gives no variance between blocks.
     CHECK_FALSE(parts.signed_bias.is_seen());
 }
 

@@ -1,5 +1,5 @@
-// Runs as a viewer records them, on real sessions of a furnace: what is one run and what another, what is measured when,
-// and what memory takes away.
+// Runs as a viewer records them, on real sessions of a furnace: their identity, the times of their measurements,
+// and the pictures that a limit of memory removes.
 #include "core/measure/live_runs.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ struct Recording {
         : session(make_session(scene, quick_learner(scene, {method, false}, kSide, 1))),
           runs(cap, {}, allowance), slot{method, View::Beauty} {}
 
-    /// So many samples per pixel more, observed one by one; how often the set changed.
+    /// Renders so many more samples per pixel, observed one by one; the number of changes of the set.
     int render(std::uint32_t passes) {
         int changes = 0;
         const std::uint32_t target = session.passes(slot) + passes;
@@ -44,7 +44,7 @@ struct Recording {
         }
         return changes;
     }
-    /// Until the picture has so many points more. However long the machine was busy with something else in between.
+    /// Renders until the picture has so many more points, however busy the machine.
     void record(std::size_t points) {
         for (std::size_t added = 0; added < points;) {
             const std::size_t before = points_in_progress();
@@ -71,7 +71,7 @@ struct Recording {
     }
 };
 
-/// What points are spaced by.
+/// The time that spaces the points.
 double seconds_of(const LivePoint& point) { return point.clocks.learn + point.clocks.render; }
 
 std::size_t points_of(const LiveRunSet& set) {
@@ -88,7 +88,7 @@ std::size_t pictures_of(const LiveRun& run) {
 
 }  // namespace
 
-TEST_CASE("the charged time is told while no point is due") {
+TEST_CASE("the charged time is reported while no point is due") {
     Recording recording(kPlenty, {1e-9, 0.0});  // measuring may take next to nothing: one point, and then none
     recording.render(2);
     REQUIRE(recording.last().points.size() == 1);
@@ -100,7 +100,7 @@ TEST_CASE("the charged time is told while no point is due") {
     CHECK(recording.runs.current()->measure_seconds == spent);
 }
 
-TEST_CASE("points are a twelfth of a decade apart and tell cost, noise and picture") {
+TEST_CASE("points are a twelfth of a decade apart and hold cost, noise and picture") {
     Recording recording;
     CHECK(recording.runs.current()->runs.empty());
     CHECK(recording.runs.current()->picture_bytes_cap == kPlenty);
@@ -156,7 +156,7 @@ TEST_CASE("another method is another run, and the way back goes on with the firs
     REQUIRE(recording.count() == 2);
     CHECK(recording.run(0).in_progress);
     CHECK(recording.run(0).points.size() > points);
-    // What the other method needed is not charged here.
+    // The cost of the other method is not charged here.
     CHECK(recording.run(0).points.back().clocks.place == 0.0);
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("a restart begins a new run, a warm one where something was learned, a
         CHECK(recording.run(0).points.size() > 1);
         CHECK_FALSE(recording.run(0).in_progress);
         if (learns) CHECK(recording.run(0).points.front().clocks.place > 0.0);
-        // What a warm run found there was not spent by it.
+        // A warm run is not charged for the field that it began with.
         CHECK(recording.run(1).points.front().clocks.place == 0.0);
         CHECK(recording.run(1).points.front().clocks.precompute == 0.0);
         recording.session.apply(EditForget{});
@@ -184,7 +184,7 @@ TEST_CASE("a restart begins a new run, a warm one where something was learned, a
     }
 }
 
-TEST_CASE("another camera or size is another picture, and what hardly began is forgotten") {
+TEST_CASE("another camera or size is another picture, and runs that hardly began are forgotten") {
     Recording recording;
     recording.record(3);
     CameraDescription camera = recording.session.settings().camera;
@@ -257,7 +257,7 @@ TEST_CASE("the first measurement waits until it is paid for, too") {
     patient.render(200);
     CHECK(patient.count() == 0);
     CHECK(patient.runs.current()->measure_seconds == 0.0);
-    Recording modest(kPlenty, {0.01, 1e-9});  // 0.26 us, which the second pass has paid for
+    Recording modest(kPlenty, {0.01, 1e-15});  // a fraction of a clock tick, which the second pass has paid for
     modest.render(2);
     CHECK(modest.count() == 1);
 }
@@ -267,7 +267,7 @@ TEST_CASE("the share of measuring is one of all runs together") {
     Recording never(kPlenty, {0.0, 0.0});
     never.render(500);
     REQUIRE(never.count() == 1);
-    CHECK(never.run(0).points.size() == 1);  // nothing was known of what it would cost
+    CHECK(never.run(0).points.size() == 1);  // its cost was not known before
     CHECK(never.runs.current()->measure_seconds > 0.0);
     never.slot.method = MethodId::Reinforcement;
     never.render(50);
@@ -309,7 +309,7 @@ TEST_CASE("errors are measured against the reference of the same picture, in the
     for (const LivePoint& point : recording.last().points) CHECK_FALSE(point.metrics);
 
     recording.runs.set_reference(nullptr);
-    CHECK(recording.run(0).points.back().metrics);  // what was measured stays
+    CHECK(recording.run(0).points.back().metrics);  // measured metrics stay
     auto broken = recording.truth();
     broken->second.pop_back();
     CHECK_THROWS_AS(recording.runs.set_reference(broken), Error);

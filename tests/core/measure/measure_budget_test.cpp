@@ -1,4 +1,4 @@
-// What measuring may take of the time it measures: by hand, with seconds that are made up.
+// The budget of measuring, a share of the measured time: by hand, with made-up seconds.
 #include "core/measure/measure_budget.h"
 
 #include <limits>
@@ -47,7 +47,7 @@ TEST_CASE("a guess holds until something was measured") {
     CHECK(budget.allows(1.01));
 }
 
-TEST_CASE("what is known to take longer has to fit in beforehand") {
+TEST_CASE("a measurement that will take longer has to fit in beforehand") {
     MeasureBudget budget(0.01);
     budget.spend(0.02);
     budget.expect_more(0.01);

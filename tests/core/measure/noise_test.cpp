@@ -1,4 +1,4 @@
-// Noise without a reference: by hand, and where the truth is known.
+// Noise without a reference: by hand, and on noise of known size.
 #include "core/measure/noise.h"
 
 #include <cmath>
@@ -52,8 +52,8 @@ TEST_CASE("noise of halves by hand") {
     CHECK(estimate_noise({Picture{}, Picture{}}, 1).pixels == 0);
 }
 
-// 200 experiments, seeds 1000 to 1399: the spread of their results has a relative standard error of 5 %, and the mean of what
-// each says of itself, from 64 blocks, one of 1 %.
+// 200 experiments, seeds 1000 to 1399: the spread of their results has a relative standard error of 5 %, and the mean of
+// their own estimates of it, from 64 blocks, one of 1 %.
 TEST_CASE("noise says how far it may be off") {
     double sum = 0.0, squares = 0.0, said = 0.0;
     constexpr int kExperiments = 200;
@@ -68,7 +68,7 @@ TEST_CASE("noise says how far it may be off") {
     CHECK(std::isinf(estimate_noise({Picture{Vec3f(1.0f)}, Picture{Vec3f(2.0f)}}, 1).relmse_off));
 }
 
-TEST_CASE("the window ends at the border and leaves out what is not finite") {
+TEST_CASE("the window ends at the border and leaves out pixels that are not finite") {
     // One bright pixel in the corner of a picture of 11 x 7: seen from up to 4 pixels away, divided by the window there.
     constexpr int kWidth = 11, kHeight = 7;
     Picture a(kWidth * kHeight, Vec3f(0.0f));
@@ -90,7 +90,7 @@ TEST_CASE("the window ends at the border and leaves out what is not finite") {
     CHECK_THAT(relative(10, 6), WithinRel(100.0, 1e-2));
 }
 
-TEST_CASE("halves tell the noise of their mean") {
+TEST_CASE("halves give the noise of their mean") {
     // 16384 pixels: the estimate has a relative deviation of sqrt(2 / 16384) = 1.1 %; 5.5 % are five of them.
     const Picture a = noisy(0.2, 1);
     const Picture b = noisy(0.2, 2);
@@ -106,7 +106,7 @@ TEST_CASE("a picture that has hardly found any light is as noisy as it is") {
         const double truth = 19.0 / (2.0 * samples) / 1.01;
         CAPTURE(samples, truth);
         // 81 pixels in a window: their mean is off by sqrt(19 / (2 n 81)), 0.34 to 0.06, of which the square is off by
-        // twice that; and what is divided by less weighs more.
+        // twice that; and pixels divided by less weigh more.
         const double relmse = estimate_noise({a, b}, kSide).relmse;
         CHECK(relmse > 0.8 * truth);
         CHECK(relmse < 1.4 * truth);

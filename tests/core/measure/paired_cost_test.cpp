@@ -1,4 +1,4 @@
-// What passes in turns say about the cost of one kind against another.
+// The ratio of the costs of two kernels from passes in turns.
 #include "core/measure/paired_cost.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ using namespace pl;
 
 namespace {
 
-/// Adds passes until it is done; `seconds` is asked for (number of the pass, is it of the other kind).
+/// Adds passes until it is done; `seconds` gets (number of the pass, is it of the other kind).
 template <class Seconds>
 PairedCost measured(Seconds&& seconds) {
     PairedCost cost;

@@ -1,4 +1,4 @@
-// What counts for the identity of a converged picture, and what does not.
+// Settings that belong to the identity of a converged picture, and settings that do not.
 #include "core/measure/picture_identity.h"
 
 #include <functional>
@@ -46,7 +46,7 @@ TEST_CASE("everything that decides the converged picture changes its hash") {
     }
 }
 
-TEST_CASE("what only decides the noise does not change the hash") {
+TEST_CASE("settings that only decide the noise do not change the hash") {
     SceneDescription scene = furnace_scene(1.0f, 0.5f);
     RenderSettings settings;
     const std::string hash = picture_hash(scene, settings);

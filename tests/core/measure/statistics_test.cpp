@@ -15,7 +15,7 @@ namespace {
 constexpr int kExperiments = 1000;
 constexpr int kRuns = 10;
 
-/// A squared error as runs have it: a sum of few squares, so skewed, with the geometric mean that the caller asks for.
+/// A squared error like those of runs: a sum of few squares, so skewed, with the given geometric mean.
 class SkewedErrors {
 public:
     SkewedErrors(double geometric_mean, int squares, std::uint64_t seed)
@@ -78,7 +78,7 @@ TEST_CASE("95 % intervals of errors hold the truth in 93 to 97 % of 1000 experim
 }
 
 TEST_CASE("95 % intervals of ratios hold the truth in 93 to 97 % of 1000 experiments") {
-    // Unequal spreads and numbers of runs, which is what Welch's interval is for.
+    // Unequal spreads and numbers of runs, the case of Welch's interval.
     SkewedErrors slow(5e-2, 16, 71);
     SkewedErrors fast(1e-2, 128, 72);
     for (const int fewer : {kRuns, 6}) {
@@ -103,7 +103,7 @@ TEST_CASE("an interval that is too narrow would be found") {
     CHECK(covered < 930);
 }
 
-TEST_CASE("what too little says") {
+TEST_CASE("too few runs give no interval") {
     CHECK(std::isnan(mean_interval({}).value));
     CHECK(std::isinf(mean_interval(std::array{1.0}).high));
     CHECK(std::isnan(geometric_interval(std::array{1.0, 0.0}).value));

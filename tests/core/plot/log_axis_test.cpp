@@ -27,7 +27,7 @@ TEST_CASE("equal factors are equal distances") {
     CHECK(axis.position(1000.0) < 1.0);
 }
 
-TEST_CASE("an exact axis ends where it was told to, and positions lead back to values") {
+TEST_CASE("an exact axis has the given ends, and positions lead back to values") {
     const LogAxis axis = LogAxis::exactly(0.02, 5.0);
     CHECK(axis.low() == 0.02);
     CHECK(axis.high() == 5.0);

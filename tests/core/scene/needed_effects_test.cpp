@@ -1,5 +1,5 @@
-// The scan of what a scene calls for, against a look at each material of random descriptions; and that what is not needed
-// has no memory.
+// The effects that a scene needs, against a look at each material of random descriptions; and that absent effects
+// take no memory.
 #include "core/scene/needed_effects.h"
 
 #include "core/scene/pack_scene.h"
@@ -52,7 +52,7 @@ FeatureSet needed_by_look(const SceneDescription& scene) {
 
 }  // namespace
 
-TEST_CASE("The scan of a scene finds what a look at every part of it finds") {
+TEST_CASE("The scan of a scene finds the effects of all its materials") {
     Uniforms random(1);
     std::uint32_t seen = 0;
     for (int i = 0; i < 60; ++i) {
@@ -67,7 +67,7 @@ TEST_CASE("The scan of a scene finds what a look at every part of it finds") {
                       .bits);
 }
 
-TEST_CASE("What a scene does not need takes no memory") {
+TEST_CASE("Effects that a scene does not need take no memory") {
     SceneDescription scene;
     scene.materials = {gray()};
     add_box(scene, Vec3f{-1.0f}, Vec3f{1.0f}, true);

@@ -87,7 +87,7 @@ TEST_CASE("The power of many lights is summed in double") {
 TEST_CASE("Scenes without smooth normals pack none and need no effect") {
     SceneDescription scene;
     scene.materials.push_back(gray());
-    scene.normals = {Vec3f{0, 0, 1}};  // in the file, but no triangle asks for it
+    scene.normals = {Vec3f{0, 0, 1}};  // in the file, but of no triangle
     add_right_triangle(scene, 1, 0, 0);
     const HostScene packed = pack_scene(scene);
     CHECK(packed.normals.empty());
@@ -107,7 +107,7 @@ TEST_CASE("Triangles without normals get their geometric one where others are sm
     const TriangleNormals smooth = packed.triangle_normals[0];
     CHECK(packed.normals[smooth.n0] == Vec3f{0, 0, 1});
     CHECK(packed.normals[smooth.n1] == Vec3f{0, 1, 0});
-    CHECK(packed.normals[smooth.n2] == Vec3f{0, 0, 0});  // has no say
+    CHECK(packed.normals[smooth.n2] == Vec3f{0, 0, 0});  // degenerate: no weight
     const TriangleNormals flat = packed.triangle_normals[1];
     CHECK(packed.normals[flat.n0] == Vec3f{1, 0, 0});
     CHECK(flat.n0 == flat.n1);
@@ -137,7 +137,7 @@ TEST_CASE("An empty scene packs") {
     CHECK(bounds_of(SceneDescription{}).diagonal() == 0.0f);
 }
 
-TEST_CASE("Bounds cover what triangles use and nothing else") {
+TEST_CASE("Bounds cover the vertices of triangles and nothing else") {
     SceneDescription scene;
     scene.materials.push_back(gray());
     add_vertex(scene, {100, 100, 100});  // in the file, but unused

@@ -1,4 +1,4 @@
-// Owners of device memory, streams and events, and what errors say.
+// Owners of device memory, streams and events, and the messages of errors.
 #include "core/base/error.h"
 #include "cuda/availability.h"
 #include "cuda/kernels/lane.cuh"
@@ -111,7 +111,7 @@ TEST_CASE("A stream that is held back by an event waits for the other stream's w
     CHECK(back == values);
 }
 
-TEST_CASE("What makes CUDA unusable is told in words") {
+TEST_CASE("The reason why CUDA is unusable is told in words") {
     shim::reset();
     CHECK(cuda_unavailable_reason().empty());
     REQUIRE(cuda_devices().size() == 1);

@@ -1,4 +1,4 @@
-// What a test may ask of the stand-in runtime.
+// The controls of the stand-in runtime.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace pl::shim {
 /// Back to one healthy device, one host thread per launch, nothing failing.
 void reset();
 
-/// The machine as the driver shows it; `code` is what counting devices gives.
+/// The machine as the driver shows it; `code` is the result of counting devices.
 void set_devices(int count, cudaError_t code = cudaSuccess);
 /// Whether the build has code for the device.
 void set_code_fits(bool fits);
@@ -23,7 +23,7 @@ void set_threads(int threads);
 /// A lasting failure makes every later call fail alike, as after a kernel that crashed.
 void fail(const std::string& call, cudaError_t code, int successes = 0, bool lasting = false);
 
-/// What has not been given back.
+/// Objects not yet released.
 std::size_t device_bytes();
 int live_objects();  ///< streams, events, pieces of memory
 /// Kernel launches since the last reset.

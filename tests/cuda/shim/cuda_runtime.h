@@ -1,7 +1,7 @@
 // A stand-in for the CUDA runtime: the sources of cuda/ compile against it as plain C++ and run on the host, under
 // sanitizers too. Stricter than a device where it can be: work waits in its stream until somebody waits for it, device
-// memory is separate and starts out as NaNs, and everything can be made to fail. What it cannot show: races between
-// threads of one warp, speed, and what the device compiler makes of the code.
+// memory is separate and starts out as NaNs, and everything can be made to fail. It cannot show races between
+// threads of one warp, speed, or the code of the device compiler.
 #pragma once
 
 #include <cstddef>

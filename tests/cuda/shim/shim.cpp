@@ -65,7 +65,7 @@ void run_next(Queue& queue) {
 void drain(Queue& queue) {
     while (!queue.work.empty()) run_next(queue);
 }
-/// Until the mark is reached that was recorded last when somebody asked.
+/// Until the last recorded mark is reached.
 void drain_until(const Mark& mark, Queue* queue, int number) {
     while (mark.reached < number && !queue->work.empty()) run_next(*queue);
 }

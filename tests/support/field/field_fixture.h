@@ -33,7 +33,7 @@ struct TestField {
     TableUpdateView update_view() { return table_update_view(shape, tables); }
     DirectionTable table(std::int32_t volume = 0) { return DirectionTable(view(), volume); }
 
-    /// Sampling tables of a volume made of weights, [row][column], without what publication adds.
+    /// Sampling tables of a volume made of weights, [row][column], without the uniform share of an update.
     void set_weights(const std::vector<float>& weights, std::size_t volume = 0) {
         const auto side = static_cast<std::size_t>(shape.cells.side);
         float* columns = tables.column_cdf.data() + volume * side * side;

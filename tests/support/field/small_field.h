@@ -1,4 +1,4 @@
-// A learned field as small as can be, for tests of files that look at every bit.
+// The smallest learned field, for tests of files that compare every bit.
 #pragma once
 
 #include <random>
@@ -28,7 +28,7 @@ inline HostVolumes small_volumes() {
     return volumes;
 }
 
-/// As different from a default as it may be, in the middle of a pass, and small: tests look at every bit.
+/// Every member differs from its default, in the middle of a pass; small, because tests compare every bit.
 inline LearnedField small_field() {
     LearnedField field{.method = MethodId::Precomputed,
                        .scene_hash = "0123456789abcdef",

@@ -1,4 +1,4 @@
-// What every refusal of the program has in common.
+// A refusal of the program: exit code, message, no result.
 #pragma once
 
 #include "tests/support/catch.hpp"
@@ -6,7 +6,7 @@
 
 namespace pl::test {
 
-/// The program says why on standard error, prints no result, and exits with the code.
+/// The program prints an error that contains `told` on standard error, no result, and exits with the code.
 inline void check_refused(int code, const Arguments& arguments, const std::string& told) {
     const ProgramResult result = run_program(arguments);
     CAPTURE(arguments, result.err);

@@ -103,26 +103,30 @@ RunningProgram::~RunningProgram() {
 void RunningProgram::send(int signal) const { kill(process_, signal); }
 
 std::string RunningProgram::out() const { return read_all(folder_ / "out"); }
+std::string RunningProgram::err() const { return read_all(folder_ / "err"); }
 
 bool RunningProgram::has_ended() {
     if (!ended_) ended_ = waitpid(process_, &status_, WNOHANG) == process_;
     return ended_;
 }
 
-bool RunningProgram::wait_for_output(const std::string& text) {
+bool RunningProgram::wait_until(const std::function<bool()>& holds) {
     using namespace std::chrono_literals;
-    const auto give_up = std::chrono::steady_clock::now() + 60s;
-    while (out().find(text) == std::string::npos) {
-        if (has_ended() || std::chrono::steady_clock::now() > give_up) return false;
+    while (!holds()) {
+        if (has_ended()) return holds();
         std::this_thread::sleep_for(5ms);
     }
     return true;
 }
 
+bool RunningProgram::wait_for_output(const std::string& text) {
+    return wait_until([&] { return out().find(text) != std::string::npos; });
+}
+
 ProgramResult RunningProgram::wait() {
     if (!ended_) ended_ = waitpid(process_, &status_, 0) == process_;
     const int code = WIFSIGNALED(status_) ? 128 + WTERMSIG(status_) : WEXITSTATUS(status_);
-    return {.code = code, .out = out(), .err = read_all(folder_ / "err")};
+    return {.code = code, .out = out(), .err = err()};
 }
 
 ProgramResult run_program(const Arguments& arguments, const ProgramSetup& setup) {

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct ProgramResult {
 
 using Arguments = std::vector<std::string>;
 
-/// The built program's path, and what follows it.
+/// The built program's path, and its arguments.
 Arguments program(const Arguments& arguments);
 
 /// How the program is started.
@@ -47,7 +48,7 @@ struct ProgramSetup {
     std::string output_device{};       ///< that standard output goes to instead of a file
 };
 
-/// A program that runs. What it prints goes to files, so that it never has to wait for a reader.
+/// A running program. Its output goes to files, so that it never has to wait for a reader.
 class RunningProgram {
 public:
     explicit RunningProgram(Arguments command, const ProgramSetup& setup = {});
@@ -56,9 +57,13 @@ public:
     RunningProgram& operator=(const RunningProgram&) = delete;
 
     void send(int signal) const;
-    /// What it has printed so far on standard output.
+    /// Standard output so far.
     std::string out() const;
-    /// Waits until standard output holds `text`; false if the program ends or a minute passes first.
+    /// Standard error so far, if it goes to no terminal.
+    std::string err() const;
+    /// Waits until `holds()`; false if the program ends first. A program that hangs is stopped by the time limit of ctest.
+    bool wait_until(const std::function<bool()>& holds);
+    /// Waits until standard output holds `text`.
     bool wait_for_output(const std::string& text);
     ProgramResult wait();
 

@@ -1,4 +1,4 @@
-// The reference for every way of finding hits: look at each triangle.
+// The reference for every intersector: a test of each triangle.
 #pragma once
 
 #include <bit>

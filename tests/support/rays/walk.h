@@ -1,4 +1,4 @@
-// Random walks inside closed scenes, and what must never happen to them.
+// Random walks inside closed scenes, and counts of their failures.
 #pragma once
 
 #include "core/kernel/geometry/intersector.h"
@@ -13,9 +13,9 @@ struct WalkResult {
     std::uint64_t leaks = 0;    ///< segments that hit a surface from behind
 };
 
-/// How hard a walk looks for diagnostics.
+/// How hard the directions of a walk are.
 enum class WalkStyle {
-    Diffuse,      ///< as paths go
+    Diffuse,      ///< cosine-distributed directions, like those of paths
     Adversarial,  ///< every second vertex is moved next to an edge or a corner, every fourth direction grazes
 };
 
@@ -39,7 +39,7 @@ inline Vec3f grazing(const SurfacePoint& point, Vec3f direction, Uniforms& rando
     return glm::normalize(frame.to_world(local));
 }
 
-/// A walk from `start` that begins anew there when it has got out. Fronts must look inwards for leaks to be counted.
+/// A walk from `start` that begins anew there when it has escaped. Fronts must look inwards for leaks to be counted.
 template <Intersector I>
 WalkResult walk(const SceneView& scene, const I& intersector, Vec3f start, std::uint64_t segments, WalkStyle style,
                 std::uint64_t seed) {

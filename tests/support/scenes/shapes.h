@@ -1,4 +1,4 @@
-// Small scenes for tests, built as descriptions: boxes, blocks, spheres, and what can be done to them.
+// Small scenes for tests, built as descriptions: boxes, blocks, spheres, and their transformations.
 #pragma once
 
 #include <cmath>

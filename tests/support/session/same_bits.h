@@ -12,11 +12,11 @@ bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocato
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
+/// Every array of the tables, so that a new one is compared as well.
 inline bool same_bits(const HostTables& a, const HostTables& b) {
-    return same_bits(a.radiance, b.radiance) && same_bits(a.visits, b.visits) &&
-           same_bits(a.pending_sum, b.pending_sum) && same_bits(a.pending_count, b.pending_count) &&
-           same_bits(a.row_cdf, b.row_cdf) && same_bits(a.column_cdf, b.column_cdf) &&
-           same_bits(a.mean_radiance, b.mean_radiance);
+    bool same = true;
+    zip(a, b, [&](const auto& x, const auto& y) { same = same && same_bits(x, y); });
+    return same;
 }
 
 inline bool same_events(const PassCounters& a, const PassCounters& b) {

@@ -11,7 +11,7 @@
 
 namespace pl::test {
 
-/// What decides an estimate of a scene's light: a method, with or without sampling lights.
+/// An estimator of a scene's light: a method, with or without light samples.
 struct Estimator {
     MethodId method = MethodId::Default;
     bool next_event = false;
@@ -37,7 +37,7 @@ inline RenderSettings settings_for(const SceneDescription& scene, Estimator esti
     return settings;
 }
 
-/// A square picture with small tables that are learned from few samples, so that guiding is at work within the time of a
+/// A square picture with small tables that are learned from few samples, so that guiding sets in within the time of a
 /// test.
 inline RenderSettings quick_learner(const SceneDescription& scene, Estimator estimator, int side,
                                     std::uint64_t seed) {
@@ -83,7 +83,7 @@ struct Picture {
     }
 };
 
-/// What a film holds, times its number of samples. Means are read as floats, so differences of sums keep 24 bits of
+/// A film's means times its number of samples. Means are read as floats, so differences of sums keep 24 bits of
 /// the larger one, which is far below any sampling error here.
 inline std::vector<Vec3d> film_sums(const Session& session) {
     const Snapshot snapshot = session.snapshot(slot_of(session));

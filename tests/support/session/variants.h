@@ -1,4 +1,4 @@
-// The ways of learning and of ending paths that are no default.
+// Targets, learning rates and rules of roulette other than the defaults.
 #pragma once
 
 #include "core/session/settings.h"

@@ -13,7 +13,7 @@ namespace pl::test {
 /// A horizontal surface at the origin with one kind of lobes.
 class LobeSurface {
 public:
-    /// `albedo` is that of what is guided, see pack_scene().
+    /// `albedo` is that of the guided lobes, see pack_scene().
     explicit LobeSurface(const SurfaceLobes& lobes, Vec3f albedo = Vec3f{0.0f}) : lobes_(lobes), albedo_(albedo) {
         switch (lobes.kind) {
         case SurfaceKind::Diffuse: break;
@@ -89,7 +89,7 @@ struct SamplingTest {
 inline constexpr SamplingTest kQuickSampling{250000, 0.06};
 inline constexpr SamplingTest kFineSampling{1000000, 0.03};
 
-/// S3 for the lobes of a surface; what goes to the wrong side is left out of both.
+/// S3 for the lobes of a surface; directions to the wrong side are left out of both.
 inline Decision check_sampling(const LobeSurface& surface, float cos_o, bool front, SamplingTest test) {
     const LayeredBsdf bsdf = surface.from(tilted(cos_o), front);
     const SurfacePoint point = LobeSurface::point(front);
@@ -105,7 +105,7 @@ inline Decision check_sampling(const LobeSurface& surface, float cos_o, bool fro
     return sampler_matches(counts, probabilities, test.delta);
 }
 
-/// Weights of samples: their mean is what is returned of light from all around.
+/// Weights of samples: their mean is the reflectance for light from all directions.
 inline Moments returned_light(const LobeSurface& surface, Vec3f wo, bool front, int samples) {
     const LayeredBsdf bsdf = surface.from(wo, front);
     const SurfacePoint point = LobeSurface::point(front);

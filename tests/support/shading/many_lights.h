@@ -1,4 +1,4 @@
-// Scenes of many lights, and the irradiance that they cause where nothing blocks them.
+// Scenes of many lights, and their unoccluded irradiance.
 #pragma once
 
 #include "core/kernel/shading/lights.h"
@@ -37,7 +37,7 @@ inline SurfacePoint receiver_at(Vec3f position, Vec3f normal) {
     return point;
 }
 
-/// Irradiance at a surface by light samples that nothing blocks, and the variance of one of them.
+/// Irradiance at a surface by unoccluded light samples, and the variance of one of them.
 template <FeatureSet F>
 inline Moments irradiance(const SceneView& scene, const SurfacePoint& surface, int samples) {
     Uniforms random(9);

@@ -19,7 +19,7 @@ public:
 
     std::uint64_t count() const { return count_; }
     double mean() const { return mean_; }
-    /// Unbiased; infinite below two samples, so that nothing is ever known from one.
+    /// Unbiased; infinite below two samples, so that one sample decides nothing.
     double variance() const {
         return count_ < 2 ? std::numeric_limits<double>::infinity() : squares_ / static_cast<double>(count_ - 1);
     }

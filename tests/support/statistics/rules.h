@@ -45,7 +45,7 @@ inline Decision worse_of(const Decision& a, const Decision& b) {
     return severity(a) < severity(b) ? b : a;
 }
 
-/// What a mean is compared with: the value, and a bound on how far the value itself may be off.
+/// The expected value of a mean, and a bound on the error of that value.
 struct Reference {
     double value = 0.0;
     double error = 0.0;
@@ -103,7 +103,7 @@ inline double chi_squared_tail(double x, double freedom) {
     return scale * fraction;
 }
 
-/// What share of the way to a false alarm a tail probability has gone.
+/// The share of the way to a false alarm that a tail probability has gone.
 inline double alarm_share(double tail) { return std::log(std::fmax(tail, 1.0e-300)) / std::log(kAlpha); }
 
 /// Rule S3: samples follow a density, which gives `expected` counts per bin (their sum need not be the number of

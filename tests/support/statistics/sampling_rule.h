@@ -24,7 +24,7 @@ inline double needed_noncentrality(double freedom) {
     return high;
 }
 
-/// `probabilities` add up to 1, or to less if the sampler may also give nothing. Any sample in a bin of probability 0
+/// `probabilities` add up to 1, or to less if the sampler may also fail. Any sample in a bin of probability 0
 /// is a failure. `delta`: relative error of the density, alternating in sign from bin to bin, that must be found.
 inline Decision sampler_matches(const std::vector<std::uint64_t>& counts, const std::vector<double>& probabilities,
                                 double delta) {

@@ -1,4 +1,4 @@
-// Half floats: every one there and back, and what lies between, beyond and beside them.
+// Half floats: every one there and back, and the floats between and beyond them.
 #include "core/kernel/base/half.h"
 
 #include <cmath>
@@ -25,7 +25,7 @@ TEST_CASE("every half float comes back from a float") {
     CHECK(std::isnan(from_half(0x7e00u)));
 }
 
-TEST_CASE("what lies between two half floats goes to the nearer one, ties to the even one") {
+TEST_CASE("a float between two half floats goes to the nearer one, ties to the even one") {
     int wrong = 0;
     for (std::uint32_t bits = 0; bits < 0x7bffu; ++bits) {
         const auto low = static_cast<std::uint16_t>(bits);
@@ -40,7 +40,7 @@ TEST_CASE("what lies between two half floats goes to the nearer one, ties to the
     CHECK(wrong == 0);
 }
 
-TEST_CASE("what exceeds the largest half float becomes that, and NaN stays NaN") {
+TEST_CASE("a float beyond the largest half float becomes that one, and NaN stays NaN") {
     for (const float large : {65504.0f, 65519.0f, 65520.0f, 1e30f, std::numeric_limits<float>::infinity()}) {
         CHECK(from_half(to_half(large)) == 65504.0f);
         CHECK(from_half(to_half(-large)) == -65504.0f);

@@ -37,7 +37,7 @@ TEST_CASE("Philox gives the published vectors") {
           Block{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
 }
 
-// The conversion looks at the top 24 bits only, so these 2^24 values are all there are.
+// The conversion uses the top 24 bits only, so these 2^24 values are all.
 TEST_CASE("Uniforms are multiples of 2^-24, from 0 to below 1") {
     bool exact = true;
     for (std::uint32_t top = 0; top < (1u << 24); ++top) {
@@ -52,7 +52,7 @@ TEST_CASE("Uniforms are multiples of 2^-24, from 0 to below 1") {
 }
 
 // Philox is a bijection of its counter for each key, so draws are distinct if their counters are. A counter is read
-// back from what made it by undoing the layout, for every combination of extreme values.
+// back to its inputs by undoing the layout, for every combination of extreme values.
 TEST_CASE("No two draws share a counter") {
     const std::uint32_t words[] = {0u, 1u, 2u, 0x7fffffffu, 0x80000000u, 0xffffffffu};
     const std::uint32_t vertices[] = {0u, 1u, 2u, 63u, 64u, 0x7fffffu, 0x800000u, 0xffffffu};

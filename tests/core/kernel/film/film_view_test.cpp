@@ -1,4 +1,4 @@
-// Accumulation and display: bad samples are counted and dropped, sums lose nothing, curves survive every number.
+// Accumulation and display: invalid samples are counted and dropped, sums keep their digits, tone curves take every number.
 #include "core/kernel/film/film_view.h"
 
 #include <vector>
@@ -48,7 +48,7 @@ TEST_CASE("Invalid samples are counted and dropped") {
     CHECK(mean_radiance(pixel).x == 0.5f);
 }
 
-TEST_CASE("A sample that replaces leaves nothing of those before") {
+TEST_CASE("A replacing sample removes the earlier ones") {
     Film film(2);
     accumulate(film.view(), 1, {1, 2, 4}, 1);
     accumulate(film.view(), 1, Vec3f{kNan}, 1);
@@ -82,7 +82,7 @@ TEST_CASE("Ten million samples lose nothing") {
     CHECK(mean_radiance(pixel).y == 1.0f);
     const double expected = (1e6 + (kSamples - 1) * static_cast<double>(1e-3f)) / kSamples;
     CHECK(std::fabs(static_cast<double>(mean_radiance(pixel).z) / expected - 1.0) <= 1e-7);
-    // The half without the bright one, of which taking one sum from the other loses little.
+    // The half without the bright sample: the difference of the two sums loses few of its digits.
     CHECK(std::fabs(static_cast<double>(half_mean(pixel, true).z) / static_cast<double>(1e-3f) - 1.0) <= 1e-7);
     CHECK(half_mean(pixel, false).x == 0.1f);
 }

@@ -1,4 +1,4 @@
-// What a window shows of a film: codes near exact rounding, exposure and range as one factor, invalid pixels marked.
+// The frame of a film: codes near exact rounding, exposure and range as one factor, invalid pixels marked.
 #include "core/kernel/film/frame_pixel.h"
 
 #include <algorithm>

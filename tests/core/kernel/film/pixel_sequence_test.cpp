@@ -1,4 +1,4 @@
-// Where samples lie in a pixel: each is uniform, together they are spread evenly, and the halves of a film are independent.
+// Positions of samples in a pixel: each is uniform, together they are stratified, and the halves of a film are independent.
 #include "core/kernel/film/pixel_sequence.h"
 
 #include <array>
@@ -78,7 +78,7 @@ TEST_CASE("Samples stay even over a million passes") {
     for (std::uint32_t pixel = 0; pixel < 4; ++pixel) CHECK(std::fabs(covered(pixel, 1u << 20, 0.3) - 0.5) < 1e-4);
 }
 
-// Noise is told by what the halves of a film say differently: their errors must not know each other. Seed 1, 20 000 pixels:
+// Noise is estimated from the difference of a film's halves: their errors must be independent. Seed 1, 20 000 pixels:
 // a correlation of 0.06 would be missed once in a thousand times.
 TEST_CASE("The two halves of a film have errors that are independent") {
     constexpr std::uint32_t kPasses = 32;

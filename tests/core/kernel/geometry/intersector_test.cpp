@@ -18,7 +18,7 @@ struct Misses {
     std::uint64_t moeller_trumbore = 0;
 };
 
-/// The usual test, which is not watertight: shows that the inputs can tell. [Moeller and Trumbore 1997]
+/// The usual test, which is not watertight: shows that the inputs find leaks. [Moeller and Trumbore 1997]
 bool usual_test_hits(const Ray& ray, Vec3f a, Vec3f b, Vec3f c) {
     const Vec3f e1 = b - a;
     const Vec3f e2 = c - a;

@@ -19,7 +19,7 @@ Hit hit_of(const Ray& ray, Vec3f a, Vec3f b, Vec3f c, std::uint32_t primitive = 
     return best;
 }
 
-/// Bitwise, so that 0 = -0 would not do... but the sign of zero decides nothing, so it may differ.
+/// Bitwise, but for the sign of zero, which decides nothing.
 bool antisymmetric(const Corner& p, const Corner& q) {
     return edge_function(p, q) == -edge_function(q, p) && exact_edge_function(p, q) == -exact_edge_function(q, p);
 }
@@ -178,7 +178,7 @@ TEST_CASE("Rays in the plane of a triangle give nothing that is not finite") {
 }
 
 // Every direction of the 26 that have components 0 and +-1, with both signs of zero, at the corners, edges and inside.
-TEST_CASE("Directions with zeros hit what they should") {
+TEST_CASE("Directions with zeros hit the right triangles") {
     const Vec3f corners[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     int tested = 0;
     for (int pattern = 0; pattern < 27; ++pattern)

@@ -17,7 +17,7 @@ namespace {
 constexpr View kHeatMaps[] = {View::Visits,    View::Irradiance, View::Entropy,
                               View::BsdfShare, View::Change,     View::Unvisited};
 
-/// Two volumes of 2 x 2 cells; the second one is looked at.
+/// Two volumes of 2 x 2 cells; the second one is judged.
 struct TwoVolumes : TestField {
     TwoVolumes() : TestField(2, {Vec3f{0, 0, 1}, Vec3f{0, 0, -1}}) {}
     float value(View view, std::uint32_t volume = 1) {
@@ -49,7 +49,7 @@ TEST_CASE("Own logarithm: exact for powers of two, else within its bound") {
 
 TEST_CASE("Heat maps: values by hand") {
     TwoVolumes field;
-    // What stands in the first volume must not matter.
+    // The values of the first volume must not matter.
     field.tables.visits = {9, 9, 9, 9, 5, 0, 7, 0};
     CHECK(field.value(View::Visits) == 12.0f);
     CHECK(field.value(View::Unvisited) == 0.5f);
@@ -79,7 +79,7 @@ TEST_CASE("Heat maps: counts beyond 32 bits do not wrap") {
     CHECK(field.value(View::Visits) == 0x1p34f);
 }
 
-TEST_CASE("Heat maps: what was learned by publication") {
+TEST_CASE("Heat maps: change and visits after an update") {
     TwoVolumes field;
     for (int i = 0; i < 3; ++i) record(field.view(), 1, 2, 0.5f);
     record(field.view(), 1, 0, 0.25f);
@@ -87,7 +87,7 @@ TEST_CASE("Heat maps: what was learned by publication") {
     CHECK(field.value(View::Visits) == 4.0f);
     CHECK(field.value(View::Unvisited) == 0.5f);
     CHECK(field.value(View::Irradiance) == kPi * 0.375f);
-    // Both cells started at 0, so that they changed by what they hold.
+    // Both cells started at 0, so that their change is their value.
     CHECK(field.value(View::Change) == 1.0f);
     CHECK(field.value(View::Entropy) > 1.0f);
     CHECK(field.value(View::Entropy) < 2.0f);

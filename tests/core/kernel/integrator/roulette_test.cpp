@@ -1,4 +1,4 @@
-// Russian roulette keeps means and bounds weights, whatever a method thinks that a path is worth.
+// Russian roulette and splitting keep means and bound weights, whatever the contribution estimate of a method.
 #include <set>
 
 #include "core/kernel/integrator/steps.h"
@@ -81,9 +81,9 @@ Family trace_family(const Splitting& method, const PathSettings& settings, Unifo
 
 }  // namespace
 
-// S1, N = 1,000,000 paths, seed 1: 5 % off would be found. The mean is albedo^12 = 0.0317, and every path that is left
+// S1, N = 1,000,000 paths, seed 1: 5 % off would be found. The mean is albedo^12 = 0.0317, and every surviving path
 // weighs at most 1.
-TEST_CASE("Roulette keeps the mean and lets no weight grow, right or wrong about what a path is worth") {
+TEST_CASE("Roulette keeps the mean and lets no weight grow, whatever the contribution estimate") {
     const double expected = std::pow(static_cast<double>(kAlbedo), kVertices);
     for (const float threshold : {0.01f, 1.0f})
         for (const float estimate : {0.0f, 1e-6f, 0.005f, 0.5f, 1.0f, 1e6f, kInfinity}) {
@@ -134,7 +134,7 @@ TEST_CASE("The other rules of roulette keep the mean, too") {
     CHECK(survival_probability({.roulette = RouletteRule::Spare}, 0.7f, 0.5f) == 0.7f);
 }
 
-// S1, N = 1,000,000 paths for good opinions and 200,000 for others, whose branches are many; seed 3: 2 % off would be found.
+// S1, N = 1,000,000 paths for good estimates and 200,000 for others, whose branches are many; seed 3: 2 % off would be found.
 TEST_CASE("Split paths keep the mean and no path has more branches than it may") {
     const double expected = std::pow(static_cast<double>(kAlbedo), kVertices);
     for (const float factor : {1.0f, 4.0f, 30.0f, 1e6f, kInfinity}) {

@@ -1,7 +1,7 @@
 // The mixture of BSDF and table: samples follow its density, the density belongs to the direction, weights are bounded.
 #include "core/kernel/methods/guided.h"
 
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 #include "tests/support/statistics/sampling_rule.h"
@@ -144,7 +144,7 @@ TEST_CASE("A fraction of one is the BSDF alone") {
     }
 }
 
-TEST_CASE("Reinforcement learning records its target in the cell of the direction") {
+TEST_CASE("Reinforcement learning adds its target to the cell of the direction") {
     TestField field(4, {Vec3f{0, 0, 1}, leaning_normal()});
     field.tables.mean_radiance = {0.0f, 2.0f};
     ReinforcementMethod method;
@@ -173,7 +173,7 @@ TEST_CASE("Reinforcement learning records its target in the cell of the directio
     CHECK(field.tables.pending_count[9] == 2);
     CHECK(counters.records == 2);
 
-    // More than the sums can hold is counted, and added as the most that they can.
+    // Radiance beyond the sums' range is counted, and added as their largest value.
     CHECK(counters.clamped_records == 0);
     const float most = kMaxRecordedUnits * field.view().radiance_unit;
     method.record(method.observe(memory, {.emitted = Vec3f{2.0f * most}}, {kNoVolume}, counters));

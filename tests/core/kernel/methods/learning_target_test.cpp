@@ -1,7 +1,7 @@
-// Targets of reinforcement, one call at a time: what each of them records for a path whose light is known.
+// Targets of reinforcement learning, one call at a time: their training samples for a path of known radiance.
 #include "core/kernel/methods/learning_target.h"
 
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 
@@ -13,7 +13,7 @@ namespace {
 constexpr int kSide = 2;
 constexpr TableLocation kVertex{0};
 
-/// Two volumes of four cells that have learned something, so that tables answer.
+/// Two volumes of four cells with learned values.
 struct Learner {
     TestField field{kSide, {Vec3f{0, 0, 1}, Vec3f{0, 0, 1}}};
     MethodCounters counters;
@@ -71,7 +71,7 @@ TEST_CASE("Each target is served by the integrator with the least memory per pat
     CHECK(serving({LearningTarget::ExpectedSarsa, Indirect}, true) == kSarsa);
 }
 
-TEST_CASE("Sarsa records what the table says of the direction that was drawn") {
+TEST_CASE("Sarsa takes the learned radiance of the sampled direction") {
     Learner learner;
     const auto method = learner.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
     SarsaMethod::Memory memory;
@@ -90,7 +90,7 @@ TEST_CASE("Sarsa records what the table says of the direction that was drawn") {
     CHECK(learner.counters.records == 2);
 }
 
-TEST_CASE("Records that are too bright for the sums are counted by every target") {
+TEST_CASE("Training samples that are too bright for the sums are counted by every target") {
     Learner late;
     const auto sarsa = late.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
     const float most = kMaxRecordedUnits * sarsa.field.radiance_unit;
@@ -110,7 +110,7 @@ TEST_CASE("Records that are too bright for the sums are counted by every target"
     walk(monte_carlo, MonteCarloMethod::Memory{}, whole);
 }
 
-TEST_CASE("Sarsa takes the mean where a cell knows nothing, and records nothing where no volume is") {
+TEST_CASE("Sarsa takes the volume's mean for a cell without visits, and has no sample without a volume") {
     Learner learner;
     const auto method = learner.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::All);
     for (const std::int32_t unknown : {3, -1}) {  // never visited, below the volume's horizon
@@ -128,7 +128,7 @@ TEST_CASE("Sarsa takes the mean where a cell knows nothing, and records nothing 
     CHECK(learner.recorded(2) == Approx(4.0f));
 }
 
-TEST_CASE("Indirect light: emission by its share, and what the next vertex reflects of its light sample") {
+TEST_CASE("Indirect light: emission by its share, and the reflected light sample of the next vertex") {
     for (const LearningTarget target : {LearningTarget::ExpectedSarsa, LearningTarget::Sarsa}) {
         Learner learner;
         const auto method = learner.method<SarsaMethod>(target, LearnedLight::Indirect);
@@ -151,7 +151,7 @@ TEST_CASE("Indirect light: emission by its share, and what the next vertex refle
     }
 }
 
-TEST_CASE("Monte Carlo records the light that the path brought") {
+TEST_CASE("Monte-Carlo targets are the radiance of the path") {
     for (const LearnedLight light : {LearnedLight::All, LearnedLight::Indirect}) {
         Learner learner;
         const auto method = learner.method<MonteCarloMethod>(LearningTarget::MonteCarlo, light);

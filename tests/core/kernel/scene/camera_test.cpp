@@ -1,4 +1,4 @@
-// The lens: what is in focus is met by all rays, and a lens without an aperture is a pinhole.
+// The lens: all its rays meet in the plane of focus, and a lens without an aperture is a pinhole.
 #include "core/kernel/scene/camera.h"
 
 #include "core/scene/pack_scene.h"
@@ -46,7 +46,7 @@ TEST_CASE("All rays of a lens meet in the plane of focus") {
     CHECK(glm::length(sum) / 100000.0f < 0.005f);  // six standard errors
 }
 
-TEST_CASE("A lens that is closed sees what a pinhole sees") {
+TEST_CASE("A closed lens gives the rays of a pinhole") {
     const Camera camera = lens(0.0f);
     const Ray center = generate_ray(camera, {30, 40}, {200, 100});
     const Ray ray = through_lens(camera, center, {0.3f, 0.9f});

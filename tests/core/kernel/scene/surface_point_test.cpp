@@ -58,7 +58,7 @@ void check_self_hits(std::uint64_t quads) {
     for (const float size : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f})
         for (const float place : {0.0f, 1.0f, 1e3f, 1e6f})
             for (const bool narrow : {false, true}) {
-                if (place > 1e4f * size) continue;  // coordinates cannot even tell the corners apart
+                if (place > 1e4f * size) continue;  // floats cannot tell the corners apart
                 const SelfHits result = leave_quads(size, place * Vec3f{0.7f, -0.5f, 0.4f}, narrow, quads);
                 INFO("size " << size << " at " << place << (narrow ? ", narrow" : ""));
                 CHECK(result.hits == 0);

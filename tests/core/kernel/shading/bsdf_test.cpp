@@ -82,7 +82,7 @@ TEST_CASE("Rough metals are sampled as their density says, finely", "[merge]") {
 TEST_CASE("Rough glass is sampled as its density says, finely", "[merge]") { check_glass(kFineSampling); }
 TEST_CASE("Plastics are sampled as their density says, finely", "[merge]") { check_plastics(kFineSampling); }
 
-// Of light that nothing absorbs all comes back. What is left is the interpolation of tables.
+// A surface that absorbs nothing reflects all light. The tolerance is the interpolation of tables.
 TEST_CASE("White surfaces return all light") {
     for (const SurfaceKind kind : {SurfaceKind::Conductor, SurfaceKind::Plastic})
         for (const float roughness : {0.0f, 0.1f, 0.35f, 0.7f, 1.0f})
@@ -95,7 +95,7 @@ TEST_CASE("White surfaces return all light") {
                 CHECK(std::fabs(returned.mean() - 1.0) < 0.01 + 4.0 * returned.standard_error());
             }
 }
-// Radiance that passes is divided by the square of eta: it is counted as it was before that.
+// Transmitted radiance is divided by the square of eta, which is undone here.
 TEST_CASE("Clear glass loses no light, rough or smooth") {
     for (const float roughness : {0.0f, 0.1f, 0.35f, 0.7f, 1.0f})
         for (const float cos_o : {1.0f, 0.7f, 0.4f, 0.1f})
@@ -112,7 +112,7 @@ TEST_CASE("Clear glass loses no light, rough or smooth") {
 }
 
 // Single scattering, F = 1. At roughness 1 and normal incidence 1 - ln 2; other values measured with a standard error of 2e-4.
-TEST_CASE("What GGX returns by single scattering") {
+TEST_CASE("Albedo of single scattering by GGX") {
     const std::vector<float> values = lossless_albedo();
     const AlbedoTable table{values.data()};
     CHECK(table.at(1.0f, 1.0f) == Approx(1.0 - std::log(2.0)).epsilon(3e-3));

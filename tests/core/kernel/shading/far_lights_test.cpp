@@ -1,4 +1,4 @@
-// Environment maps and the sun: where they shine from, and that samples of them follow their densities.
+// Environment maps and the sun: their directions, and that samples of them follow their densities.
 #include "core/kernel/shading/far_lights.h"
 
 #include <functional>
@@ -83,7 +83,7 @@ TEST_CASE("The map's middle is along -z, its right along +x, its first row up, a
     CHECK(map_point(map, {1, 0, 0}) == Vec2f{0.75f, 0.5f});
     CHECK(map_point(map, {0, 1, 0}).y == 0.0f);
     CHECK(map_point(map, {0, -1, 0}).y == 1.0f);
-    const HostScene turned = under_map(8, 4, texels, 450.0f);  // what was along -z is along -x
+    const HostScene turned = under_map(8, 4, texels, 450.0f);  // its middle, along -z before, is along -x
     CHECK(map_point(turned.view().far_lights.map, {-1, 0, 0}).x == Approx(0.5f));
 }
 

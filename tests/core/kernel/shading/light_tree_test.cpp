@@ -1,4 +1,4 @@
-// Choosing among many lights: frequencies and probabilities, bounds that never lose a light, and less noise for it.
+// Choosing among many lights: frequencies and probabilities, bounds that never lose a light, and the gain in noise.
 #include "core/kernel/shading/light_tree.h"
 
 #include "core/scene/needed_effects.h"

@@ -16,7 +16,7 @@ void record_light(TestField& field, float bsdf_ratio, float radiance) {
     record_mixture(view, 0, bsdf_ratio, light_weight(view, 0, bsdf_ratio, radiance));
 }
 
-/// A hemisphere in two halves: what BSDF and table give each, and what arrives from there.
+/// A hemisphere in two halves: their probabilities by BSDF and table, and their incident radiance.
 struct TwoHalves {
     double bsdf[2] = {0.5, 0.5};
     double table[2] = {0.5, 0.5};
@@ -40,7 +40,7 @@ struct TwoHalves {
     }
 };
 
-/// Passes of records drawn from the mixture as it stands.
+/// Passes of training samples drawn from the mixture as it stands.
 void learn(TestField& field, const TwoHalves& halves, int passes, int records, Uniforms& random) {
     for (int pass = 0; pass < passes; ++pass) {
         field.tables.mean_radiance[0] = static_cast<float>(halves.mean_radiance());
@@ -56,24 +56,24 @@ void learn(TestField& field, const TwoHalves& halves, int passes, int records, U
 
 }  // namespace
 
-TEST_CASE("A volume that knows nothing leaves half to the BSDF") {
+TEST_CASE("A volume without training samples has the BSDF fraction one half") {
     TestField field(4);
     CHECK(field.tables.bsdf_fraction[0] == kInitialBsdfFraction);
     field.update();
     CHECK(field.tables.bsdf_fraction[0] == kInitialBsdfFraction);
-    record_light(field, 0.1f, 1.0f);  // but nothing is expected there: no scale
+    record_light(field, 0.1f, 1.0f);  // but the expected radiance is 0: no scale
     field.update();
     CHECK(field.tables.bsdf_fraction[0] == kInitialBsdfFraction);
 }
 
-// Power: shares range from 0.1 to 0.9 over the cases, the tolerance is 0.02. The steps of the last ten publications
-// count for two thirds, 10^5 records: their error is below 0.005.
-TEST_CASE("The share goes where the divergence is least") {
+// Power: fractions range from 0.1 to 0.9 over the cases, the tolerance is 0.02. The steps of the last ten updates
+// count for two thirds, 10^5 samples: their error is below 0.005.
+TEST_CASE("The BSDF fraction converges to the least divergence") {
     Uniforms random(1);
     const TwoHalves cases[] = {
         {.table = {0.9, 0.1}, .radiance = {1.8, 0.2}},    // the table is right
         {.table = {0.1, 0.9}, .radiance = {1.8, 0.2}},    // it is upside down
-        {.table = {0.98, 0.02}, .radiance = {1.5, 0.5}},  // too sure of itself
+        {.table = {0.98, 0.02}, .radiance = {1.5, 0.5}},  // too narrow
         {.table = {0.8, 0.2}, .radiance = {1.3, 0.7}},   {.table = {0.95, 0.05}, .radiance = {1.1, 0.9}},
     };
     for (const TwoHalves& halves : cases) {
@@ -84,7 +84,7 @@ TEST_CASE("The share goes where the divergence is least") {
     }
 }
 
-TEST_CASE("A few records hardly move the share and many do") {
+TEST_CASE("A few training samples hardly move the BSDF fraction and many do") {
     Uniforms random(2);
     const TwoHalves wrong{.table = {0.1, 0.9}, .radiance = {1.8, 0.2}};
     TestField few(4);
@@ -95,7 +95,7 @@ TEST_CASE("A few records hardly move the share and many do") {
     CHECK(many.tables.bsdf_fraction[0] > 0.8f);
 }
 
-TEST_CASE("The order of records does not move the share by a bit") {
+TEST_CASE("The order of training samples does not move the BSDF fraction by a bit") {
     Uniforms random(3);
     std::vector<Vec2f> records;
     for (int i = 0; i < 1000; ++i) records.push_back({random.between(0.01f, 10.0f), random.between(0.0f, 100.0f)});
@@ -114,7 +114,7 @@ TEST_CASE("The order of records does not move the share by a bit") {
     CHECK(forward.tables.bsdf_fraction[0] != kInitialBsdfFraction);
 }
 
-TEST_CASE("Bad and huge numbers leave a share that is one") {
+TEST_CASE("Bad and huge numbers leave a BSDF fraction in its range") {
     for (const float ratio : {0.0f, 1.0f, 10.0f})
         for (const float radiance : {kNan, kInfinity, -1.0f, 0.0f, 3e38f}) {
             TestField field(4);

@@ -66,13 +66,13 @@ TEST_CASE("Fixed point is exact at its edges") {
     CHECK(to_fixed_point(3e38f, 1.0f) == kMost);
     CHECK(to_fixed_point(kInfinity, 1.0f) == kMost);
     CHECK(to_fixed_point(3.0f, 4.0f) == 3 << 22);
-    // All but one of 2^23 records of the largest value fit into a sum.
+    // All but one of 2^23 samples of the largest value fit into a sum.
     CHECK(std::numeric_limits<std::int64_t>::max() / kMost == (1 << 23) - 1);
     CHECK(from_fixed_point(5 * (std::int64_t{1} << 24), 2, 4.0f) == 10.0f);
     CHECK(from_fixed_point(0, 7, 4.0f) == 0.0f);
 }
 
-TEST_CASE("The order of records does not matter") {
+TEST_CASE("The order of training samples does not matter") {
     Uniforms random(1);
     std::vector<std::pair<int, float>> records;
     for (int i = 0; i < 5000; ++i)
@@ -107,8 +107,8 @@ TEST_CASE("Learning rates are exact from the first visit to the last") {
     }
 }
 
-// A target that jumps from 1 to 2 after many visits: what each rate has left of the jump after 40 more publications.
-TEST_CASE("Rates differ in how they follow what changes") {
+// A target that jumps from 1 to 2 after many visits: the share of the jump that each rate has not followed after 40 updates.
+TEST_CASE("Rates follow a change at different speeds") {
     const auto left = [](LearningRate rate) {
         TestField field(4);
         field.shape.rate = rate;
@@ -192,7 +192,7 @@ TEST_CASE("Visits saturate and do not wrap") {
     CHECK(field.tables.radiance[3] == 1.0f);
 }
 
-TEST_CASE("Cells without new records keep every bit") {
+TEST_CASE("Cells without new samples keep every bit") {
     TestField field(4);
     for (float& q : field.tables.radiance) q = 0.1f;
     field.tables.visits.assign(16, 7);
@@ -214,7 +214,7 @@ TEST_CASE("Bad numbers in memory are taken for nothing learned") {
             }
             field.update();
             if (!is_probability(field, field.table())) FAIL("value " << bad << " in cell " << cell);
-            // ... and the next record heals the cell.
+            // ... and the next training sample heals the cell.
             const std::uint32_t healed = static_cast<std::uint32_t>(cell % 256);
             add_records(field, healed, 1, 0.5f);
             field.update();
@@ -250,7 +250,7 @@ TEST_CASE("Dim cells next to a bright one stay possible") {
     CHECK(field.table().cell_probability(100 % 16, 100 / 16) > 0.8f);
 }
 
-TEST_CASE("With many visits the table follows what was learned and with none it is uniform") {
+TEST_CASE("With many visits the table follows the learned radiance and with none it is uniform") {
     TestField field(4);
     field.shape.uniform_floor = 0.0f;
     for (int cell = 0; cell < 16; ++cell)
@@ -283,7 +283,7 @@ TEST_CASE("The mean radiance is that of the visited cells") {
     CHECK(std::fabs(static_cast<double>(field.tables.mean_radiance[0]) / (sum / visited) - 1.0) <= 200.0 * 0x1p-24);
 }
 
-TEST_CASE("Volumes are published independently") {
+TEST_CASE("Volumes are updated independently") {
     TestField together(4, {Vec3f{0, 0, 1}, Vec3f{0, 0, -1}});
     TestField alone(4);
     for (int cell = 0; cell < 16; ++cell) {

@@ -41,7 +41,7 @@ TEST_CASE("The number of volumes follows the budget up to the default") {
     CHECK(volume_count(settings) == kDefaultVolumes);
     settings.budget_megabytes = 1e-9;
     CHECK(volume_count(settings) == 1);
-    settings.volumes = 12345;  // asked for: whatever it takes
+    settings.volumes = 12345;  // a given number goes before the budget
     CHECK(volume_count(settings) == 12345);
     CHECK(bytes_per_volume(1024) > bytes_per_volume(256));
 }
@@ -77,7 +77,7 @@ TEST_CASE("The radiance unit is the power of two at or above the brightest light
     CHECK(unit_for(of_luminance(1000.0f)) == 1024.0f);
     CHECK(unit_for(Vec3f{0.0f}, of_luminance(5.0f)) == 8.0f);
     CHECK(unit_for(of_luminance(9.0f), of_luminance(5.0f)) == 16.0f);
-    // The largest record stays finite, and the smallest unit can be divided by.
+    // The largest training sample stays finite, and the smallest unit can be divided by.
     CHECK(unit_for(Vec3f{1e38f}) * kMaxRecordedUnits < kInfinity);
     CHECK(1.0f / unit_for(Vec3f{1e-44f}) < kInfinity);
 }

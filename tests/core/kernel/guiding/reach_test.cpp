@@ -1,7 +1,7 @@
 // The distance of the light that a volume learns: a weighted mean, whatever the order and however bad the numbers are.
 #include "core/kernel/guiding/reach.h"
 
-#include "tests/kernel/guided_methods.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 
@@ -25,7 +25,7 @@ struct Field : TestField {
     }
 };
 
-/// Mean distance of records with what is believed before the first.
+/// Mean distance of training samples and of the prior.
 double expected_reach(double distance, double weight) {
     const double unknown = static_cast<double>(kUnknownWeight);
     const double mean =
@@ -33,7 +33,7 @@ double expected_reach(double distance, double weight) {
     return static_cast<double>(kReachPerDistance) * mean;
 }
 
-/// A path that leaves the volume, finds light at a distance, and ends there.
+/// A path that scatters at the volume, meets light at a distance, and ends there.
 template <class M>
 double reach_after_one_path(LearningSettings learning) {
     Field field;
@@ -73,7 +73,7 @@ TEST_CASE("Light from beyond the scene is as far as the scene is large") {
     CHECK(field.reach() == Approx(expected_reach(static_cast<double>(kExtent), 1e6)).epsilon(1e-4));
 }
 
-TEST_CASE("The order of records does not move the reach by a bit") {
+TEST_CASE("The order of training samples does not move the reach by a bit") {
     Uniforms random(1);
     std::vector<Vec2f> records;
     for (int i = 0; i < 1000; ++i) records.push_back({random.between(0.0f, 100.0f), random.between(0.0f, 20.0f)});
@@ -86,7 +86,7 @@ TEST_CASE("The order of records does not move the reach by a bit") {
     CHECK(forward.reach() == backward.reach());
 }
 
-TEST_CASE("Bad and huge numbers leave a reach that is one") {
+TEST_CASE("Bad and huge numbers leave a finite reach") {
     for (const float weight : {0.0f, -1.0f, kNan, kInfinity, 3e38f, 1e-38f})
         for (const float distance : {0.0f, -1.0f, kNan, kInfinity, 3e38f, 1e-38f}) {
             Field field;
@@ -103,7 +103,7 @@ TEST_CASE("Bad and huge numbers leave a reach that is one") {
     }
 }
 
-TEST_CASE("Every target of learning tells the reach how far its direction led") {
+TEST_CASE("Every target updates the reach with the distance of its direction") {
     const double expected = expected_reach(2.0, 100.0);
     CHECK(reach_after_one_path<ReinforcementMethod>({}) == Approx(expected).epsilon(1e-4));
     CHECK(reach_after_one_path<SarsaMethod>({LearningTarget::Sarsa, LearnedLight::All}) ==

@@ -1,0 +1,54 @@
+// `pathlight info` and `pathlight devices` as a shell sees them.
+#include <nlohmann/json.hpp>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/program/run_program.h"
+
+namespace pl::test {
+namespace {
+
+using nlohmann::ordered_json;
+
+}  // namespace
+
+TEST_CASE("info lists the contents of the scene and the effects it needs, and why") {
+    const ProgramResult cornell = run_program({"info", "cornell", "--json"});
+    const ordered_json box = ordered_json::parse(lines_of(cornell.out).back());
+    CHECK(box["triangles"] > 10);
+    CHECK(box["lights"] == 2);
+    CHECK(box["materials"].size() == 4);
+    CHECK(box["camera"]["eye"] == ordered_json::array({278.0, 273.0, -800.0}));
+    CHECK(box["effects_needed"].empty());
+
+    const TempDir folder;
+    write_all(folder / "a.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nvn 0 0 1\nvn 0.1 0 1\nf 1//1 2//1 3//2\n");
+    write_all(folder / "a.json",
+              R"({"schema": "pathlight.scene/1", "obj": "a.obj", "environment": {"radiance": [1, 2, 3]}})");
+    const ProgramResult both = run_program({"info", folder / "a.json", "--json"});
+    const ordered_json effects = ordered_json::parse(lines_of(both.out).back())["effects_needed"];
+    REQUIRE(effects.size() == 2);
+    CHECK(effects[0]["name"] == "smooth-normals");
+    CHECK_THAT(effects[0]["reason"].get<std::string>(), contains("1 triangles"));
+    CHECK(effects[1]["name"] == "environment");
+    CHECK_THAT(effects[1]["reason"].get<std::string>(), contains("1,2,3"));
+    CHECK_THAT(run_program({"info", folder / "a.json"}).out, contains("environment: ") && contains("kernel"));
+}
+
+TEST_CASE("devices lists the back ends, and why one is missing") {
+    const ProgramResult result = run_program({"devices", "--json"});
+    const std::vector<std::string> lines = lines_of(result.out);
+    REQUIRE(lines.size() >= 2);
+    const ordered_json cpu = ordered_json::parse(lines[0]);
+    CHECK(cpu["backend"] == "cpu");
+    CHECK(cpu["available"] == true);
+    // One line for every GPU, or one that says why there is none.
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        const ordered_json cuda = ordered_json::parse(lines[i]);
+        CHECK(cuda["backend"] == "cuda");
+        CHECK(cuda["available"] == cuda["reason"].is_null());
+        if (cuda["available"] == false) CHECK_FALSE(cuda["reason"].get<std::string>().empty());
+        if (lines.size() > 2) CHECK_FALSE(cuda["device"].is_null());
+    }
+}
+
+}  // namespace pl::test

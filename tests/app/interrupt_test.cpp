@@ -1,0 +1,50 @@
+// The first interruption asks a run to end, the second one ends the program.
+#include <csignal>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "app/interrupt.h"
+#include "tests/support/catch.hpp"
+
+namespace pl {
+namespace {
+
+/// Exit code of a child process that runs `body`.
+template <class Body>
+int in_child(Body body) {
+    const pid_t child = fork();
+    if (child == 0) {
+        body();
+        _exit(0);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+}  // namespace
+
+TEST_CASE("the first interruption raises the flag, the second one ends the program with 130") {
+    CHECK(in_child([] {
+              const InterruptGuard guard;
+              raise(SIGINT);
+              _exit(guard.raised() ? 7 : 8);
+          }) == 7);
+    CHECK(in_child([] {
+              const InterruptGuard guard;
+              raise(SIGINT);
+              raise(SIGINT);
+          }) == 130);
+    CHECK(in_child([] {
+              { const InterruptGuard guard; }
+              raise(SIGINT);
+          }) == 128 + SIGINT);
+    CHECK(in_child([] {
+              const InterruptGuard guard;
+              raise(SIGTERM);
+              _exit(guard.raised() ? 7 : 8);
+          }) == 7);
+}
+
+}  // namespace pl
