@@ -14,7 +14,7 @@ void write_corpus(const std::filesystem::path& folder) {
     write_field(folder / "small", test::small_field());
     LearnedField empty = test::small_field();
     empty.volumes = std::make_shared<const HostVolumes>();
-    empty.tables = {};
+    empty.field = {};
     empty.refinement = {};
     empty.progress.next_probe = 0;
     write_field(folder / "empty", empty);

@@ -13,13 +13,14 @@
 
 #include "core/base/error.h"
 #include "tests/ui/model_bench.h"
-#include "ui/window/display.h"
-#include "ui/window/draw_interface.h"
 #include "ui/draw/gui_memory.h"
+#include "ui/draw/style.h"
 #include "ui/input/input_router.h"
-#include "ui/window/mouse_tracker.h"
 #include "ui/script/script_player.h"
 #include "ui/script/script_values.h"
+#include "ui/window/display.h"
+#include "ui/window/draw_interface.h"
+#include "ui/window/mouse_tracker.h"
 
 namespace pl::test {
 namespace {
@@ -136,13 +137,14 @@ std::vector<ScriptCommand> shortened(std::vector<ScriptCommand> commands) {
 void check(const ViewerModel& model, const std::vector<ScriptCommand>& conditions) {
     for (const ScriptCommand& command : conditions)
         holds(command.condition, script_value(model, command.condition.name));
-    const CameraDescription& camera = model.settings().camera;
+    const CameraDescription& camera = model.camera().camera();
     for (const glm::vec3& v : {camera.eye, camera.target, camera.up})
         for (int axis = 0; axis < 3; ++axis)
             if (!std::isfinite(v[axis])) throw std::logic_error("a camera that is no number");
-    if (!std::isfinite(model.display().exposure_ev) || !(model.controls().speed() > 0.0f))
+    if (!std::isfinite(model.display().settings().exposure_ev) || !(model.camera().speed() > 0.0f))
         throw std::logic_error("an exposure or a speed that is no number");
-    if (model.settings().width < 1 || model.settings().height < 1) throw std::logic_error("a picture without pixels");
+    if (model.render().settings().width < 1 || model.render().settings().height < 1)
+        throw std::logic_error("a picture without pixels");
 }
 
 /// Events that an earlier script left behind.

@@ -46,17 +46,17 @@ Row measure(const std::shared_ptr<const SceneDescription>& scene, MethodId metho
     settings.camera = scene->camera;
     settings.field = field;
     Session session(make_cuda_backend(), scene, settings);
-    while (session.passes(slot_of(session)) < 16)
-        session.advance(slot_of(session));  // launch sizes and tables settle
-    const PassCounters before = session.snapshot(slot_of(session)).counters;
+    while (session.passes(slot_of(settings)) < 16)
+        session.advance(slot_of(settings));  // launch sizes and tables settle
+    const PassCounters before = session.snapshot(slot_of(settings)).counters;
     std::vector<double> passes;
     const double end = now_seconds() + seconds;
     while (passes.size() < 9 || now_seconds() < end) {
         const double start = now_seconds();
-        session.advance(slot_of(session));
+        session.advance(slot_of(settings));
         passes.push_back(now_seconds() - start);
     }
-    const PassCounters after = session.snapshot(slot_of(session)).counters;
+    const PassCounters after = session.snapshot(slot_of(settings)).counters;
     const double count = static_cast<double>(passes.size());
     const double pass = median(passes);
     return {.milliseconds = 1.0e3 * pass,

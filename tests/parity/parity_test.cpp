@@ -136,7 +136,7 @@ TEST_CASE("An update with the same training samples is equal to the bit") {
     const auto updated = [&](RenderBackend& backend) {
         backend.upload_scene(scene);
         backend.upload_volumes(volumes, shape);
-        backend.upload_field(MethodId::Reinforcement, records);
+        backend.upload_field(MethodId::Reinforcement, samples);
         backend.update_field(MethodId::Reinforcement);
         return tables_of(backend.download_field(MethodId::Reinforcement));
     };

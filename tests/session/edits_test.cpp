@@ -68,7 +68,7 @@ bool all_tables_kept(const Contents& before, const Contents& after) {
 bool only_has(const Contents& contents, const LearnedField& field) {
     return std::ranges::all_of(all_methods(), [&](const MethodInfo& method) {
         const HostTables& tables = contents.methods[static_cast<std::size_t>(method.id)].tables;
-        return method.id == field.method ? same_bits(tables, field.tables)
+        return method.id == field.method ? same_bits(tables, tables_of(field.field))
                                          : std::ranges::all_of(tables.visits, [](std::uint32_t n) { return n == 0; });
     });
 }
@@ -80,7 +80,7 @@ std::shared_ptr<const LearnedField> field_from_elsewhere(const SceneDescription&
     settings.field.volumes = 50;
     Session session = make_session(scene, settings, 2);
     render_passes(session, kPasses);
-    return std::make_shared<const LearnedField>(session.export_field());
+    return std::make_shared<const LearnedField>(session.export_field(session.settings().method));
 }
 
 struct Case {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <thread>
 
+#include "core/base/timer.h"
 #include "tests/support/session/sessions.h"
 
 namespace pl::test {
@@ -19,7 +20,9 @@ inline Progress advance_interrupted(Session& session, float delay) {
         std::this_thread::sleep_for(std::chrono::duration<double>(share * expected_seconds));
         stop = true;
     });
+    const Stopwatch watch;
     const Progress progress = session.advance(slot_of(session), &stop);
+    const double seconds = watch.seconds();
     other.join();
     if (progress == Progress::Stopped)
         expected_seconds = std::max(expected_seconds, seconds);

@@ -35,7 +35,7 @@ RenderSettings refining(float share = 0.5f, Estimator estimator = kLearning) {
 }
 
 std::uint64_t known_records(const Session& session, MethodId method = MethodId::Reinforcement) {
-    const HostTables tables = session.export_field(method).tables;
+    const HostTables tables = tables_of(session.export_field(method).field);
     return std::accumulate(tables.visits.begin(), tables.visits.end(), std::uint64_t{0}) +
            std::accumulate(tables.pending_count.begin(), tables.pending_count.end(), std::uint64_t{0});
 }
@@ -272,7 +272,7 @@ TEST_CASE("A radiance map that is complete and its picture go on, one that is no
     CHECK(known_records(session, kMap.method) == records);
     CHECK(map().precomputed_share == 1.0);
     CHECK(session.advance(kMap) == Progress::Rendered);
-    CHECK(session.export_field(kMap.method).tables.mean_radiance.size() ==
+    CHECK(tables_of(session.export_field(kMap.method).field).mean_radiance.size() ==
           before.tables.mean_radiance.size() + added);
 
     Session partial = make_session(door(), settings, 2);

@@ -33,7 +33,8 @@ Session stopped_in_first_pass(const SceneDescription& scene) {
         Session session = make_session(scene, small_settings(scene, kLearning, 300, 200), 2);
         while (session.passes(slot_of(session)) == 0) {
             advance_interrupted(session, random.next());
-            if (pass_is_partial(session) && sum(session.export_field(session.settings().method).tables.visits) > 0)
+            if (pass_is_partial(session) &&
+                sum(tables_of(session.export_field(session.settings().method).field).visits) > 0)
                 return session;
         }
     }
@@ -42,7 +43,7 @@ Session stopped_in_first_pass(const SceneDescription& scene) {
 }
 
 std::uint64_t waiting_records(const Session& session) {
-    return sum(session.export_field(session.settings().method).tables.pending_count);
+    return sum(tables_of(session.export_field(session.settings().method).field).pending_count);
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ TEST_CASE("The first pass is guided by its own first paths, later ones by whole 
     const SceneDescription scene = shipped_scene("door");
     Session session = stopped_in_first_pass(scene);
     REQUIRE(session.passes(slot_of(session)) == 0);
-    const HostTables published = session.export_field(session.settings().method).tables;
+    const HostTables published = tables_of(session.export_field(session.settings().method).field);
     CHECK(published.mean_radiance !=
           make_tables(session.export_field(session.settings().method).shape, 60).mean_radiance);
     CHECK(sum(published.visits) + sum(published.pending_count) ==
@@ -124,7 +125,7 @@ TEST_CASE("Training samples stay pending until the tables are updated, and none 
         INFO("after pass " << pass);
         const std::uint64_t waiting = waiting_records(session);
         CHECK((waiting == 0) == is_updated_after(pass));
-        CHECK(sum(session.export_field(session.settings().method).tables.visits) + waiting ==
+        CHECK(sum(tables_of(session.export_field(session.settings().method).field).visits) + waiting ==
               session.field_status(session.settings().method)->records);
     }
 }
@@ -137,7 +138,7 @@ TEST_CASE("A picture that begins anew updates the tables after its first pass, w
     session.apply(EditRestart{});
     render_passes(session, 1);
     CHECK(waiting_records(session) == 0);
-    CHECK(sum(session.export_field(session.settings().method).tables.visits) ==
+    CHECK(sum(tables_of(session.export_field(session.settings().method).field).visits) ==
           session.field_status(session.settings().method)->records);
 }
 
@@ -147,13 +148,13 @@ TEST_CASE("Pending training samples are saved and loaded with the tables") {
     Session first = make_session(scene, settings, 2);
     render_passes(first, 17);
     const LearnedField field = first.export_field(first.settings().method);
-    REQUIRE(sum(field.tables.pending_count) > 0);
+    REQUIRE(sum(tables_of(field.field).pending_count) > 0);
     const TemporaryFolder folder;
     write_field(folder.path() / "field", field);
 
     Session second = make_session(scene, settings, 1);
     second.import_field(read_field(folder.path() / "field"));
-    CHECK(waiting_records(second) == sum(field.tables.pending_count));
+    CHECK(waiting_records(second) == sum(tables_of(field.field).pending_count));
     first.apply(EditRestart{});
     render_passes(first, 2);
     render_passes(second, 2);

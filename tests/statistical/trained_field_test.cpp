@@ -4,6 +4,7 @@
 
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/guiding/direction_table.h"
+#include "core/kernel/guiding/update_volume.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/rectangle_light.h"
 #include "tests/support/scenes/shipped_scenes.h"

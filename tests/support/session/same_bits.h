@@ -31,7 +31,7 @@ struct State {
 };
 
 inline State state_of(Session& session, FilmSlot slot) {
-    return {session.snapshot_with_halves(slot), session.backend_access().download_field(slot.method)};
+    return {session.snapshot_with_halves(slot), tables_of(session.backend_access().download_field(slot.method))};
 }
 inline State state_of(Session& session) { return state_of(session, slot_of(session)); }
 

@@ -184,9 +184,10 @@ TEST_CASE("Densities per steradian are those over the square times the cosine") 
             const Vec3f local = square_to_cosine_hemisphere(square);
             const float expected = square_density(table, unpack(square)) * local.z * kInvPi;
             // A density of up to 144 per cell, moved by the 5e-7 of the round trip in 12 cells: 144 * 12 * 5e-7.
-            REQUIRE(std::fabs(table_density(table, TableDirection<One>(unpack(local))).pdf_sa - expected) <= 1e-3f);
+            REQUIRE(std::fabs(table_density(table, table_direction<One>(unpack(local), 1.0f)).pdf_sa - expected) <=
+                    1e-3f);
         }
-        CHECK(table_density(table, TableDirection<One>(Real3<One>{1, 0, 0})).pdf_sa == 0.0f);
-        CHECK(table_density(table, TableDirection<One>(Real3<One>{0, 0.6f, -0.8f})).pdf_sa == 0.0f);
+        CHECK(table_density(table, table_direction<One>({1, 0, 0}, 1.0f)).pdf_sa == 0.0f);
+        CHECK(table_density(table, table_direction<One>({0, 0.6f, -0.8f}, 1.0f)).pdf_sa == 0.0f);
     }
 }

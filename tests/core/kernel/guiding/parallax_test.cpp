@@ -63,7 +63,7 @@ TEST_CASE("All directions at a point are all directions at its site") {
                 const double angle = (x + 0.5) / (2 * kRows) * kTurn;
                 const double radius = std::sqrt(1.0 - z * z);
                 const Vec3f wi{Vec3d{radius * std::cos(angle), radius * std::sin(angle), z}};
-                sum += static_cast<double>(parallax.to_site(unpack(wi)).steradians);
+                sum += static_cast<double>(parallax.to_site(unpack(wi)).jacobian);
             }
         INFO("distance " << distance);
         CHECK(sum / (2.0 * kRows * kRows) == Approx(1.0).epsilon(1e-4));
@@ -74,7 +74,7 @@ TEST_CASE("Solid angles change within bounds") {
     Uniforms random(3);
     for (int i = 0; i < 100000; ++i) {
         const Vec3f point = kSite + random.between(0.0f, 3.0f) * kRadius * random.direction();
-        const float steradians = at(point).to_site(unpack(random.direction())).steradians;
+        const float steradians = at(point).to_site(unpack(random.direction())).jacobian;
         REQUIRE(steradians > 0.0099f);
         REQUIRE(steradians < 3.7f);
     }
@@ -87,6 +87,6 @@ TEST_CASE("Light from infinitely far away has no parallax, not by a bit") {
         const Parallax<One> parallax = at(1000.0f * random.direction(), 0.0f);
         const SiteDirection<One> seen = parallax.to_site(unpack(wi));
         CHECK(pack(seen.direction) == wi);
-        CHECK(seen.steradians == 1.0f);
+        CHECK(seen.jacobian == 1.0f);
     }
 }
