@@ -71,7 +71,7 @@ def palette_of(counts):
     """Colors of the palette, and the index of each color in it. [Heckbert 1982, median cut]"""
     boxes = [list(counts.items())]
     while len(boxes) < COLORS:
-        box = max(boxes, key=lambda b: widest(b)[1] * len(b) ** 0.5)
+        box = max(boxes, key=lambda b: widest(b)[1])
         if len(box) == 1:
             break
         channel = widest(box)[0]
