@@ -19,7 +19,7 @@ DOCS = Path(__file__).resolve().parent
 # Arguments of the viewer, and the folder of its pictures.
 PICTURES = {
     "window": (["cornell", "--size", "384x384", "--window", "1440x900"], DOCS / "images"),
-    "tour": (["cornell", "--size", "192x192", "--window", "1120x700"], DOCS / "images" / "tour"),
+    "tour": (["cornell", "--size", "128x128", "--window", "1120x700"], DOCS / "images" / "tour"),
 }
 COLORS = 256
 
