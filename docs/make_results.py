@@ -14,7 +14,7 @@ PLOTS = DOCS / "images" / "results"
 
 
 def interval(values, digits=3):
-    """A value with its interval of 95 %; what is not known is said."""
+    """A value with its interval of 95 %, or the word unknown."""
     if values[0] is None:
         return "unknown"
     if any(v is None for v in values):
@@ -37,10 +37,19 @@ learning are charged. Made by [make_results.py](make_results.py) of one bench.
 * References: {references(results)}.
 * relMSE is {results['definitions']['metrics']['relmse']} with epsilon {results['definitions']['metrics']['epsilon']};
   against a reference in two halves, so that the reference's own noise drops out. Intervals: {results['definitions']['intervals']}.
-* Pictures are small and runs short, so that all of this fits into minutes; publishing what was learned costs the same per pass at any size,
-  and weighs less in larger pictures. `precomputed` ends after its first sample where precomputing takes longer than the limit.
+* Pictures are small and runs short, so that the bench fits into minutes; an update of the tables costs the same at any size, and weighs less in
+  larger pictures. `precomputed` ends after its first sample where precomputing takes longer than the limit.
+{light_samples(results)}
 
 """
+
+
+def light_samples(results):
+    """A line that says whether lights were sampled, which decides much of what learning can gain."""
+    if "--nee on" in results["command"]:
+        return "* With light samples (next-event estimation)."
+    return ("* Without light samples, the program's default. With them, as most renderers run, learning loses on many scenes:\n"
+            "  [learning.md](learning.md#with-light-samples).")
 
 
 def references(results):
@@ -52,7 +61,7 @@ def references(results):
 
 
 def verdict(comparison):
-    """How much more time the first method needs than this one for the same error: above 1 this one is faster."""
+    """Time of the first method over that of this one to the same error: above 1 this one is faster."""
     net = comparison["net"]
     if net[0] is None or net[1] is None or net[2] is None:
         return "unknown"
@@ -68,7 +77,15 @@ def gains(results):
     cells = {(c["scene"], c["backend"], c["method"]): verdict(c) for c in results["comparisons"]}
     for scene, backend in sorted({(s, b) for s, b, _ in cells}):
         rows.append(f"| `{scene}` | {backend} | " + " | ".join(cells.get((scene, backend, m), "") for m in others) + " |")
-    return "\n".join(rows) + "\n\n"
+    return "\n".join(rows) + "\n\n" + "\n".join(count_verdicts(cells, m) for m in others) + "\n\n"
+
+
+def count_verdicts(cells, method):
+    """A line that counts faster, undecided and slower scenes of a method, and names those that are not faster."""
+    ends = {word: sorted({f"`{s}`" for (s, _, m), text in cells.items() if m == method and text.endswith(word)})
+            for word in ("faster", "undecided", "slower")}
+    named = [f"{word} on {len(ends[word])}" + (f" ({', '.join(ends[word])})" if word != "faster" and ends[word] else "") for word in ends]
+    return f"* `{method}`: {', '.join(named)}."
 
 
 def ends(results):

@@ -170,12 +170,12 @@ void play_script(std::vector<ScriptCommand> commands) {
     InputRouter input(window);
     ScriptPlayer player(shortened(std::move(commands)), window);
     double seconds = bench.clock;
-    while (!model.window().quit_asked) {
+    while (!model.window().quit) {
         std::this_thread::sleep_for(std::chrono::microseconds(100));  // for passes of the fake back end
         seconds += ScriptPlayer::kFrameSeconds;
         const Layout layout = panels.layout(model);
-        const Rect image = place_image(layout.view, model.settings().width, model.settings().height);
-        const ComparePlan plan = model.compare_plan(layout.view);
+        const Rect image = place_image(layout.view, model.render().settings().width, model.render().settings().height);
+        const ComparePlan plan = model.comparison().plan(layout.view);
         player.step(model, image, seconds);
         const ImGuiIO& io = ImGui::GetIO();
         SDL_Event event;

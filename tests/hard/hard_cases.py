@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""The table of hard cases, docs/hard-cases.md, made of tests/hard/catalogue.txt, the tests' sources and what tests measured.
+"""The table of hard cases, docs/hard-cases.md, made of tests/hard/catalogue.txt, the tests' sources and their measurements.
 
 hard_cases.py --check            fails if a case is missing, names a test that does not exist, or the table is another one
-hard_cases.py --write [BUILD]..  writes the table; margins and seconds are those that the tests left in BUILD/margins, and what no
-                                 BUILD has stays as it is in the table
+hard_cases.py --write [BUILD]..  writes the table; margins and seconds are those in BUILD/margins, or else those of the table
 """
 import pathlib
 import re
@@ -21,7 +20,7 @@ HEAD = """# Hard cases
 Made by `tests/hard/hard_cases.py --write BUILD` of [tests/hard/catalogue.txt](../tests/hard/catalogue.txt); a test fails if a case is missing.
 *Used* is the largest share of a tolerance that the tests of a case used: of the limit of a bound, or of the way to a false alarm of a rule
 that compares means, densities or pictures (one in a million; above 100 % the test fails). *exact* has no tolerance: bits, counts, words.
-*Seconds* are of one run on a machine that others kept busy, tests of a case together; where nothing stands, no run was kept.
+*Seconds* are of one run on a busy machine, tests of a case together; an empty field has no kept run.
 The rules S1 to S3 are in [tests/support/statistics/rules.h](../tests/support/statistics/rules.h): they pass only with the power to fail.
 `./run test` runs the tier push, after which `tests/hard/hard_cases.py --write build/release` brings the numbers up to date; `./run test merge`
 and `./run test nightly` run the larger tiers, too.

@@ -90,7 +90,7 @@ TEST_CASE("Actions: flying keys work with Shift and Alt, and leave Ctrl to comma
     CHECK(find_action({SDL_SCANCODE_F9, SDLK_F9, {}}) == nullptr);
 }
 
-TEST_CASE("Actions: the table for the README lists all of them") {
+TEST_CASE("Actions: the table for the manual lists all of them") {
     const std::string table = key_table_markdown();
     for (const Action& action : all_actions()) CHECK_THAT(table, test::contains(action.text));
     for (const MouseAction& action : mouse_actions()) CHECK_THAT(table, test::contains(action.text));
@@ -99,8 +99,8 @@ TEST_CASE("Actions: the table for the README lists all of them") {
     CHECK(lines == 2 + all_actions().size() + mouse_actions().size());
 }
 
-TEST_CASE("Actions: the README holds the table that the program makes") {
-    std::ifstream file(std::string(PL_SOURCE_DIR) + "/README.md");
-    const std::string readme{std::istreambuf_iterator<char>(file), {}};
-    CHECK_THAT(readme, test::contains(key_table_markdown()));
+TEST_CASE("Actions: the manual holds the table that the program makes") {
+    std::ifstream file(std::string(PL_SOURCE_DIR) + "/docs/manual.md");
+    const std::string manual{std::istreambuf_iterator<char>(file), {}};
+    CHECK_THAT(manual, test::contains(key_table_markdown()));
 }

@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Makes the pictures of README.md and of tour.md with the program, as PNGs of 256 colors.
+
+Usage: make_pictures.py PROGRAM [NAME...]   NAME is window or tour; default: both
+
+The viewer plays pictures/NAME.script on SDL's dummy driver, so no display is needed. Every `shot` of a script becomes a picture.
+"""
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+from collections import Counter
+from pathlib import Path
+
+DOCS = Path(__file__).resolve().parent
+# Arguments of the viewer, and the folder of its pictures.
+PICTURES = {
+    "window": (["cornell", "--size", "384x384", "--window", "1440x900"], DOCS / "images"),
+    "tour": (["cornell", "--size", "128x128", "--window", "1120x700"], DOCS / "images" / "tour"),
+}
+COLORS = 256
+
+
+def paeth(left, up, corner):
+    distances = (abs(up - corner), abs(left - corner), abs(left + up - 2 * corner))
+    return (left, up, corner)[distances.index(min(distances))]
+
+
+def unfiltered(kind, line, above, step):
+    """One row of a PNG without its filter. [PNG specification, section 9]"""
+    row = bytearray(line)
+    for i, value in enumerate(line):
+        left = row[i - step] if i >= step else 0
+        corner = above[i - step] if i >= step else 0
+        row[i] = (value + (0, left, above[i], (left + above[i]) // 2, paeth(left, above[i], corner))[kind]) & 255
+    return row
+
+
+def read_png(path):
+    """Width, height and the (r, g, b) of all pixels of an 8-bit RGB or RGBA PNG."""
+    data = path.read_bytes()
+    place, packed = 8, b""
+    while place < len(data):
+        size, kind = struct.unpack(">I4s", data[place:place + 8])
+        body = data[place + 8:place + 8 + size]
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+            if depth != 8 or color not in (2, 6):
+                sys.exit(f"{path}: expected 8 bits of RGB or RGBA, got {depth} bits of color type {color}")
+        packed += body if kind == b"IDAT" else b""
+        place += 12 + size
+    step = 3 if color == 2 else 4
+    raw, stride = zlib.decompress(packed), width * step + 1
+    pixels, above = [], bytearray(width * step)
+    for y in range(height):
+        above = unfiltered(raw[y * stride], raw[y * stride + 1:(y + 1) * stride], above, step)
+        pixels += zip(above[0::step], above[1::step], above[2::step])
+    return width, height, pixels
+
+
+def widest(box):
+    """The channel in which the colors of a box differ most, and by how much."""
+    spans = [max(c[i] for c, _ in box) - min(c[i] for c, _ in box) for i in range(3)]
+    return spans.index(max(spans)), max(spans)
+
+
+def palette_of(counts):
+    """Colors of the palette, and the index of each color in it. [Heckbert 1982, median cut]"""
+    boxes = [list(counts.items())]
+    while len(boxes) < COLORS:
+        box = max(boxes, key=lambda b: widest(b)[1])
+        if len(box) == 1:
+            break
+        channel = widest(box)[0]
+        box.sort(key=lambda entry: entry[0][channel])
+        boxes.remove(box)
+        boxes += [box[:len(box) // 2], box[len(box) // 2:]]
+    colors, index = [], {}
+    for box in boxes:
+        weight = sum(n for _, n in box)
+        colors.append(tuple(round(sum(c[i] * n for c, n in box) / weight) for i in range(3)))
+        index.update((c, len(colors) - 1) for c, _ in box)
+    return colors, index
+
+
+def chunk(kind, body):
+    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+
+def shrink(source, target):
+    """Writes a PNG as one of a palette: colors that differ in the last bit only count as equal."""
+    width, height, pixels = read_png(source)
+    pixels = [(r & 254, g & 254, b & 254) for r, g, b in pixels]
+    colors, index = palette_of(Counter(pixels))
+    numbers = bytes(index[p] for p in pixels)
+    rows = b"".join(b"\0" + numbers[y * width:(y + 1) * width] for y in range(height))
+    target.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)) +
+                       chunk(b"PLTE", b"".join(map(bytes, colors))) + chunk(b"IDAT", zlib.compress(rows, 9)) +
+                       chunk(b"IEND", b""))
+
+
+def make(program, name):
+    arguments, folder = PICTURES[name]
+    script = DOCS / "pictures" / f"{name}.script"
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as work:
+        subprocess.run([program, "view", *arguments, "--backend", "cpu", "--script", str(script)], check=True, cwd=work,
+                       env=os.environ | {"SDL_VIDEODRIVER": "dummy"})
+        for shot in re.findall(r"^\d+ shot (\S+)$", script.read_text(), re.MULTILINE):
+            shrink(Path(work) / shot, folder / shot)
+            print(f"{folder / shot}: {(folder / shot).stat().st_size} bytes")
+
+
+def main():
+    if len(sys.argv) < 2 or set(sys.argv[2:]) - set(PICTURES):
+        sys.exit(__doc__)
+    for name in sys.argv[2:] or PICTURES:
+        make(str(Path(sys.argv[1]).resolve()), name)
+
+
+if __name__ == "__main__":
+    main()
