@@ -170,7 +170,7 @@ void play_script(std::vector<ScriptCommand> commands) {
     InputRouter input(window);
     ScriptPlayer player(shortened(std::move(commands)), window);
     double seconds = bench.clock;
-    while (!model.window().quit) {
+    while (!model.window().requests.quit) {
         std::this_thread::sleep_for(std::chrono::microseconds(100));  // for passes of the fake back end
         seconds += ScriptPlayer::kFrameSeconds;
         const Layout layout = panels.layout(model);
@@ -186,7 +186,7 @@ void play_script(std::vector<ScriptCommand> commands) {
                 {plan.at_image ? image : Rect{}, layout.view, io.WantCaptureMouse, io.WantTextInput, seconds});
         }
         model.update(seconds);
-        model.fly(input.move_keys(), ScriptPlayer::kFrameSeconds);
+        model.camera().fly(input.move_keys(), ScriptPlayer::kFrameSeconds);
         panels.frame(model, layout, image, plan);
         check(model, conditions);
     }

@@ -162,7 +162,7 @@ public:
         if (request.stop == nullptr || !*request.stop) counters.paths = probes_ - request.first_probe;
         return counters;
     }
-    /// Makes every table depend on all records so far.
+    /// Makes every table depend on all training samples so far.
     void update_field(MethodId method) override {
         require_device();
         HostTables& tables = tables_.at(method);

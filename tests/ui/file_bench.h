@@ -1,9 +1,5 @@
-// A viewer model with a folder for its files; saved pictures are only noted.
+// A viewer model with a folder for its files.
 #pragma once
-
-#include <filesystem>
-#include <mutex>
-#include <vector>
 
 #include "core/base/error.h"
 #include "tests/support/files/temporary_folder.h"
@@ -13,8 +9,6 @@ namespace pl::test {
 
 struct FileBench : ModelBench {
     std::shared_ptr<FakeControl> control = devices.cpu;
-    std::mutex mutex;
-    std::vector<std::filesystem::path> saved;
     TemporaryFolder folder;
 
     FileBench() : ModelBench(64) {
@@ -28,10 +22,6 @@ struct FileBench : ModelBench {
             auto scene = std::make_shared<SceneDescription>(*small_scene());
             scene->camera.eye.y = 1.5f;
             return scene;
-        };
-        options.save_image = [this](const std::filesystem::path& path, const Snapshot&, const ViewerPicture&) {
-            const std::lock_guard lock(mutex);
-            saved.push_back(path);
         };
         options.command_line = [](const ViewerPicture& picture) { return "pathlight render " + picture.scene; };
     }

@@ -41,7 +41,7 @@ TEST_CASE(
     const auto map = model.diagnostics().map();
     CHECK(map->is_complete);
     CHECK(map->pixels[kBad] == DiagnosticsMap::Pixel{4, 0, 0, 0});
-    CHECK(map->pixel_count(Diagnostic::Invalid) == 1);
+    CHECK(map->pixel_count(DiagnosticKind::InvalidSample) == 1);
     CHECK(script_value(model, "diagnostics") == "4 invalid in 1 pixel");
     CHECK(told(model, "4 invalid in 1 pixel"));
     CHECK_FALSE(model.busy());
@@ -101,5 +101,5 @@ TEST_CASE("Diagnostics search: a picture of valid samples has no marks") {
     REQUIRE(bench.is_done(model));
     model.diagnostics().toggle();
     REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
-    CHECK(script_value(model, "diagnostics") == "no diagnostics found");
+    CHECK(script_value(model, "diagnostics") == "nothing wrong found");
 }

@@ -91,6 +91,6 @@ TEST_CASE("Self test run: one that is stopped, that fails and that breaks off sa
     queue.breaks = true;
     run_all(run, queue);
     CHECK(run.outcome() == SelfTestRun::Outcome::Broken);
-    CHECK(run.summary() == "broke off after 1 check: the device is lost");
+    CHECK(run.summary() == "stopped by an error after 1 check: the device is lost");
     CHECK(run.checks().size() == 1);
 }

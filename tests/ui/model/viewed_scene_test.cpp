@@ -1,10 +1,10 @@
 // The scene in the window: loading, and materials that are edited, refused and restored.
-#include <atomic>
 #include <cmath>
 
 #include "core/measure/picture_identity.h"
 #include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
+#include "ui/model/stored_reference.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -112,16 +112,20 @@ TEST_CASE("Viewed scene: two of them are changed and restored together") {
 
 TEST_CASE("Viewed scene: references are looked up with the edited scene") {
     MaterialBench bench;
-    std::atomic<float> asked{-1.0f};  // looks are made on a thread of their own
-    bench.options.find_reference = [&](const OpenScene& scene, const RenderSettings&) {
-        asked = scene.description->materials[0].albedo.x;
-        return std::shared_ptr<const StoredReference>();
-    };
+    const TemporaryFolder folder;
+    bench.options.reference_dir = folder.path();
     const auto scene = small_scene();
+    SceneDescription changed = *scene;
+    changed.materials[0] = with_albedo(scene->materials[0], 0.25f);
+    StopFlag stop{true};
+    make_stored_reference(folder.path(), {"small", std::make_shared<const SceneDescription>(changed)},
+                          bench.options.settings, bench.options.make_backend,
+                          {.stop = &stop, .progress = [](double, const std::string&) {}});
     ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
-    REQUIRE(bench.run_until(model, [&] { return asked == scene->materials[0].albedo.x; }));
-    model.scene().set_material(0, with_albedo(scene->materials[0], 0.25f));
-    CHECK(bench.run_until(model, [&] { return asked == 0.25f; }));
+    REQUIRE(bench.run_until(model, [&] { return model.status().picture != 0 && model.status().seconds > 0.0; }));
+    CHECK(model.references().current() == nullptr);
+    model.scene().set_material(0, changed.materials[0]);
+    CHECK(bench.run_until(model, [&] { return model.references().current() != nullptr; }));
 }
 
 TEST_CASE("Viewed scene: a new scene has the materials of its file, and pictures name the edited ones") {

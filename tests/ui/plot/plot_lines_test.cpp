@@ -28,6 +28,7 @@ TEST_CASE("Plot: runs of another picture and hidden ones do not stretch the axes
     CHECK(fit_range(lines).y_high <= 1.0 + 1e-9);
     lines[0].hidden = true;
     CHECK(fit_range(lines).y_high >= 1e6);  // there is nothing else to show
+    CHECK(fit_range(std::span<const PlotLine>{}).x_low < fit_range(std::span<const PlotLine>{}).x_high);
 }
 
 TEST_CASE("Plot: points that logarithmic axes cannot show are left out") {

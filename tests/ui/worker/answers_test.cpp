@@ -29,7 +29,7 @@ TEST_CASE("Answers: diagnostics of a picture, or the reason why it has none") {
     bench.render(kDefault, 2);
     const DiagnosticsAnswer answer = answer_diagnostics(bench.session, kDefault, 5);
     REQUIRE(answer.source);
-    CHECK(answer.source->samples == 2);
+    CHECK(answer.source->passes.samples == 2);
     CHECK(answer.generation == 5);
     CHECK_THAT(answer_diagnostics(bench.session, {MethodId::Default, View::Normal}, 5).reason,
                contains("show 'beauty'"));
