@@ -16,8 +16,11 @@ inline constexpr float kMaxRecordedUnits = 65536.0f;
 /// the largest target between two updates.
 inline constexpr float kStepsPerUnit = 16777216.0f;
 
+/// A Span that only reads; a type of its own, because nvcc takes an alias template for the template that it names.
 template <class T>
-using ConstSpan = Span<const T>;
+struct ConstSpan : Span<const T> {
+    using Span<const T>::Span;
+};
 
 struct TableView : PlacementView, TableArrays<ConstSpan, Span> {
     DirectionCells cells;

@@ -381,7 +381,11 @@ TEST_CASE("words for other settings are those of the newest point") {
                                        : "--max-depth " + std::to_string(s.settings().max_depth);
         },
         kAlways);
-    while (session.passes(slot_of(session)) < 50) {
+    const auto newest_spp = [&] {
+        const auto set = runs.current();
+        return set->runs.empty() ? 0u : set->runs.front()->points.back().spp;
+    };
+    while (newest_spp() < 20) {
         session.advance(slot_of(session));
         runs.observe(session, slot_of(session));
     }
