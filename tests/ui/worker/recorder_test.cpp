@@ -43,7 +43,8 @@ TEST_CASE("Recorder: a run carries the settings that differ from the defaults, i
 
 TEST_CASE("Recorder: a bad reference is refused once, and kept as the one that was asked for") {
     Recorder recorder;
-    const auto bad = std::make_shared<const LiveReference>(LiveReference{.width = 3, .height = 3});
+    const auto bad =
+        std::make_shared<const LiveReference>(LiveReference{.width = 3, .height = 3, .first = {}, .second = {}});
     CHECK_THROWS(recorder.set_reference(bad));
     CHECK(recorder.reference() == bad);
 }
