@@ -29,7 +29,7 @@ struct Contents {
 
 Contents contents_of(Session& session) {
     session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f});  // places volumes if there are none
-    Contents contents{{}, session.packed_scene(), session.snapshot(slot_of(session)).clocks.place};
+    Contents contents{{}, session.packed_scene(), session.clocks({learning_method(), View::Beauty}).place};
     for (const MethodInfo& method : all_methods())
         contents.methods[static_cast<std::size_t>(method.id)] = state_of(session, {method.id, View::Beauty});
     return contents;

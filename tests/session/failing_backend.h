@@ -6,7 +6,7 @@
 
 namespace pl::test {
 
-/// The CPU back end, until one of its functions is told to fail.
+/// The CPU back end, until one of its functions is made to fail.
 class FailingBackend final : public RenderBackend {
 public:
     enum class Failure { None, Scene, Volumes, Tables, Download, Pass };

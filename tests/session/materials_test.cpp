@@ -80,6 +80,8 @@ std::vector<Change> all_changes() {
     };
 }
 
+constexpr FilmSlot kLearning{MethodId::Reinforcement, View::Beauty};
+
 Session used_session(const SceneDescription& scene, const RenderSettings& settings,
                      const std::shared_ptr<RenderBackend>& backend) {
     Session session(backend, std::make_shared<const SceneDescription>(scene), settings);
@@ -114,12 +116,12 @@ TEST_CASE("Material edit: the session goes on like a new one of the changed scen
     for (const Change& change : all_changes()) {
         INFO(change.text);
         Session session = used_session(change.before, tiny_settings(change.before), make_cpu_backend({.threads = 2}));
-        const double placed = session.clocks(slot_of(session)).place;
+        const double placed = session.clocks(kLearning).place;
         session.apply(change.edit);
-        CHECK(session.passes(slot_of(session)) == 0);
+        CHECK(session.passes(kLearning) == 0);
         CHECK(scene_hash(session.scene()) == scene_hash(change.after()));
         CHECK(scene_hash(session.scene()) != scene_hash(change.before));
-        CHECK((session.clocks(slot_of(session)).place == placed) == change.keeps_volumes);
+        CHECK((session.clocks(kLearning).place == placed) == change.keeps_volumes);
         check_like_fresh(session, change.after());
     }
 }
@@ -164,7 +166,7 @@ TEST_CASE("Material edit: the needed effects follow") {
 TEST_CASE("Material edit: a bad value is refused with the reason, and nothing changes") {
     const SceneDescription scene = shipped_scene("cornell");
     Session session = used_session(scene, tiny_settings(scene), make_cpu_backend({.threads = 2}));
-    const State before = state_of(session);
+    const State before = state_of(session, kLearning);
     const auto packed = session.packed_scene();
     const auto refused = [&](const std::string& part, const std::function<void(MaterialDescription&)>& spoil) {
         EditMaterial edit{0, scene.materials[0]};
@@ -186,7 +188,7 @@ TEST_CASE("Material edit: a bad value is refused with the reason, and nothing ch
     const auto last = static_cast<std::uint32_t>(scene.materials.size());
     error_message(ErrorKind::Usage, [&] { session.apply(EditMaterial{last, scene.materials[0]}); });
     CHECK(session.packed_scene() == packed);
-    CHECK(same_state(before, state_of(session)));
+    CHECK(same_state(before, state_of(session, kLearning)));
 }
 
 TEST_CASE("Material edit: a parked back end gets the changed scene when it returns") {
@@ -197,7 +199,7 @@ TEST_CASE("Material edit: a parked back end gets the changed scene when it retur
     session.apply(EditBackend{std::shared_ptr<RenderBackend>(make_cpu_backend({.threads = 2}))});
     session.apply(change.edit);
     session.apply(EditBackend{kept});
-    CHECK(session.passes(slot_of(session)) == 0);
+    CHECK(session.passes(kLearning) == 0);
     check_like_fresh(session, change.after());
 }
 
@@ -225,13 +227,13 @@ TEST_CASE("Material edit: one that does not fit into the back end changes nothin
     const Change change = all_changes().front();
     const auto backend = std::make_shared<FailingBackend>();
     Session session = used_session(change.before, tiny_settings(change.before), backend);
-    const State before = state_of(session);
+    const State before = state_of(session, kLearning);
     const auto packed = session.packed_scene();
     backend->failure = FailingBackend::Failure::Scene;
     error_message(ErrorKind::Unavailable, [&] { session.apply(change.edit); });
     CHECK(session.packed_scene() == packed);
     CHECK(scene_hash(session.scene()) == scene_hash(change.before));
-    CHECK(same_state(before, state_of(session)));
+    CHECK(same_state(before, state_of(session, kLearning)));
     backend->failure = FailingBackend::Failure::None;
     session.apply(change.edit);
     check_like_fresh(session, change.after());
