@@ -42,7 +42,7 @@ std::string PictureFiles::command_line() const {
 
 void PictureFiles::save(std::initializer_list<const char*> suffixes) {
     if (!link_.frame() || !options_.save_image) {
-        messages_.say(LogLevel::Warning, "there is no picture to save yet");
+        messages_.say(MessageLevel::Warning, "there is no picture to save yet");
         return;
     }
     const std::filesystem::path name = names_.next(scene_, info_of(link_.frame()->settings.method).name, suffixes);
@@ -58,7 +58,7 @@ void PictureFiles::write_unsaved() {
     if (!frame->has_values()) {
         if (link_.status().state != WorkerState::Failed || messages_.now() < deadline_) return;
         unsaved_.clear();
-        messages_.say(LogLevel::Error, "the picture cannot be saved: rendering has failed");
+        messages_.say(MessageLevel::Error, "the picture cannot be saved: rendering has failed");
         return;
     }
     ViewerPicture shown = picture();
@@ -67,19 +67,19 @@ void PictureFiles::write_unsaved() {
     for (const std::filesystem::path& path : std::exchange(unsaved_, {})) {
         jobs_.push([this, path, shown, frame]() -> JobThread::Report {
             options_.save_image(path, frame->snapshot, shown);
-            return [this, path] { messages_.say(LogLevel::Info, "saved " + path.string()); };
+            return [this, path] { messages_.say(MessageLevel::Info, "saved " + path.string()); };
         });
     }
 }
 
 void PictureFiles::save_window(ScreenPixels pixels, std::filesystem::path path) {
     if (!options_.save_screen) {
-        messages_.say(LogLevel::Warning, "this build cannot save the window");
+        messages_.say(MessageLevel::Warning, "this build cannot save the window");
         return;
     }
     jobs_.push([this, path, shared = std::make_shared<ScreenPixels>(std::move(pixels))]() -> JobThread::Report {
         options_.save_screen(path, *shared);
-        return [this, path] { messages_.say(LogLevel::Info, "saved " + path.string()); };
+        return [this, path] { messages_.say(MessageLevel::Info, "saved " + path.string()); };
     });
 }
 

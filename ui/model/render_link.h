@@ -38,7 +38,7 @@ public:
     /// The two methods that render in turns; empty if none do.
     const std::optional<TurnMethods>& turns() const { return turns_; }
     void begin_turns(TurnMethods methods);
-    /// Ends turns and goes on with `method`: the last turn may have been the other one's. Nothing without turns.
+    /// Ends turns and continues with `method`: the last turn may have been the other method's. Nothing without turns.
     void end_turns(MethodId method);
 
 private:

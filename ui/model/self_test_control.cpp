@@ -6,7 +6,7 @@ void SelfTestControl::start() {
     is_shown_ = true;
     if (run_.is_running()) return;
     if (!options_.run_self_test) {
-        messages_.say(LogLevel::Warning, "this build has no self test");
+        messages_.say(MessageLevel::Warning, "this build has no self test");
         return;
     }
     run_.start(options_.run_self_test);
@@ -20,9 +20,9 @@ void SelfTestControl::update() {
         run_.outcome() == SelfTestRun::Outcome::Passed || run_.outcome() == SelfTestRun::Outcome::Stopped;
     const std::string text = "self test: " + run_.summary();
     if (is_good)
-        messages_.note(LogLevel::Info, text);
+        messages_.note(MessageLevel::Info, text);
     else
-        messages_.say(LogLevel::Error, text);
+        messages_.say(MessageLevel::Error, text);
 }
 
 }  // namespace pl

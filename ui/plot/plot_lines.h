@@ -10,10 +10,10 @@
 
 namespace pl {
 
-struct PlotPoint {
+struct LinePoint {
     PlotValue value;
     std::size_t index = 0;  ///< of the point in its run
-    double low = 0.0;  ///< band around it: two standard errors over this run's own blocks; 0 and 0: there is none
+    double low = 0.0;       ///< band: two standard errors over the run's own blocks; 0 and 0 without a band
     double high = 0.0;
 };
 
@@ -23,21 +23,21 @@ struct PlotLine {
     std::uint32_t color = 0;  ///< opaque ARGB
     LineStyle style = LineStyle::Full;
     bool warm = false;
-    bool comparable = true;  ///< shows the picture that is in the window; others are gray
+    bool comparable = true;  ///< of the picture in the window; others are gray
     bool hidden = false;
     bool in_progress = false;
-    std::vector<PlotPoint> points;
+    std::vector<LinePoint> points;
 };
 
-/// Of what is drawn in one line at most; the first and the last point always are.
+/// Most points of a drawn line, which always has the first and the last point of its run.
 inline constexpr std::size_t kMostPoints = 500;
 
-/// The points that can be shown on logarithmic axes: both numbers positive and finite. At most kMostPoints: of each of as
-/// many equal stretches of log x the lowest and the highest.
-std::vector<PlotPoint> plot_points(const LiveRun& run, const CurveKind& kind);
-std::vector<PlotPoint> thin_out(std::vector<PlotPoint> points, std::size_t most);
+/// The points of a run on logarithmic axes: both values positive and finite. At most kMostPoints: the lowest and the
+/// highest point of each of equal intervals of log x.
+std::vector<LinePoint> plot_points(const LiveRun& run, const CurveKind& kind);
+std::vector<LinePoint> thin_out(std::vector<LinePoint> points, std::size_t most);
 
-/// Range of all lines that are shown and comparable; of those that are shown if none is comparable.
+/// Range of all comparable lines that are not hidden; of all lines that are not hidden if none is comparable.
 PlotRange fit_range(std::span<const PlotLine> lines);
 
 struct PlotHit {
@@ -48,7 +48,7 @@ struct PlotHit {
 std::optional<PlotHit> nearest_point(std::span<const PlotLine> lines, const PlotView& view, const Rect& frame,
                                      Vec2f pointer, float most_pixels);
 
-/// A line in pieces of `on` pixels with gaps of `off` pixels, both positive: pairs of points.
+/// A dashed line: pieces of `on` pixels with gaps of `off` pixels, both positive, as pairs of points.
 std::vector<Vec2f> dashes(std::span<const Vec2f> line, float on, float off);
 
 }  // namespace pl

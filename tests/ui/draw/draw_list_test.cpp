@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/scene/pack_scene.h"
 #include "tests/catch.hpp"
 #include "ui/draw/draw_list.h"
 

@@ -63,7 +63,7 @@ TEST_CASE("Headline: as plain when learning loses, and without a reference") {
 }
 
 TEST_CASE("Headline: says what to do while there is nothing to compare") {
-    CHECK_THAT(make_headlines({}, kThisPicture)[0].text, contains("2 and 3"));
+    CHECK_THAT(make_headlines({}, kThisPicture)[0].text, contains("2, 3"));
     CHECK_THAT(make_headlines(Runs{make_run({})}, kThisPicture)[0].text, contains("Only default"));
     const Runs alone{make_run({.method = MethodId::Reinforcement})};
     CHECK_THAT(make_headlines(alone, kThisPicture)[0].text, contains("nothing to be compared with yet"));
