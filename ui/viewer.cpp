@@ -78,7 +78,7 @@ Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescript
       input_(display_.window()), model_(options, scene, first_settings(*scene), load_seconds) {
     if (options.script) script_.emplace(load_script(*options.script), display_.window());
     if (options.ui_trace) trace_.emplace(*options.ui_trace);
-    model_.messages().note(LogLevel::Info, "window drawn by " + display_.renderer_name());
+    model_.messages().note(MessageLevel::Info, "window drawn by " + display_.renderer_name());
     layout_ = current_layout();
     image_ = image_layer_.place(model_, layout_.view);
 }

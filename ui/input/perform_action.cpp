@@ -14,14 +14,14 @@ void copy_command(ViewerModel& model) {
     Messages& messages = model.messages();
     const std::string command = model.files().pictures().command_line();
     if (command.empty()) {
-        messages.say(LogLevel::Warning, "this build cannot write the command line");
+        messages.say(MessageLevel::Warning, "this build cannot write the command line");
         return;
     }
     ImGui::SetClipboardText(command.c_str());
-    messages.say(LogLevel::Info, "copied: " + command);
+    messages.say(MessageLevel::Info, "copied: " + command);
     const std::size_t edited = model.scene().materials().edited_names().size();
     if (edited > 0)
-        messages.say(LogLevel::Warning,
+        messages.say(MessageLevel::Warning,
                      fmt::format("it renders the materials of the file: {} {} edited in the window", edited,
                                  edited == 1 ? "is" : "are"));
 }
@@ -75,7 +75,7 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
 }
 
 bool perform_compare_action(ViewerModel& model, ActionId id) {
-    Comparison& comparison = model.comparison();
+    CompareControls& comparison = model.comparison();
     switch (id) {
     case ActionId::ShowDiagnostics: model.diagnostics().toggle(); return true;
     case ActionId::CompareNext: comparison.step_mode(1); return true;

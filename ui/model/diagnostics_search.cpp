@@ -28,7 +28,7 @@ void DiagnosticsSearch::start() {
 
 void DiagnosticsSearch::update() {
     if (auto answer = link_.worker().take_diagnostics()) {
-        if (!answer->source) messages_.say(LogLevel::Info, answer->reason);
+        if (!answer->source) messages_.say(MessageLevel::Info, answer->reason);
         finder_.begin(std::move(*answer));
         link_.hold(RenderLink::Hold::Diagnostics, finder_.is_searching());
     }
@@ -36,9 +36,9 @@ void DiagnosticsSearch::update() {
     if (!result) return;
     link_.hold(RenderLink::Hold::Diagnostics, finder_.is_searching());
     if (!result->failure.empty())
-        messages_.say(LogLevel::Error, "the search for invalid samples failed: " + result->failure);
+        messages_.say(MessageLevel::Error, "the search for invalid samples failed: " + result->failure);
     else if (result->value)
-        messages_.say(LogLevel::Info, summary_of(*result->value));
+        messages_.say(MessageLevel::Info, summary_of(*result->value));
 }
 
 }  // namespace pl

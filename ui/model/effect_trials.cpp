@@ -4,11 +4,11 @@ namespace pl {
 
 void EffectTrials::measure(FeatureSet forced) {
     if (link_.turns()) {
-        messages_.say(LogLevel::Info, "two methods are rendering in turns: end that first (X)");
+        messages_.say(MessageLevel::Info, "two methods are rendering in turns: end that first (X)");
         return;
     }
     if (link_.status().state != WorkerState::Rendering)
-        messages_.say(LogLevel::Info, "passes are timed while the picture renders: let it continue");
+        messages_.say(MessageLevel::Info, "passes are timed while the picture renders: let it continue");
     measuring_ = forced;
     link_.worker().measure_effects(forced);
 }

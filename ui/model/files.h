@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "ui/model/field_files.h"
 #include "ui/model/picture_files.h"
+#include "ui/model/saved_fields.h"
 
 namespace pl {
 
@@ -16,7 +16,7 @@ public:
 
     PictureFiles& pictures() { return pictures_; }
     const PictureFiles& pictures() const { return pictures_; }
-    FieldFiles& fields() { return fields_; }
+    SavedFields& fields() { return fields_; }
 
     /// A scene, or a learned field of the scene in the window: a file that ends in kFieldSuffix.
     void open(const std::string& file) {
@@ -30,7 +30,7 @@ private:
     ViewedScene& scene_;
     FileNames names_;
     PictureFiles pictures_;
-    FieldFiles fields_;
+    SavedFields fields_;
 };
 
 }  // namespace pl

@@ -10,7 +10,7 @@ void Jobs::push(JobThread::Job job) {
         try {
             return job();
         } catch (const std::exception& error) {
-            return [this, text = std::string(error.what())] { messages_.say(LogLevel::Error, text); };
+            return [this, text = std::string(error.what())] { messages_.say(MessageLevel::Error, text); };
         }
     });
 }

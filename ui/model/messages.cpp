@@ -12,15 +12,15 @@ void Messages::drop_expired() {
     std::erase_if(toasts_, [&](const Toast& toast) { return toast.until <= now_; });
 }
 
-void Messages::note(LogLevel level, const std::string& text) {
+void Messages::note(MessageLevel level, const std::string& text) {
     if (log_.size() >= kMaxLogLines) log_.erase(log_.begin());
     log_.push_back({now_, level, text});
 }
 
-void Messages::say(LogLevel level, const std::string& text) {
+void Messages::say(MessageLevel level, const std::string& text) {
     note(level, text);
     if (toasts_.size() >= kMaxToasts) toasts_.erase(toasts_.begin());
-    toasts_.push_back({level, text, now_ + (level == LogLevel::Info ? kToastSeconds : kErrorToastSeconds)});
+    toasts_.push_back({level, text, now_ + (level == MessageLevel::Info ? kToastSeconds : kErrorToastSeconds)});
 }
 
 }  // namespace pl

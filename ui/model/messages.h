@@ -6,16 +6,16 @@
 
 namespace pl {
 
-enum class LogLevel { Info, Warning, Error };
+enum class MessageLevel { Info, Warning, Error };
 
 struct LogLine {
     double seconds;  ///< since the start of the viewer
-    LogLevel level;
+    MessageLevel level;
     std::string text;
 };
 
 struct Toast {
-    LogLevel level;
+    MessageLevel level;
     std::string text;
     double until;  ///< on the window's clock
 };
@@ -30,8 +30,8 @@ public:
     double now() const { return now_; }
     void drop_expired();
 
-    void say(LogLevel level, const std::string& text);   ///< toast and log
-    void note(LogLevel level, const std::string& text);  ///< log only
+    void say(MessageLevel level, const std::string& text);   ///< toast and log
+    void note(MessageLevel level, const std::string& text);  ///< log only
 
     const std::vector<LogLine>& log() const { return log_; }
     const std::vector<Toast>& toasts() const { return toasts_; }

@@ -44,7 +44,7 @@ std::string PictureFiles::command_line() const {
 
 void PictureFiles::save(std::initializer_list<const char*> suffixes) {
     if (!link_.frame()) {
-        messages_.say(LogLevel::Warning, "there is no picture to save yet");
+        messages_.say(MessageLevel::Warning, "there is no picture to save yet");
         return;
     }
     const std::filesystem::path name = names_.next(scene_, info_of(link_.frame()->settings.method).name, suffixes);
@@ -60,7 +60,7 @@ void PictureFiles::write_unsaved() {
     if (!frame->has_values()) {
         if (link_.status().state != WorkerState::Failed || messages_.now() < deadline_) return;
         unsaved_.clear();
-        messages_.say(LogLevel::Error, "the picture cannot be saved: rendering has failed");
+        messages_.say(MessageLevel::Error, "the picture cannot be saved: rendering has failed");
         return;
     }
     ViewerPicture shown = picture();
@@ -70,7 +70,7 @@ void PictureFiles::write_unsaved() {
         jobs_.push([this, path, shown, frame]() -> JobThread::Report {
             save_window_picture(path, frame->snapshot, shown,
                                 options_.command_line ? options_.command_line(shown) : "");
-            return [this, path] { messages_.say(LogLevel::Info, "saved " + path.string()); };
+            return [this, path] { messages_.say(MessageLevel::Info, "saved " + path.string()); };
         });
     }
 }
@@ -78,7 +78,7 @@ void PictureFiles::write_unsaved() {
 void PictureFiles::save_window(ScreenPixels pixels, std::filesystem::path path) {
     jobs_.push([this, path, shared = std::make_shared<ScreenPixels>(std::move(pixels))]() -> JobThread::Report {
         save_window_pixels(path, *shared);
-        return [this, path] { messages_.say(LogLevel::Info, "saved " + path.string()); };
+        return [this, path] { messages_.say(MessageLevel::Info, "saved " + path.string()); };
     });
 }
 

@@ -47,14 +47,14 @@ void References::adopt(const std::shared_ptr<const StoredReference>& found) {
         .label = fmt::format("reference  {} + {} spp", found->spp[0], found->spp[1]),
         .noise_relmse = found->noise_relmse};
     link_.worker().set_reference({found, &found->halves});
-    messages_.say(LogLevel::Info,
+    messages_.say(MessageLevel::Info,
                   fmt::format("{}, its noise as relMSE is {:.2g}", reference_->label, found->noise_relmse));
 }
 
 void References::make() {
     if (job_) return;
     if (link_.status().picture == 0) {
-        messages_.say(LogLevel::Info, "a reference needs a camera at rest: wait for the first pass");
+        messages_.say(MessageLevel::Info, "a reference needs a camera at rest: wait for the first pass");
         return;
     }
     link_.end_turns(render_.method());
@@ -63,7 +63,7 @@ void References::make() {
             return make_stored_reference(options_.reference_dir, scene, settings, options_.make_backend, monitor);
         });
     link_.hold(RenderLink::Hold::Reference, true);
-    messages_.say(LogLevel::Info, "rendering the reference: Esc ends it and keeps its samples");
+    messages_.say(MessageLevel::Info, "rendering the reference: Esc ends it and keeps its samples");
 }
 
 void References::stop() {
@@ -77,11 +77,11 @@ void References::take_result() {
     job_.reset();
     link_.hold(RenderLink::Hold::Reference, false);
     if (!result->failure.empty())
-        messages_.say(LogLevel::Error, "the reference could not be rendered: " + result->failure);
+        messages_.say(MessageLevel::Error, "the reference could not be rendered: " + result->failure);
     else if (result->value)
         adopt(result->value);
     else
-        messages_.say(LogLevel::Info, "the reference was ended before both halves had samples");
+        messages_.say(MessageLevel::Info, "the reference was ended before both halves had samples");
 }
 
 }  // namespace pl

@@ -42,8 +42,8 @@ void RenderControls::set_next_event(bool on) {
     if (on == settings_.next_event) return;
     settings_.next_event = on;
     submit_estimator();
-    messages_.note(LogLevel::Info, on ? "next-event estimation on: pictures and fields start over"
-                                      : "next-event estimation off: pictures and fields start over");
+    messages_.note(MessageLevel::Info, on ? "next-event estimation on: pictures and fields start over"
+                                          : "next-event estimation off: pictures and fields start over");
 }
 
 void RenderControls::set_max_depth(int depth) {
@@ -117,7 +117,7 @@ void RenderControls::set_limits(const SampleLimits& limits) {
 
 void RenderControls::single_pass() {
     if (!paused()) {
-        messages_.say(LogLevel::Info, "single passes need a paused picture: press Space first");
+        messages_.say(MessageLevel::Info, "single passes need a paused picture: press Space first");
         return;
     }
     worker_.step();
@@ -127,13 +127,13 @@ void RenderControls::restart() { worker_.submit(EditRestart{}); }
 
 void RenderControls::forget() {
     worker_.submit(EditForget{});
-    messages_.say(LogLevel::Info, "forgot the learned field");
+    messages_.say(MessageLevel::Info, "forgot the learned field");
 }
 
 void RenderControls::cancel_precomputation() {
     const bool back = previous_method_ != settings_.method;
     set_method(back ? previous_method_ : baseline_method());
-    messages_.say(LogLevel::Info,
+    messages_.say(MessageLevel::Info,
                   fmt::format("precomputation interrupted, back to {}", info_of(settings_.method).name));
 }
 
@@ -144,7 +144,7 @@ void RenderControls::set_backend(const std::string& name) {
     const auto choice = std::ranges::find(choices, name, &BackendChoice::name);
     if (choice == choices.end() || name == wanted_backend()) return;
     if (!choice->unavailable.empty()) {
-        messages_.say(LogLevel::Warning,
+        messages_.say(MessageLevel::Warning,
                       fmt::format("{} is unavailable: {}", back_end_label(name), choice->unavailable));
         return;
     }
@@ -154,7 +154,7 @@ void RenderControls::set_backend(const std::string& name) {
 void RenderControls::next_backend() {
     const auto& choices = *link_.status().backends;
     if (choices.size() < 2) {
-        messages_.say(LogLevel::Info, "there is no other back end");
+        messages_.say(MessageLevel::Info, "there is no other back end");
         return;
     }
     const auto wanted = std::ranges::find(choices, wanted_backend(), &BackendChoice::name);

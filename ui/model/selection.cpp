@@ -8,13 +8,13 @@ void Selection::update() {
     const std::optional<PickAnswer> answer = link_.worker().take_pick();
     if (!answer) return;
     if (!answer->point) {
-        messages_.say(LogLevel::Info, "nothing to select: the ray leaves the scene");
+        messages_.say(MessageLevel::Info, "nothing to select: the ray leaves the scene");
         return;
     }
     picked_ = answer->point;
     material_ = picked_->material;
     if (picked_->volume == kNoVolume) {
-        messages_.say(LogLevel::Info, "no radiance volume serves this surface: it reflects nothing");
+        messages_.say(MessageLevel::Info, "no radiance volume serves this surface: it reflects nothing");
         return;
     }
     select(picked_->volume);

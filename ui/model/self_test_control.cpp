@@ -23,9 +23,9 @@ void SelfTestControl::update() {
         run_.outcome() == SelfTestRun::Outcome::Passed || run_.outcome() == SelfTestRun::Outcome::Stopped;
     const std::string text = "self test: " + run_.summary();
     if (is_good)
-        messages_.note(LogLevel::Info, text);
+        messages_.note(MessageLevel::Info, text);
     else
-        messages_.say(LogLevel::Error, text);
+        messages_.say(MessageLevel::Error, text);
 }
 
 }  // namespace pl

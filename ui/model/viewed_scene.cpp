@@ -13,7 +13,7 @@ ViewedScene::ViewedScene(const ModelServices& services, CameraMotion& camera, Se
       camera_(camera), selection_(selection), name_(options_.scene_name), materials_(std::move(scene)) {}
 
 void ViewedScene::load(const std::string& name, bool keep_camera) {
-    messages_.note(LogLevel::Info, "loading " + name);
+    messages_.note(MessageLevel::Info, "loading " + name);
     jobs_.push([this, name, keep_camera]() -> JobThread::Report {
         auto scene = options_.load_scene(name);
         return [this, scene, name, keep_camera] { adopt(scene, name, keep_camera); };
@@ -26,8 +26,8 @@ void ViewedScene::adopt(std::shared_ptr<const SceneDescription> scene, const std
     materials_.open(scene);
     name_ = name;
     camera_.open(scene->camera, bounds_of(*scene).diagonal(), keep_camera);
-    for (const std::string& warning : scene->warnings) messages_.say(LogLevel::Warning, warning);
-    messages_.say(LogLevel::Info, fmt::format("opened {}: {} triangles", name, scene->triangles.size()));
+    for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
+    messages_.say(MessageLevel::Info, fmt::format("opened {}: {} triangles", name, scene->triangles.size()));
     link_.worker().submit(EditScene{std::move(scene)});
     link_.worker().submit(EditCamera{camera_.camera()});
 }
@@ -48,7 +48,7 @@ void ViewedScene::set_material(std::uint32_t index, const MaterialDescription& m
     try {
         materials_.set(index, material);
     } catch (const Error& error) {
-        messages_.say(LogLevel::Error, error.what());
+        messages_.say(MessageLevel::Error, error.what());
         return;
     }
     if (selection_.volume() != kNoVolume && may_move_volumes(before, material)) selection_.drop_volume();

@@ -32,8 +32,9 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       self_test_({options, messages_, jobs_, link_}),
       files_({options, messages_, jobs_, link_}, scene_, render_, display_) {
     if (options.field) link_.worker().submit(EditLearned{options.field});
-    for (const std::string& warning : scene->warnings) messages_.say(LogLevel::Warning, warning);
-    messages_.note(LogLevel::Info, fmt::format("opened {}: {} triangles", scene_.name(), scene->triangles.size()));
+    for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
+    messages_.note(MessageLevel::Info,
+                   fmt::format("opened {}: {} triangles", scene_.name(), scene->triangles.size()));
 }
 
 ViewerModel::~ViewerModel() {
@@ -50,7 +51,7 @@ void ViewerModel::update(double seconds) {
     references_.update();
     comparison_.update();
     for (const WorkerMessage& message : link_.worker().take_messages())
-        messages_.say(message.is_error ? LogLevel::Error : LogLevel::Info, message.text);
+        messages_.say(message.is_error ? MessageLevel::Error : MessageLevel::Info, message.text);
     effects_.update();
     selection_.update();
     files_.fields().update();

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "ui/model/comparison.h"
+#include "ui/model/compare_controls.h"
 #include "ui/model/diagnostics_search.h"
 #include "ui/model/effect_trials.h"
 #include "ui/model/files.h"
@@ -51,8 +51,8 @@ public:
     const EffectTrials& effects() const { return effects_; }
     References& references() { return references_; }
     const References& references() const { return references_; }
-    Comparison& comparison() { return comparison_; }
-    const Comparison& comparison() const { return comparison_; }
+    CompareControls& comparison() { return comparison_; }
+    const CompareControls& comparison() const { return comparison_; }
     DiagnosticsSearch& diagnostics() { return diagnostics_; }
     const DiagnosticsSearch& diagnostics() const { return diagnostics_; }
     SelfTestControl& self_test() { return self_test_; }
@@ -79,7 +79,7 @@ private:
     ViewedScene scene_;
     EffectTrials effects_;
     References references_;
-    Comparison comparison_;
+    CompareControls comparison_;
     DiagnosticsSearch diagnostics_;
     SelfTestControl self_test_;
     Files files_;

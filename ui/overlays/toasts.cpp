@@ -8,17 +8,17 @@
 namespace pl {
 namespace {
 
-ImU32 stripe_of(LogLevel level) {
+ImU32 stripe_of(MessageLevel level) {
     switch (level) {
-    case LogLevel::Info: return colors::kAccent;
-    case LogLevel::Warning: return colors::kWarning;
-    case LogLevel::Error: return colors::kError;
+    case MessageLevel::Info: return colors::kAccent;
+    case MessageLevel::Warning: return colors::kWarning;
+    case MessageLevel::Error: return colors::kError;
     }
     return colors::kAccent;
 }
 
 /// One message with its lower left corner at `corner`; returns its height.
-float draw_toast(ImDrawList& list, ImVec2 corner, float max_width, LogLevel level, const std::string& text) {
+float draw_toast(ImDrawList& list, ImVec2 corner, float max_width, MessageLevel level, const std::string& text) {
     const ImVec2 pad{em(0.7f), em(0.5f)};
     const float wrap = max_width - 2.0f * pad.x;
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
@@ -47,7 +47,7 @@ void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePl
     const std::string text = fmt::format("speed {:.4g} units/s", model.camera().speed());
     const float text_width = ImGui::CalcTextSize(text.c_str()).x;
     draw_toast(list, {view.center().x - 0.5f * text_width - em(0.7f), view.y + 0.2f * view.height}, em(30.0f),
-               LogLevel::Info, text);
+               MessageLevel::Info, text);
 }
 
 }  // namespace pl

@@ -12,11 +12,11 @@
 namespace pl {
 namespace {
 
-ImU32 color_of(LogLevel level) {
+ImU32 color_of(MessageLevel level) {
     switch (level) {
-    case LogLevel::Info: return colors::kText;
-    case LogLevel::Warning: return colors::kWarning;
-    case LogLevel::Error: return colors::kError;
+    case MessageLevel::Info: return colors::kText;
+    case MessageLevel::Warning: return colors::kWarning;
+    case MessageLevel::Error: return colors::kError;
     }
     return colors::kText;
 }

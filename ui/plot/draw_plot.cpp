@@ -72,14 +72,14 @@ void draw_polyline(ImDrawList& list, std::span<const Vec2f> points, ImU32 color,
 }
 
 /// Two standard errors of a run around its curve, between neighboring points that have a band.
-void draw_band(ImDrawList& list, std::span<const PlotPoint> points, const PlotView& view, const Rect& frame,
+void draw_band(ImDrawList& list, std::span<const LinePoint> points, const PlotView& view, const Rect& frame,
                ImU32 color) {
-    const auto at = [&](const PlotPoint& point, double y) {
+    const auto at = [&](const LinePoint& point, double y) {
         return to_imgui(view.to_window({point.value.x, y}, frame));
     };
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        const PlotPoint& a = points[i];
-        const PlotPoint& b = points[i + 1];
+        const LinePoint& a = points[i];
+        const LinePoint& b = points[i + 1];
         if (!(a.low > 0.0) || !(b.low > 0.0)) continue;
         list.AddQuadFilled(at(a, a.high), at(b, b.high), at(b, b.low), at(a, a.low), color);
     }
@@ -129,7 +129,7 @@ void draw_lines(ImDrawList& list, std::span<const PlotLine> lines, const PlotVie
         for (const PlotLine& line : lines) {
             if (line.hidden || line.comparable != comparable) continue;
             points.clear();
-            for (const PlotPoint& point : line.points) points.push_back(view.to_window(point.value, frame));
+            for (const LinePoint& point : line.points) points.push_back(view.to_window(point.value, frame));
             const ImU32 color = to_imgui_color(comparable ? line.color : kGray);
             // Only of the run in progress: several bands would hide each other.
             if (line.in_progress && comparable)

@@ -11,18 +11,18 @@ bool can_be_shown(const PlotValue& value) {
 }
 
 /// Appends the lowest and the highest point of a stretch, in their order.
-void append_extremes(std::span<const PlotPoint> stretch, std::vector<PlotPoint>& out) {
+void append_extremes(std::span<const LinePoint> stretch, std::vector<LinePoint>& out) {
     if (stretch.empty()) return;
     const auto [low, high] =
-        std::ranges::minmax_element(stretch, {}, [](const PlotPoint& point) { return point.value.y; });
+        std::ranges::minmax_element(stretch, {}, [](const LinePoint& point) { return point.value.y; });
     out.push_back(std::min(low, high)[0]);
     if (low != high) out.push_back(std::max(low, high)[0]);
 }
 
 }  // namespace
 
-std::vector<PlotPoint> plot_points(const LiveRun& run, const CurveKind& kind) {
-    std::vector<PlotPoint> points;
+std::vector<LinePoint> plot_points(const LiveRun& run, const CurveKind& kind) {
+    std::vector<LinePoint> points;
     for (std::size_t i = 0; i < run.points.size(); ++i) {
         const auto error = error_of(run.points[i], kind.metric);
         if (!error) continue;
@@ -36,12 +36,12 @@ std::vector<PlotPoint> plot_points(const LiveRun& run, const CurveKind& kind) {
     return thin_out(std::move(points), kMostPoints);
 }
 
-std::vector<PlotPoint> thin_out(std::vector<PlotPoint> points, std::size_t most) {
+std::vector<LinePoint> thin_out(std::vector<LinePoint> points, std::size_t most) {
     if (points.size() <= most || most < 4) return points;
     const std::size_t stretches = (most - 2) / 2;
     const double first = std::log(points.front().value.x);
     const double length = std::log(points.back().value.x) - first;
-    std::vector<PlotPoint> thinned{points.front()};
+    std::vector<LinePoint> thinned{points.front()};
     std::size_t begin = 1;
     const std::span all(points);
     for (std::size_t stretch = 1; stretch <= stretches; ++stretch) {
@@ -61,7 +61,7 @@ PlotRange fit_range(std::span<const PlotLine> lines) {
     std::vector<PlotValue> values;
     for (const PlotLine& line : lines)
         if (!line.hidden && (line.comparable || !any))
-            for (const PlotPoint& point : line.points) values.push_back(point.value);
+            for (const LinePoint& point : line.points) values.push_back(point.value);
     return fit_range(values);
 }
 

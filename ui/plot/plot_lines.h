@@ -10,10 +10,10 @@
 
 namespace pl {
 
-struct PlotPoint {
+struct LinePoint {
     PlotValue value;
     std::size_t index = 0;  ///< of the point in its run
-    double low = 0.0;  ///< band: two standard errors over the run's own blocks; 0 and 0 without a band
+    double low = 0.0;       ///< band: two standard errors over the run's own blocks; 0 and 0 without a band
     double high = 0.0;
 };
 
@@ -26,7 +26,7 @@ struct PlotLine {
     bool comparable = true;  ///< of the picture in the window; others are gray
     bool hidden = false;
     bool in_progress = false;
-    std::vector<PlotPoint> points;
+    std::vector<LinePoint> points;
 };
 
 /// Most points of a drawn line, which always has the first and the last point of its run.
@@ -34,8 +34,8 @@ inline constexpr std::size_t kMostPoints = 500;
 
 /// The points of a run on logarithmic axes: both values positive and finite. At most kMostPoints: the lowest and the
 /// highest point of each of equal intervals of log x.
-std::vector<PlotPoint> plot_points(const LiveRun& run, const CurveKind& kind);
-std::vector<PlotPoint> thin_out(std::vector<PlotPoint> points, std::size_t most);
+std::vector<LinePoint> plot_points(const LiveRun& run, const CurveKind& kind);
+std::vector<LinePoint> thin_out(std::vector<LinePoint> points, std::size_t most);
 
 /// Range of all comparable lines that are not hidden; of all lines that are not hidden if none is comparable.
 PlotRange fit_range(std::span<const PlotLine> lines);

@@ -83,14 +83,14 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
     const auto hit = nearest_point(model.lines(), model.view(), frame, Vec2f{pointer.x, pointer.y}, kHoverPixels);
     if (!hit) return;
     const PlotLine& line = model.lines()[hit->line];
-    const PlotPoint& point = line.points[hit->point];
+    const LinePoint& point = line.points[hit->point];
     const auto run = find_run(model.runs(), line.run);
     if (!run) return;
     const Vec2f at = model.view().to_window(point.value, frame);
     list.AddCircle({at.x, at.y}, em(0.4f), colors::kText, 16, 1.5f);
     const LivePoint& measured = run->points[point.index];
     Curve until;
-    for (const PlotPoint& other : line.points)
+    for (const LinePoint& other : line.points)
         if (other.value.x <= point.value.x) until.push_back({other.value.x, other.value.y});
     const double slope = log_slope(until);
     ImGui::BeginTooltip();

@@ -19,7 +19,7 @@ TEST_CASE("Jobs: reports run on the calling thread, an exception becomes an erro
     jobs.update();
     CHECK(reported);
     REQUIRE(messages.toasts().size() == 1);
-    CHECK(messages.toasts()[0].level == LogLevel::Error);
+    CHECK(messages.toasts()[0].level == MessageLevel::Error);
     CHECK(messages.toasts()[0].text == "the disk is full");
 }
 

@@ -6,9 +6,9 @@ using namespace pl;
 TEST_CASE("Messages: toasts expire, errors later, and the log keeps both") {
     Messages messages;
     messages.set_time(1.0);
-    messages.say(LogLevel::Info, "saved");
-    messages.say(LogLevel::Error, "failed");
-    messages.note(LogLevel::Info, "opened");
+    messages.say(MessageLevel::Info, "saved");
+    messages.say(MessageLevel::Error, "failed");
+    messages.note(MessageLevel::Info, "opened");
     CHECK(messages.toasts().size() == 2);
     messages.set_time(5.5);
     messages.drop_expired();
@@ -24,7 +24,7 @@ TEST_CASE("Messages: toasts expire, errors later, and the log keeps both") {
 
 TEST_CASE("Messages: the oldest toasts and lines give way") {
     Messages messages;
-    for (std::size_t i = 0; i < Messages::kMaxLogLines + 1; ++i) messages.say(LogLevel::Info, std::to_string(i));
+    for (std::size_t i = 0; i < Messages::kMaxLogLines + 1; ++i) messages.say(MessageLevel::Info, std::to_string(i));
     CHECK(messages.log().size() == Messages::kMaxLogLines);
     CHECK(messages.log().front().text == "1");
     CHECK(messages.toasts().size() == Messages::kMaxToasts);

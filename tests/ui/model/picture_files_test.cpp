@@ -15,7 +15,7 @@ TEST_CASE("Picture files: saves both formats under one new number") {
     {
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
         model.files().pictures().save_exr_and_png();
-        CHECK(model.messages().toasts().back().level == LogLevel::Warning);  // nothing to save yet
+        CHECK(model.messages().toasts().back().level == MessageLevel::Warning);  // nothing to save yet
         REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
         model.files().pictures().save_exr_and_png();
         model.files().pictures().save_png();

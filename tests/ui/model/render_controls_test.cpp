@@ -45,7 +45,7 @@ TEST_CASE("Render controls: an unavailable back end is reported with its reason,
     const std::uint64_t generation = model.status().generation;
     model.render().next_backend();
     REQUIRE(model.messages().toasts().size() == 1);
-    CHECK(model.messages().toasts().back().level == LogLevel::Warning);
+    CHECK(model.messages().toasts().back().level == MessageLevel::Warning);
     CHECK(model.messages().toasts().back().text == "CUDA is unavailable: no driver");
     CHECK(model.render().wanted_backend() == "cpu");
     const std::uint32_t passes = model.status().passes;
@@ -67,7 +67,7 @@ TEST_CASE("Render controls: a failure of a back end is reported, and the CPU tak
     bench.devices.cuda->fail = true;
     REQUIRE(bench.run_until(model, [&] { return model.frame()->backend.name == "cpu"; }));
     REQUIRE_FALSE(model.messages().toasts().empty());
-    CHECK(model.messages().toasts().back().level == LogLevel::Error);
+    CHECK(model.messages().toasts().back().level == MessageLevel::Error);
     CHECK(model.messages().toasts().back().text == "CUDA failed: the device is gone. CPU takes over");
     CHECK(model.messages().log().back().text == model.messages().toasts().back().text);
     model.render().next_backend();  // tries it again

@@ -28,7 +28,7 @@ TEST_CASE("Viewed scene: a scene that cannot be read leaves the old one, with a 
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
     model.files().open("broken.obj");
     REQUIRE(bench.run_until(model, [&] { return !model.messages().toasts().empty(); }));
-    CHECK(model.messages().toasts().back().level == LogLevel::Error);
+    CHECK(model.messages().toasts().back().level == MessageLevel::Error);
     CHECK_THAT(model.messages().toasts().back().text, contains("broken.obj:7"));
     CHECK(model.scene().name() == "small");
     CHECK(model.status().state == WorkerState::Rendering);

@@ -23,6 +23,7 @@ PlotLine line_of(const LiveRun& run) {
 }  // namespace
 
 TEST_CASE("Plot: runs of another picture and hidden ones do not stretch the axes") {
+    CHECK(fit_range(std::span<const PlotLine>{}).x_low < fit_range(std::span<const PlotLine>{}).x_high);
     std::vector<PlotLine> lines{line_of(*make_run({})), line_of(*make_run({.error_of_sample = 1e6}))};
     lines[1].comparable = false;
     CHECK(fit_range(lines).y_high <= 1.0 + 1e-9);
@@ -35,7 +36,7 @@ TEST_CASE("Plot: points that logarithmic axes cannot show are left out") {
     auto run = make_run({.last_sample = 8});
     run->points[1].metrics->relmse = -1e-6;  // below what the reference resolves
     run->points[2].metrics.reset();
-    const std::vector<PlotPoint> points = plot_points(*run, {});
+    const std::vector<LinePoint> points = plot_points(*run, {});
     REQUIRE(points.size() == 2);
     CHECK(points[1].index == 3);
 }
@@ -45,7 +46,7 @@ TEST_CASE("Plot: a band is as wide as the run's own blocks leave open, and absen
     run->points[0].relmse_off = 0.1 * run->points[0].metrics->relmse;
     run->points[1].relmse_off = std::numeric_limits<double>::infinity();
     run->points[0].noise_off = 0.2 * run->points[0].noise;
-    const std::vector<PlotPoint> points = plot_points(*run, {});
+    const std::vector<LinePoint> points = plot_points(*run, {});
     REQUIRE(points.size() == 4);
     CHECK(points[0].high == Approx(points[0].value.y * std::exp(0.2)));
     CHECK(points[0].low == Approx(points[0].value.y * std::exp(-0.2)));
@@ -53,21 +54,21 @@ TEST_CASE("Plot: a band is as wide as the run's own blocks leave open, and absen
         CHECK(points[i].low == 0.0);
         CHECK(points[i].high == 0.0);
     }
-    const std::vector<PlotPoint> noise = plot_points(*run, {ErrorMetric::Noise, CostAxis::Seconds});
+    const std::vector<LinePoint> noise = plot_points(*run, {ErrorMetric::Noise, CostAxis::Seconds});
     CHECK(noise[0].high == Approx(noise[0].value.y * std::exp(0.4)));
 }
 
 TEST_CASE("Plot: thinned lines keep ends, peaks and order") {
-    std::vector<PlotPoint> points;
+    std::vector<LinePoint> points;
     for (std::size_t i = 0; i < 20000; ++i)
         points.push_back({{1.0 + static_cast<double>(i), i == 7777 ? 100.0 : (i == 12345 ? 0.01 : 1.0)}, i});
-    const std::vector<PlotPoint> thinned = thin_out(points, kMostPoints);
+    const std::vector<LinePoint> thinned = thin_out(points, kMostPoints);
     CHECK(thinned.size() <= kMostPoints);
     CHECK(thinned.front().index == 0);
     CHECK(thinned.back().index == 19999);
-    CHECK(std::ranges::is_sorted(thinned, {}, &PlotPoint::index));
-    CHECK(std::ranges::count(thinned, std::size_t{7777}, &PlotPoint::index) == 1);
-    CHECK(std::ranges::count(thinned, std::size_t{12345}, &PlotPoint::index) == 1);
+    CHECK(std::ranges::is_sorted(thinned, {}, &LinePoint::index));
+    CHECK(std::ranges::count(thinned, std::size_t{7777}, &LinePoint::index) == 1);
+    CHECK(std::ranges::count(thinned, std::size_t{12345}, &LinePoint::index) == 1);
     CHECK(thin_out({points.begin(), points.begin() + 10}, kMostPoints).size() == 10);
 }
 

@@ -16,7 +16,7 @@ struct TurnsBench : ModelBench {
 
 }  // namespace
 
-TEST_CASE("Comparison: in turns the picture is split, and each side keeps the newest frame of its method") {
+TEST_CASE("Compare controls: in turns the picture is split, and each side keeps the newest frame of its method") {
     TurnsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
@@ -32,7 +32,7 @@ TEST_CASE("Comparison: in turns the picture is split, and each side keeps the ne
     CHECK(model.frame()->snapshot.slot.method == MethodId::Reinforcement);
 }
 
-TEST_CASE("Comparison: choosing a method ends turns, with that method") {
+TEST_CASE("Compare controls: choosing a method ends turns, with that method") {
     TurnsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));

@@ -14,9 +14,9 @@ namespace pl {
 /// Suffix of learned fields that the viewer saves.
 inline constexpr std::string_view kFieldSuffix = ".field";
 
-class FieldFiles {
+class SavedFields {
 public:
-    FieldFiles(const ModelServices& services, FileNames& names, const ViewedScene& scene, RenderControls& render);
+    SavedFields(const ModelServices& services, FileNames& names, const ViewedScene& scene, RenderControls& render);
 
     /// Takes a field from the render thread to write; once per frame of the window.
     void update();

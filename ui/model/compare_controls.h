@@ -7,9 +7,9 @@
 
 namespace pl {
 
-class Comparison {
+class CompareControls {
 public:
-    Comparison(RenderLink& link, Messages& messages, const RenderControls& render, const References& references)
+    CompareControls(RenderLink& link, Messages& messages, const RenderControls& render, const References& references)
         : link_(link), messages_(messages), render_(render), references_(references) {}
 
     /// Takes the newest runs; once per frame of the window.

@@ -1,4 +1,4 @@
-#include "ui/model/field_files.h"
+#include "ui/model/saved_fields.h"
 
 #include <optional>
 
@@ -9,18 +9,18 @@
 
 namespace pl {
 
-FieldFiles::FieldFiles(const ModelServices& services, FileNames& names, const ViewedScene& scene,
-                       RenderControls& render)
+SavedFields::SavedFields(const ModelServices& services, FileNames& names, const ViewedScene& scene,
+                         RenderControls& render)
     : options_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
       names_(names), scene_(scene), render_(render) {}
 
-void FieldFiles::save() { link_.worker().request_learned(); }
+void SavedFields::save() { link_.worker().request_learned(); }
 
-void FieldFiles::update() {
+void SavedFields::update() {
     const std::optional<LearnedAnswer> answer = link_.worker().take_learned();
     if (!answer) return;
     if (!answer->field) {
-        messages_.say(LogLevel::Warning, answer->reason);
+        messages_.say(MessageLevel::Warning, answer->reason);
         return;
     }
     const std::string suffix(kFieldSuffix);
@@ -29,12 +29,12 @@ void FieldFiles::update() {
     jobs_.push([this, path, field = answer->field]() -> JobThread::Report {
         write_field(path, *field);
         return [this, text = fmt::format("saved {}: {}", path.string(), summary_of(*field))] {
-            messages_.say(LogLevel::Info, text);
+            messages_.say(MessageLevel::Info, text);
         };
     });
 }
 
-std::filesystem::path FieldFiles::newest_file() const {
+std::filesystem::path SavedFields::newest_file() const {
     std::filesystem::path newest;
     std::filesystem::file_time_type newest_time{};
     std::error_code error;
@@ -50,32 +50,32 @@ std::filesystem::path FieldFiles::newest_file() const {
     return newest;
 }
 
-void FieldFiles::load_newest() {
+void SavedFields::load_newest() {
     const std::filesystem::path newest = newest_file();
     if (newest.empty()) {
-        messages_.say(LogLevel::Warning,
+        messages_.say(MessageLevel::Warning,
                       fmt::format("no learned field of {} was saved in {}", scene_.name(), names_.folder().string()));
         return;
     }
     load(newest);
 }
 
-void FieldFiles::load(const std::filesystem::path& path) {
+void SavedFields::load(const std::filesystem::path& path) {
     jobs_.push([this, path, scene = scene_.rendered()]() -> JobThread::Report {
         const std::shared_ptr<LearnedField> field =
             load_window_field(path, *scene.description, options_.settings.field);
         return [this, field, path, scene] {
             if (scene.description != link_.status().scene)
-                messages_.say(LogLevel::Error, fmt::format("{}: the scene was changed meanwhile", path.string()));
+                messages_.say(MessageLevel::Error, fmt::format("{}: the scene was changed meanwhile", path.string()));
             else
                 adopt(field, path);
         };
     });
 }
 
-void FieldFiles::adopt(const std::shared_ptr<LearnedField>& field, const std::filesystem::path& path) {
+void SavedFields::adopt(const std::shared_ptr<LearnedField>& field, const std::filesystem::path& path) {
     render_.adopt_field(field);
-    messages_.say(LogLevel::Info, fmt::format("continuing from {}: {}", path.string(), summary_of(*field)));
+    messages_.say(MessageLevel::Info, fmt::format("continuing from {}: {}", path.string(), summary_of(*field)));
 }
 
 }  // namespace pl

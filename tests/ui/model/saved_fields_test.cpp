@@ -6,7 +6,7 @@
 using namespace pl;
 using namespace pl::test;
 
-TEST_CASE("Field files: a learned field is saved, and rendering continues from it") {
+TEST_CASE("Saved fields: a learned field is saved, and rendering continues from it") {
     FileBench bench;
     {
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
@@ -51,7 +51,7 @@ TEST_CASE("Field files: a learned field is saved, and rendering continues from i
     }
 }
 
-TEST_CASE("Field files: a viewer started from a field continues from it") {
+TEST_CASE("Saved fields: a viewer started from a field continues from it") {
     FileBench bench;
     {
         RenderWorker worker({.make_backend = bench.options.make_backend,
