@@ -124,6 +124,7 @@ TEST_CASE("Turns on the render thread: a limit waits for the first pass of both 
     bench.control->hold = false;
     REQUIRE(eventually([&] { return worker.status().state == WorkerState::Done; }));
     const TurnsStatus done = *worker.status().turns;
-    CHECK(done.passes[0] >= 1);
-    CHECK(done.passes[1] == 8);
+    // Usually the first method has one pass, since its placement is slow; on a busy machine the fake passes may be slower.
+    CHECK(std::min(done.passes[0], done.passes[1]) >= 1);
+    CHECK(std::max(done.passes[0], done.passes[1]) == 8);
 }
