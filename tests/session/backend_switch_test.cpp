@@ -145,12 +145,12 @@ TEST_CASE("The tables of all methods move, and a cleared film or table is cleare
     render_passes(session, learning, 2);
     std::array<HostTables, kMethodCount> tables;
     for (const MethodInfo& method : all_methods())
-        tables[static_cast<std::size_t>(method.id)] = first->download_field(method.id);
+        tables[static_cast<std::size_t>(method.id)] = tables_of(first->download_field(method.id));
     const auto second = cpu_backend(2);
     session.apply(EditBackend{second});
     for (const MethodInfo& method : all_methods()) {
         CHECK(second->has_field(method.id) == method.uses_field);
-        CHECK(same_bits(tables[static_cast<std::size_t>(method.id)], second->download_field(method.id)));
+        CHECK(same_bits(tables[static_cast<std::size_t>(method.id)], tables_of(second->download_field(method.id))));
     }
 
     session.apply(EditForget{});
