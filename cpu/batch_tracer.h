@@ -1,4 +1,4 @@
-// Which batch intersector serves a scene, chosen once per scene and asked once per batch.
+// The batch intersector of a scene: selected once per scene, called once per batch.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ namespace pl {
 
 enum class IntersectorChoice;
 
-/// One of the batch intersectors behind the same calls; the switch costs nothing per ray.
+/// Any of the batch intersectors behind one interface. Dispatch is per batch, so its cost per ray is negligible.
 class BatchTracer {
 public:
-    /// Throws Error if the choice is not there or cannot take the scene.
+    /// Throws Error if the chosen intersector is not in this build or does not support the scene.
     BatchTracer(const SceneView& scene, IntersectorChoice choice, int threads);
 
     void find_closest(RayBatch& batch, std::uint32_t count) const {
@@ -27,12 +27,12 @@ public:
         std::visit([&](const auto& intersector) { intersector.find_occluded(batch, count); }, intersector_);
     }
 
-    /// The same triangles in other arrays, which must stay from now on instead of those before.
+    /// Reads the same triangles from other arrays, which must outlive the tracer; the previous ones may be freed.
     void move_to(const SceneView& scene) {
         std::visit([&](auto& intersector) { intersector.move_to(scene); }, intersector_);
     }
 
-    /// For people: "dense (avx512)", "embree 3.13.5", "bvh".
+    /// Display name: "dense (avx512)", "embree 3.13.5", "bvh".
     std::string name() const;
 
 private:

@@ -1,4 +1,4 @@
-// The scene's own hierarchy as a batch intersector: one ray after the other.
+// The scene's BVH as a batch intersector: traverses it ray by ray.
 #pragma once
 
 #include "core/kernel/geometry/intersector.h"

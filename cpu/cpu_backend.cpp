@@ -38,7 +38,7 @@ public:
                 .threads = settings_.threads};
     }
 
-    /// The acceleration structure is kept if only materials differ.
+    /// Keeps the acceleration structure if only materials differ.
     void upload_scene(std::shared_ptr<const HostScene> scene) override {
         const bool is_built = tracer_ && same_triangles(*scene_, *scene);
         if (!is_built) tracer_.reset();
@@ -130,9 +130,7 @@ private:
     }
     AnyFieldView learned_field(MethodId method) {
         AnyFieldView field = field_view(shape_, *volumes_, existing_field(method));
-        visit_field(field, [&](auto& view) {
-            view.writers = settings_.threads == 1 ? Writers::One : Writers::Many;
-        });
+        visit_field(field, [&](auto& view) { view.writers = settings_.threads == 1 ? Writers::One : Writers::Many; });
         return field;
     }
 
@@ -145,7 +143,7 @@ private:
         });
     }
 
-    /// The placement and the number of every volume that a view shows; nothing for other views.
+    /// The placement and, for heat maps, one value per volume; empty for views that need neither.
     ShownField shown_field(const FilmSlot& slot) {
         const ViewInfo& view = info_of(slot.view);
         if (!view.needs_volumes && !view.needs_tables) return {};
@@ -179,13 +177,13 @@ private:
     }
 
     CpuSettings settings_;
-    std::string device_ = cpu_name();  ///< read once, since info() is called after every pass
+    std::string device_ = cpu_name();  ///< cached, since info() is called after every pass
     std::shared_ptr<const HostScene> scene_;
     std::optional<BatchTracer> tracer_;
     std::shared_ptr<const HostVolumes> volumes_;
     FieldShape shape_;
     std::array<std::optional<HostField>, kMethodCount> fields_;
-    HostArray<float> volume_values_;  ///< of the last heat map
+    HostArray<float> volume_values_;  ///< of the latest heat map
     FilmStore films_;
 };
 

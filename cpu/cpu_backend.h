@@ -1,4 +1,4 @@
-// The CPU back end: batches of paths, advanced step by step by a team of threads.
+// The CPU back end: every thread advances a batch of paths, one vertex per step.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace pl {
 
-/// How rays find triangles. Auto: Dense up to 64 triangles, else Embree where the build has it, else Bvh.
+/// Intersection algorithm. Auto: Dense up to 64 triangles, else Embree if the build has it, else Bvh.
 enum class IntersectorChoice { Auto, Dense, Bvh, Embree };
 
 struct CpuSettings {
-    int threads = 0;  ///< 0: as many as the machine has
+    int threads = 0;  ///< 0: all hardware threads
     IntersectorChoice intersector = IntersectorChoice::Auto;
-    std::uint32_t batch_paths = 1024;  ///< paths that a thread keeps under way; decides speed, never results
+    std::uint32_t batch_paths = 1024;  ///< paths in flight per thread; affects speed only, never results
 };
 
-/// Throws Error(Usage) for a number of threads or paths that makes no sense.
+/// Throws Error(Usage) if the number of threads or paths is out of range.
 std::unique_ptr<RenderBackend> make_cpu_backend(const CpuSettings& settings = {});
 
 }  // namespace pl

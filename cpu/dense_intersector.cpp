@@ -10,7 +10,7 @@
 namespace pl {
 namespace {
 
-/// Equal as bits: 0 and -0 stay apart, since nothing is won by merging them.
+/// Bitwise equality: keeps 0 and -0 distinct, since merging them would save nothing.
 bool same_bits(Vec3f a, Vec3f b) {
     using Bits = std::array<std::uint32_t, 3>;
     return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
@@ -26,7 +26,7 @@ DenseIntersector::DenseIntersector(const SceneView& scene, const LaneKernels& ke
         const Triangle& triangle = scene.triangles[i];
         const DenseTriangle dense{number_of(scene.positions[triangle.v0]), number_of(scene.positions[triangle.v1]),
                                   number_of(scene.positions[triangle.v2]), i};
-        // The edge functions of equal corners are exactly opposite or zero: no ray passes the test.
+        // With two coincident corners, edge functions are exactly opposite or zero: no ray passes the test.
         if (dense.a != dense.b && dense.b != dense.c && dense.c != dense.a) triangles_.push_back(dense);
     }
 }

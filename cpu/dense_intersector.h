@@ -1,5 +1,5 @@
-// Rays against every triangle of a small scene, several rays at a time. Below some 64 triangles this beats any
-// hierarchy: there is nothing to decide, so vectors are always full.
+// Intersects a vector of rays with every triangle of a small scene. Up to about 64 triangles this is faster than any
+// hierarchy: without traversal the rays do not diverge, so vectors are always full.
 #pragma once
 
 #include <string_view>
@@ -10,8 +10,8 @@
 
 namespace pl {
 
-/// Satisfies BatchIntersector. Hits are bit for bit those of intersect_triangle on every triangle in order of number,
-/// whatever the instruction set. Triangles that no ray can hit, because two corners coincide, are left out.
+/// Satisfies BatchIntersector. Hits are bit-identical to those of intersect_triangle on every triangle in ascending
+/// order, for every instruction set. Omits triangles with two coincident corners, which no ray can hit.
 class DenseIntersector {
 public:
     /// Throws Error if the scene has more than kMaxDenseTriangles.
@@ -23,7 +23,7 @@ public:
     void find_occluded(RayBatch& batch, std::uint32_t count) const {
         kernels_.find_occluded(view(), batch.ray_groups(), batch.occlusion_masks(), group_count(count));
     }
-    /// See BatchTracer. It has copies of its own.
+    /// See BatchTracer. No effect: positions and triangles are copies.
     void move_to(const SceneView&) {}
     std::string_view isa() const { return kernels_.isa; }
 

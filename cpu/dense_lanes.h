@@ -1,4 +1,4 @@
-// Rays against every triangle, a vector of rays at a time. Included by one file per instruction set; see lanes.h.
+// Intersection of a vector of rays with every triangle. Included by one file per instruction set; see lanes.h.
 #pragma once
 
 #include "cpu/lane_kernels.h"
@@ -11,7 +11,7 @@ using LaneRaySpace = RaySpace<LaneFloat, LaneInt>;
 using LaneCorner = RayCorner<LaneFloat>;
 using LaneEdges = EdgeFunctions<LaneFloat>;
 
-/// The rays of a group from `first` on, prepared for the watertight test.
+/// The rays of a group from lane `first`, transformed for the watertight test.
 PL_INLINE LaneRaySpace load_ray_space(const RayGroup& rays, std::uint32_t first) {
     const auto dx = load_lanes<LaneFloat>(rays.direction_x + first);
     const auto dy = load_lanes<LaneFloat>(rays.direction_y + first);
@@ -26,13 +26,13 @@ PL_INLINE RayCorner<float> lane_of(const LaneCorner& corner, std::uint32_t lane)
     return {corner.x[lane], corner.y[lane], corner.z[lane]};
 }
 
-/// True where two numbers that are not zero have the same sign.
+/// Mask of the lanes in which two nonzero numbers have the same sign.
 PL_INLINE LaneInt same_sign(LaneFloat x, LaneFloat y) {
     return (std::bit_cast<LaneInt>(x) ^ std::bit_cast<LaneInt>(y)) >= 0;
 }
 
-/// Repeats the edge functions exactly in the lanes where one of them is zero, as intersect_triangle does, and returns
-/// where they do not contradict each other. Rare, so it is kept out of the way.
+/// Recomputes the edge functions exactly in lanes with a zero among them, as intersect_triangle does, and returns the
+/// mask of lanes with consistent signs. Rare, hence not inlined.
 [[gnu::noinline, gnu::cold]] LaneInt repeat_exactly(const LaneCorner& a, const LaneCorner& b, const LaneCorner& c,
                                                     std::uint32_t lanes, LaneEdges& e) {
     for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {
@@ -49,7 +49,7 @@ PL_INLINE LaneInt same_sign(LaneFloat x, LaneFloat y) {
     return ~(any_negative & any_positive) & (e.u + e.v + e.w != 0.0f);
 }
 
-/// The lanes of one vector against the triangles of a scene.
+/// Intersects one vector of rays with the triangles of a scene.
 class DenseLanes {
 public:
     PL_INLINE DenseLanes(const DenseView& scene, const RayGroup& rays, std::uint32_t first)
@@ -84,7 +84,7 @@ public:
         store_lanes(best_w / best_determinant, hits.b2 + first);
     }
 
-    /// One bit per lane.
+    /// Occlusion mask, one bit per lane.
     PL_INLINE std::uint32_t find_occluded() const {
         constexpr std::uint32_t kAllLanes = (1u << kLaneWidth) - 1u;
         LaneInt occluded{};
@@ -101,7 +101,7 @@ private:
         LaneEdges edges;
         LaneFloat determinant;
         LaneFloat t;
-        LaneInt hit;  ///< the triangle is met at t > 0 and is neither source nor target
+        LaneInt hit;  ///< intersected at t > 0, and the triangle is neither source nor target
     };
 
     PL_INLINE Crossing cross(const DenseTriangle& triangle) const {

@@ -1,11 +1,11 @@
-// What the processor is called, for people.
+// Display name of the processor.
 #pragma once
 
 #include <string>
 
 namespace pl {
 
-/// "AMD EPYC 9654"; "CPU" where the system does not tell.
+/// "AMD EPYC 9654"; "CPU" if the system reports no name.
 std::string cpu_name();
 
 }  // namespace pl

@@ -16,21 +16,21 @@
 namespace pl {
 namespace {
 
-// The two versions differ in the names of what travels with a query.
+// Embree 3 and 4 name the context of a query differently.
 #if PL_EMBREE_MAJOR >= 4
 using QueryContext = RTCRayQueryContext;
 #else
 using QueryContext = RTCIntersectContext;
 #endif
 
-/// One ray on its way through Embree, together with what our own test has found so far.
+/// A ray traced by Embree, and its closest hit so far according to the watertight test.
 struct Query {
-    QueryContext context;  ///< first, because Embree hands back its address
+    QueryContext context;  ///< first member: Embree passes its address to the filter
     const SceneView* scene;
     Ray ray;
     ScalarRaySpace space;
     Hit best;
-    bool disagreed = false;  ///< Embree met a triangle that our test refused
+    bool disagreed = false;  ///< the watertight test rejected a candidate of Embree
 
     Query(const SceneView& scene_view, const Ray& traced)
         : scene(&scene_view), ray(traced), space(make_ray_space(traced)), best{.t = traced.t_max} {
@@ -41,7 +41,7 @@ struct Query {
 #endif
     }
 
-    /// Whether our test takes this triangle as the new best hit.
+    /// True if the watertight test accepts this triangle as the new closest hit.
     bool consider(std::uint32_t primitive) {
         if (primitive == ray.source || primitive == ray.target) return false;
         const Triangle& triangle = scene->triangles[primitive];
@@ -51,16 +51,16 @@ struct Query {
         return best.primitive == primitive;
     }
 
-    /// Where the tests disagree about one triangle, Embree may not offer the one that ours would have taken instead:
-    /// its neighbor at an edge. And even in its robust mode a ray through a corner of a closed mesh may get out, which
-    /// ours never lets happen. Both go through our own hierarchy: the first is rare, the second ends a path.
+    /// After a rejected candidate, Embree may not report the triangle that the watertight test accepts instead: the
+    /// neighbor at an edge. Even in robust mode, Embree may miss a closed mesh at a corner; the watertight test never
+    /// does. Both cases traverse the scene's BVH: rejections are rare, and a miss ends its path.
     Hit closest() const { return disagreed || !best.found() ? BvhIntersector{*scene}.closest_hit(ray) : best; }
-    /// Misses are not looked at again: they are what most shadow rays are for, and one in millions matters to none.
+    /// Misses are not traced again: most shadow rays are unoccluded, and one false miss in millions is negligible.
     bool occluded() const { return best.found() || (disagreed && BvhIntersector{*scene}.occluded(ray)); }
 };
 static_assert(std::is_standard_layout_v<Query>);
 
-/// Called for every hit that Embree is about to accept; single rays only.
+/// Filter callback: Embree calls it for every candidate hit. Single rays only.
 void filter_hit(const RTCFilterFunctionNArguments* arguments) {
     auto* query = reinterpret_cast<Query*>(arguments->context);
     const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
@@ -82,8 +82,8 @@ RTCRay to_embree(const Ray& ray) {
             .flags = 0};
 }
 
-/// Puts rounding and denormal modes back: building may switch denormals off in the calling thread, and rendering
-/// promises the same bits whichever intersector runs.
+/// Restores rounding and denormal modes: building Embree's hierarchy may disable denormals in the calling thread,
+/// which would change the bits of pictures.
 class FloatModeGuard {
 public:
     FloatModeGuard() { std::fegetenv(&saved_); }

@@ -1,4 +1,4 @@
-// Embree finds the candidates, our own watertight test decides about them. Built only where Embree 3 or 4 is found.
+// Embree finds candidate triangles; the watertight test intersect_triangle accepts or rejects them. Embree 3 or 4.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,14 @@
 
 namespace pl {
 
-/// Satisfies BatchIntersector. Every candidate that Embree offers is confirmed or refused by intersect_triangle, so
-/// distances and barycentric weights are ours bit for bit, and source and target are excluded by number; a ray for
-/// which ours refuses a candidate goes through our own hierarchy instead. What remains Embree's is which candidates it
-/// offers: where two surfaces lie within rounding of each other it may settle for the one that our test places second,
-/// and a ray within rounding of an edge may be offered nothing of a triangle that ours would hit.
+/// Satisfies BatchIntersector. intersect_triangle accepts or rejects every candidate of Embree, so distances and
+/// barycentric weights are bit-identical to those of the other intersectors, and source and target are excluded by
+/// number. Rays with a rejected candidate traverse the scene's BVH instead. Two differences remain: of two surfaces
+/// within rounding error of each other, Embree may report only the one that intersect_triangle places second; and it
+/// may miss a triangle at an edge within rounding error.
 class EmbreeIntersector {
 public:
-    /// Builds the hierarchy on `threads` threads. The scene's arrays must stay as long as this lives.
+    /// Builds the hierarchy on `threads` threads. The scene's arrays must outlive the intersector.
     EmbreeIntersector(const SceneView& scene, int threads);
     ~EmbreeIntersector();
     EmbreeIntersector(EmbreeIntersector&&) noexcept;
@@ -25,7 +25,7 @@ public:
     void find_closest(RayBatch& batch, std::uint32_t count) const;
     void find_occluded(RayBatch& batch, std::uint32_t count) const;
 
-    /// See BatchTracer. Embree's own hierarchy has copies.
+    /// See BatchTracer. Embree's hierarchy holds copies of the positions.
     void move_to(const SceneView& scene) { scene_ = scene; }
 
     /// "3.13.5"

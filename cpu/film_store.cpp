@@ -7,7 +7,7 @@
 namespace pl {
 namespace {
 
-/// Pixels that a thread empties or reads at once.
+/// Pixels per chunk when clearing or reading a film.
 constexpr std::uint32_t kPixelChunk = 1u << 14;
 
 }  // namespace
@@ -34,7 +34,7 @@ std::vector<std::uint32_t> FilmStore::invalid_samples(FilmSlot slot) const {
     return counts;
 }
 
-/// All pictures in one go over the film, which is larger than the cache.
+/// Computes all pictures in one traversal of the film, which exceeds the cache.
 template <bool kHalves>
 FilmReading FilmStore::read(FilmSlot slot, int threads) const {
     const auto& film = films_.existing(slot);

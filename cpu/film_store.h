@@ -7,10 +7,10 @@ namespace pl {
 
 class FilmStore {
 public:
-    /// Makes the film exist with this size and empties it. Throws Error if the size makes no sense.
+    /// Allocates the film at this size and clears it. Throws Error if the size is out of range.
     void reset(FilmSlot slot, int width, int height, int threads);
 
-    /// All of these throw Error if the film was never reset.
+    /// The following functions throw Error if the film was never reset.
     FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
     FilmReading read(FilmSlot slot, int threads) const;
     FilmReading read_halves(FilmSlot slot, int threads) const;
@@ -23,7 +23,7 @@ private:
     FilmReading read(FilmSlot slot, int threads) const;
 
     mutable FilmSlots<HostArray<FilmPixel>> films_{"CPU"};
-    ToneTable table_{ToneCurve::Clamp};  ///< of the last frame
+    ToneTable table_{ToneCurve::Clamp};  ///< of the latest frame
 };
 
 }  // namespace pl

@@ -1,5 +1,5 @@
-// Blocks of paths guided by tables: the volumes at their vertices are looked up ahead, and the directions of all paths that
-// scatter at Lambert reflectors are sampled in lanes.
+// Blocks of paths guided by tables: volumes are looked up before the paths reach their vertices, and directions at
+// Lambert reflectors are sampled in SIMD lanes.
 #pragma once
 
 #include "core/kernel/integrator/steps.h"
@@ -11,7 +11,7 @@ namespace pl {
 
 inline constexpr std::uint32_t kGuidedGroups = group_count(kGuidedBlock);
 
-/// The paths of a block that wait for their directions, at most kGuidedBlock. Each gets that of M::sample_direction().
+/// At most kGuidedBlock paths at Lambert reflectors. Their directions are bit-identical to M::sample_direction().
 template <FeatureSet F, TableGuided M>
 class ScatterBlock {
 public:
@@ -20,7 +20,7 @@ public:
     std::uint32_t count() const { return count_; }
     void clear() { count_ = 0; }
 
-    /// The place of the next path's vertex; add() makes it count.
+    /// Storage for the vertex of the next path; add() appends it.
     ScatterPoint<F, M>& next() { return points_[count_]; }
     void add(std::uint32_t path, const PathState<F, M>& state, Vec4f u) {
         const ScatterPoint<F, M>& from = points_[count_];
@@ -54,7 +54,7 @@ public:
     DirectionSample direction(std::uint32_t i) const { return directions_[i / kGroupSize].get(i % kGroupSize); }
 
 private:
-    /// Position and normal of the volume come from the tree node of the lookup, which is in the cache, if it is known.
+    /// Reads position and normal of the volume from the tree node of the lookup, if known: the node is in the cache.
     ServedPoint<One> served_point(const ScatterPoint<F, M>& from) const {
         ServedPoint<One> point = method_.field.served_point(from.vertex, from.surface);
         if (from.vertex.node == FoundVolume::kUnknown) return point;
@@ -63,14 +63,14 @@ private:
         point.normal = unpack(node.normal);
         return point;
     }
-    /// Of the last group.
+    /// Samples the table rows of the last group.
     void sample_rows() {
         const std::uint32_t group = (count_ - 1) / kGroupSize;
         kernels_.sample_rows(sampler(), groups_[group], sampled_[group]);
     }
     TableSampler sampler() const { return method_.field.normals.empty() ? kNoTables : method_.field.sampler(); }
 
-    /// Memory to load from for paths that no volume serves, if there is no volume at all.
+    /// Dummy table, loaded by lanes without a volume if the field is empty.
     static constexpr float kOneCell[] = {1.0f};
     static constexpr TableSampler kNoTables{.cells = {1}, .row_cdf = kOneCell, .column_cdf = kOneCell};
 
@@ -85,7 +85,7 @@ private:
     DirectionGroup directions_[kGuidedGroups];
 };
 
-/// State that the threads of a pass share; none for methods that are not guided by tables.
+/// State shared by the threads of a pass; empty for methods not guided by tables.
 template <class M>
 struct SharedByThreads {
     explicit SharedByThreads(const M&) {}
@@ -97,14 +97,14 @@ struct SharedByThreads<M> {
     explicit SharedByThreads(const M& method) : locks(method.field.normals.count) {}
 };
 
-/// State of a thread that extends blocks of paths.
+/// Per-thread state for extending blocks of paths.
 template <FeatureSet F, class M>
 struct BlockMemory {
     BlockMemory(const M&, const PathSettings&, SharedByThreads<M>&) {}
 };
 template <FeatureSet F, TableGuided M>
 struct BlockMemory<F, M> {
-    LookupsAhead lookups[2];  ///< of this block and of the next one
+    LookupsAhead lookups[2];  ///< of the current and the next block
     ScatterBlock<F, M> scattered;
     TrainingQueue<M> training;
 

@@ -1,6 +1,6 @@
-// The one-sample mixture of table and Lambert BSDF for a vector of paths. Included by one file per instruction set; see lanes.h.
-// The same bits as Guided::sample_direction(), but both strategies share one frame and one map from the square, so that lanes
-// of either strategy cost the same.
+// One-sample mixture of table and Lambert BSDF for a vector of paths. Included by one file per instruction set; see
+// lanes.h. Bit-identical to Guided::sample_direction(), but both strategies share one frame and one mapping from the
+// unit square, so that lanes of different strategies do not diverge.
 #pragma once
 
 #include "cpu/lane_kernels.h"
@@ -10,8 +10,8 @@
 namespace pl {
 namespace {
 
-/// Some lanes of a group of paths, step by step: each step prefetches the memory of the next one, which arrives while all
-/// other paths take theirs. Tables are larger than the caches.
+/// Samples directions for one vector of a group in steps. Each step prefetches the table entries of the next, since
+/// tables exceed the caches; the latency is hidden by the same step of the other vectors.
 class GuidedLanes {
 public:
     PL_INLINE GuidedLanes(const TableSampler& tables, const GuidedGroup& paths, std::uint32_t first)
@@ -68,11 +68,11 @@ public:
 private:
     static constexpr int kFloatsPerLine = 16;
 
-    /// Lanes that sample the table.
+    /// Mask of the lanes that sample the table rather than the BSDF.
     PL_INLINE LaneInt is_guided() const {
         return (point_.served.volume >= 0) & (row(paths_.choice) >= point_.bsdf_fraction);
     }
-    /// The table of each lane's volume, of volume 0 in lanes that do not need one.
+    /// The table of each lane's volume; of volume 0 in lanes outside the mask.
     PL_INLINE DirectionTables<Lanes> tables_of(const LaneInt& wanted) const {
         return tables_.tables_of<Lanes>(select(wanted, point_.served.volume, LaneInt{}));
     }

@@ -1,4 +1,4 @@
-// The loops over lanes of rays or paths, compiled once per instruction set; all give the same bits.
+// Loops over SIMD lanes of rays or paths, compiled once per instruction set with bit-identical results.
 #pragma once
 
 #include <algorithm>
@@ -18,19 +18,19 @@ inline constexpr std::uint32_t kMaxDensePositions = 3 * kMaxDenseTriangles;
 
 struct DenseTriangle {
     std::uint32_t a, b, c;    ///< indices into DenseView::positions
-    std::uint32_t primitive;  ///< number in the scene
+    std::uint32_t primitive;  ///< index of the triangle in the scene
 };
 
-/// A small scene as plain pointers: files compiled for one instruction set must not share inline functions of containers
-/// with others.
+/// A small scene as plain pointers: files compiled for one instruction set must not instantiate inline functions of
+/// containers, which the linker would merge with those of other files.
 struct DenseView {
-    const Vec3f* positions;  ///< each once, however many triangles share it
+    const Vec3f* positions;  ///< without duplicates
     std::uint32_t position_count;
-    const DenseTriangle* triangles;  ///< in ascending order of their numbers
+    const DenseTriangle* triangles;  ///< in ascending order of primitive
     std::uint32_t triangle_count;
 };
 
-/// The common part of the random numbers of a batch.
+/// The arguments of Rng::draw that a batch has in common.
 struct DrawKey {
     std::uint64_t seed = 0;
     Stream stream = Stream::Picture;
@@ -42,14 +42,14 @@ struct alignas(64) CounterGroup {
     std::uint32_t pixel[kGroupSize] = {}, sample[kGroupSize] = {}, vertex[kGroupSize] = {};
 };
 
-/// Four uniform numbers per lane.
+/// Four uniform numbers in [0, 1) per lane.
 struct alignas(64) NumberGroup {
     float rows[4][kGroupSize] = {};
 
     Vec4f get(std::uint32_t lane) const { return {rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]}; }
 };
 
-/// Components of 16 vectors.
+/// 16 vectors as a structure of arrays.
 struct alignas(64) VectorGroup {
     float x[kGroupSize] = {}, y[kGroupSize] = {}, z[kGroupSize] = {};
 
@@ -61,14 +61,14 @@ struct alignas(64) VectorGroup {
     Vec3f get(std::uint32_t lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 
-/// 16 paths to be scattered by a guided method. Lanes that were never set are served by no volume.
+/// 16 paths at vertices of a guided method. Lanes that were never set have no volume.
 struct alignas(64) GuidedGroup {
     std::int32_t volume[kGroupSize];
     VectorGroup site, volume_normal;
     float inverse_reach[kGroupSize] = {}, bsdf_fraction[kGroupSize] = {};
     VectorGroup position, shading_normal;
     float choice[kGroupSize] = {}, u_x[kGroupSize] = {}, u_y[kGroupSize] = {};  ///< x, y, z of ScatterNumbers::u
-    CounterGroup counters;                                                      ///< of the jitter's numbers
+    CounterGroup counters;  ///< of the random numbers for the position within a cell
 
     GuidedGroup() { std::fill_n(volume, kGroupSize, kNoVolume); }
 
@@ -81,14 +81,14 @@ struct alignas(64) GuidedGroup {
     }
 };
 
-/// Their directions between sampling and the evaluation of densities.
+/// Intermediate results of a GuidedGroup, before the evaluation of pdfs.
 struct alignas(64) SampledGroup {
-    std::int32_t row[kGroupSize];  ///< of the table
+    std::int32_t row[kGroupSize];  ///< of the table, per lane
     VectorGroup direction;
     float square_x[kGroupSize], square_y[kGroupSize], cosine[kGroupSize], jacobian[kGroupSize];  ///< TableDirection
 };
 
-/// Their directions, as DirectionSample.
+/// Sampled directions of a GuidedGroup; members as in DirectionSample.
 struct alignas(64) DirectionGroup {
     float x[kGroupSize] = {}, y[kGroupSize] = {}, z[kGroupSize] = {};
     float pdf_sa[kGroupSize] = {}, bsdf_pdf_sa[kGroupSize] = {};
@@ -101,14 +101,14 @@ struct alignas(64) DirectionGroup {
 
 struct LaneKernels {
     const char* isa;
-    /// All rays of `groups` groups against all triangles.
+    /// Closest hits of `groups` groups of rays, tested against all triangles.
     void (*find_closest)(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups);
     void (*find_occluded)(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t groups);
-    /// Rng::draw() of every counter.
+    /// Evaluates Rng::draw() for every counter.
     void (*draw)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups);
-    /// Samples the rows of tables for sample_guided(), and prefetches the memory that it needs.
+    /// Samples table rows for sample_guided() and prefetches the columns it reads.
     void (*sample_rows)(const TableSampler& tables, const GuidedGroup& paths, SampledGroup& sampled);
-    /// Guided::sample_direction() of every path, for Lambert reflectors; the jitter is drawn with Purpose::CellJitter.
+    /// Guided::sample_direction() of every path, at Lambert reflectors. `jitter_key` has Purpose::CellJitter.
     void (*sample_guided)(const TableSampler& tables, const DrawKey& jitter_key, const GuidedGroup* paths,
                           SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups);
 };
@@ -117,7 +117,7 @@ extern const LaneKernels kLaneKernelsBaseline;
 extern const LaneKernels kLaneKernelsAvx2;    ///< only in builds with PL_LANE_CLONES
 extern const LaneKernels kLaneKernelsAvx512;  ///< only in builds with PL_LANE_CLONES
 
-/// Those that this build has and this machine can run, widest vectors last.
+/// Kernels in this build that the machine supports, widest vectors last.
 std::span<const LaneKernels> usable_lane_kernels();
 
 inline const LaneKernels& best_lane_kernels() { return usable_lane_kernels().back(); }

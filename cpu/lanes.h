@@ -1,7 +1,7 @@
-// Several floats or integers as one value, by the vector extensions of gcc and clang: operators work on all lanes,
-// comparisons give lanes with all bits set or clear. A file that includes this is compiled once per instruction set
-// (see cpu/CMakeLists.txt), with as many lanes as that set has. Such files must not share an inline function with the
-// rest of the program, or the linker could pick a copy that the machine cannot run: hence the unnamed namespace.
+// SIMD vectors of floats and integers (vector extensions of gcc and clang): operators apply to all lanes, comparisons
+// return lanes with all bits set or clear. Files that include this header are compiled once per instruction set (see
+// cpu/CMakeLists.txt), with its vector width. They must share no inline function with the rest of the program, since
+// the linker could keep a copy with instructions the machine lacks: hence the unnamed namespace.
 #pragma once
 
 #include <bit>
@@ -44,23 +44,23 @@ PL_INLINE void store_lanes(const Lanes& lanes, T* row) {
 PL_INLINE LaneFloat broadcast(float x) { return x - LaneFloat{}; }
 PL_INLINE LaneUint broadcast(std::uint32_t x) { return x - LaneUint{}; }
 
-/// |x|, bit for bit as std::fabs.
+/// |x|, bit-identical to std::fabs.
 PL_INLINE LaneFloat magnitude(LaneFloat x) {
     return std::bit_cast<LaneFloat>(std::bit_cast<LaneUint>(x) & 0x7fffffffu);
 }
 
-/// As to_unit_float.
+/// See to_unit_float.
 PL_INLINE LaneFloat to_unit_lanes(LaneUint bits) {
     return __builtin_convertvector(std::bit_cast<LaneInt>(bits >> 8), LaneFloat) * 0x1p-24f;
 }
 
-/// Lanes of 64 bits, half as many.
+/// Vector of half as many lanes, of 64 bits each.
 using LaneWide = std::uint64_t __attribute__((vector_size(4 * kLaneWidth)));
 
-/// Full products of the lower halves of all lanes with one factor.
+/// 64-bit products of the lower half of each lane and one factor.
 PL_INLINE LaneWide multiply_low_halves(LaneWide lanes, std::uint32_t factor) {
 #if defined(__AVX512F__)
-    // The masked form: gcc 12 warns of an uninitialized value inside the plain one.
+    // Masked form: gcc 12 warns of an uninitialized value inside the unmasked one.
     return std::bit_cast<LaneWide>(_mm512_maskz_mul_epu32(0xff, std::bit_cast<__m512i>(lanes),
                                                           _mm512_set1_epi64(static_cast<long long>(factor))));
 #elif defined(__AVX2__)
@@ -74,7 +74,7 @@ PL_INLINE LaneWide multiply_low_halves(LaneWide lanes, std::uint32_t factor) {
 #endif
 }
 
-/// One bit per lane of a mask, lane 0 lowest.
+/// Packs a mask into one bit per lane, lane 0 in the lowest bit.
 PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
 #if defined(__AVX512F__)
     const auto lanes = std::bit_cast<__m512i>(mask);
@@ -90,7 +90,7 @@ PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
 #endif
 }
 
-/// A vector of numbers for arithmetic that is a template over how many; see core/kernel/base/numbers.h.
+/// The vector counterpart of One, for arithmetic templated on the number of lanes; see core/kernel/base/numbers.h.
 struct Lanes {
     using Real = LaneFloat;
     using Int = LaneInt;
@@ -132,13 +132,13 @@ struct Lanes {
         return loaded;
 #endif
     }
-    /// Asks for what load() of the same arguments will read.
+    /// Prefetches the values that load() with the same arguments reads.
     static PL_INLINE void prefetch(const float* values, const Int& index) {
         std::int32_t indices[kLaneWidth];
         store_lanes(index, indices);
         for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) __builtin_prefetch(values + indices[lane]);
     }
-    /// Each lane has its own row of values: they are compared a vector at a time, lane after lane.
+    /// Each lane searches its own row of values: lane by lane, comparing one vector of values at a time.
     static PL_INLINE Int count_not_above(const float* values, const Int& first, int count, const Real& x) {
         std::int32_t counts[kLaneWidth];
         for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {

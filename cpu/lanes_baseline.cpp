@@ -1,4 +1,4 @@
-// Lane kernels for the instructions that every machine of this architecture has.
+// Lane kernels for the baseline instruction set of the architecture.
 #include "cpu/lanes_impl.h"
 
 namespace pl {

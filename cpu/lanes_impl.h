@@ -1,5 +1,5 @@
-// The body of the lane kernels. Each lanes_*.cpp compiles it for one instruction set, which CMakeLists.txt gives the file;
-// nothing here may be visible outside of that file.
+// Implementation of the lane kernels. Each lanes_*.cpp compiles it for one instruction set, whose compiler options
+// are set in CMakeLists.txt. All definitions have internal linkage; see lanes.h.
 #pragma once
 
 #include "cpu/dense_lanes.h"

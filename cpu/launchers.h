@@ -1,5 +1,5 @@
-// The kernels of the CPU: their arguments, and tables of those compiled. picture_kernels.inc is compiled once per entry of
-// MethodList, so that builds run in parallel.
+// CPU kernels: arguments and dispatch tables. picture_kernels.inc is compiled once per entry of MethodList, so that
+// the kernels of all methods build in parallel.
 #pragma once
 
 #include "core/base/kernel_row.h"
@@ -11,7 +11,7 @@
 
 namespace pl {
 
-/// Arguments of a picture kernel. `field` holds nothing for methods without one.
+/// Arguments of a picture kernel. `field` is empty for methods without one.
 struct PicturePass {
     PassSetup setup;
     const BatchTracer& tracer;
@@ -35,12 +35,12 @@ struct ProbePass {
 template <class Pass>
 using PassKernels = KernelRow<PassCounters (*)(const Pass&)>;
 
-/// Those of an entry of MethodList.
+/// Picture kernels of an entry of MethodList.
 template <int kEntry>
 const PassKernels<PicturePass>& picture_kernels();
 extern const PassKernels<ProbePass> kProbeKernels;
 
-/// A method as run_paths() takes it.
+/// Maps a method to the type that run_paths() uses: methods guided by tables get their lookups ahead.
 template <Method M>
 struct RunMethod {
     using Type = M;
@@ -64,7 +64,7 @@ constexpr PassKernels<PicturePass> make_picture_kernels() {
         []<FeatureSet F>() { return run_picture_pass<F, M>; });
 }
 
-/// Runs the kernel that serves the needed features.
+/// Runs the kernel for the smallest compiled set of features that covers `needed`.
 template <class Pass>
 PassCounters launch(const PassKernels<Pass>& row, FeatureSet needed, const Pass& pass) {
     return row[covering_set(needed)](pass);

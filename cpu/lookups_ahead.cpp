@@ -26,7 +26,7 @@ void LookupsAhead::begin(const SceneView& scene, const PlacementView& placement,
     for (std::uint32_t i = first; i < end; ++i) {
         const Hit hit = rays.hit(i);
         if (!hit.found()) continue;
-        // Constructed in place: a copy would read in larger pieces than were just written, and wait for the stores.
+        // Constructed in place: the wide loads of a copy would stall, since narrower stores do not forward to them.
         const SurfacePoint& point = *::new (static_cast<void*>(&points_[i - first]))
                                         SurfacePoint(make_flat_point(scene, hit, -rays.ray(i).direction));
         if (!scene.materials[point.material].reflects()) continue;

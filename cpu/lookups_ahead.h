@@ -1,6 +1,6 @@
-// Surface points and volumes at the ends of a block of rays, looked up ahead of the paths' steps: in loops of their own lookups
-// overlap, and each step prefetches the memory of the next one, since grids are larger than the innermost caches. The loops are
-// the same for every set of features and compiled once.
+// Surface points and volumes at the hits of a block of rays, looked up before the paths are shaded. In separate loops
+// the lookups overlap, and each loop prefetches the data of the next, since grids exceed the L1 and L2 caches. The
+// loops do not depend on the set of features and are compiled once.
 #pragma once
 
 #include <concepts>
@@ -10,10 +10,10 @@
 
 namespace pl {
 
-/// Paths per block: few enough for the innermost cache.
+/// Paths per block: their state fits into the L1 cache.
 inline constexpr std::uint32_t kGuidedBlock = 64;
 
-/// A method guided by tables that is given the volume of the next surface point, or nullptr: then locate() looks it up.
+/// A method guided by tables. `found` is the volume of the next surface point; if nullptr, locate() looks it up.
 template <class M>
 struct LookedUpAhead : M {
     const FoundVolume* found = nullptr;
@@ -24,16 +24,15 @@ struct LookedUpAhead : M {
     }
 };
 
-/// The volumes at the ends of at most kGuidedBlock rays.
+/// The volumes at the hits of at most kGuidedBlock rays.
 class LookupsAhead {
 public:
-    /// Prefetches the grid cells of rays first to end, exclusive. Rays that miss, or hit a surface that does not reflect, are
-    /// left out.
+    /// Prefetches the grid cells of rays [first, end). Skips rays that miss, or hit a surface that does not reflect.
     void begin(const SceneView& scene, const PlacementView& placement, const RayBatch& rays, std::uint32_t first,
                std::uint32_t end);
-    /// Finds the volumes. Best called after other work, when the prefetched cells have arrived.
+    /// Completes the lookups. Best called after other work, which hides the latency of the prefetched cells.
     void finish(const PlacementView& placement);
-    /// The surface point at the end of a ray that hits something.
+    /// The surface point at the hit of a ray; undefined for rays that miss.
     template <FeatureSet F>
     decltype(auto) surface(const SceneView& scene, const Hit& hit, std::uint32_t ray) const {
         if constexpr (F.has(Feature::SmoothNormals))
@@ -41,7 +40,7 @@ public:
         else
             return (points_[ray - first_]);
     }
-    /// nullptr for rays that were left out.
+    /// The volume at the hit of a ray; nullptr for skipped rays.
     const FoundVolume* found(std::uint32_t ray) const {
         return ((known_ >> (ray - first_)) & 1u) != 0 ? &found_[ray - first_] : nullptr;
     }

@@ -1,4 +1,4 @@
-// The random numbers that many paths use up at their next vertices.
+// Random numbers of a batch of paths for their next vertices.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace pl {
 
-/// Gives what draw_vertex_numbers gives for each path alone.
+/// The numbers are bit-identical to draw_vertex_numbers() of each path.
 class NumberBatch {
 public:
     NumberBatch(std::uint32_t capacity, bool with_light)
@@ -23,7 +23,7 @@ public:
         group.vertex[lane] = state.draw_index() + 1;
     }
 
-    /// Draws for the first `count` paths.
+    /// Draws the numbers of the first `count` paths.
     void draw(const PathSettings& settings, std::uint32_t count) {
         draw_rows({settings.seed, settings.stream, Purpose::Scatter}, scatter_, count);
         if (!light_.empty()) draw_rows({settings.seed, settings.stream, Purpose::Light}, light_, count);
@@ -43,7 +43,7 @@ private:
     LaneKernels kernels_ = best_lane_kernels();
     std::vector<CounterGroup> counters_;
     std::vector<NumberGroup> scatter_;
-    std::vector<NumberGroup> light_;  ///< empty where no lights are sampled
+    std::vector<NumberGroup> light_;  ///< empty without light sampling
 };
 
 }  // namespace pl

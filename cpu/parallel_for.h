@@ -1,5 +1,5 @@
-// All threading of this back end: a team of threads that claim work from a queue. OpenMP where it is there; plain
-// threads under the thread sanitizer, which cannot see into the OpenMP run-time library.
+// All threading of this back end: threads claim work from a queue. Uses OpenMP; plain threads under the thread
+// sanitizer, which does not see the synchronization of the OpenMP run-time library.
 #pragma once
 
 #include "core/base/work_queue.h"
@@ -10,8 +10,8 @@
 
 namespace pl {
 
-/// Calls body(thread) on up to `threads` threads at once, with thread < threads, waits for all, and rethrows the first
-/// exception. The number may be smaller than asked for, so work is claimed, never divided.
+/// Calls body(thread) with thread in [0, threads) on up to `threads` threads, joins them, and rethrows the first
+/// exception. OpenMP may start fewer threads than requested, so threads claim work from a queue.
 template <class Body>
 void run_on_threads(int threads, Body&& body) {
 #ifdef PL_TSAN
@@ -24,7 +24,7 @@ void run_on_threads(int threads, Body&& body) {
 #endif
 }
 
-/// Threads that run at once on this machine.
+/// Number of hardware threads.
 inline int hardware_threads() {
 #ifdef PL_TSAN
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -33,7 +33,7 @@ inline int hardware_threads() {
 #endif
 }
 
-/// Calls body(range) for every chunk the queue hands out, in any order.
+/// Calls body(range) for every chunk of the queue, in any order.
 template <class Body>
 void parallel_for(int threads, ChunkQueue& queue, Body&& body) {
     run_on_threads(threads, [&](int) {

@@ -1,4 +1,4 @@
-// Where a thread gets its next path from: a claimed chunk of numbers, with the random numbers that start each.
+// The source of a thread's paths: claimed chunks of path numbers, and the random numbers of each path's vertex 0.
 #pragma once
 
 #include "cpu/number_batch.h"
@@ -6,10 +6,10 @@
 
 namespace pl {
 
-/// Paths that a thread claims, and then also finishes, at once.
+/// Paths per claim. A thread finishes every path that it claims.
 inline constexpr std::uint32_t kPathChunk = 256;
 
-/// What draws for the start of a path.
+/// The arguments of Rng::draw that all paths of a pass have in common at vertex 0.
 struct StartKey {
     std::uint64_t seed = 0;
     Stream stream = Stream::Picture;
@@ -17,12 +17,12 @@ struct StartKey {
     std::uint32_t sample = 0;
 };
 
-/// One thread's view of the queue.
+/// Claims chunks of the shared queue for one thread.
 class PathSource {
 public:
     PathSource(ChunkQueue& queue, const StartKey& key) : queue_(queue), key_(key) {}
 
-    /// Number of the next path and what Rng::draw gives for its vertex 0. Returns false if there is no more.
+    /// Sets the number of the next path and its random numbers of vertex 0. Returns false at the end of the queue.
     bool next(std::uint32_t& number, Vec4f& u) {
         if (chunk_.empty() && !claim()) return false;
         const std::uint32_t index = chunk_.begin - first_;

@@ -1,4 +1,4 @@
-// The two kinds of paths: those of a picture, and the probes that fill a radiance map before rendering.
+// The two kinds of paths: camera paths of a picture, and probes that fill the precomputed map before rendering.
 #pragma once
 
 #include "core/kernel/film/film_view.h"
@@ -7,7 +7,7 @@
 
 namespace pl {
 
-/// One path per pixel, into a film.
+/// One path per pixel; adds its radiance to a film.
 template <FeatureSet F, class M>
 struct PictureWork {
     static constexpr Purpose kStartPurpose = Purpose::Pixel;
@@ -19,7 +19,7 @@ struct PictureWork {
     std::uint32_t count() const { return film.pixels.count; }
     std::uint32_t start_sample() const { return sequence_of(sample); }
     PathState<F, M> begin(std::uint32_t pixel, Vec4f start) const {
-        __builtin_prefetch(&film.pixels[pixel], 1);  // the batch stays in the cache, the film does not
+        __builtin_prefetch(&film.pixels[pixel], 1);  // films exceed the cache
         return begin_path<F, M>(camera, {film.width, film.height, sample}, pixel, start);
     }
     bool finish(const PathState<F, M>& state, MethodCounters&) const {
@@ -27,7 +27,7 @@ struct PictureWork {
     }
 };
 
-/// One path per cell of every volume, into a table.
+/// One probe per cell of every volume; adds its radiance to a table.
 template <FeatureSet F>
 struct ProbeWork {
     static constexpr Purpose kStartPurpose = Purpose::Probe;

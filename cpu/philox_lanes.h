@@ -1,4 +1,4 @@
-// Random numbers of a vector of paths. Included by one file per instruction set; see lanes.h.
+// Philox random numbers in SIMD lanes. Included by one file per instruction set; see lanes.h.
 #pragma once
 
 #include "core/kernel/base/rng.h"
@@ -8,7 +8,7 @@
 namespace pl {
 namespace {
 
-/// Products of 32-bit lanes with one factor.
+/// 64-bit products of 32-bit lanes and one factor.
 PL_INLINE WideProduct<LaneUint> multiply_lanes(std::uint32_t factor, LaneUint words) {
     constexpr std::uint64_t kLowHalf = 0xffffffffu;
     const auto pairs = std::bit_cast<LaneWide>(words);
@@ -18,7 +18,7 @@ PL_INLINE WideProduct<LaneUint> multiply_lanes(std::uint32_t factor, LaneUint wo
             std::bit_cast<LaneUint>((even & kLowHalf) | (odd << 32))};
 }
 
-/// What Rng::draw gives for the lanes of a group from `first` on.
+/// Evaluates Rng::draw for the lanes of a group from lane `first`.
 PL_INLINE PhiloxWords<LaneFloat> draw_lanes(const DrawKey& key, const CounterGroup& counters, std::uint32_t first) {
     const PhiloxWords<LaneUint> counter{
         {load_lanes<LaneUint>(counters.pixel + first), load_lanes<LaneUint>(counters.sample + first),

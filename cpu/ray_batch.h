@@ -1,4 +1,4 @@
-// Rays and hits of many paths, in groups of 16: each component of a group lies in one row that vectors load.
+// Rays and hits of a batch of paths in groups of 16, as structures of arrays: one row per component.
 #pragma once
 
 #include <concepts>
@@ -9,7 +9,7 @@
 
 namespace pl {
 
-/// Rays that are stored together: 16 floats are a cache line and one vector of the widest instruction set.
+/// Rays per group: 16 floats fill one cache line, and one vector of the widest instruction set.
 inline constexpr std::uint32_t kGroupSize = 16;
 
 constexpr std::uint32_t group_count(std::uint32_t count) { return (count + kGroupSize - 1) / kGroupSize; }
@@ -59,10 +59,10 @@ struct alignas(64) HitGroup {
     Hit get(std::uint32_t lane) const { return {t[lane], primitive[lane], b1[lane], b2[lane]}; }
 };
 
-/// Bit `lane` is set where something is in the way.
+/// Bit `lane` is set if the ray of that lane is occluded.
 using OcclusionMask = std::uint16_t;
 
-/// A growing or fixed number of rays and the answers to them.
+/// A batch of rays and their hits.
 class RayBatch {
 public:
     explicit RayBatch(std::uint32_t capacity)
@@ -91,7 +91,7 @@ private:
     std::vector<OcclusionMask> occluded_;
 };
 
-/// Answers the first `count` rays of a batch. Same answers as an Intersector gives for each ray alone.
+/// Intersects the first `count` rays of a batch. Results equal those of an Intersector for each single ray.
 template <class T>
 concept BatchIntersector = requires(const T& intersector, RayBatch& batch, std::uint32_t count) {
     { intersector.find_closest(batch, count) } -> std::same_as<void>;

@@ -1,6 +1,6 @@
-// The main loop on the CPU: each thread keeps a batch of paths and takes each step with all of them, so that the intersector
-// always has full vectors. The radiance of a path depends on nothing but its number; batch size, threads and chunks decide
-// speed only.
+// The main loop on the CPU: each thread advances a batch of paths, one stage at a time for all of them, so that the
+// intersector always has full vectors. The radiance of a path depends only on its number; batch size, threads and
+// chunks affect speed only.
 #pragma once
 
 #include <algorithm>
@@ -18,23 +18,23 @@
 
 namespace pl {
 
-/// The common part of all passes.
+/// Arguments common to all passes.
 struct PassSetup {
     SceneView scene;
     PathSettings path;
-    IndexRange paths{0, kToTheLast};  ///< numbers of the paths to trace, clamped to those there are
+    IndexRange paths{0, kToTheLast};  ///< numbers of the paths to trace, clamped to those of the pass
     const StopFlag* stop = nullptr;
     int threads = 1;
     std::uint32_t batch_paths = 1024;
 
-    /// Chunks of the paths to trace, of `count` in all.
+    /// Chunks of the paths to trace; the pass has `count` paths.
     ChunkQueue chunks(std::uint32_t count) const {
         return ChunkQueue(paths.begin, std::min(paths.end, count), kPathChunk, stop);
     }
 };
 
-/// A set of paths, numbered from 0: how each begins and ends. start_sample() is the sample number of their first random
-/// numbers; finish() returns whether the sample is valid.
+/// A set of paths numbered from 0: creates their first rays and stores their radiance. start_sample() is the sample
+/// number of their random numbers at vertex 0; finish() returns true if the sample is valid.
 template <class W, FeatureSet F, class M>
 concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<F, M>& state,
                             MethodCounters& counters) {
@@ -44,8 +44,8 @@ concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const 
     { work.finish(state, counters) } -> std::same_as<bool>;
 };
 
-/// The batch of one thread, live paths first. Each stage is one function with all calls inlined, so that its machine code does
-/// not depend on the other sets of features compiled beside it.
+/// The batch of one thread, active paths first. Each stage is one function with all calls inlined, so that its
+/// machine code does not depend on the other sets of features in the same translation unit.
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 class PathBatch {
 public:
@@ -57,7 +57,7 @@ public:
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())),
           solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method_, setup.path, shared) {}
 
-    /// The main loop: traces paths until the source is empty and all are finished.
+    /// The main loop: traces paths until the source is empty and the last path has ended.
     PassCounters run(PathSource& source) {
         fill(source);
         while (active_ > 0) {
@@ -78,18 +78,18 @@ private:
         while (active_ < setup_.batch_paths && start(source, active_)) ++active_;
     }
 
-    /// Starts the next path of the source in slot i. Returns false if there is none.
+    /// Starts the next path of the source in slot i. Returns false if the source is empty.
     PL_INLINE bool start(PathSource& source, std::uint32_t i) {
         std::uint32_t number = 0;
         Vec4f u;
         if (!source.next(number, u)) return false;
-        // Constructed in place: a copy would read in larger pieces than were just written, and wait for the stores.
+        // Constructed in place: the wide loads of a copy would stall, since narrower stores do not forward to them.
         ::new (static_cast<void*>(&states_[i])) PathState<F, M>(work_.begin(number, u));
         prepare(i);
         return true;
     }
 
-    /// Copies ray and random-number key of path i into the batch's arrays.
+    /// Copies ray and random-number counter of path i into the arrays of the batch.
     void prepare(std::uint32_t i) {
         rays_.set_ray(i, states_[i].ray);
         numbers_.set_path(i, states_[i]);
@@ -116,7 +116,7 @@ private:
         }
     }
 
-    /// Shades and scatters path by path: half of the time of a small scene.
+    /// Shades and scatters path by path: half of the run time of a small scene.
     [[gnu::flatten, gnu::noinline]] void extend_each() {
         for (std::uint32_t i = 0; i < active_; ++i) {
             ShadowRequest shadow;
@@ -126,7 +126,7 @@ private:
         }
     }
 
-    /// The same for paths first to end in two loops, so that directions are sampled for many paths at once.
+    /// The same for paths [first, end) in two loops, so that directions are sampled in SIMD lanes.
     [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end,
                                                       const LookupsAhead& lookups) {
         block_.scattered.clear();
@@ -140,7 +140,7 @@ private:
         }
     }
 
-    /// Shades path i, whose surface point and volume have been looked up.
+    /// Shades path i with the surface point and volume of `lookups`.
     void shade_ahead(std::uint32_t i, const LookupsAhead& lookups) {
         ShadowRequest shadow;
         typename M::Sample sample{};
@@ -156,7 +156,7 @@ private:
         push(shadow, i);
     }
 
-    /// Path i waits for its direction at a Lambert reflector; at any other surface it is scattered at once.
+    /// Queues path i for the sampling of its direction at a Lambert reflector; scatters it at once at other surfaces.
     void scatter_later(std::uint32_t i, Vec4f u, const StepOutput<M>& out) {
         if constexpr (F.has_any(kLobeFeatures)) {
             const ScatterPoint<F, M>& from = block_.scattered.next();
@@ -193,7 +193,7 @@ private:
         for (std::uint32_t i = 0; i < shadow_count_; ++i) shadow_rays_.set_occluded(i, shadow_rays_.hit(i).found());
     }
 
-    /// Finishes paths and fills their slots with new ones, or with the last ones of the batch.
+    /// Finishes ended paths and refills their slots with new paths, or with the last paths of the batch.
     [[gnu::flatten, gnu::noinline]] void retire(PathSource& source) {
         for (std::uint32_t i = 0; i < active_;) {
             if (statuses_[i] == PathStatus::Finished)
@@ -236,7 +236,7 @@ private:
     PassCounters counters_;
 };
 
-/// Traces the paths of `work` on all threads.
+/// Traces the paths of `work` on setup.threads threads.
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& method, const W& work) {
     ChunkQueue queue = setup.chunks(work.count());

@@ -1,4 +1,4 @@
-// Closest hits of batches of rays that are no holes: rays that met one go on in a batch of their own.
+// Closest hits outside holes for batches of rays: rays that hit a hole are continued in a second batch.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace pl {
 
-/// Gives every ray the bits that closest_solid_hit() gives it alone. Memory of its own only where the scene has holes.
+/// Hits are bit-identical to closest_solid_hit() of each ray. Allocates memory only if the scene has holes.
 template <FeatureSet F, BatchIntersector I>
 class SolidHits {
 public:
@@ -16,7 +16,7 @@ public:
         : scene_(scene), intersector_(intersector), rest_(wanted(scene) ? capacity : 0),
           waiting_(wanted(scene) ? capacity : 0) {}
 
-    /// Whether occlusion is a question of solid hits.
+    /// True if the scene has holes: then shadow rays, too, need solid hits.
     static bool wanted(const SceneView& scene) { return F.has(Feature::CutOuts) && scene.textures.has_holes != 0; }
 
     void find_closest(RayBatch& batch, std::uint32_t count) {
@@ -53,7 +53,7 @@ private:
         }
     }
 
-    /// Puts what is left of a ray into a place that is not needed any more.
+    /// Stores the remainder of a ray behind the hole in slot `place`, whose previous ray has been read.
     void send_on(std::uint32_t place, const Ray& ray, const Hit& hit, Waiting from) {
         rest_.set_ray(place, ray_behind(scene_, ray, hit));
         waiting_[place] = {from.index, from.passed + hit.t};

@@ -1,6 +1,6 @@
-// The training samples of one thread on their way to a table's pending sums. Threads share the sums, and a sample is up to six
-// additions: atomic ones made segments of two threads a sixth slower than plain ones. So samples wait, sorted by ranges of
-// volumes, until a range has enough of them to be worth its lock. The sums are integers: the order changes no bit.
+// Queues of one thread's training samples, one per range of volumes. Threads share the pending sums of a table, and a
+// sample is up to six additions; with two threads, atomic additions made a segment one sixth slower than plain ones.
+// A queue is added under the lock of its range once it is full. The sums are integers, so their order changes no bit.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,15 @@
 
 namespace pl {
 
-/// Methods guided by tables: the driver looks up volumes and samples directions for blocks of their paths.
+/// Methods guided by tables: the CPU back end looks up volumes and samples directions for blocks of their paths.
 template <class M>
 concept TableGuided = GuidedMethod<M> && std::same_as<typename M::Field, TableField>;
 
-/// Methods whose training samples are complete in observe().
+/// True for methods whose observe() returns complete training samples.
 template <class M>
 inline constexpr bool kSamplesInObserve = !std::is_empty_v<typename M::Sample>;
 
-/// One lock for each of some ranges of volumes, to be held while adding to their sums without atomic operations.
+/// One lock per range of volumes, held while adding to their pending sums without atomic operations.
 class VolumeLocks {
 public:
     static constexpr std::uint32_t kRanges = 64;
@@ -43,7 +43,7 @@ private:
     Lock locks_[kRanges];
 };
 
-/// Empty for methods whose observe() makes no samples.
+/// Empty for methods whose observe() returns no training samples.
 template <TableGuided M>
 class TrainingQueue {
 public:
@@ -61,7 +61,7 @@ public:
         method_.field.writers = Writers::One;
     }
 
-    /// Prefetches the sample's cell and queues it.
+    /// Queues a training sample and prefetches the pending sums of its cell.
     void push(const typename M::Sample& sample) {
         if (!sample.entry.is_trained()) return;
         const std::uint32_t cell = method_.field.cell_index(sample.entry.volume, sample.entry.cell);
@@ -73,7 +73,7 @@ public:
         if (range.count == kCapacity) flush(number);
     }
 
-    /// Adds all samples to the sums. To be called after the thread's last path.
+    /// Adds all queued samples to the pending sums. Call after the thread's last path.
     void flush() {
         for (std::uint32_t range = 0; range < VolumeLocks::kRanges; ++range) flush(range);
     }

@@ -1,4 +1,4 @@
-// Views of the first surface: one camera ray per pixel, one pixel after the other.
+// Views of the first surface: one camera ray per pixel, traced singly.
 #pragma once
 
 #include "core/kernel/inspect/views.h"
@@ -6,7 +6,7 @@
 
 namespace pl {
 
-/// Arguments of a view kernel. `shown` is empty for views that need no field.
+/// Arguments of a view kernel. `shown` is empty for views without a field.
 struct ViewPass {
     PassSetup setup;
     View view = View::Normal;

@@ -9,9 +9,9 @@
 namespace pl {
 namespace {
 
-/// Number of devices, or why there are none.
+/// Sets the number of devices; returns the error if the driver reports none.
 cudaError_t count_devices(int& count) {
-    count = 0;  // left untouched on failure
+    count = 0;  // cudaGetDeviceCount does not set it on failure
     const cudaError_t code = cudaGetDeviceCount(&count);
     (void)cudaGetLastError();
     return code;

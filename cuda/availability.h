@@ -1,4 +1,4 @@
-// Whether the CUDA back end can be used, and on what.
+// Availability of the CUDA back end, and the devices it can use.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@ struct CudaDevice {
     int minor = 0;
 };
 
-/// Why CUDA cannot be used, in words; empty if it can. Costs under a millisecond without a driver.
+/// Reason why CUDA is unavailable, as a message; empty if it is available. Takes less than 1 ms without a driver.
 std::string cuda_unavailable_reason();
 
-/// All devices that the driver shows; empty if there are none.
+/// All devices the driver reports; may be empty.
 std::vector<CudaDevice> cuda_devices();
 
 }  // namespace pl

@@ -99,7 +99,7 @@ private:
     ShownField shown_field(const FilmSlot& slot);
     Span<const float> volume_values(const FilmSlot& slot);
 
-    /// Runs launch_range(first, end) over first..end until all is done or `stop` is seen between two launches.
+    /// Calls launch_range() on successive ranges of [first, end). Polls `stop` between launches.
     template <class LaunchRange>
     PassCounters run_launches(LaunchSize& size, std::uint32_t first, std::uint32_t end, const StopFlag* stop,
                               LaunchRange&& launch_range);
@@ -120,8 +120,8 @@ private:
     FieldShape shape_;
     std::array<std::optional<DeviceField>, kMethodCount> fields_;
     DeviceFilms films_;
-    DeviceArray<float> volume_values_;  ///< of the last heat map
-    DeviceArray<Vec3f> samples_;        ///< what the paths of one launch bring
+    DeviceArray<float> volume_values_;  ///< of the latest heat map
+    DeviceArray<Vec3f> samples_;        ///< radiance of the paths of one launch
     DeviceArray<std::uint32_t> claimed_{1};
     DeviceArray<PassCounters> counters_{1};
     PinnedMemory read_counters_{sizeof(PassCounters)};
@@ -195,10 +195,8 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
     return run_launches(size, request.first_pixel, end, request.stop, [&](PathRange range) {
         const std::uint32_t count = range.end - range.first;
         if (samples_.size() < count) samples_ = DeviceArray<Vec3f>(count);
-        const PixelPaths pixels{.camera = request.camera,
-                                .grid = grid,
-                                .first = range.first,
-                                .radiance = {samples_.data(), count}};
+        const PixelPaths pixels{
+            .camera = request.camera, .grid = grid, .first = range.first, .radiance = {samples_.data(), count}};
         if (is_picture)
             launch_picture(request, range, pixels);
         else
@@ -227,7 +225,7 @@ void CudaBackend::update_field(MethodId method) {
     stream_.wait("updating a field");
 }
 
-/// The placement and the number of every volume that a view shows; nothing for other views.
+/// The placement and, for heat maps, one value per volume; empty for views that need neither.
 ShownField CudaBackend::shown_field(const FilmSlot& slot) {
     const ViewInfo& view = info_of(slot.view);
     if (!view.needs_volumes && !view.needs_tables) return {};
@@ -237,7 +235,7 @@ ShownField CudaBackend::shown_field(const FilmSlot& slot) {
     return shown;
 }
 
-/// Ready when later launches of the stream run.
+/// Queued: complete before later work of the stream.
 Span<const float> CudaBackend::volume_values(const FilmSlot& slot) {
     const TableUpdateView field =
         update_view(shape_, std::get<TableStorage<DeviceArray>>(existing_field(field_owner(slot.method))));

@@ -1,4 +1,4 @@
-// The CUDA back end: the same steps as on the CPU, run by thousands of threads.
+// The CUDA back end: the steps of the CPU back end, one path per device thread.
 #pragma once
 
 #include <memory>
@@ -7,9 +7,9 @@
 
 namespace pl {
 
-/// On the first device (CUDA_VISIBLE_DEVICES chooses). Throws Error(Unavailable) with the reason if there is none that
-/// this build can use. Later errors (memory used up, device lost, a kernel that failed) are Error(Unavailable) too; the
-/// back end is then only good for being destroyed, except after a failed allocation.
+/// Uses the first device (see CUDA_VISIBLE_DEVICES). Throws Error(Unavailable), with the reason, if there is none or
+/// this build does not support it. Later errors (out of memory, device lost, failed kernel) are Error(Unavailable),
+/// too; except after a failed allocation, the back end must then be destroyed.
 std::unique_ptr<RenderBackend> make_cuda_backend();
 
 }  // namespace pl

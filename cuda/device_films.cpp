@@ -10,7 +10,7 @@ void DeviceFilms::reset(FilmSlot slot, int width, int height, const Stream& stre
     const std::size_t pixels = film_pixels(width, height);
     auto& film = films_.at(slot);
     if (film.pixels.size() != pixels) {
-        film = {};  // the old memory goes before the new one comes
+        film = {};  // frees the old memory before allocating the new
         film.pixels = DeviceArray<FilmPixel>(pixels);
     }
     film.width = width;
@@ -22,7 +22,7 @@ FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const { retur
 
 FilmReading DeviceFilms::read_halves(FilmSlot slot, const Stream& stream) const { return read(slot, 2, stream); }
 
-/// The film as it is: asked for by a person, who can wait for 64 bytes a pixel.
+/// Downloads the whole film, 64 bytes per pixel: called only on user requests, so speed does not matter.
 std::vector<std::uint32_t> DeviceFilms::invalid_samples(FilmSlot slot, const Stream& stream) const {
     auto& film = films_.existing(slot);
     std::vector<FilmPixel> pixels;

@@ -9,24 +9,24 @@ namespace pl::cuda {
 
 class DeviceFilms {
 public:
-    /// Makes the film exist with this size and empties it. Throws Error if the size makes no sense or does not fit.
+    /// Allocates the film at this size and clears it. Throws Error if the size is out of range or does not fit.
     void reset(FilmSlot slot, int width, int height, const Stream& stream);
 
-    /// All of these throw Error if the film was never reset.
+    /// The following functions throw Error if the film was never reset.
     FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
     FilmReading read(FilmSlot slot, const Stream& stream) const;
     FilmReading read_halves(FilmSlot slot, const Stream& stream) const;
     std::vector<std::uint32_t> invalid_samples(FilmSlot slot, const Stream& stream) const;
-    /// The frame is made in `stream` and travels in one of its own.
+    /// The frame is computed in `stream` and copied in a second stream.
     DisplayFrame show(FilmSlot slot, const FrameStyle& style, const Stream& stream);
     float largest_value(FilmSlot slot, const Stream& stream);
 
 private:
     mutable FilmSlots<DeviceArray<FilmPixel>> films_{"CUDA"};
-    /// The mean, and `halves` more pictures behind it.
+    /// Reads the mean, followed by the means of the halves; `halves` is 0 or 2.
     FilmReading read(FilmSlot slot, std::uint32_t halves, const Stream& stream) const;
 
-    // Kept from one reading to the next: pinned memory is dear to get.
+    // Kept between readings: pinned memory is slow to allocate.
     mutable DeviceArray<Vec3f> means_;
     mutable DeviceArray<FilmTotals> totals_;
     mutable PinnedMemory staging_;

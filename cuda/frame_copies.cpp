@@ -8,7 +8,7 @@ ArrivingFrame::~ArrivingFrame() {
     try {
         arrived.wait("waiting for a frame");
     } catch (const Error&) {
-        // A device that is lost writes no more either.
+        // A lost device no longer writes to the memory.
     }
 }
 
@@ -32,13 +32,13 @@ std::shared_ptr<ArrivingFrame> SpareFrames::take(std::size_t bytes) {
 }
 
 void SpareFrames::put_back(std::unique_ptr<ArrivingFrame> frame) {
-    constexpr std::size_t kMostSpare = 3;  // one shown, one handed over, one on its way
+    constexpr std::size_t kMostSpare = 3;  // one displayed, one passed to the window, one being copied
     const std::lock_guard lock(mutex_);
     if (spare_.size() < kMostSpare) spare_.push_back(std::move(frame));
 }
 
 DisplayFrame FrameCopies::start(const FilmView& film, const FrameStyle& style, const Stream& stream) {
-    copied_.hold_back(stream);  // the frame before may still be on its way
+    copied_.hold_back(stream);  // the copy of the previous frame may still read pixels_
     if (curve_ != style.curve) upload_codes(style.curve, stream);
     if (pixels_.size() < film.pixels.count) {
         copies_.wait("copying a frame");
@@ -59,7 +59,7 @@ DisplayFrame FrameCopies::start(const FilmView& film, const FrameStyle& style, c
             }};
 }
 
-/// The runtime has taken the codes when this returns: they lie in memory that is not pinned.
+/// The codes are in pageable memory, so the runtime has staged them when the call returns.
 void FrameCopies::upload_codes(ToneCurve curve, const Stream& stream) {
     const ToneTable table(curve);
     const ToneCodes codes = table.view();

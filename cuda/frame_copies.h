@@ -1,5 +1,5 @@
-// Frames for the window: made on the device behind the pass that is queued, copied in a stream of their own while the next
-// pass runs.
+// Frames for the window: computed on the device after the queued pass, copied to the host in a second stream while
+// the next pass runs.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@
 
 namespace pl::cuda {
 
-/// Where a frame arrives. Ends only once the device writes there no more.
+/// Destination of a frame's copy. The destructor waits until the copy has completed.
 struct ArrivingFrame {
     PinnedMemory memory;
     Event arrived;
@@ -21,11 +21,11 @@ struct ArrivingFrame {
     ~ArrivingFrame();
 };
 
-/// Frames that nobody shows any longer, for the next copies: pinned memory is dear to get. Outlives the back end, because
-/// the window may keep a frame for longer.
+/// Pool of frames for later copies, since pinned memory is slow to allocate. Outlives the back end while the window
+/// holds a frame.
 class SpareFrames : public std::enable_shared_from_this<SpareFrames> {
 public:
-    /// One with room for this many bytes; it comes back by itself when its last owner lets go.
+    /// A frame of at least `bytes` bytes. Returns to the pool when its last owner releases it.
     std::shared_ptr<ArrivingFrame> take(std::size_t bytes);
 
 private:
@@ -37,7 +37,7 @@ private:
 
 class FrameCopies {
 public:
-    /// Queues the making of a frame in `stream` and its copy in another; waits for neither.
+    /// Queues the computation of a frame in `stream` and its copy in copies_. Does not block.
     DisplayFrame start(const FilmView& film, const FrameStyle& style, const Stream& stream);
 
 private:

@@ -1,4 +1,4 @@
-// Stands in for the whole back end where there is no CUDA compiler.
+// Replaces the CUDA back end in builds without a CUDA compiler.
 #include "core/base/error.h"
 #include "cuda/availability.h"
 #include "cuda/cuda_backend.h"

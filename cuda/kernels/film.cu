@@ -5,8 +5,8 @@
 namespace pl::cuda {
 namespace {
 
-/// Apart from the paths, so that the kernels that trace hold no double arithmetic, which most devices do slowly, and
-/// so that neighbouring threads write neighbouring pixels.
+/// Separate from the tracing kernels, which thereby need no double-precision arithmetic (slow on most devices), and
+/// so that neighboring threads write neighboring pixels.
 __global__ void __launch_bounds__(kThreadsPerBlock)
     add_samples(FilmView film, Span<const Vec3f> samples, std::uint32_t first, std::uint32_t pass) {
     const std::uint32_t i = thread_number();

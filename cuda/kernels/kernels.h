@@ -1,4 +1,4 @@
-// Arguments of the kernels, and tables of those compiled: all that host code sees of them.
+// Arguments and dispatch tables of the kernels: their interface to host code.
 #pragma once
 
 #include <array>
@@ -12,22 +12,22 @@
 
 namespace pl::cuda {
 
-/// Numbers of the paths of one launch: first to end, exclusive.
+/// Path numbers of one launch: [first, end).
 struct PathRange {
     std::uint32_t first = 0;
     std::uint32_t end = 0;
 };
 
-/// Common arguments of the kernels that trace paths. Threads take paths from the range until none is left.
+/// Arguments common to the kernels that trace paths. Persistent threads claim paths until the range is exhausted.
 struct TraceSetup {
     SceneView scene;
     PathSettings path;
     PathRange range;
-    std::uint32_t* claimed = nullptr;  ///< paths taken so far; cleared before the launch
-    PassCounters* counters = nullptr;  ///< added to
+    std::uint32_t* claimed = nullptr;  ///< number of paths claimed; cleared before the launch
+    PassCounters* counters = nullptr;  ///< incremented
 };
 
-/// Paths from the camera, one per pixel. Their radiance goes to `radiance`, from the first pixel of the launch on.
+/// Camera paths, one per pixel. Element 0 of `radiance` belongs to the first pixel of the launch.
 struct PixelPaths {
     Camera camera;
     PixelGrid grid;
@@ -35,7 +35,7 @@ struct PixelPaths {
     Span<Vec3f> radiance;
 };
 
-/// Paths from the volumes, one per cell. Their radiance goes to the field's pending sums.
+/// Probes, one per cell of every volume. Their radiance is added to the field's pending sums.
 struct ProbePaths {
     TableView field;
     ProbeStratum stratum;
@@ -55,7 +55,7 @@ using PictureKernel = void (*)(TraceSetup, M, PixelPaths);
 using ProbeKernel = void (*)(TraceSetup, ProbeMethod, ProbePaths);
 using ViewKernel = void (*)(ViewSetup);
 
-/// Those of an entry of MethodList.
+/// Integrator and picture kernels of an entry of MethodList.
 template <int kEntry>
 using IntegratorAt = typename TypeAt<kEntry, MethodList>::Integrator;
 template <int kEntry>
@@ -65,44 +65,44 @@ const PictureKernels<kEntry>& picture_kernels();
 extern const KernelRow<ProbeKernel> kProbeKernels;
 extern const KernelRow<ViewKernel> kViewKernels;
 
-/// One thread per volume: volume_value().
+/// Evaluates volume_value(). One thread per volume.
 using VolumeValueKernel = void (*)(TableUpdateView field, View view, Span<float> values);
 extern const VolumeValueKernel kVolumeValues;
 
-/// Numbers of valid and invalid samples of a film.
+/// Counts of valid and invalid samples of a film.
 struct FilmTotals {
     std::uint64_t samples = 0;
     std::uint64_t invalid = 0;
-    std::uint64_t second_samples = 0;  ///< valid ones of the second half; only of kReadHalves
+    std::uint64_t second_samples = 0;  ///< valid samples of the second half; set by kReadHalves
 };
 
-/// One thread per sample: adds the samples of a launch, whose first is that of pixel `first`, to the film, or puts them
-/// in the place of what is there. `pass` is their number.
+/// kAddSamples adds the samples of a launch to the film, kSetSamples replaces those of the film. One thread per
+/// sample; the first sample belongs to pixel `first`. `pass` is the number of the pass.
 using AddSamplesKernel = void (*)(FilmView film, Span<const Vec3f> samples, std::uint32_t first, std::uint32_t pass);
 extern const AddSamplesKernel kAddSamples;
 extern const AddSamplesKernel kSetSamples;
 
-/// One thread per pixel: means for display and saving (see mean_or_nan), and the film's totals.
+/// Means for display and saving (see mean_or_nan), and the film's totals. One thread per pixel.
 using ReadFilmKernel = void (*)(FilmView film, Span<Vec3f> means, FilmTotals* totals);
 extern const ReadFilmKernel kReadFilm;
 
-/// One thread per pixel: means of both halves (see half_mean), and the number of the second one's samples.
+/// Means of both halves (see half_mean), and the number of samples of the second. One thread per pixel.
 using ReadHalvesKernel = void (*)(FilmView film, Span<Vec3f> first, Span<Vec3f> second,
                                   std::uint64_t* second_samples);
 extern const ReadHalvesKernel kReadHalves;
 
-/// One thread per pixel: the frame that a window shows.
+/// The frame for the window. One thread per pixel.
 using ShowFilmKernel = void (*)(FilmView film, FrameStyle style, ToneCodes codes, Span<std::uint32_t> pixels);
 extern const ShowFilmKernel kShowFilm;
 
-/// One thread per pixel: the bits of the largest range_value(), which are ordered as the values are. Cleared before.
+/// The maximum of range_value() as bits, whose order is that of the values. `bits` must be 0. One thread per pixel.
 using LargestValueKernel = void (*)(FilmView film, std::uint32_t* bits);
 extern const LargestValueKernel kLargestValue;
 
-/// One step of an update for `count` cells, rows or volumes: one thread each.
+/// One step of an update. `count` threads, one per cell, row or volume.
 using UpdateKernel = void (*)(TableUpdateView field, std::uint32_t count);
 
-/// The items of a step of update_volume().
+/// The items of a step of update_volume(): one thread each.
 enum class UpdateItem { Cell, Row, Volume };
 
 struct UpdateStep {
@@ -111,7 +111,7 @@ struct UpdateStep {
     const char* name;
 };
 inline constexpr int kUpdateStepCount = 7;
-/// The steps of update_volume(), in their order.
+/// The steps of update_volume() in order.
 extern const std::array<UpdateStep, kUpdateStepCount> kUpdateSteps;
 
 }  // namespace pl::cuda

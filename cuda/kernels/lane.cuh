@@ -1,5 +1,5 @@
-// What a kernel's thread knows of itself and its neighbours. On the host the same functions serve one thread after
-// another: kernels hold no barrier and no shared memory, so they run there unchanged.
+// Thread index, and operations across a warp. On the host the same functions run for one thread at a time: kernels
+// use no barriers and no shared memory, so they run there unchanged.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -11,8 +11,8 @@ namespace pl::cuda {
 
 __device__ inline std::uint32_t thread_number() { return blockIdx.x * blockDim.x + threadIdx.x; }
 
-/// Takes the next number of a queue. The threads of a warp that ask together share one atomic and get neighbouring
-/// numbers, so that their rays start out alike.
+/// Claims the next number of a queue. The active threads of a warp share one atomic addition and receive consecutive
+/// numbers, so that their camera rays are coherent.
 __device__ inline std::uint32_t claim(std::uint32_t& queue) {
 #ifdef __CUDA_ARCH__
     const unsigned asking = __activemask();
@@ -27,8 +27,8 @@ __device__ inline std::uint32_t claim(std::uint32_t& queue) {
 #endif
 }
 
-/// Adds to a sum of the whole launch. Called by every thread at its end; a warp adds up first, because a hundred
-/// thousand atomics on one address would take longer than the paths.
+/// Adds to a sum over the whole launch. Every thread must call it, at its end. Sums over the warp first, because 1e5
+/// atomic additions to one address would take longer than the paths.
 __device__ inline void add_up(std::uint64_t& total, std::uint64_t value) {
 #ifdef __CUDA_ARCH__
     for (int offset = 16; offset > 0; offset /= 2) value += __shfl_down_sync(0xffffffffu, value, offset);
@@ -38,7 +38,7 @@ __device__ inline void add_up(std::uint64_t& total, std::uint64_t value) {
 #endif
 }
 
-/// Makes a maximum of the whole launch at least `value`. Called by every thread; a warp takes its own maximum first.
+/// Raises a maximum over the whole launch to at least `value`. Every thread must call it. Warps reduce first.
 __device__ inline void raise_to(std::uint32_t& maximum, std::uint32_t value) {
 #ifdef __CUDA_ARCH__
     for (int offset = 16; offset > 0; offset /= 2) value = max(value, __shfl_down_sync(0xffffffffu, value, offset));

@@ -1,5 +1,5 @@
-// The main loop on a device. Threads are persistent: one that finishes a path takes the next of the range while its neighbors
-// continue theirs, so that long paths do not leave a warp idle ("regeneration").
+// The main loop on a device. Threads are persistent: one that finishes a path starts the next of the range while the
+// other threads of its warp continue theirs, so that long paths do not leave a warp idle ("regeneration").
 // [Novak et al. 2010, "Path Regeneration for Interactive Path Tracing"]
 #pragma once
 
@@ -30,7 +30,7 @@ __device__ inline void finish(const ProbePaths& paths, const PathState<F, ProbeM
     finish_probe(paths.field, state, counters);
 }
 
-/// The next path for a thread; false if there is none.
+/// Claims and starts the next path of a thread. Returns false if the range is exhausted.
 template <FeatureSet F, class M, class Paths>
 __device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathState<F, M>& state) {
     const std::uint32_t taken = claim(*setup.claimed);
@@ -39,7 +39,7 @@ __device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathSt
     return true;
 }
 
-/// Template argument by bits: the compiler's launch stubs cannot name a FeatureSet.
+/// The set of features as bits, since the launch stubs of nvcc cannot name a FeatureSet.
 template <std::uint32_t kFeatureBits, Method M, class Paths>
 __global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup, M method, Paths paths) {
     const BvhIntersector intersector{setup.scene};
@@ -48,8 +48,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup
     PathState<FeatureSet{kFeatureBits}, M> state;
     bool active = start(setup, paths, state);
     while (active) {
-        const PathStatus status =
-            trace_segment<FeatureSet{kFeatureBits}>(context, intersector, state, counters.path);
+        const PathStatus status = trace_segment<FeatureSet{kFeatureBits}>(context, intersector, state, counters.path);
         if (status == PathStatus::Continues) continue;
         count_path(counters, state.radiance, is_valid_radiance(state.radiance));
         finish(paths, state, counters.path.method);

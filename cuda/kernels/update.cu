@@ -5,7 +5,7 @@
 namespace pl::cuda {
 namespace {
 
-/// One launch per step: a step reads what the one before it wrote for other cells of the same volume.
+/// One launch per step, since a step reads results of the previous one for other cells of the same volume.
 template <auto kStep>
 __global__ void __launch_bounds__(kThreadsPerBlock) run_step(TableUpdateView field, std::uint32_t count) {
     const std::uint32_t i = thread_number();

@@ -10,7 +10,7 @@ namespace pl::cuda {
 
 void check(cudaError_t code, const std::string& call, const std::source_location& where) {
     if (code == cudaSuccess) return;
-    (void)cudaGetLastError();  // what is told here is not told again by a later, innocent call
+    (void)cudaGetLastError();  // clears the error, so that no later call reports it again
     const std::string_view path = where.file_name();
     const std::string_view file = path.substr(path.rfind('/') + 1);
     throw Error(ErrorKind::Unavailable,

@@ -1,4 +1,4 @@
-// Errors of the CUDA runtime become exceptions that name the call, the place and the cause.
+// Turns errors of the CUDA runtime into exceptions that name the call, the source line and the cause.
 #pragma once
 
 #include <source_location>
@@ -8,8 +8,8 @@
 
 namespace pl::cuda {
 
-/// Throws Error(Unavailable) unless `code` says success: what failed, where, and why. An error that a kernel left
-/// behind shows up at a later call; the device is then lost for this process, and every further call fails alike.
+/// Throws Error(Unavailable) with call, source line and cause unless `code` is cudaSuccess. An error in a kernel is
+/// reported by a later call; the device is then lost for this process, and every further call fails, too.
 void check(cudaError_t code, const std::string& call,
            const std::source_location& where = std::source_location::current());
 

@@ -1,4 +1,4 @@
-// DeviceArray: what Storage<Array> templates are instantiated with on a device.
+// DeviceArray: the array type of Storage<Array> templates on a device.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,27 @@
 
 namespace pl::cuda {
 
-/// A fixed number of values on the device, reachable by kernels through view_of().
+/// A fixed-size array in device memory. Kernels access it through view_of().
 template <class T>
 class DeviceArray {
     static_assert(std::is_trivially_copyable_v<T>);
 
 public:
     DeviceArray() = default;
-    /// Not cleared.
+    /// Uninitialized.
     explicit DeviceArray(std::size_t count) : memory_(count * sizeof(T)), count_(count) {}
 
     T* data() const { return static_cast<T*>(memory_.data()); }
     std::size_t size() const { return count_; }
     std::size_t bytes() const { return count_ * sizeof(T); }
 
-    /// Queued; `values` has to stay until the stream has been waited for.
+    /// Queued; `values` must stay alive until the host has synchronized with the stream.
     template <class Allocator>
     void upload(const std::vector<T, Allocator>& values, const Stream& stream) {
         if (values.size() != count_) *this = DeviceArray(values.size());
         copy_to_device(data(), values.data(), bytes(), stream);
     }
-    /// Queued; `values` is complete once the stream has been waited for.
+    /// Queued; `values` is complete once the host has synchronized with the stream.
     template <class Allocator>
     void download(std::vector<T, Allocator>& values, const Stream& stream) const {
         values.resize(count_);

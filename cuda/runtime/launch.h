@@ -1,4 +1,4 @@
-// Starting kernels with checked arguments, through the plain interface of the runtime: host code that launches needs
+// Kernel launches with checked argument types. Uses cudaLaunchKernel, so that host code which launches kernels needs
 // no device compiler.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace pl::cuda {
 
 inline constexpr std::uint32_t kThreadsPerBlock = 128;
 
-/// Queues `blocks` blocks of kThreadsPerBlock threads. Arguments convert to the kernel's own parameter types.
+/// Queues a launch of `blocks` blocks of kThreadsPerBlock threads. Arguments convert to the kernel's parameter types.
 template <class... Parameters, class... Arguments>
 void launch(void (*kernel)(Parameters...), std::uint32_t blocks, const Stream& stream, const char* name,
             Arguments&&... arguments) {
@@ -25,12 +25,12 @@ void launch(void (*kernel)(Parameters...), std::uint32_t blocks, const Stream& s
         values);
 }
 
-/// Blocks that give every one of `count` items a thread.
+/// Number of blocks for one thread per item.
 inline std::uint32_t blocks_for(std::uint32_t count) {
     return static_cast<std::uint32_t>((std::uint64_t{count} + kThreadsPerBlock - 1) / kThreadsPerBlock);
 }
 
-/// Blocks that keep the whole device busy with threads that take work until there is none left.
+/// Number of blocks that fill the device, for kernels with persistent threads.
 template <class... Parameters>
 std::uint32_t resident_blocks(void (*kernel)(Parameters...), int processors) {
     int blocks = 0;

@@ -1,4 +1,4 @@
-// Owners of memory on the device and of host memory that the device copies to by itself.
+// Owners of device memory and of pinned host memory.
 #pragma once
 
 #include <cstddef>
@@ -8,24 +8,24 @@
 
 namespace pl::cuda {
 
-/// Memory on the device. Plain allocations: managed memory would hide copies and can hang a card that is full.
+/// Device memory. Not managed memory, which hides copies and can hang a device whose memory is exhausted.
 struct DeviceHeap {
     static void* allocate(std::size_t bytes);
     static void release(void* data) noexcept;
 };
 
-/// Host memory that stays where it is, so that copies run beside everything else.
+/// Pinned (page-locked) host memory, so that copies run concurrently with kernels and the host.
 struct PinnedHeap {
     static void* allocate(std::size_t bytes);
     static void release(void* data) noexcept;
 };
 
-/// Bytes of a heap, by its only owner.
+/// Unique owner of an allocation from a heap.
 template <class Heap>
 class OwnedMemory {
 public:
     OwnedMemory() = default;
-    /// Not cleared. Throws Error(Unavailable) with the size if there is no room.
+    /// Uninitialized. Throws Error(Unavailable), with the size, if the allocation fails.
     explicit OwnedMemory(std::size_t bytes) : data_(bytes > 0 ? Heap::allocate(bytes) : nullptr), bytes_(bytes) {}
     ~OwnedMemory() {
         if (data_ != nullptr) Heap::release(data_);
@@ -49,7 +49,7 @@ private:
 using DeviceMemory = OwnedMemory<DeviceHeap>;
 using PinnedMemory = OwnedMemory<PinnedHeap>;
 
-/// Queue a copy or a clearing. Both memories have to live, and the source to stay unchanged, until it is done.
+/// Queue a copy or a clear. Both allocations must stay alive, and the source unchanged, until it completes.
 void copy_to_device(void* device, const void* host, std::size_t bytes, const Stream& stream);
 void copy_to_host(void* host, const void* device, std::size_t bytes, const Stream& stream);
 void clear(void* device, std::size_t bytes, const Stream& stream);

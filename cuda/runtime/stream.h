@@ -7,7 +7,7 @@
 
 namespace pl::cuda {
 
-/// A queue of device work. Never the default stream, which waits for all others.
+/// A CUDA stream. Never the default stream, which synchronizes with all others.
 class Stream {
 public:
     Stream() { check(cudaStreamCreateWithFlags(&handle_, cudaStreamNonBlocking), "creating a stream"); }
@@ -21,14 +21,14 @@ public:
     }
 
     cudaStream_t handle() const { return handle_; }
-    /// Waits until everything queued so far is done; errors of that work surface here.
+    /// Blocks the host until all queued work has completed. Reports errors of that work.
     void wait(const char* what) const { check(cudaStreamSynchronize(handle_), what); }
 
 private:
     cudaStream_t handle_ = nullptr;
 };
 
-/// A mark in a stream.
+/// A CUDA event.
 class Event {
 public:
     Event() { check(cudaEventCreate(&handle_), "creating an event"); }
@@ -43,11 +43,11 @@ public:
 
     void record(const Stream& stream) { check(cudaEventRecord(handle_, stream.handle()), "recording an event"); }
     void wait(const char* what) const { check(cudaEventSynchronize(handle_), what); }
-    /// Makes later work of a stream wait for this mark, without the host waiting.
+    /// Makes later work of a stream wait for this event, without blocking the host.
     void hold_back(const Stream& stream) const {
         check(cudaStreamWaitEvent(stream.handle(), handle_, 0), "ordering two streams");
     }
-    /// Milliseconds from `start` to this mark; both have been reached.
+    /// Milliseconds from `start` to this event. Both must have completed.
     float milliseconds_since(const Event& start) const {
         float result = 0.0f;
         check(cudaEventElapsedTime(&result, start.handle_, handle_), "reading two events");

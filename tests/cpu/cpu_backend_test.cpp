@@ -1,4 +1,4 @@
-// The contract of a back end besides its pictures: requests that it refuses, state that it keeps, its description.
+// The contract of a back end except its pictures: rejected requests, preserved state, description.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -28,7 +28,7 @@ std::unique_ptr<RenderBackend> with_empty_film(const Room& room, FilmSlot slot) 
     return backend;
 }
 
-/// An empty film after one pass.
+/// A cleared film after one pass.
 std::vector<Vec3f> whole_pass(const Room& room, FilmSlot slot) {
     const auto backend = with_empty_film(room, slot);
     backend->run_pass(pass_of(room, slot));
@@ -123,7 +123,7 @@ TEST_CASE("The halves of a film are its passes of even and of odd number") {
     const FilmReading odd = render({1, 3});
     CHECK_FALSE(even.halves.are_both_there());
     CHECK(same_bits(odd.mean, odd.halves.mean[1]));
-    // Sums differ by a few roundings of doubles, which a float shows at most once.
+    // Sums differ by a few rounding errors of doubles: at most one ulp of a float.
     const auto same_but_for_rounding = [](const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
         return std::ranges::equal(
             a, b, [](Vec3f x, Vec3f y) { return max_component(glm::abs(x - y)) <= 2e-7f * max_component(x); });
@@ -150,7 +150,7 @@ TEST_CASE("A stopped pass has done a prefix of the pixels, and can be resumed") 
         CHECK(parts->run_pass(request).paths == kWidth * kHeight - 1000);
         CHECK(is_black(parts->read_film(slot).mean[999]));
         CHECK_FALSE(same_bits(whole, parts->read_film(slot).mean));
-        // The pixels before it belong to another pass of the same sample.
+        // The previous pixels belong to another pass of the same sample.
         parts->reset_film(slot, kWidth, kHeight);
         request.first_pixel = 0;
         parts->run_pass(request);

@@ -1,5 +1,5 @@
-// The dense intersector gives, with every instruction set, the bits of the scalar test on all triangles; so does the
-// hierarchy.
+// Hits of the dense intersector, with every instruction set, and of the BVH are bit-identical to those of the scalar
+// test on all triangles.
 #include <algorithm>
 
 #include "core/base/error.h"
@@ -23,7 +23,7 @@ void add_random_triangles(SceneDescription& scene, int count, std::uint64_t seed
     }
 }
 
-/// Corners on a grid of eighths: rays through edges, shared planes and edge functions that are exactly zero abound.
+/// Corners at multiples of 1/8: rays through edges, coplanar triangles and exactly zero edge functions are frequent.
 void add_grid_triangles(SceneDescription& scene, int count, std::uint64_t seed) {
     Uniforms random(seed);
     const auto on_grid = [&] { return glm::round(random.cube(-4.0f, 4.0f)) / 4.0f; };
@@ -72,7 +72,7 @@ std::vector<NamedScene> small_scenes() {
     return scenes;
 }
 
-/// Counts of the cases met, so that a test cannot pass without meeting any.
+/// Counts of the special cases, so that a test cannot pass without covering them.
 struct Seen {
     int hits = 0;
     int misses = 0;
@@ -117,7 +117,7 @@ TEST_CASE("The hierarchy finds the same hits in a batch") {
     }
 }
 
-// Power of the test above: the rays must meet the cases that the code treats apart.
+// Power of the test above: the rays must cover all special cases of the code.
 TEST_CASE("Test rays run exactly through edges") {
     std::vector<NamedScene> scenes = small_scenes();
     const auto grid = std::find_if(scenes.begin(), scenes.end(), [](auto& s) { return s.name == "grid"; });

@@ -1,5 +1,5 @@
-// Embree offers candidates, our test decides: hits are ours bit for bit, except where surfaces lie within rounding of
-// each other or a ray within rounding of an edge.
+// Embree reports candidates, intersect_triangle accepts or rejects them: hits are bit-identical to those of
+// intersect_triangle on all triangles, except for surfaces or edges within rounding error.
 #if PL_EMBREE_MAJOR > 0
 
 #include <cfenv>
@@ -26,7 +26,7 @@ HostScene soup() {
     return pack_scene(description);
 }
 
-/// Closed, seen from inside.
+/// A closed mesh, viewed from inside.
 HostScene closed_mesh() {
     SceneDescription description;
     description.materials.push_back(gray());
@@ -41,7 +41,7 @@ std::vector<Ray> generic_rays(std::uint64_t seed) {
     return rays;
 }
 
-/// Distance between the line of a ray and a segment, relative to the segment's distance.
+/// Distance between the line of a ray and a line segment, relative to the distance of the segment.
 double relative_distance(const Ray& ray, Vec3f p, Vec3f q) {
     const Vec3d direction = glm::normalize(Vec3d{ray.direction});
     const auto across = [&](Vec3f point) {
@@ -55,8 +55,7 @@ double relative_distance(const Ray& ray, Vec3f p, Vec3f q) {
     return glm::length(a + along * edge) / glm::distance(Vec3d{p}, Vec3d{ray.origin});
 }
 
-/// Whether rounding decides if a ray has this hit: it meets an edge of the triangle, or starts or
-/// ends on the triangle.
+/// True if a hit depends on rounding: the ray intersects an edge of the triangle, or starts or ends on the triangle.
 bool is_delicate(const SceneView& scene, const Ray& ray, const Hit& hit) {
     constexpr double kRounding = 1e-5;
     for (std::uint32_t i = 0; i < 3; ++i)
@@ -69,11 +68,11 @@ bool is_delicate(const SceneView& scene, const Ray& ray, const Hit& hit) {
 
 struct Comparison {
     int hits = 0;
-    int different = 0;        ///< another triangle, or only one of the two hits
-    int indelicate = 0;       ///< of those, rays that another triangle is not excused for
-    int other_bits = 0;       ///< same triangle, but other distance or weights
-    int unseen = 0;           ///< shadow rays that find nothing where our test finds something
-    int wrong_occlusion = 0;  ///< and those that find something where there is nothing, or are not excused
+    int different = 0;        ///< another triangle, or a hit in only one of the two results
+    int indelicate = 0;       ///< of those, rays not within rounding error of an edge or end
+    int other_bits = 0;       ///< same triangle, but different distance or barycentric weights
+    int unseen = 0;           ///< shadow rays whose occlusion differs
+    int wrong_occlusion = 0;  ///< of those, rays falsely occluded, or not within rounding error
 };
 
 Comparison compare(const HostScene& scene, const std::vector<Ray>& rays) {
@@ -103,7 +102,7 @@ Comparison compare(const HostScene& scene, const std::vector<Ray>& rays) {
 
 }  // namespace
 
-// 2 in 1e5 bounds the share of generic rays that differ by 1.1e-4 (99.9 %); none was seen.
+// 2 of 1e5 bound the fraction of generic rays that differ by 1.1e-4 (confidence 99.9 %); none was observed.
 TEST_CASE("Embree finds our hits for rays in general position") {
     for (const HostScene& scene : {soup(), closed_mesh()}) {
         const Comparison result = compare(scene, generic_rays(41));
@@ -115,8 +114,8 @@ TEST_CASE("Embree finds our hits for rays in general position") {
     }
 }
 
-// Many of these rays aim at a corner or an edge, run along a triangle or end on one. Seen to differ: 0.06 % of the
-// closest hits and 0.7 % of the shadow rays in the soup, 1.2 % and 0.4 % in the closed mesh.
+// Many of these rays are directed at a corner or an edge, lie in the plane of a triangle or end on one. Observed
+// differences: 0.06 % of closest hits and 0.7 % of shadow rays in the soup, 1.2 % and 0.4 % in the closed mesh.
 TEST_CASE("Embree differs from our hits only where rounding decides") {
     for (const HostScene& scene : {soup(), closed_mesh()}) {
         const Comparison result = compare(scene, random_rays(scene.view(), kRays, 43));
@@ -129,7 +128,7 @@ TEST_CASE("Embree differs from our hits only where rounding decides") {
     }
 }
 
-// 0 in 4e5 bounds the share of lost rays by 1.7e-5 (99.9 %).
+// 0 of 4e5 bound the fraction of rays that miss the closed mesh by 1.7e-5 (confidence 99.9 %).
 TEST_CASE("Embree loses no ray in a closed mesh, edges and corners included") {
     const HostScene scene = closed_mesh();
     const EmbreeIntersector embree(scene.view(), 1);

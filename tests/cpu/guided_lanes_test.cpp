@@ -1,4 +1,4 @@
-// Guided directions sampled in SIMD lanes are those sampled for each path alone.
+// Guided directions sampled in SIMD lanes are bit-identical to those of the scalar code.
 #include <cstring>
 
 #include "cpu/guided_block.h"
@@ -13,20 +13,20 @@ namespace {
 
 bool same_bits(const DirectionSample& a, const DirectionSample& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// Unit normals all around, the axes among them.
+/// Unit normals over the whole sphere, including the axes.
 std::vector<Vec3f> all_around(int count, Uniforms& random) {
     std::vector<Vec3f> normals{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}};
     while (static_cast<int>(normals.size()) < count) normals.push_back(random.direction());
     return normals;
 }
 
-/// Mostly uniform, sometimes the ends of [0, 1) and the middle, at which maps and tents change their form.
+/// Mostly uniform, sometimes the ends of [0, 1) and 1/2, at which mappings and tents switch branches.
 float any_number(Uniforms& random) {
     constexpr float kSpecial[] = {0.0f, 0.5f, 0.25f, 0.75f, 1.0f - 0x1p-24f, 0x1p-24f};
     return random.below(8) == 0 ? kSpecial[random.below(6)] : random.next();
 }
 
-/// Fills the groups for one round and compares their directions with those of the scalar code.
+/// Fills the groups once and compares their directions with those of the scalar code.
 void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, const std::vector<Vec3f>& normals,
                  Uniforms& random) {
     constexpr std::uint32_t kGroups = 3;

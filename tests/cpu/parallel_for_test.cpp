@@ -1,4 +1,4 @@
-// The queue hands out every number once, stops when told, and errors come back from any thread.
+// The queue returns every number once and stops on request; exceptions of any thread are rethrown.
 #include <stdexcept>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// Rays that are hard for an intersector: along axes, at edges and corners, from surfaces, of limited length.
+// Hard cases for intersectors: rays along axes, at edges and corners, from surfaces, with finite t_max.
 #pragma once
 
 #include <vector>
@@ -39,7 +39,7 @@ inline Vec3f random_direction(Uniforms& random) {
     return axis;
 }
 
-/// A ray from anywhere in [-2,2]^3 or from a triangle, which it excludes, anywhere or at a triangle.
+/// A ray in a random direction or towards a triangle; its origin is in [-2,2]^3 or on a triangle, which it excludes.
 inline Ray random_ray(const SceneView& scene, Uniforms& random) {
     Ray ray{.origin = random.cube(-2.0f, 2.0f), .direction = random_direction(random)};
     const std::uint32_t triangles = scene.triangles.count;
@@ -65,7 +65,7 @@ inline std::vector<Ray> random_rays(const SceneView& scene, std::size_t count, s
     return rays;
 }
 
-/// The closest hits of all rays, and whether they are occluded.
+/// Closest hits and occlusion of all rays.
 template <BatchIntersector I>
 RayBatch find_all(const I& intersector, const std::vector<Ray>& rays) {
     const auto count = static_cast<std::uint32_t>(rays.size());

@@ -1,5 +1,5 @@
-// A batch of paths does what a loop over single paths does, bit for bit: films, tables and counters. The loop is the
-// kernel's own trace_path with the scalar hierarchy, so this also compares intersectors and random numbers.
+// Films, tables and counters of batches of paths are bit-identical to those of a loop over single paths. The loop
+// uses trace_path of the kernel with the scalar BVH, so this also compares intersectors and random numbers.
 #include <cstring>
 
 #include "core/kernel/guiding/update_volume.h"
@@ -42,12 +42,12 @@ bool same(const Outcome& a, const Outcome& b) {
 
 constexpr std::uint32_t kPasses = 3;
 
-/// Guided paths are split at every second vertex or so.
+/// Splits guided paths at about every second vertex.
 PathSettings path_settings(bool next_event) {
     return {.seed = 77, .split_threshold = 0.25f, .next_event = next_event ? 1u : 0u};
 }
 
-/// One path after the other.
+/// Traces path by path.
 template <FeatureSet F, Method M>
 Outcome loop_over_paths(const Room& room) {
     Outcome outcome{.film = {}, .tables = room.empty_tables(), .counters = {}};
@@ -158,7 +158,7 @@ TEST_CASE("Batches of probes equal single probes") {
 }
 
 #if PL_EMBREE_MAJOR > 0
-// Embree may choose another triangle where two meet, so pictures may differ there, but not in any mean.
+// Embree may report the other of two adjacent triangles at their edge, so pixels may differ, but not the means.
 TEST_CASE("Through Embree nearly every pixel has the same bits") {
     const Room room;
     const Outcome expected = loop_over_paths<kLights, DefaultMethod>(room);

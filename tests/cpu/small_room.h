@@ -1,4 +1,4 @@
-// A small room with a lamp and a block, a field of a few volumes, and a back end with both.
+// A small room with a light and a block, a field of a few volumes, and a back end with both.
 #pragma once
 
 #include "core/fields/place_volumes.h"
@@ -10,7 +10,7 @@
 
 namespace pl::test {
 
-/// 26 triangles; open at no side.
+/// 26 triangles, closed.
 inline SceneDescription small_room() {
     SceneDescription scene;
     scene.materials = {{.name = "white", .albedo = glm::vec3(0.7f)},
@@ -29,7 +29,7 @@ inline SceneDescription small_room() {
     return scene;
 }
 
-/// Not a multiple of any batch or chunk.
+/// Not a multiple of any batch or chunk size.
 inline constexpr int kWidth = 61;
 inline constexpr int kHeight = 43;
 
@@ -40,7 +40,7 @@ inline FieldSettings small_field() {
     return settings;
 }
 
-/// A scene with placed volumes, as every back end gets it.
+/// Inputs of a back end: scene, placement, shape of the field, camera.
 struct Room {
     std::shared_ptr<const HostScene> scene;
     std::shared_ptr<const HostVolumes> volumes;

@@ -1,4 +1,4 @@
-// Rays through holes: batches give the bits that single rays get, whichever intersector serves, and the right answers.
+// Rays through holes: hits of batches are correct, and bit-identical to those of single rays for every intersector.
 #include "cpu/solid_hits.h"
 
 #include "core/scene/pack_scene.h"
@@ -13,7 +13,7 @@ using namespace pl::test;
 
 namespace {
 
-/// Many sheets with holes behind each other.
+/// A stack of sheets with holes.
 HostScene sheets() {
     SceneDescription scene = box_scene({});
     for (int i = 0; i < 4; ++i)
@@ -58,7 +58,7 @@ TEST_CASE("A set without cut-outs finds no more than the closest hits") {
         REQUIRE(same_bits(closest_solid_hit<FeatureSet{}>(scene, single, ray), single.closest_hit(ray)));
 }
 
-// Distances go on behind holes, and the ends of segments do not move.
+// Behind holes, t and t_max still refer to the origin of the ray.
 TEST_CASE("Surfaces behind a hole have their true distance, and those behind the end of a segment are not hit") {
     SceneDescription description;
     description.materials = {gray(), gray()};

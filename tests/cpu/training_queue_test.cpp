@@ -1,4 +1,4 @@
-// Records of several threads end in the sums that one thread alone makes of them.
+// Pending sums of training samples from several threads equal those of a single thread.
 #include "cpu/parallel_for.h"
 #include "cpu/training_queue.h"
 #include "tests/support/field/guided_methods.h"
@@ -12,7 +12,7 @@ namespace {
 
 using Record = ReinforcementMethod::Sample;
 
-/// A field of `volumes` volumes whose means are not zero, so that training samples reach all six sums.
+/// A field of `volumes` volumes with nonzero means, so that training samples add to all six sums.
 TestField expecting_field(std::size_t volumes) {
     TestField field(2, std::vector<Vec3f>(volumes, Vec3f{0, 0, 1}));
     field.shape.extent = 1.0f;
@@ -20,7 +20,7 @@ TestField expecting_field(std::size_t volumes) {
     return field;
 }
 
-/// Training samples of all kinds, some of no volume.
+/// Training samples of all kinds, some without a volume.
 std::vector<Record> any_records(std::size_t count, std::size_t volumes, Uniforms& random) {
     std::vector<Record> records(count);
     for (Record& record : records) {

@@ -1,5 +1,5 @@
-// The whole CUDA back end, run on the host: films, tables and counters have the bits of the CPU back end, because both
-// run the same steps with the same random numbers. On a device rounding may differ: tests/parity looks at that.
+// The whole CUDA back end, run on the host: films, tables and counters are bit-identical to those of the CPU back
+// end, since both run the same steps with the same random numbers. Rounding may differ on a device: see tests/parity.
 #include "cuda/cuda_backend.h"
 
 #include <algorithm>
@@ -85,7 +85,7 @@ TEST_CASE("Invalid samples are counted at the pixels of the CPU back end") {
     shim::reset();
     BoxLook look;
     look.albedo.fill(glm::vec3{0.9f});
-    look.emission[kFloor] = look.emission[kWallX1] = glm::vec3{2.5e38f};  // together they are no number
+    look.emission[kFloor] = look.emission[kWallX1] = glm::vec3{2.5e38f};  // their sum overflows to infinity
     SceneDescription scene = box_scene(look);
     scene.camera.fov_deg = 90.0f;
     RenderSettings settings = small_settings(scene, {MethodId::Default, false});
@@ -117,7 +117,7 @@ TEST_CASE("Frames of every view have the bits of the CPU back end") {
                 const ShownFilm got = cuda.show_film(slot_of(settings), {.exposure_ev = ev, .curve = curve});
                 CHECK(got.range.high == expected.range.high);
                 CHECK(pixels_of(got.frame) == pixels_of(expected.frame));
-                CHECK(pixels_of(got.frame) == pixels_of(got.frame));  // asked twice
+                CHECK(pixels_of(got.frame) == pixels_of(got.frame));  // repeated reads are allowed
             }
     }
 }
@@ -136,7 +136,7 @@ TEST_CASE("A frame is that of its moment, however long it is on its way, and out
             render_passes(cuda, 1);
             expected.push_back(pixels_of(cpu.show_film(slot_of(settings), {}).frame));
             frames.push_back(cuda.show_film(slot_of(settings), {}).frame);
-            if (i == 2) frames[0] = {};  // its memory serves a later one
+            if (i == 2) frames[0] = {};  // its memory is reused by a later frame
         }
         render_passes(cuda, 1);
     }

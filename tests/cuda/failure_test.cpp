@@ -1,5 +1,5 @@
-// Every call of the runtime fails in turn, once or for good: a clear error, nothing leaked, nothing hangs, and a
-// session that goes on with the CPU.
+// Every runtime call fails in turn, once or permanently: the error is clear, nothing leaks or hangs, and the session
+// continues on the CPU.
 #include "core/base/error.h"
 #include "cuda/cuda_backend.h"
 #include "tests/cuda/shim/control.h"
@@ -19,7 +19,7 @@ RenderSettings small_settings(const SceneDescription& scene) {
     return settings;
 }
 
-/// A session as a person drives it; the message of the error that ended it, empty if none did.
+/// Runs a session with typical edits. Returns the message of the error that ended it; empty if there was none.
 std::string use(const SceneDescription& scene, const RenderSettings& settings) {
     try {
         Session session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
@@ -53,14 +53,14 @@ TEST_CASE("Whatever call fails, the error says so and nothing leaks") {
     for (const std::string call : kCalls)
         for (const bool lasting : {false, true}) {
             int failures = 0;
-            // A lasting failure fails in the same places: every third has to do.
+            // Permanent failures fail at the same calls: every third suffices.
             for (int successes = 0; successes < 400; successes += lasting ? 3 : 1) {
                 shim::reset();
                 shim::fail(call, cudaErrorMemoryAllocation, successes, lasting);
                 const std::string error = use(scene, settings);
                 shim::reset();
                 REQUIRE(shim::live_objects() == 0);
-                if (error.empty()) break;  // the call was never reached: all of them have failed once
+                if (error.empty()) break;  // the call was not reached: each has failed once
                 ++failures;
                 INFO(call << " number " << successes << ": " << error);
                 REQUIRE_THAT(error, contains("CUDA: ") && contains("out of memory") && contains(" failed: "));

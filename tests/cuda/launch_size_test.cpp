@@ -6,7 +6,7 @@ using pl::cuda::LaunchSize;
 
 namespace {
 
-/// Launches a device that traces `paths_per_ms` paths in a millisecond, until the size has settled.
+/// Simulates launches on a device that traces `paths_per_ms` paths per millisecond, until the size converges.
 LaunchSize settled(float paths_per_ms) {
     LaunchSize size;
     for (int i = 0; i < 50; ++i) {

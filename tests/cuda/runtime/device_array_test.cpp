@@ -1,4 +1,4 @@
-// Owners of device memory, streams and events, and the messages of errors.
+// Owners of device memory, streams and events; error messages.
 #include "core/base/error.h"
 #include "cuda/availability.h"
 #include "cuda/kernels/lane.cuh"

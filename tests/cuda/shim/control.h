@@ -1,4 +1,4 @@
-// The controls of the stand-in runtime.
+// Controls of the simulated CUDA runtime.
 #pragma once
 
 #include <cstddef>
@@ -8,25 +8,25 @@
 
 namespace pl::shim {
 
-/// Back to one healthy device, one host thread per launch, nothing failing.
+/// Resets to one working device, one host thread per launch, no failures.
 void reset();
 
-/// The machine as the driver shows it; `code` is the result of counting devices.
+/// Sets the devices the driver reports; `code` is the result of cudaGetDeviceCount.
 void set_devices(int count, cudaError_t code = cudaSuccess);
-/// Whether the build has code for the device.
+/// Sets whether the build has code for the device.
 void set_code_fits(bool fits);
 
-/// Host threads that run a launch's threads.
+/// Sets the number of host threads that run the threads of a launch.
 void set_threads(int threads);
 
-/// The call with this name ("cudaMalloc", "cudaLaunchKernel", ...) fails, after `successes` more calls that do not.
-/// A lasting failure makes every later call fail alike, as after a kernel that crashed.
+/// Makes the call with this name ("cudaMalloc", "cudaLaunchKernel", ...) fail after `successes` further successful
+/// calls. After a lasting failure every later call fails, too, as after an error in a kernel.
 void fail(const std::string& call, cudaError_t code, int successes = 0, bool lasting = false);
 
-/// Objects not yet released.
+/// Number of objects not yet released.
 std::size_t device_bytes();
-int live_objects();  ///< streams, events, pieces of memory
-/// Kernel launches since the last reset.
+int live_objects();  ///< streams, events, allocations
+/// Number of kernel launches since the last reset.
 int launches();
 
 }  // namespace pl::shim

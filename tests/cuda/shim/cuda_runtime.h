@@ -1,7 +1,7 @@
-// A stand-in for the CUDA runtime: the sources of cuda/ compile against it as plain C++ and run on the host, under
-// sanitizers too. Stricter than a device where it can be: work waits in its stream until somebody waits for it, device
-// memory is separate and starts out as NaNs, and everything can be made to fail. It cannot show races between
-// threads of one warp, speed, or the code of the device compiler.
+// A simulated CUDA runtime: the sources of cuda/ compile against it as plain C++ and run on the host, also under
+// sanitizers. Stricter than a device: queued work runs only when the host synchronizes, device memory is separate and
+// initialized to NaNs, and every call can be made to fail. Not covered: races between the threads of a warp, speed,
+// and the machine code of nvcc.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +47,7 @@ struct cudaFuncAttributes {};
 namespace pl::shim {
 struct Queue;
 struct Mark;
-/// Queues a launch: `thread` is called for every thread of the grid.
+/// Queues a launch. `thread` is called once per thread of the grid.
 cudaError_t launch(dim3 grid, dim3 block, Queue* queue, std::function<void()> thread);
 }  // namespace pl::shim
 
@@ -83,7 +83,7 @@ cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, void (*)(
     return cudaSuccess;
 }
 
-/// The parameters are copied when the launch is queued, as a device does.
+/// Copies the parameters when the launch is queued, as on a device.
 template <class... Parameters>
 cudaError_t cudaLaunchKernel(void (*kernel)(Parameters...), dim3 grid, dim3 block, void** arguments, std::size_t,
                              cudaStream_t stream) {

@@ -14,15 +14,15 @@ namespace pl::shim {
 
 using Clock = std::chrono::steady_clock;
 
-/// Work that nobody has waited for yet.
+/// Queued work, not yet executed: it runs when the host synchronizes.
 struct Queue {
     std::deque<std::function<void()>> work;
 };
 
 struct Mark {
     Queue* queue = nullptr;
-    int recorded = 0;  ///< times it was put into a queue
-    int reached = 0;   ///< number of the last time that the queue came by
+    int recorded = 0;  ///< number of times it was queued
+    int reached = 0;   ///< index of the last of those that was executed
     Clock::time_point time{};
 };
 
@@ -47,7 +47,7 @@ std::map<const void*, std::size_t> host_memory;
 std::set<Queue*> queues;
 std::set<Mark*> marks;
 
-/// The code that a call returns before it does anything.
+/// The error code that a call returns before any effect.
 cudaError_t called(const char* call) {
     if (machine.broken) return machine.failure;
     if (machine.failing != call) return cudaSuccess;
@@ -65,7 +65,7 @@ void run_next(Queue& queue) {
 void drain(Queue& queue) {
     while (!queue.work.empty()) run_next(queue);
 }
-/// Until the last recorded mark is reached.
+/// Executes queued work up to the last record of the event.
 void drain_until(const Mark& mark, Queue* queue, int number) {
     while (mark.reached < number && !queue->work.empty()) run_next(*queue);
 }
@@ -168,7 +168,7 @@ cudaError_t cudaMalloc(void** memory, std::size_t bytes) {
     if (code != cudaSuccess) return code;
     constexpr std::size_t kAlignment = 256;  // as on a device
     *memory = std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment);
-    std::memset(*memory, 0xff, bytes);  // NaNs: nobody may count on cleared memory
+    std::memset(*memory, 0xff, bytes);  // NaNs: exposes reads of uninitialized memory
     device_memory[*memory] = bytes;
     return cudaSuccess;
 }
@@ -191,7 +191,7 @@ cudaError_t cudaFreeHost(void* memory) {
     std::free(memory);
     return cudaSuccess;
 }
-/// Pinned memory is copied when the stream gets there. Of other memory the runtime takes a copy at once, or waits.
+/// Pinned memory is copied in stream order. Pageable memory is staged at once, or the call blocks.
 cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream) {
     const cudaError_t code = called("cudaMemcpyAsync");
     if (code != cudaSuccess) return code;
