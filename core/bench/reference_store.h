@@ -50,11 +50,11 @@ public:
 
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// The reference of this content; its halves may hold different numbers of samples, none included. Throws
-    /// Error(Input) for files that are damaged or whose content is not the one that their name says.
+    /// The reference of this content; its halves may hold different numbers of samples, also none. Throws
+    /// Error(Input) for files that are damaged or whose content differs from the one in their name.
     std::optional<Reference> find(const PictureContent& content) const;
-    /// The same, but throws Error(Input) if it is missing or without samples; the message names the pictures that the folder
-    /// has references of.
+    /// The same, but throws Error(Input) if it is missing or without samples; the message lists the pictures with
+    /// references in the folder.
     Reference require(const PictureContent& content) const;
 
     /// Writes one half; a later run continues from it.

@@ -1,4 +1,4 @@
-// Gain of a method over a baseline: the three factors of it, and a sentence.
+// Gain of a method over a baseline: its three factors, and a sentence.
 #pragma once
 
 #include <optional>

@@ -12,7 +12,7 @@
 
 namespace pl {
 
-/// Labels of a run: everything that tells its curve from those of others.
+/// Labels of a run, which distinguish its curve from others.
 struct RunLabel {
     MethodId method = MethodId::Default;
     std::string backend;
@@ -30,13 +30,13 @@ struct LivePoint {
     PassCounters counters;
     double noise = 0.0;      ///< Noise::relmse, from the halves of the film: needs no reference
     double noise_off = 0.0;  ///< standard error of noise over the blocks of this picture; seeds may differ by more
-    /// Against the reference of the same picture; empty without one. Of a point measured before its reference was
-    /// there: from half floats (three digits), and without the three members below.
+    /// Against the reference of the same picture; empty without one. Points measured before their reference was
+    /// available are measured from half floats (three digits), without the three members below.
     std::optional<Metrics> metrics{};
     std::optional<double> relmse_off{};  ///< standard error of Metrics::relmse, like noise_off
     std::optional<Estimate> squared_bias{};
     std::optional<Estimate> signed_bias{};
-    std::shared_ptr<const HalfPicture> picture{};  ///< null once it was dropped for memory
+    std::shared_ptr<const HalfPicture> picture{};  ///< null after it was dropped to free memory
 };
 
 /// All passes of one method into one film from empty on; a run continues when its method is selected again.

@@ -35,9 +35,9 @@ public:
     explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {});
     LiveRuns(std::size_t picture_bytes_cap, Details details, const Allowance& allowance);
 
-    /// Errors of its picture are measured against it from now on, and for past points that still have their pictures:
-    /// that takes about as long as measuring them did. Existing errors stay. Null: no reference. Throws Error(Input)
-    /// if the halves do not have the stated size.
+    /// Errors of its picture are measured against it from now on, and for past points that still have their pictures,
+    /// in about the time of their first measurement. Existing errors stay. Null: no reference. Throws Error(Input) if
+    /// the halves do not have the stated size.
     void set_reference(std::shared_ptr<const LiveReference> reference);
 
     /// After each piece of work; true if current() is another set now. A point is added after the first pass that is

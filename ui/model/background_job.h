@@ -1,4 +1,4 @@
-// Background work with a progress bar: a thread of low priority, its progress, and a way to stop it.
+// Background work with a progress bar: a thread of low priority, its progress, and a stop flag.
 #pragma once
 
 #include <functional>
