@@ -1,4 +1,4 @@
-// Inspection of a learned field on the host: its hemisphere at one volume, whatever its representation.
+// Inspection of a learned field on the host: its hemisphere at one volume, for any representation.
 #pragma once
 
 #include <concepts>

@@ -205,7 +205,7 @@ std::optional<std::size_t> LiveRuns::find(std::uint64_t number) const {
     return std::nullopt;
 }
 
-/// Replaces a run by a changed copy: sets handed out stay as they are.
+/// Replaces a run by a changed copy: sets returned by current() stay unchanged.
 template <class Change>
 void LiveRuns::change(std::size_t index, Change&& change) {
     LiveRun copy = *runs_[index];

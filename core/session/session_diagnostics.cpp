@@ -1,4 +1,4 @@
-// The part of Session that hands out the passes of a picture for diagnosis.
+// The part of Session that exports the passes of a picture for diagnosis.
 #include <algorithm>
 
 #include "core/base/error.h"

@@ -34,7 +34,7 @@ TEST_CASE("Plot: runs of another picture and hidden ones do not stretch the axes
 
 TEST_CASE("Plot: points that logarithmic axes cannot show are left out") {
     auto run = make_run({.last_sample = 8});
-    run->points[1].metrics->relmse = -1e-6;  // below what the reference resolves
+    run->points[1].metrics->relmse = -1e-6;  // below the resolution of the reference
     run->points[2].metrics.reset();
     const std::vector<LinePoint> points = plot_points(*run, {});
     REQUIRE(points.size() == 2);
