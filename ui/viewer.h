@@ -58,7 +58,7 @@ struct OpenScene {
     std::shared_ptr<const SceneDescription> description;  ///< never null
 };
 
-/// A reference as it is stored.
+/// A stored reference.
 struct StoredReference {
     LiveReference halves;
     std::array<std::uint32_t, 2> spp{};  ///< samples per pixel of each half

@@ -59,7 +59,7 @@ public:
 
     /// Writes one half; a later run continues from it.
     void save_half(const Reference& reference, std::size_t half) const;
-    /// Writes the manifest for people and programs: `about` and the figures of both halves.
+    /// Writes the manifest: `about` and the figures of both halves.
     std::filesystem::path save_manifest(const Reference& reference, const Json& about) const;
 
 private:

@@ -60,7 +60,7 @@ struct DiagnosticsMap {
     std::size_t pixel_count(DiagnosticKind kind) const;
 };
 
-/// "12 invalid in 7 pixels, 3 escaped in 3 pixels", for people.
+/// "12 invalid in 7 pixels, 3 escaped in 3 pixels", for display.
 std::string summary_of(const DiagnosticsMap& map);
 
 }  // namespace pl

@@ -19,7 +19,7 @@ struct RunLabel {
     bool next_event = false;
     /// Began with learned radiance, whose cost is not among the seconds of this run.
     bool warm = false;
-    std::uint64_t seed = 0;     ///< runs that differ in nothing else are repetitions
+    std::uint64_t seed = 0;     ///< runs that differ in the seed alone are repetitions
     std::uint64_t picture = 0;  ///< picture_key(): runs of different keys show different light and are never compared
     std::string details;        ///< other settings that differ from the defaults, in words
 };
@@ -53,7 +53,7 @@ struct LiveRunSet {
     std::size_t picture_bytes = 0;
     std::size_t picture_bytes_cap = 0;
     double measure_seconds = 0.0;  ///< for measuring; charged to no run
-    double charged_seconds = 0.0;  ///< to all runs so far, forgotten ones included
+    double charged_seconds = 0.0;  ///< to all runs so far, dropped ones included
 };
 
 /// A converged picture in two halves.

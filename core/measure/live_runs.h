@@ -40,10 +40,10 @@ public:
     /// the halves do not have the stated size.
     void set_reference(std::shared_ptr<const LiveReference> reference);
 
-    /// After each piece of work; true if current() is another set now. A point is added after the first pass that is
-    /// a twelfth of a decade of rendering and learning behind the last point, if the film has two halves and
-    /// measuring keeps within its share of the time charged to all runs together. A run whose film is cleared before
-    /// its second point is forgotten: such runs are left over from camera moves.
+    /// To be called after each piece of work; returns whether current() has changed. A point is added after the first
+    /// pass that is a twelfth of a decade of rendering and learning behind the last point, if the film has two halves
+    /// and measuring keeps within its share of the time charged to all runs together. A run whose film is cleared
+    /// before its second point is dropped: camera moves leave such runs behind.
     bool observe(const Session& session, FilmSlot slot);
 
     /// If the session renders the run, it begins anew with its next point.

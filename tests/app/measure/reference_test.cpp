@@ -68,8 +68,8 @@ TEST_CASE("a reference is two halves, a manifest, and nothing else") {
     CHECK(manifest.at("picture_hash").get<std::string>().size() == 16);
     CHECK((samples_in(folder / "refs") == std::vector<std::uint32_t>{40, 40}));
 
-    // Independent, and of the same picture: the noise estimated from their difference is about the error of their mean
-    // against a good reference.
+    // Independent, and of the same picture: the noise estimated from their difference is about the error of their
+    // mean against a good reference.
     make(folder / "good", {"--spp", "2000"});
     const LinearImage first = read_exr(file_ending(folder / "refs", "-1.exr"));
     const LinearImage second = read_exr(file_ending(folder / "refs", "-2.exr"));

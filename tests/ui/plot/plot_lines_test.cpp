@@ -28,7 +28,7 @@ TEST_CASE("Plot: runs of another picture and hidden ones do not stretch the axes
     lines[1].comparable = false;
     CHECK(fit_range(lines).y_high <= 1.0 + 1e-9);
     lines[0].hidden = true;
-    CHECK(fit_range(lines).y_high >= 1e6);  // there is nothing else to show
+    CHECK(fit_range(lines).y_high >= 1e6);  // no other line is visible
     CHECK(fit_range(std::span<const PlotLine>{}).x_low < fit_range(std::span<const PlotLine>{}).x_high);
 }
 
