@@ -1,5 +1,5 @@
-// The viewer: a window in which a session runs. The program around it makes back ends, opens scenes with their knobs and
-// writes the command line; the viewer does everything else itself.
+// The viewer: a window in which a session runs. The program makes back ends, opens scenes with their knobs and writes
+// the command line; the viewer does everything else.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct SampleLimits {
     friend bool operator==(const SampleLimits&, const SampleLimits&) = default;
 };
 
-/// The time that limits are counted in and that is shown: all work but loading and building.
+/// The time of limits and displays: all work but loading and building.
 inline double work_seconds(const Clocks& clocks) {
     return clocks.place + clocks.precompute + clocks.learn + clocks.render;
 }
@@ -36,13 +36,13 @@ inline double work_seconds(const Clocks& clocks) {
 /// A back end that the viewer can run on, or the reason why it cannot; one that failed may be tried again.
 struct BackendChoice {
     std::string name;         ///< as make_backend takes it: "cpu", "cuda"
-    std::string device;       ///< what it runs on; empty while that is not known
+    std::string device;       ///< name of the processor; empty while unknown
     std::string unavailable;  ///< why it cannot be used; empty if it can
-    std::string failed{};     ///< what it broke down with when it was used last; empty if it did not
+    std::string failed{};     ///< reason of its failure in its last use; empty if it has not failed
 };
 using BackendChoices = std::vector<BackendChoice>;
 
-/// What the viewer shows, as far as a saved file or a command line has to repeat it.
+/// The settings of the viewer that a saved file or a command line repeats.
 struct ViewerPicture {
     std::string scene;    ///< name as load_scene takes it
     std::string backend;  ///< name as make_backend takes it
@@ -54,11 +54,11 @@ struct ViewerPicture {
 
 /// The scene that is open, with the materials that were changed in the window.
 struct OpenScene {
-    std::string name;                                     ///< as load_scene takes it
+    std::string name;                                     ///< argument of load_scene
     std::shared_ptr<const SceneDescription> description;  ///< never null
 };
 
-/// A reference as it is stored.
+/// A stored reference.
 struct StoredReference {
     LiveReference halves;
     std::array<std::uint32_t, 2> spp{};  ///< samples per pixel of each half
@@ -82,11 +82,11 @@ struct ViewerOptions {
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
-    std::string scene_name;  ///< what load_scene is called with at the start
-    /// The scene if it is loaded already; else it is loaded before the window opens.
+    std::string scene_name;  ///< argument of load_scene at the start
+    /// The scene if it is loaded already; otherwise it is loaded before the window opens.
     std::shared_ptr<const SceneDescription> scene;
     double load_seconds = 0.0;                  ///< of `scene`
-    std::shared_ptr<const LearnedField> field;  ///< to go on from; null for none. `settings` fit it
+    std::shared_ptr<const LearnedField> field;  ///< to continue from; null for none. Fits `settings`
     bool camera_from_scene = true;              ///< start from the scene's camera instead of settings.camera
     bool size_from_window = true;  ///< settings.width : height is a shape only; the window decides the size
 
@@ -99,11 +99,11 @@ struct ViewerOptions {
     std::optional<std::filesystem::path> script;         ///< scripted input, see ui/script/script.h
     std::optional<std::filesystem::path> ui_trace;       ///< one JSON object per UI frame; percentiles on stderr
 
-    /// In the order in which a key steps through them. One should be "cpu": it takes over when another fails.
+    /// In the order of the key that steps through them. One should be "cpu": it takes over when another fails.
     BackendChoices backends{{"cpu", "", ""}};
     std::string first_backend = "cpu";
-    /// Called on the render thread when a back end is first selected, and on threads of their own for references and the
-    /// self test. Throws Error(Unavailable). Should leave one hardware thread to the window where there are several.
+    /// Called on the render thread when a back end is first selected, and on other threads for references and the
+    /// self test. Throws Error(Unavailable). Should leave one hardware thread to the window if there are several.
     BackendFactory make_backend;
     /// A scene by name, with the program's knobs for it. Throws Error(Input) with file and line. Called on a helper thread
     /// after the start.

@@ -102,7 +102,7 @@ void Bench::save_reference_pictures() const {
     }
 }
 
-/// The runs that the folder lacks, block by block; before them a warm-up of each of their cells.
+/// The runs missing in the folder, block by block, after a warm-up of each of their cells.
 std::vector<PlannedRun> Bench::remaining_runs() const {
     const BenchPlan& plan = settings_.plan;
     std::vector<PlannedRun> blocks;
@@ -142,8 +142,7 @@ bool Bench::make_runs() {
 }
 
 /// Renders and measures; empty if stopped. Pictures are kept of the first seed.
-std::optional<RunSeries> Bench::record(const BenchRun& run, const PlannedRun& planned,
-                                       const OnWork& on_work) const {
+std::optional<RunSeries> Bench::record(const BenchRun& run, const PlannedRun& planned, const OnWork& on_work) const {
     const BenchScene& scene = settings_.plan.scenes[planned.scene];
     RenderSettings settings = scene.settings;
     settings.method = planned.method;

@@ -1,5 +1,5 @@
-// A bench: accuracy against time, for methods x back ends x scenes x seeds. Makes the references that are missing and the
-// runs that its folder does not hold yet.
+// A bench: accuracy against time, for methods x back ends x scenes x seeds. Makes missing references and the runs
+// missing in its folder.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct BenchSettings {
     BenchPlan plan;
     std::filesystem::path folder;
     std::filesystem::path
-        reference_folder;                ///< every reference has to be there; empty: the bench's own, made as needed
+        reference_folder;  ///< has to hold every reference; empty: the bench's own folder, references made as needed
     std::uint32_t reference_spp = 4096;  ///< samples per pixel in each half of a reference that is made
     std::string command;                 ///< that repeats the bench
     std::string commit;                  ///< of this program
@@ -35,8 +35,8 @@ public:
     /// Throws Error(Input) if a reference folder is given and lacks one.
     Bench(BenchSettings settings, BenchObserver observer);
 
-    /// Goes on where the folder's earlier runs end. When stopped, the results are those of the runs that are finished, and
-    /// not complete. Throws Error(Usage) if the folder holds a bench of another plan.
+    /// Continues after the folder's earlier runs. When stopped, the results are those of the finished runs, and
+    /// incomplete. Throws Error(Usage) if the folder holds a bench of another plan.
     BenchResults run();
 
 private:
@@ -47,8 +47,7 @@ private:
     std::vector<PlannedRun> remaining_runs() const;
     bool make_runs();
     using OnWork = std::function<void(const Session&, FilmSlot)>;
-    std::optional<RunSeries> record(const BenchRun& run, const PlannedRun& planned,
-                                    const OnWork& on_work) const;
+    std::optional<RunSeries> record(const BenchRun& run, const PlannedRun& planned, const OnWork& on_work) const;
     bool make_run(const PlannedRun& planned, const OnWork& on_work);
     bool is_stopped() const { return observer_.stop != nullptr && *observer_.stop; }
 

@@ -1,4 +1,4 @@
-// The plan of a bench: what it compares, and in which order. Everything that is known before the first run.
+// The plan of a bench: the compared scenes, methods, back ends and seeds, the order of the runs, and their settings.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 namespace pl {
 
 struct BenchScene {
-    std::string name;    ///< of its file; tells the scenes of a bench apart
+    std::string name;    ///< of its file; distinguishes the scenes of a bench
     std::string source;  ///< as its user names it
     std::shared_ptr<const SceneDescription> description;
     double load_seconds = 0.0;
@@ -41,11 +41,12 @@ struct BenchPlan {
     std::uint64_t first_seed = 1;
     int seeds = 10;
 
-    /// One run of every cell, all with the same seed, in an order of its own: slow changes of the machine then fall on
-    /// all cells alike.
+    /// One run of every cell, all with the same seed, in an order of its own, so that slow changes of the machine
+    /// affect all cells alike.
     std::vector<PlannedRun> shuffled_block(int block) const;
     BenchCell cell_of(const PlannedRun& run) const;
-    /// Schema "pathlight.bench-plan/1": everything that decides the numbers. Runs of two different plans are never mixed.
+    /// Schema "pathlight.bench-plan/1": everything that decides the results. Runs of two different plans are never
+    /// mixed.
     Json json() const;
 };
 

@@ -1,4 +1,4 @@
-// The exports of a bench: results.json with all figures, tables for spreadsheets and for people.
+// The exports of a bench: results.json with all figures, tables in CSV and Markdown.
 #pragma once
 
 #include "core/bench/bench_folder.h"

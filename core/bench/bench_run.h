@@ -11,7 +11,7 @@
 
 namespace pl {
 
-/// The unit of comparison: everything that runs of different seeds have in common.
+/// The unit of comparison: runs of the same cell differ in their seeds alone.
 struct BenchCell {
     std::string scene;
     std::string method;

@@ -68,7 +68,7 @@ std::vector<double> BenchSummary::targets(const std::string& scene) const {
             low = std::min(low, curve.back().error);
         }
     if (!(high > 0.0) || !std::isfinite(low)) return {};
-    // The worst end, the best one, and their mean: methods that miss a target are censored there.
+    // The worst end, the best one, and their mean: methods that miss a target are censored at these.
     return {4.0 * high, high, std::sqrt(high * low), low};
 }
 

@@ -16,8 +16,8 @@ struct CellSummary {
     std::vector<RunEnd> ends{};
     std::vector<Curve> over_time{};
     std::vector<Curve> over_samples{};
-    Interval final_error{};    ///< relmse where the runs end
-    Interval final_trimmed{};  ///< the trimmed relmse there
+    Interval final_error{};    ///< relmse at the ends of the runs
+    Interval final_trimmed{};  ///< the trimmed relmse at the ends of the runs
     Interval seconds{};        ///< charged, to the end
     Interval seconds_per_sample{};
     Interval setup_seconds{};         ///< placing and precomputing; arithmetic, since it may be 0

@@ -29,9 +29,10 @@ struct EffectCostObserver {
     std::function<void(const EffectCost&)> on_cost{};
 };
 
-/// Measures, for every scene, back end and method of a plan, the kernel that the scene needs against every larger one that
-/// could serve it. All do the same work to the bit, in turns, so that slow changes of the machine fall on all alike;
-/// BenchPlan::seeds is the number of rounds. Each kernel gets a back end of its own from `make`. Empty if stopped.
+/// Measures, for every scene, back end and method of a plan, the kernel with the needed effects against every larger
+/// one that covers them. All do the same work to the bit, in turns, so that slow changes of the machine affect all
+/// alike; BenchPlan::seeds is the number of rounds. Each kernel gets a back end of its own from `make`. Empty if
+/// stopped.
 std::optional<std::vector<EffectCost>> measure_effect_costs(const BenchPlan& plan, const BackendFactory& make,
                                                             const EffectCostObserver& observer);
 

@@ -1,4 +1,4 @@
-// Rendering until a picture is good enough: by its error against a reference, or without one by its own noise.
+// Rendering until a picture meets a target: by its error against a reference, or without one by its own noise.
 #pragma once
 
 #include <memory>
@@ -18,10 +18,10 @@ public:
     ErrorTarget(double target, std::shared_ptr<const Reference> reference)
         : target_(target), reference_(std::move(reference)) {}
 
-    /// To be called after each pass. Noise is not trusted below kFewestSamples: a picture whose paths have not found the
-    /// light yet is black and without noise.
+    /// To be called after each pass. Noise is not measured below kFewestSamples: a picture whose paths have not yet
+    /// found the light is black and without noise.
     bool is_met(const Session& session, FilmSlot slot);
-    /// Measures the finished picture, whatever the budget.
+    /// Measures the finished picture, even beyond the budget.
     void measure_last(const Session& session, FilmSlot slot);
     /// By the last measurement.
     bool is_low_enough() const { return measured_ && *measured_ <= target_; }
@@ -32,7 +32,7 @@ public:
     bool has_reference() const { return reference_ != nullptr; }
     /// "noise" or "error".
     const char* word() const { return has_reference() ? "error" : "noise"; }
-    /// Share of the time to the target that is over, if errors fall as 1 / samples.
+    /// Share of the time to the target that has passed, if errors fall as 1 / samples.
     double share_done() const;
 
     static constexpr std::uint32_t kFewestSamples = 16;

@@ -1,4 +1,4 @@
-// Whether a bench is slower than an earlier one: noise must not fail a build.
+// Comparison of a bench with an earlier one: fails if it is slower by more than the noise.
 #pragma once
 
 #include "core/bench/bench_results.h"

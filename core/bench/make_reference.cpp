@@ -14,7 +14,7 @@ namespace {
 constexpr double kPartSeconds = 10.0;
 constexpr double kFirstPartSeconds = 1.0;
 
-/// Far from the small numbers that people choose, and different for every stretch of passes.
+/// Far from the small seeds that users choose, and different for every stretch of passes.
 std::uint64_t part_seed(std::uint64_t seed, std::size_t half, std::uint32_t part) {
     Fnv1a hash;
     hash.add(seed);

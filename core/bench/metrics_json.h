@@ -9,7 +9,7 @@ namespace pl {
 /// psnr_db is null for equal pictures, whose value is infinite.
 Json metrics_json(const Metrics& metrics);
 
-/// Definitions by name, for people who read exports.
+/// Definitions by name, which document the exports.
 Json metric_definitions();
 
 }  // namespace pl

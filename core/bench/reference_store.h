@@ -50,16 +50,16 @@ public:
 
     const std::filesystem::path& folder() const { return folder_; }
 
-    /// The reference of this content; its halves may hold different numbers of samples, none included. Throws
-    /// Error(Input) for files that are damaged or whose content is not the one that their name says.
+    /// The reference of this content; its halves may hold different numbers of samples, also none. Throws
+    /// Error(Input) for files that are damaged or whose content differs from the one in their name.
     std::optional<Reference> find(const PictureContent& content) const;
-    /// The same, but throws Error(Input) if it is missing or without samples; the message names the pictures that the folder
-    /// has references of.
+    /// The same, but throws Error(Input) if it is missing or without samples; the message lists the pictures with
+    /// references in the folder.
     Reference require(const PictureContent& content) const;
 
     /// Writes one half; a later run continues from it.
     void save_half(const Reference& reference, std::size_t half) const;
-    /// Writes the manifest for people and programs: `about` and the figures of both halves.
+    /// Writes the manifest: `about` and the figures of both halves.
     std::filesystem::path save_manifest(const Reference& reference, const Json& about) const;
 
 private:

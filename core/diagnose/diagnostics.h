@@ -1,5 +1,6 @@
-// Diagnostics: defects of paths and of the learned field by kind, their counts in a picture, and their map over its pixels. A
-// pass pays one comparison for each training sample, whether it is clamped; the other counts it keeps anyway.
+// Diagnostics: defects of paths and of the learned field by kind, their counts in a picture, and their map over its
+// pixels. A pass pays for them one comparison for each training sample, whether it is clamped; it keeps the other
+// counts in any case.
 #pragma once
 
 #include <array>
@@ -49,9 +50,9 @@ struct DiagnosticsMap {
     std::uint32_t samples = 0;       ///< of each pixel in the picture
     std::uint32_t traced = 0;        ///< of these, the newest ones, whose paths were traced again
     bool is_complete = false;        ///< every counted occurrence was located, or every sample was traced again
-    bool has_moving_tables = false;  ///< the paths were traced with a field that had learned more since
+    bool has_moving_tables = false;  ///< the field has been updated since it was sampled by the paths
     bool knows_clamped = false;      ///< clamped training samples could be located
-    DiagnosticCounts counted{};      ///< by the passes themselves
+    DiagnosticCounts counted{};      ///< occurrences in the passes
     DiagnosticCounts found{};        ///< sums over the pixels, once the search is over
     std::vector<Pixel> pixels{};     ///< [row][column]
 
@@ -59,7 +60,7 @@ struct DiagnosticsMap {
     std::size_t pixel_count(DiagnosticKind kind) const;
 };
 
-/// "12 invalid in 7 pixels, 3 escaped in 3 pixels", for people.
+/// "12 invalid in 7 pixels, 3 escaped in 3 pixels", for display.
 std::string summary_of(const DiagnosticsMap& map);
 
 }  // namespace pl

@@ -9,10 +9,10 @@
 namespace pl {
 namespace {
 
-/// Clamping depends on the pending sums as they are now, so that older passes would tell no more.
+/// Targets depend on the present field, which differs too much from that of older passes.
 constexpr std::uint32_t kPassesForClamped = 16;
 
-/// A map that holds what the film knows already.
+/// A map with the data that the film holds: counts and invalid samples.
 DiagnosticsMap begin_map(const PassReplay& passes, const DiagnosticCounts& counted) {
     DiagnosticsMap map{.width = passes.width,
                        .height = passes.height,
@@ -51,7 +51,7 @@ public:
 private:
     bool is_stopped() const { return stop_ != nullptr && *stop_; }
 
-    /// A field that has learned more since may never show as many occurrences as were counted.
+    /// With a field updated since the pass, fewer occurrences than were counted may be found.
     bool is_all_found() const {
         return std::ranges::all_of(all_diagnostics(), [&](const DiagnosticInfo& info) {
             return !is_sought(info.id) || map_.count(info.id) >= map_.counted[index_of(info.id)];

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kRingRadius = 4;
 
-/// Within a ring's reach of a pixel; where there are more, rings would hide the pixels that they point at.
+/// Within the radius of a ring around a pixel; with more occurrences, rings would hide the pixels they mark.
 constexpr int kMostWithRings = 4;
 
 std::uint32_t darkened(std::uint32_t argb) { return 0xff000000u | ((argb >> 2) & 0x3f3f3fu); }

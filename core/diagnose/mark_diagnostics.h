@@ -18,8 +18,9 @@ struct PixelRows {
     }
 };
 
-/// Darkens the picture to a quarter and colors the pixels of the map that have occurrences; isolated ones get a ring, to be
-/// seen from afar. Of several kinds at a pixel the first one of all_diagnostics() shows. The picture has the map's size.
+/// Darkens the picture to a quarter and colors the pixels of the map that have occurrences; isolated ones get a ring,
+/// visible from a distance. Of several kinds at a pixel the first one of all_diagnostics() is shown. The picture has
+/// the map's size.
 void mark_diagnostics(const DiagnosticsMap& map, PixelRows picture);
 
 }  // namespace pl

@@ -1,5 +1,5 @@
-// One path of a past pass, traced again: scene, camera, pixel and sample number decide a path, so that it takes the same
-// turns to the bit, unless the field it samples from has learned more since.
+// One path of a past pass, traced again: scene, camera, pixel and sample number decide a path, so that all its
+// vertices are the same to the bit, unless the field it samples from has been updated since.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@ struct PathDefects {
 
 /// Runs the kernel's own loop, trace_path(), on the CPU. `field` is the view of PassReplay::field; empty for methods without
 /// one.
-PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel, std::uint32_t sample);
+PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel,
+                        std::uint32_t sample);
 
 }  // namespace pl

@@ -23,8 +23,9 @@ double hellinger2(const TableField& field, std::int32_t volume, std::int32_t oth
 /// * n H^2: for tables drawn from the same radiance its distribution is the same for all n (8 n H^2 is chi-square
 ///   distributed), so tables that differ by noise alone are not preferred for many or few training samples.
 ///   [Freeman and Tukey 1950; Matusita 1955]
-/// * V^2: the variance that a volume's directions leave in the picture grows with it. See docs/learning.md for alternatives.
-/// None for which this is 0. Does not depend on the number of threads.
+/// * V^2: the variance that a volume's directions leave in the picture grows with it. Alternatives are compared in
+///   docs/notebook/2026-11-22-refinement.md.
+/// None with a product of 0. Does not depend on the number of threads.
 std::vector<std::uint32_t> volumes_to_split(const TableField& field, std::size_t most, int threads);
 
 }  // namespace pl

@@ -16,13 +16,13 @@ template <template <class> class Array>
 using FieldArrays = std::variant<TableStorage<Array>>;
 using HostField = FieldArrays<LargeArray>;
 
-/// A field as kernels see it, by representation; nothing for methods without one.
+/// A field as kernels see it, by representation; std::monostate for methods without one.
 using AnyFieldView = std::variant<std::monostate, TableField>;
 
 /// A field without training samples.
 inline HostField make_field(const FieldShape& shape, std::size_t volumes) { return make_tables(shape, volumes); }
 
-/// Whether all arrays have the length that shape and number of volumes ask for.
+/// Whether all arrays have the length that follows from the shape and the number of volumes.
 inline bool fits(const FieldShape& shape, const HostField& field, std::size_t volumes) {
     return std::visit([&](const auto& arrays) { return fits(shape, arrays, volumes); }, field);
 }
@@ -60,7 +60,8 @@ decltype(auto) visit_field(Any& field, Visit&& visit) {
     return visit(std::get<TableField>(field));
 }
 
-/// Sets what a pass decides of a method, as far as the method has it.
+/// Sets the members of a method that are constant during a pass: field, mixture and learning settings, as far as it
+/// has them.
 template <Method M>
 void configure_method(M& method, const AnyFieldView& field, const MixtureSettings& mixture,
                       const LearningSettings& learning) {

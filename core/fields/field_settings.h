@@ -10,7 +10,8 @@
 
 namespace pl {
 
-/// refine_share: up to 1, as training samples allow, if the budget decides the number of volumes; none if that is given.
+/// refine_share: if the budget decides the number of volumes, up to 1, as training samples allow; 0 if the number is
+/// given.
 inline constexpr float kRefineByRecords = -1.0f;
 
 struct FieldSettings {
@@ -31,14 +32,15 @@ struct FieldSettings {
 /// More volumes learn more slowly from the same paths; the tables of about a thousand fit the second-level cache.
 inline constexpr int kDefaultVolumes = 1000;
 
-/// Most bytes of one volume: placement, tree, grid and tables. The grid counts whichever lookup is chosen, so that the number of
-/// volumes does not depend on it.
+/// Most bytes of one volume: placement, tree, grid and tables. Includes the grid for every lookup, so that the number
+/// of volumes does not depend on the lookup.
 std::size_t bytes_per_volume(int bins);
 
-/// Number of volumes of the settings, before surfaces too small for their share get one of their own.
+/// Number of volumes of the settings, before surfaces too small for their share are given one volume each.
 int volume_count(const FieldSettings& settings);
 
-/// Most volumes after refinement of those that were placed: refine_share more, within the budget if that decides their number.
+/// Most volumes after refinement of `placed` volumes: refine_share more, within the budget if that decides their
+/// number.
 std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t placed);
 
 /// The radiance unit is the smallest power of two not below the brightest emission.

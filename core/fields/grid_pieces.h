@@ -1,4 +1,4 @@
-// Parts of a volume grid, built by different threads, and what joins them.
+// Parts of a volume grid that are built by different threads, and the class that joins them.
 #pragma once
 
 #include <unordered_map>
@@ -10,16 +10,17 @@
 
 namespace pl {
 
-/// Places of some sides; grids, cells and lists are numbered from 0.
+/// The grids of a range of sides; numbers of grids, cells and lists start from 0 in each.
 struct GridPieces {
     std::vector<VolumePlace> sides;
     std::vector<SideGrid> grids;
     std::vector<VolumeCell> cells;       ///< of grids
-    std::vector<VolumeCell> side_cells;  ///< of whole sides: those that `sides` number
+    std::vector<VolumeCell> side_cells;  ///< of whole sides: the entries of `sides` of kind Cell number these
     std::vector<std::uint32_t> lists;
 };
 
-/// Joins pieces in order. Neighbors often have the same list, or the same cell for the whole side: these are kept once.
+/// Joins pieces in order. Neighboring cells often have equal lists, and neighboring sides equal cells: each is stored
+/// once.
 class GridJoiner {
 public:
     GridJoiner() : known_(16, Hash{&grid_.lists}, Same{&grid_.lists}) {}
@@ -69,7 +70,7 @@ private:
         }
     };
 
-    /// The list is written behind the others, and taken back if it was there already.
+    /// Appends the list, and removes it again if an equal one is stored already.
     VolumeCell joined(VolumeCell cell, const Lists& lists) {
         if (!cell.has_list()) return cell;
         const std::size_t first = grid_.lists.size();

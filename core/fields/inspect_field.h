@@ -1,4 +1,4 @@
-// Inspection of a learned field on the host: its hemisphere at one volume, whatever its representation.
+// Inspection of a learned field on the host: its hemisphere at one volume, for any representation.
 #pragma once
 
 #include <concepts>
@@ -8,8 +8,8 @@
 
 namespace pl {
 
-/// A field read towards single directions. `cell` is one of cells(), the division of a volume's hemisphere that shows the
-/// representation best: a table's own.
+/// A field read in single directions. `cell` is one of cells(), the division of a volume's hemisphere that suits the
+/// representation best: for a table, its own cells.
 template <class Inspector>
 concept FieldInspector = requires(const Inspector& inspector, std::int32_t volume, int cell) {
     { inspector.cells() } -> std::same_as<DirectionCells>;
@@ -28,7 +28,9 @@ struct TableInspector {
         const DirectionTable table(field, volume);
         return table.cell_probability(cell % field.cells.side, cell / field.cells.side);
     }
-    std::uint32_t samples(std::int32_t volume, int cell) const { return field.visits[field.cell_index(volume, cell)]; }
+    std::uint32_t samples(std::int32_t volume, int cell) const {
+        return field.visits[field.cell_index(volume, cell)];
+    }
     float mean_radiance(std::int32_t volume) const { return field.mean_radiance[static_cast<std::uint32_t>(volume)]; }
 };
 static_assert(FieldInspector<TableInspector>);

@@ -23,8 +23,8 @@ std::uint32_t longest_axis(NodeIterator begin, NodeIterator end) {
     return extent.z > extent[static_cast<int>(axis)] ? 2 : axis;
 }
 
-/// Puts the median of the longest axis in the middle and its lesser and greater ones around it. Equal coordinates
-/// are ordered by number, so that the order is total. Ranges halve, so the recursion is at most 32 deep.
+/// Puts the median along the longest axis in the middle, lesser entries before it and greater ones behind. Equal
+/// coordinates are ordered by number, so that the order is total. Ranges halve, so the recursion is at most 32 deep.
 void arrange(NodeIterator begin, NodeIterator end) {
     if (begin == end) return;
     const std::uint32_t axis = longest_axis(begin, end);

@@ -1,4 +1,4 @@
-// A short walk of light through the scene, to see which sides of its surfaces it reaches.
+// A light walk through the scene: paths from the lights find the sides of surfaces that light reaches.
 #include <cstdint>
 
 #include "core/fields/surfaces.h"
@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::uint32_t kWalks = 4096;
 constexpr std::uint32_t kMaxVertices = 16;
-/// One of this many arrivals makes a side count; fewer are strays from open edges.
+/// A side counts as lit if it receives more than one in this many arrivals at its surface; fewer are strays through
+/// open edges.
 constexpr std::uint32_t kStrayRatio = 50;
 /// Placement is a property of the scene: it does not change with the picture's seed.
 constexpr std::uint64_t kSeed = 0x706c6163656d656e;
@@ -21,7 +22,7 @@ struct Arrivals {
     std::uint32_t back = 0;
 };
 
-/// Sphere around all triangles, for light that comes from outside.
+/// Sphere around all triangles, for light from the environment.
 struct BoundingSphere {
     Vec3f center{0.0f};
     float radius = 0.0f;
@@ -33,7 +34,7 @@ BoundingSphere bounding_sphere(const HostScene& scene) {
     return {0.5f * root.low + 0.5f * root.high, 0.5f * glm::length(root.high - root.low)};
 }
 
-/// Leaves a light with cosine-distributed direction, on the front or, half of the time, the back where it emits.
+/// Starts at a light with a cosine-distributed direction; at two-sided lights, from either side with probability 1/2.
 Ray leave_light(const HostScene& scene, const SceneView& view, Vec4f u, Vec4f v) {
     SurfacePoint point = sample_on_light(view, choose_light(view, u.x), Vec3f{0.0f}, {u.y, u.z});
     const Material& material = scene.materials[point.material];
@@ -43,7 +44,8 @@ Ray leave_light(const HostScene& scene, const SceneView& view, Vec4f u, Vec4f v)
     return spawn_ray(point, lambert_sample(point, {v.y, v.z}));
 }
 
-/// Enters from the environment: a uniform direction, through a uniform point of the disk that the scene covers.
+/// Starts from the environment: a uniform direction, through a uniform point of the bounding sphere's disk
+/// perpendicular to it.
 Ray enter_from_environment(const BoundingSphere& sphere, Vec4f u, Vec4f v) {
     const float cos_theta = 1.0f - 2.0f * u.x;
     const Vec2f circle = square_to_disk({u.y, u.z});

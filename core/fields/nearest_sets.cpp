@@ -6,29 +6,30 @@
 namespace pl {
 namespace {
 
-/// Gathering more ends in TooMany: their bisectors would take long to try.
+/// A gather of more candidates ends in TooMany: clipping by all pairs of bisectors takes too long.
 constexpr std::size_t kMostGathered = 160;
 
-/// Relative error of squared_distance(): difference 1, doubled by the square, product 1, two sums 2; with reserve.
+/// Relative error of squared_distance() in roundoffs: difference 1, doubled by the square, product 1, two sums 2;
+/// with a margin.
 constexpr double kDistanceError = gamma_bound(8);
 
-/// Relative error of the double arithmetic here, with reserve.
+/// Relative error of the double arithmetic here, with a margin.
 constexpr double kDoubleError = 1e-13;
 
-/// Squares of small numbers underflow: three times half of the smallest positive float, with reserve.
+/// Absolute error by underflow of squares: three times half of the smallest positive float, with a margin.
 constexpr double kUnderflow = 1e-40;
 
-/// Covers kDistanceError and roundings to float where distances are compared, with reserve.
+/// Factor that covers kDistanceError and roundings to float in comparisons of distances, with a margin.
 constexpr double kWiden = 1.0 + 1e-6;
 
-/// A distance that is not smaller than the exact one.
+/// An upper bound of the exact distance.
 double distance_above(float distance2) {
     return std::sqrt(static_cast<double>(distance2) * kWiden + kUnderflow) * kWiden;
 }
 
 }  // namespace
 
-/// A search that gives up.
+/// Result of a nearest search that stops after `left` nodes.
 struct NearestSets::Effort {
     Nearest& nearest;
     int left;
@@ -40,7 +41,7 @@ struct NearestSets::Effort {
     float limit() const { return left > 0 ? nearest.limit() : -1.0f; }
 };
 
-/// Collects what lies within a distance.
+/// Result of a search for all candidates within a distance.
 struct NearestSets::Gather {
     const KdNode* first;
     const FlatRegion& region;
@@ -62,8 +63,9 @@ struct NearestSets::Gather {
     float limit() const { return limit2; }
 };
 
-/// Whatever is nearest of a point of the region is not further from it than what is nearest of its middle, so not
-/// further from the middle than that one plus twice the radius.
+/// Radius of the gather, by the triangle inequality: with d the distance from the region's center to its nearest
+/// volume and r the region's radius, the nearest volume of any point of the region lies within d + r of it, and
+/// within d + 2 r of the center.
 NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) {
     candidates_.clear();
     Vec2d middle{0.0};
@@ -94,7 +96,8 @@ NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) 
     return result.left > 0 && candidates_.size() <= kMostGathered ? Answer::Few : Answer::TooMany;
 }
 
-/// Nearest first. Of several at the same place the first is the one that all searches answer.
+/// Sorts candidates, nearest to the center first. Of several at the same position keeps the one of the lowest number,
+/// the result of all searches.
 void NearestSets::drop_duplicates() {
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
         return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.volume < b.volume;
@@ -110,8 +113,9 @@ void NearestSets::drop_duplicates() {
     candidates_.resize(kept);
 }
 
-/// Cuts the region down to where no other one is nearer by more than rounding could hide. The difference of two
-/// squared distances is linear, so that is a polygon; points off the plane see it moved a little.
+/// Clips the region by the bisectors with all other candidates, moved outwards by the margin for rounding; the
+/// candidate can be nearest if anything is left. A difference of squared distances is linear in the point, so the
+/// rest is a polygon; the thickness of the region moves each bisector a little.
 bool NearestSets::can_be_nearest(const Candidate& candidate, const FlatRegion& region) const {
     Polygon left = region.polygon;
     for (const Candidate& other : candidates_) {

@@ -1,4 +1,5 @@
-// Which volumes can be the nearest of some point of a flat region, for points and distances as kernels round them.
+// The sets of volumes that can be nearest to some point of a flat region, for points and distances as kernels round
+// them.
 #pragma once
 
 #include <vector>
@@ -20,39 +21,40 @@ struct FlatRegion {
 /// Coordinates up to this magnitude give squared distances in the range of float.
 inline constexpr float kMaxCoordinate = 1e18f;
 
-/// Finds sets of volumes. One per thread, because it keeps its memory.
+/// Finds these sets. One object per thread, because it reuses its memory.
 class NearestSets {
 public:
     enum class Answer {
-        None,     ///< no volume has a normal that agrees
-        Few,      ///< those in nodes()
-        TooMany,  ///< not worth a list
-        GivenUp,  ///< it takes too long to find even one
+        None,     ///< no volume has an agreeing normal
+        Few,      ///< the set is in nodes()
+        TooMany,  ///< the set is longer than kMostListed
+        GivenUp,  ///< the limit of set_effort() is reached before the first candidate
     };
-    /// Longest set that is listed.
+    /// Longest set that is stored as a list.
     static constexpr std::size_t kMostListed = 24;
 
     explicit NearestSets(KdTreeView tree) : tree_(tree) {}
 
-    /// All volumes that a search from any point of the region, with this normal, may answer. The polygon must not be
-    /// empty. Sets are exact up to a margin of a few roundoffs of the distances.
+    /// The set of all volumes that the search from some point of the region, with this normal, can return. The
+    /// polygon must not be empty. Sets are exact up to a margin of a few roundoffs of the distances.
     Answer find(const FlatRegion& region, Vec3f normal);
 
-    /// Forgets what was found before, so that effort does not depend on it: at the start of each piece of work.
+    /// Drops the hint of the last search, at the start of each chunk of work: the searches that reach the effort
+    /// limit then do not depend on the distribution of chunks over threads.
     void restart() { hint_ = 0; }
-    /// Nodes that one search may look at: where volumes are near whose normals do not agree, as
-    /// on the outside of a closed mesh, the tree has to look at all of them.
+    /// Most nodes that one search may visit. A search visits all of them where the volumes nearby have no agreeing
+    /// normal, as on the outside of a closed mesh.
     void set_effort(int nodes) { effort_ = nodes; }
 
     /// Tree nodes of the last set, by ascending volume.
     const std::vector<std::uint32_t>& nodes() const { return nodes_; }
 
 private:
-    /// A volume near the region, seen from the region's frame.
+    /// A volume near the region, in the region's frame.
     struct Candidate {
         std::uint32_t node;
         std::uint32_t volume;
-        float distance2;  ///< from the middle of the region
+        float distance2;  ///< from the center of the region
         double x, y, z;
         double length2;
     };
@@ -65,9 +67,9 @@ private:
 
     KdTreeView tree_;
     Nearest nearest_;
-    std::uint32_t hint_ = 0;  ///< node that was nearest the last time
+    std::uint32_t hint_ = 0;  ///< node that was nearest to the center of the last region
     int effort_ = 0;
-    double margin_ = 0.0;  ///< by which squared distances may differ and still be confused by rounding
+    double margin_ = 0.0;  ///< differences of squared distances up to this may be due to rounding
     std::vector<Candidate> candidates_;
     std::vector<std::uint32_t> nodes_;
 };

@@ -10,7 +10,7 @@
 namespace pl {
 namespace {
 
-/// One side of a surface, and how many volumes stand on it.
+/// One side of a surface, and its number of volumes.
 struct Side {
     std::uint32_t surface;
     bool front;
@@ -27,12 +27,12 @@ std::vector<Side> lit_sides_of(const HostScene& scene, const Surfaces& surfaces)
     return sides;
 }
 
-/// Gives each side its share by area, and at least one, as long as there are enough for that.
+/// Gives each side its share by area, and at least one volume if there are enough for all.
 void share_out(std::vector<Side>& sides, std::uint32_t volumes) {
     const bool one_each = sides.size() <= volumes;
     double area = 0.0;
     for (const Side& side : sides) area += side.area;
-    // Sides too small for their share take one; that shrinks the share of the others, so look again.
+    // Sides too small for their share take one; that shrinks the share of the others, so the loop tests these again.
     for (bool changed = one_each; changed;) {
         changed = false;
         for (Side& side : sides) {
@@ -66,7 +66,7 @@ float radical_inverse(std::uint32_t index) {
 /// A Hammersley set of `count` points over the cumulative area of one side.
 void for_each_point(const SceneView& scene, const Surface& surface, const Side& side, std::uint32_t count,
                     const std::function<void(const SurfacePoint&)>& visit) {
-    // Half a step of the mirrored numbers below `count`, so that the first one does not stand on an edge.
+    // Half a step of the mirrored numbers below `count`, so that the first point does not lie on an edge.
     const float half_step = 0.5f / static_cast<float>(std::bit_ceil(count));
     std::size_t current = 0;
     double start = 0.0;  // area of the triangles before the current one

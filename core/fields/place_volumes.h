@@ -11,13 +11,13 @@
 namespace pl {
 
 /// Places volumes on reflecting surfaces by systematic sampling of cumulative area with a Hammersley set, on every
-/// side of a surface that light can reach. A surface is a connected set of triangles that face (nearly) the same way;
+/// side of a surface that light reaches. A surface is a connected set of triangles with (nearly) the same normal;
 /// each side gets at least one volume unless there are more sides than volumes. Deterministic in the scene and the
 /// settings; scaling the scene by a power of two scales the result.
 HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings);
 
-/// Visits points on the sides that carry volumes, placed as place_volumes() places these, but `density` times as many per side.
-/// One side after the other.
+/// Visits points on the sides that carry volumes, one side after the other, placed as place_volumes() does, but with
+/// `density` times as many per side.
 void for_each_site(const HostScene& scene, const FieldSettings& settings, std::uint32_t density,
                    const std::function<void(const SurfacePoint&)>& visit);
 

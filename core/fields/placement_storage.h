@@ -6,7 +6,7 @@
 
 namespace pl {
 
-/// Arrays of VolumeGridView; empty unless the lookup uses it.
+/// Arrays of VolumeGridView; empty for the other lookups.
 template <template <class> class Array>
 struct VolumeGridStorage {
     Array<VolumePlace> sides;
@@ -27,7 +27,7 @@ struct VolumeStorage {
 using HostVolumeGrid = VolumeGridStorage<HostArray>;
 using HostVolumes = VolumeStorage<HostArray>;
 
-/// Calls fn(array of `from`, array of `to`) for every array; `to` is const where nothing is written.
+/// Calls fn(array of `from`, array of `to`) for every array; `to` is const if fn only reads it.
 template <template <class> class From, class To, class Fn>
 void zip(const VolumeGridStorage<From>& from, To& to, Fn&& fn) {
     fn(from.sides, to.sides);
@@ -36,7 +36,7 @@ void zip(const VolumeGridStorage<From>& from, To& to, Fn&& fn) {
     fn(from.lists, to.lists);
 }
 
-/// All arrays but those of the grid, which follows from the others and the scene: the content of files.
+/// All arrays but those of the grid, which follows from the others and the scene: the content of field files.
 template <template <class> class From, class To, class Fn>
 void zip_placement(const VolumeStorage<From>& from, To& to, Fn&& fn) {
     fn(from.sites, to.sites);

@@ -23,7 +23,7 @@ public:
     const Vec2d* begin() const { return points_.data(); }
     const Vec2d* end() const { return points_.data() + count_; }
 
-    /// Keeps the part where dot(n, p) <= limit. A polygon with no room for another corner may keep more.
+    /// Keeps the part with dot(n, p) <= limit. A polygon with no room for another corner may keep more.
     void clip(Vec2d n, double limit) {
         std::array<double, kCapacity> beyond;
         int outside = 0;

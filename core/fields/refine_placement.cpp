@@ -12,7 +12,7 @@ namespace {
 
 /// Points by which a Voronoi cell of mean size is represented.
 constexpr std::uint32_t kPointsPerVolume = 64;
-/// Most of them that are tried as positions of the new volume.
+/// Most of these points that are tried as positions of the new volume.
 constexpr std::size_t kMostTried = 64;
 
 constexpr std::uint32_t kNotSplit = 0xffffffffu;

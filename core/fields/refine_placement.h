@@ -9,7 +9,7 @@
 
 namespace pl {
 
-/// Rounds of refinement of a placement so far, and the number of volumes they added: its last ones.
+/// Rounds of refinement of a placement so far, and the number of volumes they added: the last ones of the placement.
 struct Refinement {
     std::uint32_t rounds = 0;
     std::uint32_t added = 0;
@@ -23,10 +23,10 @@ struct RefinedPlacement {
     std::vector<std::uint32_t> parents;  ///< of the new volumes, in their order; no number twice
 };
 
-/// Splits each of the volumes `split` once, by another one on a surface that it serves, at the point that leaves the points of
-/// its Voronoi cell closest to one of the two: the best second center of a least-squares quantizer, among points of a denser
-/// placement, so that it is a position place_volumes() can choose. Volumes whose cell has no such point stay alone.
-/// Deterministic; scaling the scene by a power of two scales the result.   [Lloyd 1982]
+/// Splits each of the volumes `split` once, by another volume on a surface that it serves. The new site is the best
+/// second center of a least-squares quantizer of the volume's Voronoi cell, among the points of a denser placement,
+/// so that it is a position place_volumes() can choose. Volumes whose cell has no point that reduces the error are
+/// not split. Deterministic; scaling the scene by a power of two scales the result.   [Lloyd 1982]
 /// `settings` are those of the placement.
 RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings,
                                   const PlacementView& placement, std::span<const std::uint32_t> split);

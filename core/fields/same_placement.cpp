@@ -12,7 +12,7 @@ bool same_images(const MaterialImages& a, const MaterialImages& b) {
     return a.albedo == b.albedo && a.roughness == b.roughness && a.emission == b.emission && a.opacity == b.opacity;
 }
 
-/// Everything that a walk of light asks a material.
+/// The properties of a material that the light walk of find_lit_sides() reads.
 struct Looks {
     const Material& material;
     const SurfaceLobes& lobes;
@@ -22,7 +22,8 @@ struct Looks {
         : material(scene.materials[index]), lobes(scene.lobes.empty() ? kDiffuse : scene.lobes[index]),
           images(scene.material_images.empty() ? kNoImages : scene.material_images[index]) {}
 
-    /// Where light goes from such a surface depends on neither its color nor its brightness, unless it is black.
+    /// Diffuse without images: the directions of the light walk depend on neither color nor brightness, unless the
+    /// albedo is 0.
     bool is_plain() const { return lobes.kind == SurfaceKind::Diffuse && same_images(images, kNoImages); }
 };
 

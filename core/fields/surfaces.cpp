@@ -88,7 +88,8 @@ private:
         found_.list.push_back(std::move(surface));
     }
 
-    /// Each surface looks around each point once, so a fan of a million triangles is no diagnostics.
+    /// Each surface visits the triangles around each point once, so that a fan of a million triangles takes linear
+    /// time.
     void add_around(std::uint32_t point, std::uint32_t seed, std::uint32_t number, Surface& surface) {
         if (last_visitor_[point] == number) return;
         last_visitor_[point] = number;
@@ -105,7 +106,7 @@ private:
     SceneView view_;
     Corners corners_;
     Surfaces found_;
-    std::vector<std::uint32_t> last_visitor_;  ///< [point], the last surface that looked around it
+    std::vector<std::uint32_t> last_visitor_;  ///< [point], the last surface that visited it
 };
 
 }  // namespace

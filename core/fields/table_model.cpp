@@ -11,7 +11,7 @@ std::size_t rounded_root(int bins) {
     return static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(bins))));
 }
 
-/// Appends a copy of each parent's values behind those of all volumes.
+/// Appends a copy of each parent's values to those of all volumes.
 template <class Array>
 void append_copies(Array& array, std::size_t volumes, std::span<const std::uint32_t> parents) {
     const std::size_t per_volume = array.size() / volumes;
@@ -20,8 +20,8 @@ void append_copies(Array& array, std::size_t volumes, std::span<const std::uint3
         std::copy_n(array.data() + parents[i] * per_volume, per_volume, array.data() + (volumes + i) * per_volume);
 }
 
-/// Divides one value between a volume and its copy. Odd counts go to the child in every second cell of a checkerboard, so that
-/// cells with one training sample each leave both volumes with samples all over their hemispheres.
+/// Divides a count between a volume and its copy. Odd counts go to the child in every second cell of a checkerboard,
+/// so that cells with one training sample each leave both volumes with samples all over their hemispheres.
 template <class T>
 void split_value(OnSplit rule, T& parent, T& child, bool odd_to_child) {
     if (rule == OnSplit::Clear) child = T{};

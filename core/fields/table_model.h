@@ -1,4 +1,5 @@
-// The table as a model of a guiding field on the host: the one description of its arrays, and everything derived from it.
+// The table as a model of a guiding field on the host: the one description of its arrays, and all code derived from
+// it.
 #pragma once
 
 #include <span>
@@ -26,7 +27,7 @@ enum class OnSplit {
     Copy,    ///< those of its parent
     Halve,   ///< both get half of the parent's
     Divide,  ///< counts: each of the two gets half, odd ones alternate by cell
-    Clear,   ///< 0; the parent keeps its own
+    Clear,   ///< 0; the parent keeps its values
 };
 
 /// Values that files may hold.
@@ -42,8 +43,8 @@ enum class ValidRange {
 /// Description of one array of TableArrays.
 template <class Initial, class Get>
 struct ArraySpec {
-    const char* name;    ///< in messages, of all its values
-    const char* single;  ///< of one value
+    const char* name;    ///< plural, in messages
+    const char* single;  ///< of one value, in messages
     ArrayExtent extent;
     OnSplit on_split;
     ValidRange valid;
@@ -101,14 +102,14 @@ constexpr void for_each_table_array(Fn&& fn) {
     std::apply([&](const auto&... spec) { (fn(spec), ...); }, table_arrays::kAll);
 }
 
-/// Number of values of an array with so many volumes.
+/// Number of values of an array for this number of volumes.
 inline std::size_t extent_of(ArrayExtent extent, const FieldShape& shape, std::size_t volumes) {
     const auto side = static_cast<std::size_t>(shape.cells.side);
     if (extent == ArrayExtent::Cell) return volumes * side * side;
     return extent == ArrayExtent::Row ? volumes * side : volumes;
 }
 
-/// Calls fn(array of `from`, array of `to`) for every array; `to` is const where nothing is written.
+/// Calls fn(array of `from`, array of `to`) for every array; `to` is const if fn only reads it.
 template <template <class> class From, class To, class Fn>
 void zip(const TableArrays<From, From>& from, To& to, Fn&& fn) {
     for_each_table_array([&](const auto& spec) { fn(spec.get(from), spec.get(to)); });
@@ -117,7 +118,7 @@ void zip(const TableArrays<From, From>& from, To& to, Fn&& fn) {
 /// Tables of volumes without training samples: uniform.
 HostTables make_tables(const FieldShape& shape, std::size_t volumes);
 
-/// Whether all arrays have the length that shape and number of volumes ask for.
+/// Whether all arrays have the length that follows from the shape and the number of volumes.
 bool fits(const FieldShape& shape, const HostTables& tables, std::size_t volumes);
 
 /// Bytes of all arrays per volume.
@@ -126,9 +127,10 @@ std::size_t field_bytes(const HostTables& tables);
 
 inline std::size_t volume_count(const HostTables& tables) { return tables.mean_radiance.size(); }
 
-/// Tables of a refined placement: each new volume, behind the others, begins with the table of its parent. Counts that tables
-/// rest on are divided evenly between the two, cell by cell, since about half of the points are the child's now; none is lost or
-/// counted twice, and a cell left without training samples has no radiance. Pending sums stay with the parent.
+/// Tables of a refined placement: each new volume, numbered after the others, begins with the table of its parent.
+/// Counts of training samples are divided evenly between the two, cell by cell, since the child serves about half of
+/// the points; none is lost or counted twice, and a cell left without training samples has no radiance. Pending sums
+/// stay with the parent.
 HostTables split_field(const FieldShape& shape, HostTables tables, std::span<const std::uint32_t> parents);
 
 /// Views of the arrays for kernels that trace paths, and for the update. `tables` may be empty for views of the placement.
@@ -155,7 +157,7 @@ TableUpdateView table_update_view(const FieldShape& shape, TableStorage<Array>& 
     return view;
 }
 
-/// Names that code for any representation calls by overload, see field_model.h.
+/// Overloads called by the code for any representation, see field_model.h.
 template <template <class> class Array, template <class> class TableArray>
 TableField field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes,
                       TableStorage<TableArray>& tables) {

@@ -13,13 +13,13 @@
 namespace pl {
 namespace {
 
-/// Sides that more volumes may serve get a grid.
+/// Sides whose set of volumes is longer get a grid.
 constexpr std::size_t kMostListedBySide = 6;
 
-/// Edge of a cell, in distances between volumes. Smaller ones need fewer distances and more memory.
+/// Edge of a cell, relative to the distance between volumes. Smaller cells need fewer distances and more memory.
 constexpr double kCellSize = 0.4;
 
-/// Cells and entries of lists that a side may have: some, and more for each of its volumes.
+/// Most cells and list entries of a side: a constant, and a number for each of its volumes.
 constexpr std::uint32_t kFreeCells = 16;
 constexpr std::uint32_t kCellsPerVolume = 32;
 constexpr std::uint32_t kFreeEntries = 24;
@@ -28,23 +28,24 @@ static_assert(kGridBytesPerVolume == kCellsPerVolume * sizeof(VolumeCell) + kEnt
 static_assert(kGridBytesPerTriangle ==
               2 * (sizeof(VolumePlace) + sizeof(SideGrid) + kFreeCells * sizeof(VolumeCell) + kFreeEntries * 4));
 
-/// Nodes that a search may look at, for sides without and with volumes of their own.
+/// Most nodes that a search may visit, for sides without and with volumes of their own.
 constexpr int kEffort = 256;
 constexpr int kEffortWithVolumes = 4096;
 
 /// Points at which the distance between volumes is estimated.
 constexpr int kProbes = 32;
 
-/// Roundoffs, of the distance from the origin, between a surface point and its triangle: 7 per coordinate.
+/// Bound of the distance between a surface point and its triangle, relative to the distance from the origin: 7
+/// roundoffs per coordinate, with a margin.
 constexpr double kPointError = gamma_bound(16);
-/// And between where the grid's map sees a point and where that is: 3 products, 3 sums, and the rounded map.
+/// Bound of the error of the grid's map, on the same scale: 3 products, 3 sums, and the rounded map.
 constexpr double kMapError = gamma_bound(32);
-/// Cells are at least so many map errors wide.
+/// Least width of a cell, in map errors.
 constexpr double kMinCellErrors = 16.0;
 
 constexpr VolumePlace kSearch{VolumePlace::Kind::Search, 0};
 
-/// A triangle with its longest edge along x, from the frame's origin on, and the opposite corner at y > 0.
+/// A triangle with its longest edge along x, from the frame's origin, and the opposite corner at y > 0.
 class FramedTriangle {
 public:
     explicit FramedTriangle(const TriangleCorners& corners) {
@@ -78,7 +79,7 @@ public:
     Vec2d low() const { return Vec2d{-point_error()}; }
     Vec2d high() const { return Vec2d{base_, height()} + point_error(); }
 
-    /// The part of a rectangle where points of this triangle may be.
+    /// The part of a rectangle that may hold points of this triangle.
     FlatRegion part(Vec2d low, Vec2d high) const {
         FlatRegion region = region_;
         region.polygon = Polygon::rectangle(low, high);
@@ -102,10 +103,10 @@ private:
     bool is_flat_ = false;
 };
 
-/// Works on one side after the other. One per thread.
+/// Builds the grids of one side after the other. One object per thread.
 class SideBuilder {
 public:
-    /// `own`: volumes that stand on each side.
+    /// `own`: number of volumes placed on each side.
     SideBuilder(const HostScene& scene, const HostVolumes& volumes, Span<const std::uint32_t> own)
         : scene_(scene.view()), tree_{view_of(volumes.kd_nodes)}, sites_(view_of(volumes.sites)), own_(own),
           sets_(tree_) {}
@@ -151,8 +152,8 @@ private:
         return VolumeCell::list(first);
     }
 
-    /// Distance between volumes, were they on a square lattice in this plane: a disk of the mean squared distance to
-    /// the nearest one holds one.
+    /// Distance between volumes on a square lattice of the same density in this plane: a disk of the mean squared
+    /// distance to the nearest one holds one volume.
     double spacing(const FramedTriangle& triangle) const {
         const FlatRegion& frame = triangle.frame();
         double sum = 0.0;
@@ -175,7 +176,7 @@ private:
         return std::sqrt(kPi * sum / kProbes);
     }
 
-    /// Edge of a cell so that there are at most `most_cells`, and that the map's error is small against it.
+    /// Edge of a cell such that there are at most `most_cells` cells and the map's error is small against it.
     static double cell_size(Vec2d extent, double wanted, std::uint32_t most_cells, double map_error) {
         double size =
             std::max({wanted, kMinCellErrors * map_error, 1e-3 * std::max(extent.x, extent.y) / most_cells});
@@ -220,8 +221,8 @@ private:
     Span<const std::uint32_t> own_;
     NearestSets sets_;
     GridPieces pieces_;
-    Vec3f normal_{0.0f};            ///< of the side that is worked on
-    std::size_t most_entries_ = 0;  ///< of all lists, when this side is done
+    Vec3f normal_{0.0f};            ///< of the side under construction
+    std::size_t most_entries_ = 0;  ///< of all lists, at the end of this side
 };
 
 bool in_range(const HostVolumes& volumes) {

@@ -12,7 +12,7 @@ namespace pl {
 /// A point of a run: the cost so far and the error at it.
 struct CurvePoint {
     double cost = 0.0;   ///< charged seconds, or samples per pixel
-    double error = 0.0;  ///< squared; not positive where it is below the resolution of the reference
+    double error = 0.0;  ///< squared; not positive if it is below the resolution of the reference
 };
 
 /// By ascending cost. Errors of one run are strongly correlated: statistics are over runs, never over points.
@@ -25,8 +25,8 @@ std::optional<double> error_at(const Curve& curve, double cost);
 /// the run is censored at its last cost.
 std::optional<double> cost_to_reach(const Curve& curve, double target);
 
-/// Slope of log error over log cost over the last `decades` of cost; -1 where only noise is left. NaN if fewer than
-/// three points lie there.
+/// Slope of log error over log cost over the last `decades` of cost; -1 if only noise is left. NaN with fewer than
+/// three points.
 double log_slope(const Curve& curve, double decades = 1.0);
 
 /// Cost at which several runs reach a target.

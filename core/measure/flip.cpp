@@ -90,7 +90,7 @@ Vec3d from_opponents(const Vec3d& color) {
     return kFromXyz * (Vec3d(y + color.y / 500.0, y, y - color.z / 200.0) * kWhite);
 }
 
-/// CIELAB with the Hunt effect: colors are less vivid where it is dark.   [Hunt 1952]
+/// CIELAB with the Hunt effect: colors are less vivid in the dark.   [Hunt 1952]
 Vec3d to_hunt_lab(const Vec3d& rgb) {
     const auto curve = [](double t) {
         constexpr double kDelta = 6.0 / 29.0;

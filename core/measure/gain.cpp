@@ -29,7 +29,7 @@ std::optional<double> ahead_from(std::span<const Curve> base, std::span<const Cu
     return since;
 }
 
-/// "3.4x", with as many digits as the ratio is worth.
+/// "3.4x", with the significant digits of the ratio.
 std::string times(double ratio) {
     return ratio < 9.95 ? fmt::format("{:.1f}x", ratio) : fmt::format("{:.0f}x", ratio);
 }

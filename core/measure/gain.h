@@ -1,4 +1,4 @@
-// Gain of a method over a baseline: the three factors of it, and a sentence.
+// Gain of a method over a baseline: its three factors, and a sentence.
 #pragma once
 
 #include <optional>
@@ -41,8 +41,8 @@ Gain gain_over(std::span<const RunEnd> base, std::span<const RunEnd> method, std
 bool is_decided(const Interval& ratio);
 
 /// "needs 3.4x fewer samples than default, each costs 2.0x more: 1.7x faster to the same error (95 %: 1.5 to 1.9),
-/// ahead from 2.6 s on". Says as plainly when the method is slower, when that is undecided, and when the runs are too
-/// few.
+/// ahead from 2.6 s on". Also states that the method is slower, that the comparison is undecided, or that there are
+/// too few runs.
 std::string headline(const Gain& gain, const std::string& base_name);
 
 /// Times from `first` to `last` in equal steps of their logarithm, both included.

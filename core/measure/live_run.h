@@ -12,14 +12,14 @@
 
 namespace pl {
 
-/// Labels of a run: everything that tells its curve from those of others.
+/// Labels of a run, which distinguish its curve from others.
 struct RunLabel {
     MethodId method = MethodId::Default;
     std::string backend;
     bool next_event = false;
     /// Began with learned radiance, whose cost is not among the seconds of this run.
     bool warm = false;
-    std::uint64_t seed = 0;     ///< runs that differ in nothing else are repetitions
+    std::uint64_t seed = 0;     ///< runs that differ in the seed alone are repetitions
     std::uint64_t picture = 0;  ///< picture_key(): runs of different keys show different light and are never compared
     std::string details;        ///< other settings that differ from the defaults, in words
 };
@@ -30,13 +30,13 @@ struct LivePoint {
     PassCounters counters;
     double noise = 0.0;      ///< Noise::relmse, from the halves of the film: needs no reference
     double noise_off = 0.0;  ///< standard error of noise over the blocks of this picture; seeds may differ by more
-    /// Against the reference of the same picture; empty without one. Of a point measured before its reference was
-    /// there: from half floats (three digits), and without the three members below.
+    /// Against the reference of the same picture; empty without one. Points measured before their reference was
+    /// available are measured from half floats (three digits), without the three members below.
     std::optional<Metrics> metrics{};
     std::optional<double> relmse_off{};  ///< standard error of Metrics::relmse, like noise_off
     std::optional<Estimate> squared_bias{};
     std::optional<Estimate> signed_bias{};
-    std::shared_ptr<const HalfPicture> picture{};  ///< null once it was dropped for memory
+    std::shared_ptr<const HalfPicture> picture{};  ///< null after it was dropped to free memory
 };
 
 /// All passes of one method into one film from empty on; a run continues when its method is selected again.
@@ -53,7 +53,7 @@ struct LiveRunSet {
     std::size_t picture_bytes = 0;
     std::size_t picture_bytes_cap = 0;
     double measure_seconds = 0.0;  ///< for measuring; charged to no run
-    double charged_seconds = 0.0;  ///< to all runs so far, forgotten ones included
+    double charged_seconds = 0.0;  ///< to all runs so far, dropped ones included
 };
 
 /// A converged picture in two halves.

@@ -12,7 +12,7 @@
 namespace pl {
 namespace {
 
-/// Runs that are kept. A day of use makes a few hundred; beyond, the oldest run of another picture is dropped.
+/// Most runs kept. A day of use makes a few hundred; beyond, the oldest run of another picture is dropped.
 constexpr std::size_t kMostRuns = 500;
 
 /// Growth of the charged time after which a new set is made even without a new point.
@@ -21,7 +21,7 @@ constexpr double kRenewedAfter = 1.25;
 /// Between points: twelve per decade.
 const double kPointRatio = std::pow(10.0, 1.0 / 12.0);
 
-/// Clocks of this film alone: a warm one does not count placement and precomputation of earlier ones.
+/// Clocks of this film alone: those of a warm film exclude placement and precomputation of earlier films.
 Clocks own_clocks(Clocks clocks, const FilmOrigin& origin) {
     if (!origin.warm) return clocks;
     clocks.place = std::max(clocks.place - origin.place_seconds, 0.0);
@@ -29,7 +29,7 @@ Clocks own_clocks(Clocks clocks, const FilmOrigin& origin) {
     return clocks;
 }
 
-/// The clocks that grow with samples. Points spaced by all charged time would miss what comes soon after a long
+/// The clocks that grow with samples. Points spaced by all charged time would omit the first samples after a long
 /// precomputation.
 double passing_seconds(const Clocks& clocks) { return clocks.learn + clocks.render; }
 
@@ -205,7 +205,7 @@ std::optional<std::size_t> LiveRuns::find(std::uint64_t number) const {
     return std::nullopt;
 }
 
-/// Replaces a run by a changed copy: sets handed out stay as they are.
+/// Replaces a run by a changed copy: sets returned by current() stay unchanged.
 template <class Change>
 void LiveRuns::change(std::size_t index, Change&& change) {
     LiveRun copy = *runs_[index];

@@ -35,15 +35,15 @@ public:
     explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {});
     LiveRuns(std::size_t picture_bytes_cap, Details details, const Allowance& allowance);
 
-    /// Errors of its picture are measured against it from now on, and for past points that still have their pictures:
-    /// that takes about as long as measuring them did. Existing errors stay. Null: no reference. Throws Error(Input)
-    /// if the halves do not have the stated size.
+    /// Errors of its picture are measured against it from now on, and for past points that still have their pictures,
+    /// in about the time of their first measurement. Existing errors stay. Null: no reference. Throws Error(Input) if
+    /// the halves do not have the stated size.
     void set_reference(std::shared_ptr<const LiveReference> reference);
 
-    /// After each piece of work; true if current() is another set now. A point is added after the first pass that is
-    /// a twelfth of a decade of rendering and learning behind the last point, if the film has two halves and
-    /// measuring keeps within its share of the time charged to all runs together. A run whose film is cleared before
-    /// its second point is forgotten: such runs are left over from camera moves.
+    /// To be called after each piece of work; returns whether current() has changed. A point is added after the first
+    /// pass that is a twelfth of a decade of rendering and learning behind the last point, if the film has two halves
+    /// and measuring keeps within its share of the time charged to all runs together. A run whose film is cleared
+    /// before its second point is dropped: camera moves leave such runs behind.
     bool observe(const Session& session, FilmSlot slot);
 
     /// If the session renders the run, it begins anew with its next point.

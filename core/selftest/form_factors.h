@@ -6,8 +6,8 @@
 namespace pl {
 
 /// To a rectangle of sides a and b in a parallel plane at distance c, with a corner right above the point. Odd in a
-/// and in b, so that rectangles elsewhere are sums over their corners.   [Howell, Catalog of Radiation Transfer
-/// Configuration Factors, B-3]
+/// and in b, so that rectangles at other positions are sums over their corners.   [Howell, Catalog of Radiation
+/// Transfer Configuration Factors, B-3]
 inline double parallel_corner_factor(double a, double b, double c) {
     constexpr double kTwoPi = 6.283185307179586;
     const double x = a / c;

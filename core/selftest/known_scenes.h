@@ -20,7 +20,7 @@ struct LampScene {
 
 /// The lamp is parallel to the floor.   [Howell, Catalog of Radiation Transfer Configuration Factors, B-3]
 LampScene lamp_over_floor();
-/// The lamp stands on the floor at a right angle.   [Howell, B-4]
+/// The lamp is perpendicular to the floor and touches it.   [Howell, B-4]
 LampScene lamp_beside_floor();
 /// A lamp so small and distant that irradiance follows the inverse-square law; relative error below 1e-6.
 LampScene tiny_lamp();

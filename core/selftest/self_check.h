@@ -1,11 +1,11 @@
-// One result of the self test, as a command line or a window shows it.
+// One result of the self test, for display on a command line or in a window.
 #pragma once
 
 #include <string>
 
 namespace pl {
 
-/// One scene, one way to render it, one number with an expected value.
+/// One scene, one way of rendering it, one value with its expected value.
 struct SelfCheck {
     std::string backend;    ///< "cpu"
     std::string name;       ///< "lamp over a floor: reinforcement"

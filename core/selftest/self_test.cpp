@@ -60,7 +60,7 @@ public:
 private:
     bool stopped() const { return stop_ != nullptr && *stop_; }
 
-    /// The picture after so many samples per pixel; empty when stopped.
+    /// The picture at this number of samples per pixel; empty when stopped.
     Snapshot render(const SceneDescription& scene, const RenderSettings& settings, std::uint32_t passes) {
         Session session(backend_, std::make_shared<const SceneDescription>(scene), settings);
         const FilmSlot slot = slot_of(settings);
@@ -83,7 +83,8 @@ private:
         done_.push_back(std::move(result));
     }
 
-    /// Every pixel has the `expected` value, except for as many as have a direction exactly along the horizon.
+    /// Every pixel has the `expected` value, except for at most as many as have a direction exactly along the
+    /// horizon.
     void judge_pixels(SelfCheck& result, const Snapshot& picture, double expected, double tolerance) const {
         std::vector<double> off;
         for (const Vec3f& pixel : picture.pixels)

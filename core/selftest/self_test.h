@@ -12,14 +12,15 @@
 
 namespace pl {
 
-/// Runs every check on a back end that nothing else uses; needs no files. Calls `told` after each check. Ends early, with
-/// the checks done by then, when `stop` is raised. A statistical check passes only if its samples could have shown an error
-/// of the size that its criterion names, and fails by chance once in a million. Throws what the back end throws.
+/// Runs every check on a back end that is in no other use; needs no files. Calls `told` after each check. Ends early,
+/// with the checks done by then, when `stop` is raised. A statistical check passes only if its samples resolve an
+/// error of the size named by its criterion, and fails by chance once in a million. Throws the exceptions of the back
+/// end.
 std::vector<SelfCheck> run_self_test(const std::shared_ptr<RenderBackend>& backend,
                                      const std::function<void(const SelfCheck&)>& told = {},
                                      const StopFlag* stop = nullptr);
 
-/// The same on new back ends of these names, one after the other. Also throws what `make` throws.
+/// The same on new back ends of these names, one after the other. Also throws the exceptions of `make`.
 std::vector<SelfCheck> run_self_test(const std::vector<std::string>& backends, const BackendFactory& make,
                                      const std::function<void(const SelfCheck&)>& told = {},
                                      const StopFlag* stop = nullptr);

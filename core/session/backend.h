@@ -19,7 +19,7 @@
 
 namespace pl {
 
-/// Films are kept by method and view, so that switching back resumes a picture.
+/// Films are kept by method and view, so that returning to one resumes its picture.
 struct FilmSlot {
     MethodId method = MethodId::Default;
     View view = View::Beauty;
@@ -36,9 +36,9 @@ struct BackendInfo {
     int threads = 0;
 };
 
-/// Asks a running pass to start no further paths. Paths under way are finished: dropping them would drop long ones more often,
-/// a bias. Paths start in ascending order, so the finished ones are a prefix of PassCounters::paths paths, and the pass can be
-/// resumed behind it without changing a bit of the result.
+/// Stop flag: a running pass starts no further paths. Paths under way are finished: dropping them would drop long
+/// ones more often, a bias. Paths start in ascending order, so the finished ones are a prefix of PassCounters::paths
+/// paths, and the pass can be resumed behind it without changing a bit of the result.
 using StopFlag = std::atomic<bool>;
 
 /// End of a range without bound.
@@ -105,21 +105,21 @@ public:
     /// Replaces the scene. The storage stays alive and unchanged as long as the back end holds it.
     virtual void upload_scene(std::shared_ptr<const HostScene> scene) = 0;
 
-    /// Replaces the placement and forgets all fields.
+    /// Replaces the placement and drops all fields.
     virtual void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) = 0;
     virtual void upload_field(MethodId method, HostField field) = 0;
     /// Copy of a method's field; empty arrays if it has none.
     virtual HostField download_field(MethodId method) const = 0;
     virtual bool has_field(MethodId method) const = 0;
 
-    /// Allocates the film in this size and empties it.
+    /// Allocates the film in this size and clears it.
     virtual void reset_film(FilmSlot slot, int width, int height) = 0;
     virtual FilmReading read_film(FilmSlot slot) const = 0;
     /// The same with the film's halves, a consistent snapshot.
     virtual FilmReading read_halves(FilmSlot slot) const = 0;
     /// Number of invalid samples of each pixel. [row][column]
     virtual std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const = 0;
-    /// Starts the 8-bit frame of a film as it is now; later passes may begin at once.
+    /// Starts the 8-bit frame of the film's present state; later passes may begin at once.
     virtual DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) = 0;
     /// Largest range_value() of a film: the upper end of some views' color range.
     virtual float largest_value(FilmSlot slot) = 0;

@@ -1,4 +1,4 @@
-// From a back end's name to a back end. The program knows all of them; those who ask for one know its name.
+// Back ends by name: the program implements this, sessions and tools call it.
 #pragma once
 
 #include <functional>

@@ -13,13 +13,13 @@ struct Table {
     Invalidation operator()(const EditScene&) const {
         return {.films = true, .tables = true, .volumes = true, .scene = true};
     }
-    // Volumes: where same_placement() asks for it, which depends on the scene and not on the edit.
+    // Volumes: cleared only if same_placement() is false, which depends on the scene and not on the edit.
     Invalidation operator()(const EditMaterial&) const { return {.films = true, .tables = true}; }
     Invalidation operator()(const EditEffects&) const { return {}; }
     Invalidation operator()(const EditBackend& edit) const { return {.tables = edit.abandon_old}; }
     Invalidation operator()(const EditRestart&) const { return {.films = true}; }
     Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }
-    // Tables and volumes it replaces itself: to clear them here would clear the new ones.
+    // Replaces tables and volumes itself: clearing them here would clear the new ones.
     Invalidation operator()(const EditLearned&) const { return {.films = true}; }
 };
 

@@ -1,4 +1,4 @@
-// The changes that a running session accepts, and the one table of what each of them clears.
+// The changes to a running session, and the one table of the parts that each of them clears.
 #pragma once
 
 #include <memory>
@@ -35,7 +35,7 @@ struct EditField {
 struct EditScene {
     std::shared_ptr<const SceneDescription> scene;
 };
-/// Replaces one material as a whole. The hierarchy stays. Clears the placement, too, where volumes would move: see
+/// Replaces one material as a whole. The hierarchy stays. Clears the placement, too, if volumes would move: see
 /// same_placement().
 struct EditMaterial {
     std::uint32_t index;
@@ -45,7 +45,7 @@ struct EditMaterial {
 struct EditEffects {
     FeatureSet forced;
 };
-/// Another back end goes on with the learned fields. The films of the old one are parked with it, for its return.
+/// Another back end continues with the learned fields. The films of the old one are parked with it, for its return.
 struct EditBackend {
     std::shared_ptr<RenderBackend> backend;
     bool abandon_old = false;  ///< the old one is broken: its tables are lost
@@ -53,7 +53,7 @@ struct EditBackend {
 };
 struct EditRestart {};  ///< clear the films, keep the fields
 struct EditForget {};   ///< clear films and fields
-/// Go on from a field that was learned elsewhere. Empties the tables of other methods and replaces the volumes.
+/// Continues from a field learned in another session. Clears the tables of other methods and replaces the volumes.
 struct EditLearned {
     std::shared_ptr<const LearnedField> field;
 };

@@ -19,10 +19,10 @@ struct FieldProgress {
     std::uint32_t precomputed_slices = 0;  ///< complete ones
     std::uint32_t next_probe = 0;          ///< of the running slice
     double precompute_seconds = 0.0;
-    bool has_part = false;  ///< the field was updated within a pass that is not complete
+    bool has_part = false;  ///< the field was updated within a pass that is incomplete
 
-    /// The progress for a picture that does not continue that pass: its random numbers are not drawn again, because paths would
-    /// meet the densities that they trained themselves, a bias.
+    /// The progress for a picture that does not continue that pass: it skips the pass's random numbers, because paths
+    /// would sample densities that were trained by the same numbers, a bias.
     FieldProgress without_part() const {
         FieldProgress progress = *this;
         progress.passes += has_part ? 1u : 0u;

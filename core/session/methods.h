@@ -22,11 +22,11 @@ struct ViewInfo {
 std::span<const MethodInfo> all_methods();
 std::span<const ViewInfo> all_views();
 const MethodInfo& info_of(MethodId id);
-/// The method without a field, against which others are compared.
+/// The baseline: the method without a field, against which others are compared.
 MethodId baseline_method();
 /// The first method that learns while it renders.
 MethodId learning_method();
-/// The method whose field the views show: that of the learning method if this one has none.
+/// The method whose field the views show: the method itself, or the learning method if it has no field.
 MethodId field_owner(MethodId method);
 const ViewInfo& info_of(View id);
 std::optional<MethodId> method_by_name(std::string_view name);

@@ -1,4 +1,4 @@
-// The passes of a picture as data: enough to trace any of their paths again, elsewhere and later.
+// The passes of a picture as data: enough to trace any of their paths again in another thread and at a later time.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace pl {
 
-/// Taken out of a session at one moment; see Session::pass_replay(). May move to another thread.
+/// Taken from a session at one moment; see Session::pass_replay(). May move to another thread.
 struct PassReplay {
     int width = 0;
     int height = 0;
@@ -28,8 +28,8 @@ struct PassReplay {
     FieldShape shape{};
     HostField field{};
     MixtureSettings mixture{};
-    bool has_moving_tables = false;  ///< updates have changed the tables since the passes sampled from them
-    bool repeats_training = false;   ///< a path traced again makes the training samples that it made in its pass
+    bool has_moving_tables = false;  ///< updates have changed the tables since they were sampled by the passes
+    bool repeats_training = false;   ///< a path traced again makes the same training samples as in its pass
 };
 
 }  // namespace pl

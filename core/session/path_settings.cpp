@@ -3,15 +3,17 @@
 namespace pl {
 namespace {
 
-/// Guided paths have a learned estimate of their contribution and soon end at a light. They play roulette only when a fifth
-/// of it is left, so that few of them end without having found a light; other paths play at every loss. Lower thresholds
-/// leave a little less noise for the same samples and more for the same time (docs/learning.md).
+/// Guided paths have a learned contribution estimate and soon end at a light. They play roulette only below a fifth
+/// of the contribution expected at their first vertex, so that few of them end before they reach a light; other paths
+/// play at every vertex. Lower thresholds leave a little less noise for the same samples and more for the same time
+/// (docs/notebook/2026-11-22-roulette-and-splitting.md).
 constexpr float kGuidedRouletteThreshold = 0.2f;
-/// Where the learned estimate decides alone: the lower end of a window of weights around 1, whose ends differ by a factor
-/// of 5.   [Vorba and Krivanek 2016, section 4]
+/// Threshold of RouletteRule::Field: the lower end of a window of weights around 1, whose ends differ by a factor of
+/// 5.   [Vorba and Krivanek 2016, section 4]
 constexpr float kFieldRouletteThreshold = 2.0f / (1.0f + 5.0f);
 
-/// Paths are split above twice the contribution that was expected of them at their first vertex (docs/learning.md).
+/// Paths are split above twice the contribution expected at their first vertex
+/// (docs/notebook/2026-11-22-roulette-and-splitting.md).
 constexpr float kSplitThreshold = 2.0f;
 
 }  // namespace

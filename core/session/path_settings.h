@@ -1,4 +1,4 @@
-// Settings of a person, as kernels want them: with the thresholds of roulette and splitting that go with a method.
+// The path settings of kernels from those of the user, with the thresholds of roulette and splitting of each method.
 #pragma once
 
 #include "core/kernel/integrator/path.h"
@@ -11,7 +11,8 @@ PathSettings path_settings(const RenderSettings& settings, MethodId method);
 /// Paths of probes: stratified numbers of their own, and the roulette of a method without a field.
 PathSettings probe_settings(const RenderSettings& settings, MethodId method);
 
-/// BSDF fractions are learned from the contributions of paths, so a precomputed map keeps the fraction that is set.
+/// BSDF fractions are learned from the training samples of camera paths, so a precomputed map keeps the fraction of
+/// the settings.
 MixtureSettings mixture_of(const RenderSettings& settings, MethodId method);
 
 }  // namespace pl

@@ -1,5 +1,5 @@
-// The radiance volumes that all methods of a session share: their placement, the shape of their fields, and how far the
-// placement was refined.
+// The radiance volumes shared by all methods of a session: their placement, the shape of their fields, and the
+// progress of their refinement.
 #pragma once
 
 #include <memory>
@@ -19,23 +19,24 @@ public:
     /// Directions per volume; 0 before the volumes are placed.
     int bins() const { return volumes_ ? shape_.cells.count() : 0; }
     const Refinement& refinement() const { return refinement_; }
-    /// Of placing and uploading the present volumes; 0 before they are placed.
+    /// Of placing and uploading the present volumes; 0 before placement.
     double seconds() const { return volumes_ ? seconds_ : 0.0; }
 
-    /// Places the volumes and uploads them, unless that is done.
+    /// Places the volumes and uploads them, unless they are placed.
     void ensure(RenderBackend& backend, const HostScene& scene, const FieldSettings& settings);
-    /// Takes volumes that were placed elsewhere, and uploads them.
+    /// Takes volumes placed in another session, and uploads them.
     void adopt(RenderBackend& backend, const HostScene& scene, HostVolumes volumes, const FieldShape& shape,
                const Refinement& refinement);
     /// Takes refined volumes, without uploading them.
     void refine(const RenderBackend& backend, const HostScene& scene, RefinedPlacement refined);
     void count_round() { ++refinement_.rounds; }
 
-    /// The scene has other materials: its lights may be brighter. `is_same` if the volumes stay, see same_placement().
+    /// The materials of the scene changed: its brightest emission may be another. `is_same`: the volumes stay, see
+    /// same_placement().
     void change_materials(const HostScene& scene, const FieldSettings& settings, bool is_same);
-    /// Volumes are placed anew when they are needed next.
+    /// Drops the volumes; they are placed anew when needed.
     void clear() { volumes_.reset(); }
-    /// Learned tables decided about the places of added volumes, so that these go with the tables.
+    /// Drops the added volumes: learned tables decided their positions, so they are cleared with the tables.
     void undo_refinement();
 
 private:

@@ -6,8 +6,8 @@
 namespace pl {
 namespace {
 
-/// Rounds that add the share, each its part. Where the settings leave the share open, more rounds follow with the training
-/// samples: fewer than would overflow passes_before_round().
+/// Rounds that add the share of the settings, each a part of it. If the settings leave the share open, more rounds
+/// follow with the training samples: fewer than would overflow passes_before_round().
 constexpr std::uint32_t kRounds = 2;
 constexpr std::uint32_t kMostRounds = 32;
 
@@ -16,15 +16,17 @@ std::uint32_t most_rounds(const FieldSettings& settings) {
     return settings.refine_share == kRefineByRecords ? kMostRounds : kRounds;
 }
 
-/// Passes of training samples before a round: 8, 16, 48, 96, 192 and so on. Tables need samples before they can tell which
-/// volumes to divide, and the new volumes need passes to learn from. The later rounds avoid powers of two, where many
-/// pictures end: no pass would be left that repays a round. docs/learning.md has the schedules that were compared.
+/// Passes of training samples before a round: 8, 16, 48, 96, 192 and so on. Tables need samples before their
+/// disagreement exceeds noise, and new volumes need passes to learn from. The later rounds avoid powers of two,
+/// common numbers of passes: a round at the end of a picture has a cost and no benefit. The schedules that were
+/// compared are in docs/notebook/2026-11-22-refinement.md.
 constexpr std::uint64_t passes_before_round(std::uint32_t round) {
     return round < kRounds ? std::uint64_t{8} << round : std::uint64_t{12} << round;
 }
 
-/// Mean number of training samples per cell before volumes are added where the settings leave the share open: with fewer
-/// samples, or in pictures that end before refinement pays, a coarser placement does better. Late divisions need more.
+/// Mean number of training samples per cell before volumes are added if the settings leave the share open: with fewer
+/// samples, or in pictures too short to gain from refinement, a coarser placement has less error. Late divisions need
+/// more samples.
 constexpr std::uint64_t kSamplesPerCell = 32;
 constexpr std::uint64_t kSamplesPerCellLate = 96;
 

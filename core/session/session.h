@@ -1,6 +1,5 @@
 // A session: settings, scene, back end, films and learned fields. Viewer, command line, tests and benchmarks drive
-// the same one. It has no current film: every call names the method and view it is about. Not thread safe: one thread
-// owns it.
+// the same one. It has no current film: every call names its method and view. Not thread safe: one thread owns it.
 #pragma once
 
 #include <array>
@@ -25,13 +24,13 @@ enum class Progress {
     Stopped,      ///< the stop flag was seen; the next call resumes there
 };
 
-/// A film on its way to a window, with the range of values that its colors stand for.
+/// A film in transfer to a window, with the range of values of its colors.
 struct ShownFilm {
     DisplayFrame frame;
     ShownRange range;
 };
 
-/// The film that a front end's settings ask for.
+/// The film of a front end's settings: their method and view.
 inline FilmSlot slot_of(const RenderSettings& settings) { return {settings.method, settings.view}; }
 
 class Session {
@@ -41,10 +40,10 @@ public:
     Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
             const RenderSettings& settings, double load_seconds = 0.0);
 
-    /// Applies a change and clears the parts that invalidated_by() names. Throws Error if a back end fails; if it is the
-    /// new one of EditBackend, the session stays with the old one, unchanged, and a second try sends the new one
-    /// everything again. EditLearned throws as import_field() does, EditMaterial Error(Input) for materials that
-    /// validate_material() refuses; then nothing has changed.
+    /// Applies a change and clears the parts of invalidated_by(). Throws Error if a back end fails; if it is the new
+    /// one of EditBackend, the session keeps the old one, unchanged, and a second try uploads everything to the new
+    /// one again. EditLearned throws as import_field() does, EditMaterial Error(Input) for materials refused by
+    /// validate_material(); then nothing has changed.
     void apply(const SessionEdit& edit);
 
     /// Does the next piece of work on a film: a slice of precomputation if the method still needs it, else one sample for
@@ -55,20 +54,20 @@ public:
     Snapshot snapshot(FilmSlot slot) const;
     /// The same, and the film's two halves, from which its noise is estimated.
     Snapshot snapshot_with_halves(FilmSlot slot) const;
-    /// The same without the pixels: copies next to nothing.
+    /// The same without the pixels, at little cost.
     Snapshot summary(FilmSlot slot) const;
-    /// A film as a window shows it; black before the first pass.
+    /// A film for display in a window; black before the first pass.
     ShownFilm show_film(FilmSlot slot, const DisplaySettings& display);
 
     /// The passes of a film, to trace its paths again. Throws Error(Usage) if the view traces no paths.
     PassReplay pass_replay(FilmSlot slot) const;
 
-    /// The hemisphere that a method learned at a volume. Throws Error(Usage) if it has no tables.
+    /// The hemisphere learned by a method at a volume. Throws Error(Usage) if it has no tables.
     VolumeInspection inspect_volume(MethodId method, std::int32_t volume) const;
     /// The learned field of a method. Throws Error(Usage) if it has no tables.
     LearnedField export_field(MethodId method) const;
-    /// Goes on from a learned field: takes its settings and volumes, and empties all films and the tables of other
-    /// methods. Throws Error(Input) if it was learned in another scene or if its parts disagree.
+    /// Continues from a learned field: takes its settings and volumes, and clears all films and the tables of other
+    /// methods. Throws Error(Input) if it was learned in another scene or if the lengths of its arrays disagree.
     void import_field(LearnedField field);
     /// Volume that serves a point; kNoVolume if none. Places the volumes if they are not placed yet.
     std::int32_t find_volume_at(Vec3f position, Vec3f normal);
@@ -93,7 +92,7 @@ public:
     Refinement refinement() const { return placement_.refinement(); }
     /// Of a film and its method; cheap, unlike a snapshot.
     Clocks clocks(FilmSlot slot) const;
-    /// A film that is resumed keeps its origin; one that was emptied gets another.
+    /// Constant while a film is resumed; a cleared film gets a new one.
     FilmOrigin film_origin(FilmSlot slot) const { return films_[slot].origin; }
 
 private:

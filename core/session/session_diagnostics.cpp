@@ -1,4 +1,4 @@
-// The part of Session that hands out the passes of a picture for diagnosis.
+// The part of Session that exports the passes of a picture for diagnosis.
 #include <algorithm>
 
 #include "core/base/error.h"
@@ -8,11 +8,11 @@
 
 namespace pl {
 
-/// Light from far away means that the scene is open on purpose.
+/// With light from far away the scene is open on purpose: escaped paths are not lost.
 void Session::note_escapes(FilmSlot slot, const PassCounters& counters) {
     if (counters.path.escaped == 0 || scene_.knows_whether_closed()) return;
     if (needed_features(slot).has_any(features(Feature::Environment, Feature::EnvironmentMap))) return;
-    scene_.note_escape(settings_.camera.eye, films_[slot].passes > 0);  // the first picture comes first
+    scene_.note_escape(settings_.camera.eye, films_[slot].passes > 0);  // delays no first picture
 }
 
 PassReplay Session::pass_replay(FilmSlot slot) const {
@@ -33,7 +33,7 @@ PassReplay Session::pass_replay(FilmSlot slot) const {
     if (!method.uses_field) return source;
     if (!placement_.is_placed() || !backend_->has_field(slot.method)) return source;  // nothing is rendered yet
     if (method.learns) {
-        // The field counts the passes of all pictures and back ends; those of this picture are its last.
+        // The field counts the passes of all pictures and back ends; the last ones are those of this picture.
         source.first_sample = static_cast<std::uint32_t>(
             std::max(field(slot.method).passes, std::uint64_t{state.passes}) - state.passes);
         source.has_moving_tables = true;

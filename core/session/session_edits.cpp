@@ -6,7 +6,7 @@
 namespace pl {
 namespace {
 
-/// Copies the new values of an edit into the settings; scene and commands have none.
+/// Copies the new values of an edit into the settings; edits of the scene and commands have none.
 struct Assign {
     RenderSettings& settings;
 
@@ -46,7 +46,8 @@ void Session::apply(const SessionEdit& edit) {
     if (clear.scene) replace_scene(std::get<EditScene>(edit));
 }
 
-/// The changed scene is complete before anything is replaced: a refused material or a failing back end changes nothing.
+/// Everything is replaced only after the changed scene is complete: a refused material or a failing back end changes
+/// nothing.
 void Session::change_material(const EditMaterial& edit) {
     SessionScene changed = scene_.with_material(edit.index, edit.material);
     backend_->upload_scene(changed.packed());
@@ -60,15 +61,14 @@ void Session::clear_films() {
     scene_.forget_whether_closed();
 }
 
-/// The new back end gets everything before it replaces the old one, so that nothing has changed if it fails. Its parked
-/// films are gone then, because its contents are unknown.
+/// The new back end receives everything before it replaces the old one, so that a failure changes nothing. Its parked
+/// films are dropped then, because its contents are unknown.
 void Session::switch_backend(const EditBackend& edit) {
     if (edit.backend == backend_) return;
     std::vector<std::pair<MethodId, HostField>> learned;
     if (!edit.abandon_old && placement_.is_placed())  // without volumes, tables are left over from others
         for (const MethodInfo& method : all_methods())
-            if (backend_->has_field(method.id))
-                learned.emplace_back(method.id, backend_->download_field(method.id));
+            if (backend_->has_field(method.id)) learned.emplace_back(method.id, backend_->download_field(method.id));
     ParkedBackend next = films_.unpark(edit.backend);
     const Stopwatch upload;
     if (next.scene != scene_.packed()) next.backend->upload_scene(scene_.packed());

@@ -1,4 +1,4 @@
-// The part of Session that hands out learned fields and takes them in.
+// The part of Session that exports and imports learned fields.
 #include "core/base/error.h"
 #include "core/scene/scene_hash.h"
 #include "core/session/session.h"

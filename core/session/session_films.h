@@ -21,7 +21,7 @@ struct FilmProgress {
     double learn_seconds = 0.0;
 };
 
-/// A back end that a session has left, with its films and the scene that it holds.
+/// A back end that is not in use, with its films and the scene uploaded to it.
 struct ParkedBackend {
     std::shared_ptr<RenderBackend> backend;
     std::array<FilmProgress, FilmSlot::kCount> films{};
@@ -34,19 +34,19 @@ public:
     FilmProgress& operator[](FilmSlot slot) { return films_[static_cast<std::size_t>(slot.index())]; }
     const FilmProgress& operator[](FilmSlot slot) const { return films_[static_cast<std::size_t>(slot.index())]; }
 
-    /// Gives a film its origin before the first piece of work on it, precomputation included. `before` is what had been
-    /// done by then: warm or not, and seconds.
+    /// Gives a film its origin before the first work on it, precomputation included. `before`: state at that moment,
+    /// whether the field is warm, and seconds on the clocks.
     void begin(FilmSlot slot, const FilmOrigin& before);
-    /// Empties all films, those of parked back ends, too.
+    /// Clears all films, including those of parked back ends.
     void clear();
-    /// Empties the films of one view, of all methods.
+    /// Clears the films of one view, of all methods.
     void clear(View view);
 
     /// Keeps the films of this back end for its return.
     void park(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const HostScene> scene);
-    /// Takes a back end from those that are parked; without films and scene if it is none of them.
+    /// Removes a back end from the parked ones; without films and scene if it is not parked.
     ParkedBackend unpark(const std::shared_ptr<RenderBackend>& backend);
-    /// Goes on with the films of an unparked back end.
+    /// Continues with the films of an unparked back end.
     void resume(const ParkedBackend& backend) { films_ = backend.films; }
 
 private:

@@ -14,7 +14,7 @@ void Session::refine_if_due(MethodId method) {
     placement_.count_round();
 }
 
-/// Divides volumes by the tables of the method that learns.
+/// Splits volumes by the tables of the learning method.
 void Session::split_volumes(MethodId method, std::size_t most) {
     HostField learned = backend_->download_field(method);
     const FieldShape& shape = placement_.shape();
@@ -26,8 +26,8 @@ void Session::split_volumes(MethodId method, std::size_t most) {
     if (!refined.parents.empty()) replace_volumes(method, std::move(refined), std::move(learned));
 }
 
-/// The films stay: tables only guide the sampling. A radiance map that is complete keeps the measured tables of the
-/// parents; one that is not begins anew, since its slices are counted for all volumes at once.
+/// The films stay: tables only guide the sampling. A complete radiance map keeps the measured tables of the parents;
+/// an incomplete one begins anew, since its slices are counted for all volumes at once.
 void Session::replace_volumes(MethodId learner, RefinedPlacement refined, HostField learned) {
     const FieldShape& shape = placement_.shape();
     std::vector<std::pair<MethodId, HostField>> tables;
@@ -50,7 +50,7 @@ void Session::replace_volumes(MethodId learner, RefinedPlacement refined, HostFi
         clear_films();
         throw;
     }
-    films_.clear(View::Voronoi);  // these would mix the cells of both placements
+    films_.clear(View::Voronoi);  // its passes would mix the cells of both placements
 }
 
 }  // namespace pl

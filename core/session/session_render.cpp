@@ -90,14 +90,14 @@ Progress Session::render_slot(FilmSlot slot, const StopFlag* stop) {
     const FilmProgress& state = films_[slot];
     if (state.next_pixel == 0) {
         if (learns_from(slot)) field(slot.method) = field(slot.method).without_part();
-        // The field changes under its map: restarting at powers of two keeps at least half of the samples recent.
+        // The map shows a changing field: restarting at powers of two keeps at least half of the samples recent.
         if (slot.view == View::RadianceMap && is_power_of_two(state.passes))
             backend_->reset_film(slot, settings_.width, settings_.height);
     }
     return render_pass(slot, stop);
 }
 
-/// The rest of a pass, part by part.
+/// The rest of a pass, in parts.
 Progress Session::render_pass(FilmSlot slot, const StopFlag* stop) {
     FilmProgress& state = films_[slot];
     while (true) {
@@ -122,9 +122,9 @@ void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
     FieldProgress& learned = field(slot.method);
-    // Random numbers that no training sample of the tables came from, see FieldProgress::without_part().
+    // Random numbers that were not drawn for the training samples of the tables, see FieldProgress::without_part().
     std::uint32_t sample = learns_from(slot) ? static_cast<std::uint32_t>(learned.passes) : state.passes;
-    // Passes of a heat map replace one another: with the same points, so that borders stand still.
+    // Passes of a heat map replace one another: they use the same points, so that borders do not flicker.
     if (is_heat_map(slot.view)) sample = 0;
     state.origin.forced = state.origin.forced.with(settings_.forced_effects);
     const PassCounters counters =

@@ -24,13 +24,13 @@ public:
     const std::shared_ptr<const HostScene>& packed() const { return packed_; }
     double build_seconds() const { return build_seconds_; }
 
-    /// Paths of a camera at `eye` have escaped: finds out once whether closed surfaces surround it. Sorting the edges of a
-    /// million triangles takes half a second: not done for large scenes unless `may_take_long`.
+    /// Records that paths of a camera at `eye` have escaped: tests once whether closed surfaces surround it. Sorting
+    /// the edges of a million triangles takes half a second: skipped for large scenes unless `may_take_long`.
     void note_escape(glm::vec3 eye, bool may_take_long);
-    /// Closed surfaces surround the camera, so that paths that escaped were lost. False before any has.
+    /// Whether closed surfaces surround the camera, so that escaped paths were lost. False before any has escaped.
     bool is_closed() const { return is_closed_.value_or(false); }
     bool knows_whether_closed() const { return is_closed_.has_value(); }
-    /// The camera may be elsewhere.
+    /// Drops the result of the test, because the camera may have moved.
     void forget_whether_closed() { is_closed_.reset(); }
 
 private:

@@ -13,9 +13,9 @@
 
 namespace pl {
 
-/// Everything besides the scene and the back end that decides the values of a film.
+/// All settings besides the scene and the back end that decide the values of a film.
 struct RenderSettings {
-    /// The film that a front end shows, see slot_of(): a session renders whichever it is asked for.
+    /// The film that a front end shows, see slot_of(); a session renders the slot of each call.
     MethodId method = MethodId::Default;
     View view = View::Beauty;
     int width = 512;

@@ -9,10 +9,10 @@
 namespace pl {
 namespace {
 
-/// Smaller ones have no finite reciprocal.
+/// Smaller values have no finite reciprocal.
 constexpr float kSmallestHigh = std::numeric_limits<float>::min();
 
-/// Of the red channel, which is the number in all views that show one; 0 if there is none.
+/// The red channel, which holds the number in all views of numbers; 0 if no value is positive and finite.
 float largest_value(const Snapshot& snapshot) {
     float largest = 0.0f;
     for (const Vec3f& pixel : snapshot.pixels)

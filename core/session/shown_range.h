@@ -1,4 +1,4 @@
-// The range of values that the colors of a data view stand for, in windows and 8-bit files alike.
+// The range of values of the colors of a data view, in windows and 8-bit files alike.
 #pragma once
 
 #include <string>
@@ -12,16 +12,16 @@ struct ShownRange {
     float high = 1.0f;
     std::string unit;  ///< may be empty
 
-    float scale() const;  ///< brings values into [0, 1]
+    float scale() const;  ///< factor from values to [0, 1]
 };
 
-/// Does a view show radiance? Exposure and tone curve apply to these only.
+/// Whether a view shows radiance: exposure and tone curve apply to no other.
 bool shows_radiance(View view);
 
 /// Exposure and curve as far as they apply to a view: data views such as normals have neither.
 DisplaySettings display_of(View view, const DisplaySettings& asked);
 
-/// Does a view's range end at the largest value of its picture?
+/// Whether a view's range ends at the largest value of its picture.
 bool ends_at_largest(View view);
 /// Fixed for bounded values (shares, entropy), else up to the largest finite value of the picture (depth and the other heat
 /// maps). 0 to 1 for views that show colors. `largest` is RenderBackend::largest_value(), used only if ends_at_largest().

@@ -24,14 +24,14 @@ struct Clocks {
     double total() const { return load + build + upload + place + precompute + learn + render; }
 };
 
-/// The beginning of a film, which tells one run of a method from the next.
+/// The beginning of a film, by which runs of a method are distinguished.
 struct FilmOrigin {
     std::uint64_t number = 0;      ///< of one session, counting up; 0 before the first piece of work
     std::uint64_t generation = 0;  ///< grows when all films are emptied
-    bool warm = false;             ///< its method had learned something before the first sample
+    bool warm = false;             ///< its method had a learned field before the first sample
     double place_seconds = 0.0;    ///< on the clocks before the film began
     double precompute_seconds = 0.0;
-    FeatureSet forced{};  ///< effects that any of its passes had to cover without need: they take time
+    FeatureSet forced{};  ///< forced effects beyond the needed ones of any of its passes: they take time
 };
 
 /// Size and progress of a method's learned field.

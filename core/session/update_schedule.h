@@ -1,4 +1,4 @@
-// When the pending training samples of a picture's passes update the tables that guide later paths.
+// The schedule of updates: when pending training samples change the tables that guide later paths.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace pl {
 
-/// Most passes between two updates: so few that the sums of a cell cannot overflow.
+/// Most passes between two updates: the sums of a cell cannot overflow within them.
 inline constexpr std::uint32_t kMostPassesWithoutUpdate = 16;
 
 /// Fewest paths before an update.
@@ -22,9 +22,10 @@ constexpr std::uint32_t end_of_first_part(std::uint32_t done, std::uint32_t coun
     return static_cast<std::uint32_t>(std::min(end, std::uint64_t{count}));
 }
 
-/// Updates follow each of the first sixteen passes, then every addition of about an eighth to the passes: tables are never far
-/// behind, and updates, whose cost does not depend on the number of training samples, stay rare in small pictures. `passes`
-/// are complete ones since the film was last emptied, so that tables follow a moving camera at once.
+/// Updates follow each of the first sixteen passes, then every addition of about an eighth to the passes: tables are
+/// never far behind, and updates, whose cost does not depend on the number of training samples, stay rare in small
+/// pictures. `passes` are complete ones since the film was last cleared, so that tables adapt to a moved camera at
+/// once.
 constexpr bool is_updated_after(std::uint32_t passes) {
     const std::uint32_t interval = std::clamp(std::bit_floor(passes) / 8, 1u, kMostPassesWithoutUpdate);
     return passes % interval == 0;

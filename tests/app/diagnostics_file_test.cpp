@@ -1,4 +1,4 @@
-// `render --diagnostics` from outside: pictures and numbers of where something went wrong.
+// `render --diagnostics` from a shell: the picture and the counts of invalid samples, lost paths and lookup misses.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A closed room, so bright that the light of two walls together is no number.
+/// A closed room, so bright that the sum of the light of two walls is not finite.
 std::string write_bright_room(const TempDir& folder) {
     write_all(folder / "room.mtl", "newmtl wall\nKd 0.9 0.9 0.9\nKe 2.5e38 2.5e38 2.5e38\n");
     write_all(folder / "room.obj",

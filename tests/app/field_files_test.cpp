@@ -1,4 +1,4 @@
-// --save-field, --load-field and --lookup as a shell sees them.
+// --save-field, --load-field and --lookup from a shell.
 #include <csignal>
 
 #include <nlohmann/json.hpp>
@@ -61,7 +61,7 @@ TEST_CASE("a run that loads a field goes on from it") {
             CHECK(first["seconds"]["precompute"] > 0.0);
             CHECK(second["field"]["records"] == first["field"]["records"]);
             CHECK(second["field"]["passes"] == 1);
-            // The map is frozen: the picture is the same, and so is the file, with the time of the first run.
+            // The map is constant: the picture is the same, and so is the file, with the time of the first run.
             CHECK(read_all(folder / "a.pfm") == read_all(folder / "b.pfm"));
             CHECK(read_all(folder / "f") == read_all(folder / "g"));
         } else {
@@ -93,7 +93,7 @@ TEST_CASE("field files have the same bits for any number of threads and any look
         CHECK(saved({"--lookup", "linear"}) == picture);
         CHECK(saved({"--lookup", "kdtree"}) == picture);
 
-        // Loaded, every lookup goes on with the same bits, whatever lookup the file names.
+        // After loading, every lookup continues with the same bits, for any lookup stored in the file.
         const auto loaded = [&](const Arguments& more) {
             run_well(render(folder / "y.pfm", joined({"--load-field", folder / "f"}, more)));
             return read_all(folder / "y.pfm");

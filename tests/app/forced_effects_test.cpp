@@ -1,4 +1,5 @@
-// Effects on the command line: those a scene needs and why, forced ones that change no bit, and the cost of the larger kernels.
+// Effects on the command line: the needed ones with their reasons, forced ones that change no bit, and the cost of
+// the larger kernels.
 #include <nlohmann/json.hpp>
 
 #include "tests/support/program/refusal.h"

@@ -1,4 +1,4 @@
-// `pathlight info` and `pathlight devices` as a shell sees them.
+// `pathlight info` and `pathlight devices` from a shell.
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.hpp"
@@ -41,7 +41,7 @@ TEST_CASE("devices lists the back ends, and why one is missing") {
     const ordered_json cpu = ordered_json::parse(lines[0]);
     CHECK(cpu["backend"] == "cpu");
     CHECK(cpu["available"] == true);
-    // One line for every GPU, or one that says why there is none.
+    // One line for every GPU, or one with the reason for having none.
     for (std::size_t i = 1; i < lines.size(); ++i) {
         const ordered_json cuda = ordered_json::parse(lines[i]);
         CHECK(cuda["backend"] == "cuda");

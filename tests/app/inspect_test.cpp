@@ -1,4 +1,4 @@
-// `pathlight inspect` as a shell sees it.
+// `pathlight inspect` from a shell.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -72,7 +72,7 @@ TEST_CASE("the same place by pixel and by point is the same volume") {
     const json by_point = inspected({"--size", "33x33", "--at", "278,478.9,559.2,0,0,-1"});
     CHECK(by_point["volume"] == by_pixel["volume"]);
     CHECK(by_point["radiance"] == by_pixel["radiance"]);
-    // In front of the wall, without a normal: the wall is closest, seen from here.
+    // In front of the wall, without a normal: the wall is the closest surface.
     CHECK(inspected({"--at", "278,478.9,500"})["volume"] == by_pixel["volume"]);
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("a place without a volume is told before any training") {
         CHECK(result.code == 1);
         CHECK_THAT(result.err, contains(message));
     };
-    // Beside the box nothing is seen; no surface faces diagonally.
+    // Beside the box no surface is visible; no surface faces diagonally.
     refused({"--pixel", "0,0", "--eye", "278,273,-5000"}, "nothing is seen there");
     refused({"--at", "278,273,559,0.577,0.577,0.577"}, "no radiance volume");
     CHECK(folder.names().empty());

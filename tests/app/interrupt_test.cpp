@@ -1,4 +1,4 @@
-// The first interruption asks a run to end, the second one ends the program.
+// The first interruption requests the end of a run, the second one ends the program.
 #include <csignal>
 
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-// Every exit code of the program, with the message that goes with it.
+// Every exit code of the program, with its message.
 #include "tests/support/catch.hpp"
 #include "tests/support/program/refusal.h"
 

@@ -123,7 +123,7 @@ TEST_CASE("a copied command leaves out the settings of the scene") {
     CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
           "pathlight render plain.json --method default --nee off");
 
-    // Options that other subcommands have too are listed once.
+    // Options shared with other subcommands are listed once.
     options.spp = 7;
     CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
           "pathlight render plain.json --method default --nee off --spp 7");

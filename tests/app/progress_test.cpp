@@ -1,4 +1,4 @@
-// Progress bars, the pace of progress messages, and durations as text.
+// Progress bars, the rate of progress messages, and durations as text.
 #include "app/progress.h"
 #include "tests/support/catch.hpp"
 

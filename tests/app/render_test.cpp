@@ -1,4 +1,4 @@
-// `pathlight render` as a shell sees it: pictures, repeatability, limits, interruption.
+// `pathlight render` from a shell: pictures, repeatability, limits, interruption.
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -36,7 +36,7 @@ std::string metadata_value(const ImageMetadata& metadata, const std::string& nam
     return "";
 }
 
-/// A rendering that nothing but a signal ends.
+/// A rendering ended by a signal only.
 Arguments endless(const std::string& output) {
     return program({"render", "cornell", "-o", output, "--size", "32x32", "--spp", "1000000000", "--json"});
 }
@@ -202,14 +202,14 @@ TEST_CASE("rendering stops at a target error, and 5 tells that another limit cam
     CHECK(stats()["target_error"]["of"] == "noise");
     CHECK(stats()["target_error"]["relmse"] == 0.02);
     CHECK(stats()["target_error"]["measured"] <= 0.02);
-    CHECK(stats()["spp"] >= 16);  // noise is not trusted before
+    CHECK(stats()["spp"] >= 16);  // noise is not measured before
 
     const ProgramResult missed = run({"--target-error", "1e-9", "--spp", "5"});
     CHECK(missed.code == 5);
     CHECK_THAT(missed.err,
                contains("--target-error: expected noise of at most 1e-09") && contains("--spp was reached"));
     CHECK(stats()["ended_by"] == "spp");
-    CHECK(read_pfm(folder / "x.pfm").width == 32);  // the picture is there all the same
+    CHECK(read_pfm(folder / "x.pfm").width == 32);  // the picture is written in either case
     CHECK(run({"--target-error", "1e-9", "--time-limit", "0.1"}).code == 5);
     CHECK(stats()["ended_by"] == "time-limit");
     // Within the target when another limit ends it: not missed. One sample has no halves, so its noise is unknown.

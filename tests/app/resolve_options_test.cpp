@@ -1,4 +1,4 @@
-// Options that are refused, and what is said then.
+// Refused options, and their messages.
 #include "tests/app/parsing.h"
 #include "tests/support/program/run_program.h"
 
@@ -174,7 +174,7 @@ TEST_CASE("a loaded field brings its method and settings") {
     // Inspection takes the method from the field, too.
     CHECK(parse_with_field({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--load-field", "f"}, field)
               .render.method == MethodId::Precomputed);
-    // The command in the picture loads the field again and has no option that contradicts it.
+    // The command in the picture loads the field again, without options that contradict it.
     const std::string command = command_text(options, scene_defaults("s", scene));
     CHECK_THAT(command, contains("--load-field my.field") && contains("--bins 64") && contains("--volumes 70"));
 }

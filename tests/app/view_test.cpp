@@ -1,4 +1,4 @@
-// `pathlight view` as a shell sees it, driven by a script on SDL's dummy driver: options, files and commands of the window.
+// `pathlight view` from a shell, driven by a script on SDL's dummy driver: options, files and commands of the window.
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/program/run_program.h"

@@ -1,5 +1,5 @@
-// Another back end takes over: learned tables move exactly, films are parked with their back end, and a back end that fails
-// leaves the session unchanged.
+// Changes of the back end: learned tables move exactly, films are parked with their back end, and a back end that
+// fails leaves the session unchanged.
 #include <functional>
 
 #include "tests/session/failing_backend.h"
@@ -16,7 +16,7 @@ using namespace pl::test;
 
 namespace {
 
-/// Small batches, so that a stop flag is seen soon.
+/// Small batches, so that passes stop soon after the flag is raised.
 std::shared_ptr<RenderBackend> cpu_backend(int threads) {
     return make_cpu_backend({.threads = threads, .batch_paths = 32});
 }
@@ -28,7 +28,7 @@ Session session_on(std::shared_ptr<RenderBackend> backend, const SceneDescriptio
 
 using Failure = FailingBackend::Failure;
 
-/// The session's state is that of a new session after so many passes with these settings.
+/// The session's state is that of a new session after this many passes with these settings.
 void check_like_fresh(Session& session, const SceneDescription& scene, const RenderSettings& settings,
                       std::uint32_t passes) {
     Session fresh = session_on(cpu_backend(2), scene, settings);
@@ -78,7 +78,7 @@ TEST_CASE("Another back end goes on with the same tables, on a picture of its ow
     }
 }
 
-// The picture is started over at the end, so that all of it comes from the moved tables.
+// The picture restarts at the end, so that all of it comes from the moved tables.
 TEST_CASE("A radiance map is the same however often the back end changes in the middle of it") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, {MethodId::Precomputed, true});
@@ -101,7 +101,7 @@ TEST_CASE("A radiance map is the same however often the back end changes in the 
     CHECK(moved >= 5);
 }
 
-// The pass is in part when the back end changes and comes back: the picture and the sums are whole again at its end.
+// The pass is incomplete when the back end changes and comes back: the picture and the sums are complete at its end.
 TEST_CASE("A pass that was parked with its back end is finished with the same bits") {
     const SceneDescription scene = shipped_scene("door");
     for (const Estimator estimator : kEstimators) {
@@ -244,7 +244,7 @@ TEST_CASE("A lost back end is abandoned with its tables, and the next one starts
         session.apply(abandon);
         CHECK(session.passes(slot_of(session)) == 0);
         CHECK_FALSE(next->has_field(estimator.method));
-        CHECK(lost.use_count() == 1);  // the session has let go of it
+        CHECK(lost.use_count() == 1);  // the session has released it
         render_passes(session, 2);
         Session fresh = session_on(cpu_backend(1), scene, settings);
         render_passes(fresh, 2);

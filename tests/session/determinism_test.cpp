@@ -91,8 +91,8 @@ TEST_CASE("A seed changes films and tables") {
     }
 }
 
-// Small batches, so that a flag is seen soon. The moments of the stops are not reproducible, and the results must not depend on
-// them; runs are repeated until some stops have left work in part.
+// Small batches, so that passes stop soon after the flag is raised. The moments of the stops are not reproducible,
+// and the results must not depend on them; runs are repeated until some stops have left passes incomplete.
 TEST_CASE("Work that is stopped and resumed at any moment does not change a bit") {
     const SceneDescription scene = shipped_scene("door");
     const CpuSettings cpu{.threads = 2, .batch_paths = 32};
@@ -161,7 +161,7 @@ SceneDescription with_all_effects(SceneDescription scene) {
     return scene;
 }
 
-/// One pass by the kernel that was compiled for `set`.
+/// One pass by the kernel compiled for `set`.
 std::vector<Vec3f> render_with(Session& session, FeatureSet set, bool next_event) {
     const RenderSettings& settings = session.settings();
     const FilmSlot slot{settings.method, View::Beauty};
@@ -209,7 +209,7 @@ TEST_CASE("Every compiled superset of the needed effects makes the same picture 
     CHECK(compared >= 10 * 3 * (5 + 4));
 }
 
-// An effect that a scene has must change its picture, or the test above proves nothing.
+// An effect of a scene must change its picture, or the test above proves nothing.
 TEST_CASE("Each effect changes the picture of a scene that needs it") {
     const SceneDescription plain = shipped_scene("cornell");
     SceneDescription sky = plain;

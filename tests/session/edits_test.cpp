@@ -20,7 +20,7 @@ RenderSettings tiny_settings(const SceneDescription& scene) {
     return small_settings(scene, {MethodId::Default, false}, 40, 30);
 }
 
-/// Everything that an edit may clear, as a caller of the session sees it.
+/// All parts that an edit may clear, as visible to a caller of the session.
 struct Contents {
     std::array<State, kMethodCount> methods;
     std::shared_ptr<const HostScene> scene;
@@ -64,7 +64,7 @@ bool all_tables_kept(const Contents& before, const Contents& after) {
                               [](const State& a, const State& b) { return same_bits(a.tables, b.tables); });
 }
 
-/// The tables of a learned field's method are those of the field, and the other methods have learned nothing.
+/// The tables of a learned field's method are those of the field, and the other methods have no training samples.
 bool only_has(const Contents& contents, const LearnedField& field) {
     return std::ranges::all_of(all_methods(), [&](const MethodInfo& method) {
         const HostTables& tables = contents.methods[static_cast<std::size_t>(method.id)].tables;
@@ -73,7 +73,7 @@ bool only_has(const Contents& contents, const LearnedField& field) {
     });
 }
 
-/// A field of other size than that of `settings`, learned elsewhere in the same scene.
+/// A field of another size than that of `settings`, learned by another session of the same scene.
 std::shared_ptr<const LearnedField> field_from_elsewhere(const SceneDescription& scene, RenderSettings settings) {
     settings.method = MethodId::Reinforcement;
     settings.seed = 11;
@@ -208,7 +208,7 @@ TEST_CASE("An edit that clears the tables leaves a session like a new one") {
     }
 }
 
-// Default path tracing learns nothing, so a cleared film alone must already be like a new one.
+// Default path tracing has no field, so clearing its film must suffice for the state of a new session.
 TEST_CASE("An edit that clears the films leaves default path tracing like a new session") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = tiny_settings(scene);
@@ -224,7 +224,7 @@ TEST_CASE("An edit that clears the films leaves default path tracing like a new 
     }
 }
 
-// The tables that a moved camera keeps are used at once: they guide the first pass of the new view.
+// The tables kept for a moved camera guide the first pass of the new view.
 TEST_CASE("A moved camera goes on with the learned field") {
     const SceneDescription scene = shipped_scene("door");
     RenderSettings settings = tiny_settings(scene);

@@ -1,4 +1,4 @@
-// A back end that works until a test makes it fail, as a lost device does.
+// A back end that works until a test makes it fail, like a lost device.
 #pragma once
 
 #include "core/base/error.h"

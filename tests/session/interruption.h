@@ -1,4 +1,4 @@
-// Work that is stopped at some moment, so that tests can examine sessions in the middle of a pass.
+// Interrupted work, for tests of sessions in the middle of a pass.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace pl::test {
 
-/// Advances once while another thread sets the stop flag after the share delay^2 of the time that such a piece of work
-/// takes, for `delay` in [0, 1]. That time is learned from the pieces before, so that stops fall into the work on fast and
-/// on slow machines alike.
+/// Advances once while another thread raises the stop flag after the share delay^2 of the usual time of such work,
+/// for `delay` in [0, 1]. That time is measured in earlier calls, so that stops interrupt the work on fast and on
+/// slow machines alike.
 inline Progress advance_interrupted(Session& session, float delay) {
     static double expected_seconds = 1.0e-3;
     StopFlag stop{false};
@@ -31,13 +31,13 @@ inline Progress advance_interrupted(Session& session, float delay) {
     return progress;
 }
 
-/// Whether the film's pass is done in part.
+/// Whether the film's pass is incomplete.
 inline bool pass_is_partial(const Session& session) {
     const Snapshot snapshot = session.snapshot(slot_of(session));
     return snapshot.counters.paths % snapshot.pixels.size() != 0;
 }
 
-/// Whether a slice of the radiance map is done in part.
+/// Whether a slice of the radiance map is incomplete.
 inline bool slice_is_partial(const Session& session) {
     const std::optional<FieldStatus> field = session.field_status(session.settings().method);
     return session.settings().method == MethodId::Precomputed && field &&

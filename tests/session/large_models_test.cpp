@@ -1,5 +1,5 @@
-// Models of ten thousand and of a million triangles: they load, their memory is within the stated limits, and every method renders
-// them without an invalid sample.
+// Models of ten thousand and of a million triangles: they load, their memory is within the documented limits, and
+// every method renders them without an invalid sample.
 #include <cmath>
 
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
-// Learned fields that move from one session to another, also through a file: the session goes on as if the field had never
-// moved. And the views of a field.
+// Learned fields moved from one session to another, also through a file: the session continues as if the field had
+// never been moved. And the views of a field.
 #include <algorithm>
 #include <numeric>
 
@@ -152,9 +152,9 @@ TEST_CASE("A field that does not belong to the session is refused and changes no
                contains("'default'"));
 }
 
-// With a BSDF fraction of 1 no direction comes from the tables, and paths of two vertices meet no roulette that uses them: only
-// the random numbers matter. Paths that drew the same numbers as the training samples of the tables would be too dark by a
-// fifth in the first pass (cornell, 60 volumes), since their directions seem likelier than they are.
+// With a BSDF fraction of 1 no direction comes from the tables, and no roulette uses them in paths of two vertices:
+// only the random numbers matter. Paths that draw the same numbers as the training samples of the tables would be too
+// dark by a fifth in the first pass (cornell, 60 volumes), since their directions have too large a density.
 TEST_CASE("A picture that starts over with a learned field draws new random numbers") {
     const SceneDescription scene = shipped_scene("door");
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});

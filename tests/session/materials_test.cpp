@@ -1,5 +1,5 @@
-// A material that is changed while a session runs: the session goes on like a new one of the changed scene, and keeps the parts
-// that do not depend on materials.
+// A material changed while a session runs: the session continues like a new one of the changed scene, and keeps the
+// parts that do not depend on materials.
 #include <cmath>
 #include <functional>
 
@@ -30,7 +30,7 @@ std::uint32_t index_of(const SceneDescription& scene, const std::string& name) {
     return 0;
 }
 
-/// A scene, and a material in it that becomes another one.
+/// A scene, and a material in it with its replacement.
 struct Change {
     std::string text;
     SceneDescription before;

@@ -1,4 +1,4 @@
-// Volumes that are divided while a method learns: the same ones in every run, however it was interrupted, moved or saved. No
+// Volumes divided while a method learns: the same ones in every run, also if it was interrupted, moved or saved. No
 // training sample and no pass is lost.
 #include <numeric>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr Estimator kLearning{MethodId::Reinforcement, false};
 
-/// Passes after which the placement was refined for the first time, and for the last.
+/// Passes before the first round of refinement, and before the last.
 constexpr std::uint32_t kFirst = 8;
 constexpr std::uint32_t kLast = 16;
 
@@ -82,7 +82,7 @@ TEST_CASE("Nothing changes before the first volumes are added, nor if none may b
     CHECK(same_state(state_of(off), state_of(on)));
     render_passes(off, 1);
     render_passes(on, 1);
-    CHECK(same_film(state_of(off), state_of(on)));  // the pass comes before the refinement
+    CHECK(same_film(state_of(off), state_of(on)));  // the pass is rendered before the refinement
     CHECK_FALSE(same_bits(state_of(off).tables, state_of(on).tables));
     render_passes(off, kLast);
     CHECK((off.refinement() == Refinement{}));
@@ -315,7 +315,7 @@ TEST_CASE("Views and inspection show the refined placement, its time is charged 
     CHECK(session.find_volume_at(inspection.position, inspection.normal) == volumes - 1);
 }
 
-// The tables after kFirst passes decide about the added volumes: scaling by powers of two must not change a bit of them.
+// The tables after kFirst passes decide the added volumes: scaling by powers of two must not change a bit of them.
 TEST_CASE("Refined scenes have the same bits 1024 times as large and as small") {
     Session expected = make_session(door(), refining(1.0f), 2);
     render_passes(expected, kLast + 1);

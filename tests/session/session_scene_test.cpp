@@ -18,7 +18,7 @@ TEST_CASE("Session scene: closed surfaces are looked for when a path has escaped
     CHECK_FALSE(scene.knows_whether_closed());
     CHECK_FALSE(scene.is_closed());
     const glm::vec3 inside = scene.description()->camera.eye;
-    scene.note_escape(inside, false);  // a small scene does not wait
+    scene.note_escape(inside, false);  // a small scene is tested at once
     REQUIRE(scene.knows_whether_closed());
     const bool is_closed = scene.is_closed();
     scene.note_escape(glm::vec3{1.0e6f}, true);

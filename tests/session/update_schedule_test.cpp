@@ -26,7 +26,7 @@ std::uint64_t sum(const std::vector<T, Allocator>& values) {
     return std::accumulate(values.begin(), values.end(), std::uint64_t{0});
 }
 
-/// A session that was stopped in its first pass, after an update.
+/// A session stopped in its first pass, after an update.
 Session stopped_in_first_pass(const SceneDescription& scene) {
     Uniforms random(1);
     for (int attempt = 0; attempt < 20; ++attempt) {

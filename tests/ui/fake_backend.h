@@ -1,5 +1,5 @@
-// A back end for tests of what surrounds it: paints a value per pass, counts, can be held inside, and can break. Two of
-// them stand for CPU and CUDA.
+// A back end for tests of the code around it: paints a value per pass, counts, can be held during a pass, and can
+// fail. Two of them represent CPU and CUDA.
 #pragma once
 
 #include <algorithm>
@@ -17,19 +17,19 @@
 
 namespace pl::test {
 
-/// What a test and the back end on the render thread share.
+/// State shared by a test and the back end on the render thread.
 struct FakeControl {
-    std::atomic<bool> hold{false};          ///< passes stay inside until they are stopped or let go
+    std::atomic<bool> hold{false};          ///< passes do not end until they are stopped or released
     std::atomic<bool> inside{false};        ///< a pass is held
     std::atomic<bool> fail{false};          ///< the next pass throws
-    std::atomic<bool> fail_upload{false};   ///< the next scene does not fit
-    std::atomic<bool> fail_making{false};   ///< the next one cannot be made
+    std::atomic<bool> fail_upload{false};   ///< the next upload of a scene throws
+    std::atomic<bool> fail_making{false};   ///< making the next back end throws
     std::atomic<bool> lost{false};          ///< every call throws
-    std::atomic<bool> hold_upload{false};   ///< a scene stays on its way until it is let go
+    std::atomic<bool> hold_upload{false};   ///< the upload of a scene does not end until it is released
     std::atomic<bool> uploading{false};     ///< a scene is held
     std::atomic<int> made{0};               ///< back ends that were made
-    std::atomic<int> alive{0};              ///< of them, those that are still there
-    std::atomic<int> stopped{0};            ///< passes that saw the stop flag
+    std::atomic<int> alive{0};              ///< of them, those that still exist
+    std::atomic<int> stopped{0};            ///< passes ended by the stop flag
     std::atomic<int> passes{0};             ///< passes that were complete
     std::atomic<int> bad_pixel{-1};         ///< its samples of pictures are invalid
     std::atomic<int> pass_microseconds{0};  ///< of a picture of 64x64; others in proportion to their pixels
@@ -44,9 +44,9 @@ struct FakeControl {
         return found != where.end() ? found->second : HostTables{};
     }
     std::mutex mutex;
-    std::map<MethodId, HostTables> uploaded;    ///< the last of each method that came in; read by tables_in()
-    std::vector<FeatureSet> served;             ///< of each complete pass, what its kernel had to be able to do
-    std::map<MethodId, HostTables> downloaded;  ///< the last of each method that went out
+    std::map<MethodId, HostTables> uploaded;    ///< the newest of each method to be uploaded; read by tables_in()
+    std::vector<FeatureSet> served;             ///< of each complete pass, the effects required of its kernel
+    std::map<MethodId, HostTables> downloaded;  ///< the newest of each method to be downloaded
 };
 
 inline bool same_tables(const HostTables& a, const HostTables& b) {
@@ -100,7 +100,7 @@ public:
         const Film& film = films_.at(slot.index());
         return {film.width, film.height, film.pixels, 0, 0};
     }
-    /// Every sample is alike, so the halves are too.
+    /// All samples are equal, so the halves are equal, too.
     FilmReading read_halves(FilmSlot slot) const override {
         FilmReading reading = read_film(slot);
         reading.halves = {.mean = {reading.mean, reading.mean}, .samples = {1, 1}};
@@ -211,7 +211,7 @@ private:
     std::map<int, Film> films_;
 };
 
-/// What stands for the back ends of a program: "cpu" and "cuda".
+/// The back ends of a program, "cpu" and "cuda", as fakes.
 struct FakeDevices {
     std::shared_ptr<FakeControl> cpu = std::make_shared<FakeControl>();
     std::shared_ptr<FakeControl> cuda = std::make_shared<FakeControl>();
@@ -225,7 +225,7 @@ struct FakeDevices {
     }
 };
 
-/// Two facing squares: something to stand on and a light.
+/// Two facing squares: a floor and a light.
 inline std::shared_ptr<const SceneDescription> small_scene() {
     auto scene = std::make_shared<SceneDescription>();
     scene->name = "small";

@@ -1,4 +1,4 @@
-// Runs with known errors: what plots, tables and comparisons are tested on.
+// Runs with known errors, for tests of plots, tables and comparisons.
 #pragma once
 
 #include <memory>
@@ -57,7 +57,7 @@ inline std::shared_ptr<LiveRun> make_run(const RunRecipe& recipe) {
 
 using Runs = std::vector<std::shared_ptr<const LiveRun>>;
 
-/// Default: 0.1 s a sample. Reinforcement: a quarter of the error for the double time.
+/// Default: 0.1 s a sample. Reinforcement: a quarter of the error in twice the time.
 inline Runs two_runs() {
     return {make_run({.number = 1}), make_run({.number = 2,
                                                .method = MethodId::Reinforcement,

@@ -1,9 +1,10 @@
-// How fluid the viewer is: runs the real window on SDL's dummy driver, flies in short hops, switches back ends, and
-// prints percentiles of the window's frame times and of the time from a camera move, or from the key that switches, to
-// the first picture that shows it. The same hops without the accuracy panel tell what that costs; drags of a material's
-// color have frame times alone.
-// Targets: UI frame p95 below 33 ms while rendering, first picture after a move below 100 ms, first picture of the other
-// back end below 250 ms, at 1280x720. Two CPU back ends stand for any two: the first pass takes what a CPU takes.
+// Responsiveness of the viewer: runs the real window on SDL's dummy driver, flies in short hops, switches back ends,
+// and prints percentiles of the window's frame times and of the time from a camera move, or from the key that
+// switches, to the first picture that shows it. The same hops without the accuracy panel measure the cost of the
+// panel; drags of a material's color have frame times alone.
+// Targets: UI frame p95 below 33 ms while rendering, first picture after a move below 100 ms, first picture of the
+// other back end below 250 ms, at 1280x720. Two CPU back ends represent any two: the first pass takes the time of a
+// CPU.
 // Usage: ui_bench [SCENE [HOPS-AND-SWITCHES [THREADS]]]
 #include <cstdio>
 #include <cstdlib>
@@ -34,8 +35,8 @@ std::filesystem::path bench_folder() {
     return folder;
 }
 
-/// Hops forward and back with a rest in between: each is a camera move out of a rendering at full size. `first` is what
-/// comes before them.
+/// Hops forward and back with a rest in between: each is a camera move out of a rendering at full size. `first`:
+/// commands before the hops.
 void write_hops(const std::filesystem::path& path, int hops, const std::string& first = "") {
     std::ofstream script(path);
     script << first << "0 wait spp >= 2\n";
@@ -48,8 +49,8 @@ void write_hops(const std::filesystem::path& path, int hops, const std::string& 
     script << fmt::format("{} quit\n", frame);
 }
 
-/// Switches to and fro. The first one finds no parked picture on the other side and has a whole pass in its figure;
-/// with `anew` the picture is restarted just before, so that all have.
+/// Switches to and fro. The first one finds no parked picture on the other side and includes a whole pass in its
+/// time; with `anew` the picture is restarted just before each, so that all do.
 void write_switches(const std::filesystem::path& path, int switches, bool anew) {
     std::ofstream script(path);
     script << "0 wait learned >= 4\n";

@@ -75,14 +75,14 @@ inline bool has_learned(RenderWorker& worker, std::uint64_t passes) {
     });
 }
 
-/// A worker that has learned something on CUDA.
+/// A worker with a field learned on CUDA.
 inline void learn_on_cuda(RenderWorker& worker) {
     REQUIRE(has_learned(worker, 5));
     REQUIRE(frame_of(worker, worker.switch_backend("cuda")));
     REQUIRE(has_learned(worker, 10));
 }
 
-/// Destroys a worker on another thread, so that a test can do without its end.
+/// Destroys a worker on another thread, so that a test need not wait for its end.
 template <class Release>
 bool ends_after(std::unique_ptr<RenderWorker> worker, Release&& release) {
     std::future<void> end = std::async(std::launch::async, [&] { worker.reset(); });

@@ -1,4 +1,4 @@
-// Background work with a progress bar: a thread of low priority, its progress, and a way to stop it.
+// Background work with a progress bar: a thread of low priority, its progress, and a stop flag.
 #pragma once
 
 #include <functional>
@@ -52,7 +52,7 @@ public:
 
 private:
     void run(const Make& make) {
-        constexpr int kNice = 10;  // on Linux of this thread and the threads it starts: everything else has priority
+        constexpr int kNice = 10;  // on Linux of this thread and the threads it starts: all others have priority
         (void)setpriority(PRIO_PROCESS, 0, kNice);
         const JobMonitor monitor{.stop = &stopped_, .progress = [this](double share, const std::string& detail) {
                                      const std::lock_guard lock(mutex_);

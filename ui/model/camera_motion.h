@@ -8,7 +8,7 @@ namespace pl {
 
 class CameraMotion {
 public:
-    /// Without input for so long the camera is at rest, and the picture is rendered at its full size again.
+    /// Seconds without input after which the camera is at rest, and the picture is rendered at its full size again.
     static constexpr double kRestSeconds = 0.1;
 
     /// `given` is the camera that the viewer was started with: the defaults of the lens.
@@ -35,7 +35,7 @@ public:
     void focus_on(Vec3f position);
     /// Another scene: its own camera is home, and the camera stays if `keep` is set.
     void open(const CameraDescription& home, float scene_diagonal, bool keep);
-    /// The picture changes with every frame of the window, as in motion: it may be coarse until that ends.
+    /// The picture changes with every frame of the window, as in motion: it may be coarse until the changes end.
     void touch();
 
 private:

@@ -20,7 +20,7 @@ public:
     const AccuracyModel& accuracy() const { return accuracy_; }
 
     const CompareState& state() const { return state_; }
-    /// What is drawn in `view`; no tiles without a comparison, and while the camera moves.
+    /// The tiles of the comparison in `view`; none without a comparison, and while the camera moves.
     ComparePlan plan(const Rect& view) const;
     void set_mode(CompareMode mode);
     void step_mode(int steps);
@@ -30,7 +30,7 @@ public:
     /// Sides are the pictures at the cursor: setting it starts a comparison.
     void set_cursor(const Cursor& cursor);
 
-    /// The present method and the one it is compared with render in turns of equal time.
+    /// The present method and the method compared with it render in turns of equal time.
     bool in_turns() const { return link_.turns().has_value(); }
     void set_turns(bool on);
 

@@ -1,5 +1,5 @@
 // The background search for the pixels of invalid samples, lost paths, lookup misses and clamped training samples in
-// the picture of the window, and its map for as long as that picture stands.
+// the picture of the window. Its map is kept until the picture changes.
 #pragma once
 
 #include <memory>
@@ -14,9 +14,9 @@ class DiagnosticsFinder {
 public:
     using Found = std::shared_ptr<const DiagnosticsMap>;
 
-    /// The render thread was asked for the input of a search.
+    /// The input of a search was requested from the render thread.
     void expect_answer() { is_asked_ = true; }
-    /// It has answered: the search begins, unless the picture has no paths.
+    /// The render thread has answered: the search begins, unless the picture has no paths.
     void begin(DiagnosticsAnswer answer);
     /// Ends the search; its result is the map so far.
     void stop();

@@ -21,7 +21,7 @@ public:
     /// Starts a search, during which rendering rests; or ends it, or hides its map.
     void toggle();
 
-    /// The pixels that were found in the present picture; null before a search.
+    /// The pixels found in the present picture; null before a search.
     std::shared_ptr<const DiagnosticsMap> map() const;
     bool is_searching() const { return finder_.is_searching(); }
     /// The finished share of the search; empty without one.

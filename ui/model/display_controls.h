@@ -22,7 +22,7 @@ public:
     void set_cells(bool on);
     float cells_opacity() const { return cells_opacity_; }
     void set_cells_opacity(float opacity);
-    /// The selected volume's outline takes the image of the volumes' cells too.
+    /// Whether the selected volume's outline is drawn, which needs the image of the volumes' cells like the tint.
     void set_outline(bool on);
 
     /// Coarser pictures while the camera moves.

@@ -35,7 +35,8 @@ private:
 /// Its name in lists: files may omit names.
 std::string shown_name(const MaterialDescription& material, std::uint32_t index);
 
-/// Whether the change may move radiance volumes: then the selected one is another one afterwards. See same_placement().
+/// Whether the change may move radiance volumes; the number of the selected one is then invalid. See
+/// same_placement().
 bool may_move_volumes(const MaterialDescription& before, const MaterialDescription& after);
 
 }  // namespace pl

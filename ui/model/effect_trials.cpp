@@ -23,7 +23,7 @@ void EffectTrials::update() {
     const std::optional<EffectCost>& cost = link_.status().effect_cost;
     table_.update(*link_.frame(), cost);
     const bool is_done = cost && cost->forced == measuring_ && cost->done;
-    if (measuring_ && (is_done || link_.turns())) stop();  // turns have the render thread to themselves
+    if (measuring_ && (is_done || link_.turns())) stop();  // turns and trials exclude each other
 }
 
 }  // namespace pl

@@ -1,5 +1,5 @@
-// The effects of the picture and trials of their cost: passes of two kernels in turns on the running picture, which
-// stays the same.
+// The effects of the picture and trials of their cost: passes of two kernels in turns into the running picture, which
+// does not depend on the kernel.
 #pragma once
 
 #include <optional>

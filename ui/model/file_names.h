@@ -16,7 +16,7 @@ public:
     explicit FileNames(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     const std::filesystem::path& folder() const { return folder_; }
-    /// What the names of a scene's files begin with.
+    /// The beginning of the names of a scene's files.
     static std::string stem_of(const ViewedScene& scene) {
         return file_name_part(std::filesystem::path(scene.name()).stem().string());
     }

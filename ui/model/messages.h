@@ -17,7 +17,7 @@ struct LogLine {
 struct Toast {
     MessageLevel level;
     std::string text;
-    double until;  ///< on the window's clock
+    double until;  ///< time of expiry on the window's clock
 };
 
 class Messages {

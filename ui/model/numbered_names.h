@@ -14,7 +14,7 @@ public:
                                std::initializer_list<const char*> suffixes);
 
 private:
-    int last_ = 0;  ///< files of earlier names may not be written yet
+    int last_ = 0;  ///< covers returned names whose files are not written yet
 };
 
 /// Letters, digits, '-' and '_' of the text, the rest replaced by '-'.

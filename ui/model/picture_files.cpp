@@ -11,7 +11,7 @@
 namespace pl {
 namespace {
 
-constexpr double kSaveSeconds = 3.0;  ///< for the values of a picture to arrive from a failed render thread
+constexpr double kSaveSeconds = 3.0;  ///< longest wait for the values of a picture from a failed render thread
 constexpr int kLastSaveMs = 3000;     ///< the same when the window closes
 
 }  // namespace
@@ -54,7 +54,7 @@ void PictureFiles::save(std::initializer_list<const char*> suffixes) {
     write_unsaved();
 }
 
-/// Frames carry pixel values only on request: until one does, there is nothing to write.
+/// Frames carry pixel values only on request: until one has arrived, there is nothing to write.
 void PictureFiles::write_unsaved() {
     const auto& frame = link_.frame();
     if (!frame->has_values()) {

@@ -50,7 +50,7 @@ private:
     const RenderControls& render_;
     const DisplayControls& display_;
     std::vector<std::filesystem::path> unsaved_;  ///< waiting for a frame with values
-    double deadline_ = 0.0;                       ///< until then, if rendering has failed
+    double deadline_ = 0.0;                       ///< end of the wait if rendering has failed
 };
 
 }  // namespace pl

@@ -24,7 +24,7 @@ public:
 
     /// Renders a reference of the picture, or continues the stored one. Rendering of the picture rests meanwhile.
     void make();
-    /// Its samples so far are stored and used.
+    /// Ends the rendering of the reference; its samples so far are stored and used.
     void stop();
     bool is_making() const { return job_ != nullptr; }
     std::optional<ReferenceJob::Progress> progress() const;

@@ -1,4 +1,4 @@
-// The settings of the rendering as asked for in the window; every change is sent to the render thread as an edit.
+// The settings of the rendering in the window; every change is sent to the render thread as an edit.
 #pragma once
 
 #include <string>
@@ -33,7 +33,7 @@ public:
     void set_field(const FieldSettings& field);
     void set_size(int width, int height);
     void set_forced_effects(FeatureSet forced);
-    /// Goes on from a saved field: its method and settings become those of the rendering, except for the lookup.
+    /// Continues from a saved field: its method and settings become those of the rendering, except for the lookup.
     void adopt_field(const std::shared_ptr<LearnedField>& field);
 
     void set_limits(const SampleLimits& limits);
@@ -44,7 +44,7 @@ public:
     void forget();
     void cancel_precomputation();
 
-    /// The back end asked for last; the one in use is in WorkerStatus.
+    /// The back end requested last; the one in use is in WorkerStatus.
     std::string wanted_backend() const { return link_.worker().wanted_backend(); }
     /// Number of the newest change of back end; 0 before the first.
     std::uint64_t backend_generation() const { return backend_generation_; }

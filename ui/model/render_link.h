@@ -1,4 +1,5 @@
-// The window's end of the render thread: its newest frames and status, what holds it, and two methods in turns.
+// The window's interface to the render thread: its newest frames and status, reasons for it to rest, two methods in
+// turns.
 #pragma once
 
 #include <bitset>
@@ -12,8 +13,8 @@ namespace pl {
 
 class RenderLink {
 public:
-    /// Reasons for rendering to rest. Background work would slow down the passes that are timed, so that rendering
-    /// and its clocks rest during it.
+    /// Reasons for rendering to rest. Background work would slow down timed passes, so rendering and its clocks rest
+    /// during it.
     enum class Hold { User, Reference, Diagnostics, SelfTest };
 
     explicit RenderLink(WorkerSetup setup) : worker_(std::move(setup)), status_(worker_.status()) {}

@@ -14,7 +14,8 @@ public:
     Selection(RenderLink& link, DisplayControls& display, Messages& messages)
         : link_(link), display_(display), messages_(messages) {}
 
-    /// Selects what lies under a point of the image, in [0,1)^2 from the top left; the render thread answers later.
+    /// Selects the surface point under a point of the image, in [0,1)^2 from the top left; the render thread answers
+    /// later.
     void pick(Vec2f image_point) { link_.worker().request_pick(image_point); }
     /// Takes the render thread's answer; once per frame of the window.
     void update();
@@ -28,7 +29,7 @@ public:
     bool take_new_volume();
     /// The point and the volume; the material stays.
     void deselect();
-    /// The volume alone: it may be another one now.
+    /// The volume alone, because its number may be invalid.
     void drop_volume() { select(kNoVolume); }
 
     const std::optional<std::uint32_t>& material() const { return material_; }

@@ -17,7 +17,7 @@ public:
     const SelfTestRun& run() const { return run_; }
     bool& is_shown() { return is_shown_; }  ///< the dialog is open
     bool is_shown() const { return is_shown_; }
-    /// Opens the dialog too.
+    /// Also opens the dialog.
     void start();
     void stop() { run_.stop(); }
 

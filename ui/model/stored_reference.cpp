@@ -6,7 +6,7 @@
 namespace pl {
 namespace {
 
-/// In each half: more than a picture in a window reaches. Making it may be stopped earlier.
+/// Samples in each half: more than a picture in a window reaches. Rendering may be stopped earlier.
 constexpr std::uint32_t kStoredReferenceSpp = 4096;
 
 std::shared_ptr<const StoredReference> to_viewer(const Reference& reference, const SceneDescription& scene,

@@ -9,8 +9,8 @@
 
 namespace pl {
 
-/// The stored reference of exactly this picture; null if there is none with samples in both halves. Throws Error(Input) for
-/// files that are damaged or whose content is not the one that their name says.
+/// The stored reference of exactly this picture; null if there is none with samples in both halves. Throws
+/// Error(Input) for files that are damaged or whose content differs from the one in their name.
 std::shared_ptr<const StoredReference> find_stored_reference(const std::filesystem::path& folder,
                                                              const SceneDescription& scene,
                                                              const RenderSettings& settings);

@@ -22,7 +22,7 @@ private:
     FilmSlot slot_;
     std::string backend_;
     std::uint64_t paths_ = 0;  ///< at the start of the interval
-    double seconds_ = 0.0;     ///< on the render clock, then
+    double seconds_ = 0.0;     ///< on the render clock, at the start of the interval
 };
 
 }  // namespace pl

@@ -17,9 +17,9 @@ public:
     ViewedScene(const ModelServices& services, CameraMotion& camera, Selection& selection,
                 std::shared_ptr<const SceneDescription> scene);
 
-    /// As load_scene takes it.
+    /// Name: the argument of load_scene.
     const std::string& name() const { return name_; }
-    /// As it is rendered, with the edited materials.
+    /// The rendered scene, with the edited materials.
     OpenScene rendered() const { return {name_, link_.status().scene}; }
 
     /// Reads the files again on the helper thread; the camera and the old scene stay until then.
@@ -28,7 +28,7 @@ public:
     void open(const std::string& name) { load(name, false); }
 
     const EditedMaterials& materials() const { return materials_; }
-    /// Material of the surface that was picked last, or chosen from the list.
+    /// Material of the last picked surface, or the one chosen from the list.
     std::optional<std::uint32_t> selected_material() const;
     void select_material(std::uint32_t index);
     /// Refuses invalid values with a message; the old material stays.

@@ -6,7 +6,7 @@
 
 namespace pl {
 
-/// What is drawn in the cells of the selected volume's hemisphere.
+/// The values drawn in the cells of the selected volume's hemisphere.
 struct CellDisplay {
     CellQuantity quantity = CellQuantity::Radiance;
     ColorScale scale = ColorScale::Logarithmic;  ///< a lamp is brighter than all other directions together
@@ -15,7 +15,7 @@ struct CellDisplay {
 /// The plot of the accuracy panel, between frames.
 struct PlotState {
     PlotDrag drag = PlotDrag::None;
-    bool has_wheel = false;  ///< the pointer is over it: the wheel zooms
+    bool has_wheel = false;  ///< the pointer is over it, and the wheel zooms
     Rect frame;              ///< the rectangle of its curves
 };
 
@@ -24,7 +24,7 @@ struct WindowRequests {
     bool full_screen = false;
     bool window_shot = false;
     bool quit = false;
-    bool fit_size = false;  ///< make the picture as large as the window has room for
+    bool fit_size = false;  ///< sets the largest picture that fits into the window
 };
 
 struct WindowState {

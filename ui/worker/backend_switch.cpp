@@ -23,7 +23,7 @@ bool leave(Session& session, const std::shared_ptr<RenderBackend>& next) {
             session.apply(EditBackend{.backend = next, .forget_old = true});
             return true;
         } catch (const std::exception&) {
-            // The old one cannot hand out its tables, or the next one fails: then so does the second try.
+            // The old one cannot return its tables, or the new one fails: then so does the second try.
         }
     }
     session.apply(EditBackend{.backend = next, .abandon_old = true});
@@ -89,7 +89,7 @@ WorkerMessage BackendSwitch::switch_to(Session& session, const std::string& name
         session.apply(EditBackend{.backend = next});
     } catch (const std::exception& error) {
         if (name == kFallback) return take_over(session, error);
-        made_.erase(name);  // made anew next time: its contents are unknown
+        made_.erase(name);  // made anew on the next request: its contents are unknown
         throw;
     }
     adopt(name, next);
@@ -114,7 +114,7 @@ std::shared_ptr<RenderBackend> BackendSwitch::get(const std::string& name) {
     return known != made_.end() ? known->second : std::shared_ptr<RenderBackend>(make_(name));
 }
 
-/// The session is on this back end now. No other is kept: one that failed to take the scene frees its memory.
+/// The session now uses this back end. Only adopted ones are kept: one that fails to take the scene frees its memory.
 void BackendSwitch::adopt(const std::string& name, std::shared_ptr<RenderBackend> backend) {
     BackendChoice known = choice(name);
     known.device = device_text(backend->info());

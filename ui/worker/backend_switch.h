@@ -1,6 +1,5 @@
-// The back ends of one session: each is made when it is first wanted, kept for its return, dropped when it fails, and made
-// anew when it is wanted again.
-// Lives on the render thread.
+// The back ends of one session: each is made on the first request, kept for its return, dropped when it fails, and
+// made anew on the next request. Used by the render thread only.
 #pragma once
 
 #include <exception>
@@ -24,20 +23,22 @@ public:
 
     BackendSwitch(Make make, BackendChoices choices, std::string first);
 
-    /// Name of the back end that the session is on.
+    /// Name of the back end in use.
     const std::string& current() const { return current_; }
     bool on_fallback() const { return current_ == kFallback; }
     /// All back ends with their devices and failures so far.
     std::shared_ptr<const BackendChoices> choices() const { return choices_; }
 
-    /// Takes the session to another back end, with all learned tables; returns the message about it. Throws if the other back
-    /// end is unavailable or fails: then the session is as before, and the next try makes the other one anew.
+    /// Moves the session to another back end, with all learned tables; returns the message about it. Throws if the
+    /// other back end is unavailable or fails: then the session is unchanged, and the next try makes the other one
+    /// anew.
     WorkerMessage switch_to(Session& session, const std::string& name);
-    /// The current back end failed with this error and is dropped: takes the session to the fallback, with the learned
-    /// tables if the failed one still hands them out. Returns the message about it. Throws if the fallback fails, too.
+    /// The current back end failed with this error and is dropped: moves the session to the fallback, with the
+    /// learned tables if the failed one still returns them. Returns the message about it. Throws if the fallback
+    /// fails, too.
     WorkerMessage take_over(Session& session, const std::exception& error);
-    /// Makes the session, on the first back end or else on the fallback; `told` gets the reason then. Throws if there
-    /// is no fallback or if it fails, too.
+    /// Makes the session, on the first back end or else on the fallback; then `told` is called with the reason.
+    /// Throws if there is no fallback or if it fails, too.
     std::unique_ptr<Session>
     start(const std::function<std::unique_ptr<Session>(std::shared_ptr<RenderBackend>)>& make,
           const std::function<void(const WorkerMessage&)>& told);
@@ -58,7 +59,7 @@ private:
 /// False for errors of requests and files, which any back end would report.
 bool is_fault_of_backend(const std::exception& error);
 
-/// "cpu" as people read it: "CPU".
+/// Display name: "CPU" for "cpu".
 std::string back_end_label(const std::string& name);
 /// The text of an error without the name of the back end, which some errors begin with.
 std::string reason_of(const std::exception& error, const std::string& backend);

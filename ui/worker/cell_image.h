@@ -13,9 +13,9 @@ public:
     /// The film of the cells; the volumes are those of all methods.
     static constexpr FilmSlot kSlot{MethodId::Default, View::Voronoi};
 
-    /// Pixels may see other cells now.
+    /// The camera, the size or the volumes have changed: the image is outdated.
     void invalidate() { ++pose_; }
-    /// Does the image show the present volumes from the present camera?
+    /// Whether the image shows the present volumes from the present camera.
     bool is_current(const Session& session) const;
     /// Renders the image anew; false if the pass was stopped.
     bool render(Session& session, const StopFlag* stop);

@@ -1,4 +1,4 @@
-// Edits on their way to the render thread: of each kind, and of each material, only the newest counts.
+// Edits queued for the render thread: of each kind, and of each material, only the newest is kept.
 #pragma once
 
 #include <algorithm>

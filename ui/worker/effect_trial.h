@@ -1,5 +1,5 @@
-// The cost of forcing effects: passes of the picture under way are made by the kernels with and without them in turns.
-// Both give the same bits, so the picture does not depend on it.
+// The cost of forcing effects: passes of the picture under way are rendered in turns by the kernels with and without
+// them. Both give the same bits, so the picture does not depend on the trial.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@ class EffectTrial {
 public:
     explicit EffectTrial(FeatureSet forced) : forced_(forced) {}
 
-    /// Effects that a person forces, apart from a trial.
+    /// Effects forced by the user, apart from a trial.
     FeatureSet forced() const { return forced_; }
     void set_forced(FeatureSet forced) { forced_ = forced; }
 
-    /// Are these the effects whose cost is being measured, or is none?
+    /// Whether the cost of these effects is being measured; without effects, whether no trial runs.
     bool matches(const std::optional<FeatureSet>& wanted) const;
     /// Begins or ends a trial as requested.
     void settle(Session& session, const std::optional<FeatureSet>& wanted);

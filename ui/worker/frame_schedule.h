@@ -1,5 +1,5 @@
-// When the render thread makes a new frame for the window: at a rate that falls with the age of the picture, and at once
-// where the newest frame lacks something that is there.
+// The schedule of new frames for the window: at a rate that falls with the age of the picture, and at once if the
+// newest frame lacks data that is available.
 #pragma once
 
 #include "core/base/timer.h"
@@ -14,16 +14,16 @@ constexpr double frame_interval(double rendered_seconds) {
 
 class FrameSchedule {
 public:
-    /// The newest frame lacks something: the next one is due at once.
+    /// The newest frame lacks data: the next one is due at once.
     void ask() { is_asked_ = true; }
     bool is_asked() const { return is_asked_; }
-    /// Does the window want the same film shown in another way?
+    /// Whether the window requests another display of the same film.
     bool is_stale(const Requests& now) const { return now.display != display_ || (now.values && !has_values_); }
-    /// Does a frame of `passes` follow the last one now? `rendered_seconds` is the age of the picture.
+    /// Whether a frame of `passes` is due now. `rendered_seconds` is the age of the picture.
     bool is_due(std::uint32_t passes, bool is_moving, double rendered_seconds) const;
     bool shows(std::uint32_t passes) const { return passes == passes_; }
 
-    /// Before a frame is made, or its parts: if that fails, it is reported once and not tried for ever.
+    /// Before a frame or its parts are made: a failure is reported once and not tried again.
     void settle(const Requests& now);
     /// The frame is being made.
     void begin() { is_asked_ = false; }

@@ -1,4 +1,4 @@
-// Requests and edits on their way from the window to the render thread, and the flag that interrupts a pass for them.
+// Requests and edits queued by the window for the render thread, and the flag that interrupts a pass for them.
 #pragma once
 
 #include <condition_variable>
@@ -13,12 +13,12 @@ namespace pl {
 
 class Inbox {
 public:
-    /// Which passes a request stops. Passes of a moving camera are always finished: else a hand that never rests would
-    /// never see a picture.
+    /// The passes that a request stops. Passes of a moving camera are always finished: otherwise continuous motion
+    /// would show no picture.
     enum class Interrupts {
         Nothing,
         Pass,       ///< a pass at rest
-        ShownPass,  ///< a pass at rest of a film that has a pass already: another frame of it is wanted
+        ShownPass,  ///< a pass at rest of a film that already has one: another frame of it is requested
     };
 
     explicit Inbox(Requests first) : requests_(std::move(first)) {}
@@ -29,7 +29,7 @@ public:
     std::uint64_t submit(WorkerEdit edit);
     /// Changes the requests; returns their generation.
     std::uint64_t request(const std::function<Interrupts(Requests&)>& change);
-    /// The render thread has to end.
+    /// Requests the end of the render thread.
     void quit();
     std::string wanted_backend() const;
 
@@ -38,14 +38,14 @@ public:
     /// Waits until there are edits or `has_work` of the newest requests, which are copied to `now`. False if the thread has to
     /// end. `has_work` is called with the mutex held.
     bool take(Requests& now, std::vector<WorkerEdit>& edits, const std::function<bool()>& has_work);
-    /// Before a pass: may it be interrupted? If so, requests that arrived since they were taken stop it at once. `backend` is
-    /// the one in use.
+    /// Before a pass: whether it may be interrupted. If so, requests newer than those taken stop it at once.
+    /// `backend` is the one in use.
     void begin_pass(bool may_be_interrupted, const Requests& now, const std::string& backend);
-    /// Set while a pass has to stop.
+    /// Raised while a pass has to stop.
     const StopFlag* stop_flag() const { return &stop_; }
-    /// Does the film under way have a complete pass?
+    /// Whether the film under way has a complete pass.
     void note_film(bool has_pass) { film_has_pass_.store(has_pass, std::memory_order_relaxed); }
-    /// The request for this back end is settled, by whichever is in use now; a newer request stands.
+    /// The request for this back end is settled with the one in use now; a newer request remains.
     void settle_backend(const std::string& asked, const std::string& in_use);
 
 private:

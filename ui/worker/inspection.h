@@ -1,4 +1,4 @@
-// The selected volume as frames show it: read anew after edits, and a few times a second while a method learns.
+// The selected volume as carried by frames: read again after edits, and a few times a second while a method learns.
 #pragma once
 
 #include <memory>
@@ -15,9 +15,9 @@ public:
 
     /// An edit may have changed the field.
     void invalidate() { is_stale_ = true; }
-    /// Is there a reason to read the volume apart from time?
+    /// Whether the volume has to be read for a reason other than time.
     bool wants(std::int32_t volume) const { return is_stale_ || volume != shown(); }
-    /// Reads the hemisphere of a method at the volume if it is due; kNoVolume shows none. True if it was.
+    /// Reads the hemisphere of a method at the volume if it is due; kNoVolume shows none. Returns whether it was due.
     bool refresh(const Session& session, MethodId method, std::int32_t volume);
 
     /// Number of the volume that is shown, or kNoVolume.

@@ -25,13 +25,13 @@ public:
     /// Reads those of the method whose turn it is.
     void count(const Session& session, View view) { count_side(side_, session, view); }
 
-    /// Passes and seconds of the method that decides about limits. Once one method has met a limit, that is the other one,
-    /// until it has had the same time and a pass, and the first-mentioned again afterwards. Empty before.
+    /// Passes and seconds of the method that decides about limits. Once one method has met a limit, the other one
+    /// decides, until it has had the same time and a pass; then the first one again. Empty before.
     std::optional<std::size_t> side_at_limit(const Requests& now) const;
     bool limit_reached(const Requests& now) const;
 
-    /// The side to go on with. While the camera moves that is the first method alone: the picture follows as quickly as
-    /// without turns.
+    /// The side that continues. While the camera moves it is the first method alone: the picture follows as quickly
+    /// as without turns.
     std::size_t next(bool is_moving, const Requests& now);
     std::size_t side() const { return side_; }
     void set_side(std::size_t side) { side_ = side; }

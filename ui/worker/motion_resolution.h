@@ -1,4 +1,4 @@
-// The divider of the picture's size while the camera moves, so that frames keep up with the hand.
+// The divider of the picture's size while the camera moves, which keeps up the frame rate.
 #pragma once
 
 namespace pl {

@@ -1,4 +1,4 @@
-// The results of the render thread on their way to the window: the newest frame, status, runs, messages and answers.
+// Results of the render thread for the window: the newest frame, status, runs, messages and answers.
 #pragma once
 
 #include <atomic>
@@ -31,7 +31,7 @@ public:
 
     /// Numbers the frame and puts it in the place of the last one.
     void publish(std::shared_ptr<PublishedFrame> frame);
-    /// Has the window seen the newest frame?
+    /// Whether the window has taken the newest frame.
     bool is_frame_taken() const;
     void set_status(const WorkerStatus& status);
     void set_runs(std::shared_ptr<const LiveRunSet> runs);
@@ -39,7 +39,7 @@ public:
     void answer(PickAnswer answer);
     void answer(LearnedAnswer answer);
     void answer(DiagnosticsAnswer answer);
-    /// The thread ends with this error.
+    /// The error that ended the thread.
     void fail(std::exception_ptr failure);
 
 private:

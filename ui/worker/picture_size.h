@@ -1,4 +1,4 @@
-// The size of the film that is rendered: that of the picture at rest, and coarser while the camera moves.
+// The size of the rendered film: that of the picture at rest, and coarser while the camera moves.
 #pragma once
 
 #include "core/session/session.h"
@@ -17,16 +17,16 @@ public:
     int divider() const { return divider_; }
     bool is_whole() const { return divider_ == 1; }
 
-    /// Is the picture coarse: while the camera moves, and until a frame has shown the place where it came to rest?
+    /// Whether the picture is coarse: while the camera moves, and until a frame has shown its final position.
     bool is_coarse(const Requests& now) const { return now.low_resolution && (now.moving || is_unseen_); }
     void move_camera() { is_unseen_ = true; }
     void note_frame() { is_unseen_ = false; }
 
-    /// Another size at rest, which the next apply() takes to the session.
+    /// Sets another size at rest; the next apply() gives it to the session.
     void resize(int width, int height);
     /// Gives the session the size for a picture that is coarse or not; true if its films were emptied.
     bool apply(Session& session, bool is_coarse);
-    /// A pass took this long: decides how coarse the next motion begins.
+    /// Observes the seconds of a pass, which decide how coarse the next motion begins.
     void observe(double seconds) { motion_.observe(divider_, seconds); }
     /// The cost of a pass is unknown again.
     void forget_cost() { motion_.reset(); }
@@ -35,7 +35,7 @@ private:
     int width_;
     int height_;
     int divider_ = 1;
-    bool is_unseen_ = false;  ///< no frame shows the place of the camera yet
+    bool is_unseen_ = false;  ///< no frame shows the present camera yet
     MotionResolution motion_;
 };
 

@@ -1,4 +1,4 @@
-// The data that the render thread passes to the window: immutable once published, shared by reference.
+// The data passed from the render thread to the window: immutable after publishing, shared by reference.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace pl {
 
-/// Which radiance volume serves each pixel, as display colors of color_of_id(); see ui/worker/cell_colors.h.
+/// The radiance volume that serves each pixel, as display colors of color_of_id(); see ui/worker/cell_colors.h.
 struct CellImage {
     int width = 0;
     int height = 0;
@@ -24,7 +24,7 @@ struct CellImage {
 };
 
 struct PublishedFrame {
-    DisplayFrame picture;  ///< the film in 8 bits, by `display`; may still be on its way
+    DisplayFrame picture;  ///< the film in 8 bits, by `display`; may still be in transfer
     DisplaySettings display;
     Snapshot snapshot;             ///< with pixels only if has_values()
     RenderSettings settings;       ///< with the width and height of the full picture
@@ -36,10 +36,10 @@ struct PublishedFrame {
     std::shared_ptr<const HostScene> scene;
     float diagonal = 0.0f;                           ///< of the scene's bounds
     ShownRange range;                                ///< of the snapshot
-    std::shared_ptr<const CellImage> cells;          ///< null if not asked for, or of another camera pose
+    std::shared_ptr<const CellImage> cells;          ///< null if not requested, or of another camera pose
     std::shared_ptr<const VolumeInspection> volume;  ///< of the selected volume; null if there is nothing to show
 
-    /// Does the snapshot have the values of the film?
+    /// Whether the snapshot has the values of the film.
     bool has_values() const { return !snapshot.pixels.empty(); }
 };
 
@@ -80,7 +80,7 @@ struct WorkerStatus {
     std::shared_ptr<const BackendChoices> backends;  ///< never null
 };
 
-/// A message for the person at the window.
+/// A message for the user.
 struct WorkerMessage {
     bool is_error = false;
     std::string text;

@@ -7,7 +7,7 @@
 namespace pl {
 namespace {
 
-/// Changed settings that tell one run of a method from another on the same picture.
+/// Changed settings that distinguish runs of a method on the same picture.
 std::string details_of(const Session& session, FilmSlot slot) {
     const RenderSettings& settings = session.settings();
     const RenderSettings standard;

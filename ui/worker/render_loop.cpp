@@ -8,14 +8,14 @@
 namespace pl {
 namespace {
 
-/// The window comes first where cores are few. On Linux this is about the calling thread, and threads that the back
-/// end starts from it inherit it.
+/// Lowers the priority below that of the window, for machines with few cores. On Linux it applies to the calling
+/// thread, and threads that the back end starts inherit it.
 void yield_to_the_window() {
     constexpr int kNice = 3;
     (void)setpriority(PRIO_PROCESS, 0, kNice);
 }
 
-/// May pixels see other cells after the edit?
+/// Whether the edit may change the cells that pixels show.
 bool changes_cells(const WorkerEdit& edit) {
     return find_edit<EditCamera>(edit) || find_edit<EditScene>(edit) || find_edit<EditField>(edit) ||
            find_edit<EditLearned>(edit) || find_edit<EditMaterial>(edit);
@@ -117,11 +117,11 @@ void RenderLoop::apply(const WorkerEdit& edit) {
     if (const auto* change = std::get_if<SessionEdit>(&edit)) apply(*change);
 }
 
-/// May be done twice, if a back end fails in between.
+/// May run twice, if a back end fails in between.
 void RenderLoop::apply(const SessionEdit& edit) {
     if (const auto* scene = std::get_if<EditScene>(&edit)) diagonal_ = bounds_of(*scene->scene).diagonal();
     if (const auto* size = std::get_if<EditSize>(&edit)) {
-        size_.resize(size->width, size->height);  // work() takes it to the session
+        size_.resize(size->width, size->height);  // work() gives it to the session
         return;
     }
     session_->apply(edit);
@@ -146,7 +146,7 @@ void RenderLoop::work() {
     if (frames_.is_asked() || is_publishing_due()) publish();
 }
 
-/// Changes sides when the other's turn has come. The picture of the last one is shown before.
+/// Changes sides when the other's turn has come, after a frame of the last one.
 void RenderLoop::take_turn() {
     const std::size_t side = turns_->next(is_coarse(), now_);
     if (side == turns_->side()) return;
@@ -193,7 +193,7 @@ void RenderLoop::refresh_inspection() {
 
 bool RenderLoop::wants_pass() const {
     if (failed_) return false;
-    // Also a paused picture follows the camera: one pass for every view of the scene.
+    // The picture follows the camera also while paused: one pass for every view of the scene.
     if (passes() == 0 || now_.once.steps > 0) return true;
     return !now_.paused && !limit_reached();
 }
@@ -210,7 +210,7 @@ bool RenderLoop::is_publishing_due() const {
 }
 
 void RenderLoop::publish() {
-    // Until the first pass is there the window keeps the picture it has.
+    // Until the first pass is complete the window keeps its last picture.
     if (passes() == 0) return;
     frames_.settle(now_);
     frames_.begin();

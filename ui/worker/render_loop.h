@@ -1,5 +1,5 @@
-// The render thread's side of RenderWorker: owns the session and renders it piece by piece, as the requests in the inbox ask
-// for, with frames, status and answers into the outbox.
+// The render thread's side of RenderWorker: owns the session and renders it piece by piece, by the requests in the
+// inbox, with frames, status and answers into the outbox.
 #pragma once
 
 #include "ui/worker/backend_switch.h"
@@ -30,7 +30,7 @@ class RenderLoop {
 public:
     RenderLoop(const WorkerSetup& setup, Inbox& inbox, Outbox& outbox);
 
-    /// Until the inbox tells to end, or the session cannot be made.
+    /// Runs until the inbox requests the end, or the session cannot be made.
     void run(const WorkerSetup& setup);
 
 private:
@@ -59,7 +59,7 @@ private:
     void backend_changed();
     void settle_backend(const std::string& asked);
 
-    /// The film that is rendered now, and the method that answers and inspections are about.
+    /// The film under way, and the method of answers and inspections.
     FilmSlot slot() const { return {turns_ ? turns_->method() : shown_.method, shown_.view}; }
     MethodId asked_method() const { return turns_ ? turns_->first() : shown_.method; }
     std::uint32_t passes() const { return session_->passes(slot()); }
@@ -72,7 +72,7 @@ private:
     Outbox& outbox_;
     BackendSwitch backends_;
     std::unique_ptr<Session> session_;
-    Requests now_;    ///< when they were last taken
+    Requests now_;    ///< as last taken
     FilmSlot shown_;  ///< method and view of the window, apart from turns
     PictureSize size_;
     std::optional<MethodTurns> turns_;

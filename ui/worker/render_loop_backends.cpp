@@ -5,8 +5,8 @@
 
 namespace pl {
 
-/// Does a step. If a back end fails in it, another takes over and does it again. False if the step cannot be done: then the
-/// reason is reported.
+/// Runs a step. If a back end fails in it, another takes over and repeats it. False, with a message about the reason,
+/// if the step cannot be done.
 bool RenderLoop::attempt(const std::function<void()>& step) {
     for (;;) {
         try {
@@ -22,7 +22,7 @@ bool RenderLoop::attempt(const std::function<void()>& step) {
     }
 }
 
-/// Messages come last: whoever reads one sees the state that it tells of.
+/// Messages come last: the state that they report is visible before them.
 void RenderLoop::change_backend() {
     const std::string wanted = now_.backend;
     WorkerMessage message;
@@ -61,7 +61,7 @@ void RenderLoop::backend_changed() {
     update_status();
 }
 
-/// The request for this back end is settled, by whichever is in use now.
+/// The request for this back end is settled with the one in use now.
 void RenderLoop::settle_backend(const std::string& asked) {
     inbox_.settle_backend(asked, backends_.current());
     if (now_.backend == asked) now_.backend = backends_.current();

@@ -1,5 +1,5 @@
-// The render thread as the window sees it. The window sends edits and requests, and takes published frames.
-// Every public function may be called from any thread and returns at once.
+// The window's interface to the render thread: the window sends edits and requests, and takes published frames. Every
+// public function may be called from any thread and returns at once.
 #pragma once
 
 #include <thread>
@@ -17,10 +17,10 @@ public:
 
     /// Queues an edit and returns its number: frames that show it have at least this generation.
     std::uint64_t submit(WorkerEdit edit) { return inbox_.submit(std::move(edit)); }
-    /// Asks for another back end; returns a number like submit(). Where it cannot be used, a message tells the reason, and
-    /// all stays as it is.
+    /// Requests another back end; returns a number like submit(). If it cannot be used, a message reports the reason,
+    /// and nothing changes.
     std::uint64_t switch_backend(const std::string& name);
-    /// The back end that was asked for last, or the one in use if that could not be used.
+    /// The back end requested last, or the one in use if that could not be used.
     std::string wanted_backend() const { return inbox_.wanted_backend(); }
     /// While the camera moves, pictures may be coarse; afterwards they are complete again.
     void set_moving(bool moving);
@@ -33,7 +33,7 @@ public:
     void set_display(const DisplaySettings& display);
     /// Whether frames carry the values of the film, which take time to fetch from a device.
     void set_values_wanted(bool wanted);
-    /// The reference that runs of the same picture are measured against from now on; null for none.
+    /// The reference for runs of the same picture from now on; null for none.
     void set_reference(std::shared_ptr<const LiveReference> reference);
     /// Lets two methods render in turns of equal charged time; empty ends it.
     void set_turns(std::optional<TurnMethods> methods);
@@ -41,11 +41,11 @@ public:
     void measure_effects(std::optional<FeatureSet> forced);
     /// Whether frames carry the image of the volumes' cells.
     void set_cells_wanted(bool wanted);
-    /// Asks for the surface under a point of the image, in [0,1)^2 from the top left.
+    /// Requests the surface under a point of the image, in [0,1)^2 from the top left.
     void request_pick(Vec2f image_point);
-    /// Asks for the learned field of the method, after the pass under way.
+    /// Requests the learned field of the method, after the pass under way.
     void request_learned();
-    /// Asks for the input of find_diagnostics(), after the pass under way.
+    /// Requests the input of find_diagnostics(), after the pass under way.
     void request_diagnostics();
     /// The volume whose inspection frames carry; kNoVolume for none.
     void select_volume(std::int32_t volume);
@@ -68,7 +68,7 @@ private:
     Inbox inbox_;
     Outbox outbox_;
     RenderLoop loop_;     ///< only the render thread touches it
-    std::thread thread_;  ///< last: starts when all else is there
+    std::thread thread_;  ///< last: starts after all other members are made
 };
 
 }  // namespace pl

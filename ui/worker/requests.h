@@ -1,5 +1,5 @@
-// The requests of the window to the render thread: a state that holds until it is changed, and questions that are answered
-// once.
+// The requests of the window to the render thread: state that holds until it is changed, and requests that are
+// answered once.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace pl {
 
-/// Requests that are done with when they were carried out once.
+/// Requests that are complete once carried out.
 struct OneShotRequests {
     int steps = 0;              ///< passes while paused
     std::optional<Vec2f> pick;  ///< point of the image, in [0,1)^2 from the top left
@@ -30,13 +30,13 @@ struct Requests {
     SampleLimits limits{};
     std::int32_t volume = kNoVolume;  ///< selected for inspection
     std::optional<TurnMethods> turns{};
-    std::optional<FeatureSet> trial{};  ///< effects of which the cost is measured
+    std::optional<FeatureSet> trial{};  ///< effects whose cost is measured
     std::shared_ptr<const LiveReference> reference{};
     std::string backend{};
     std::uint64_t generation = 0;  ///< number of edits and switches of back ends so far
     OneShotRequests once{};
 
-    /// Has a film of so many passes and seconds reached a limit?
+    /// Whether a film of this many passes and seconds has reached a limit.
     bool is_enough(std::uint32_t passes, double seconds) const {
         return (limits.spp > 0 && passes >= limits.spp) || (limits.seconds > 0.0 && seconds >= limits.seconds);
     }

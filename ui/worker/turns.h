@@ -1,4 +1,4 @@
-// Which of two methods renders next, where they share a machine in turns of equal time.
+// The order of two methods that share a machine in turns of equal time.
 #pragma once
 
 #include <array>
@@ -6,13 +6,13 @@
 
 namespace pl {
 
-/// Order A, B, B, A, so that a clock or a machine that drifts affects both alike. The turns equalize charged time: a
-/// pass that takes longer than a turn is paid for with later ones.
+/// Order A, B, B, A, so that a drifting clock or machine affects both alike. The turns equalize charged time: a pass
+/// longer than a turn shortens later ones.
 class Turns {
 public:
     explicit Turns(double turn_seconds) : turn_seconds_(turn_seconds) {}
 
-    /// The side to go on with, 0 or 1, given the seconds that each was charged so far. The side that is behind at first
+    /// The side that continues, 0 or 1, given the seconds charged to each so far. The side that is behind at first
     /// catches up before turns begin; so it does again after a side starts over.
     std::size_t next(const std::array<double, 2>& charged_seconds);
 

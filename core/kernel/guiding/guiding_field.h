@@ -9,22 +9,22 @@
 
 namespace pl {
 
-/// A training sample whose target is not known yet: kept by a path between scattering and the next vertex.
+/// A training sample whose target is unknown until the next vertex; the path keeps it from scattering to there.
 template <class Field>
 struct OpenSample {
     typename Field::Entry entry{};
     float bsdf_ratio = 1.0f;  ///< p_bsdf / q of the direction, q the density it was sampled with
-    float distance = 0.0f;    ///< along the direction to the surface hit, scene units; 0 if it is not traced yet
+    float distance = 0.0f;    ///< along the direction to the surface hit, scene units; 0 before the segment is traced
 };
 
-/// One observation of incident radiance, on its way into a field's pending sums.
+/// One observation of incident radiance, to be added to a field's pending sums.
 template <class Field>
 struct TrainingSample : OpenSample<Field> {
     float target = 0.0f;  ///< incident radiance, luminance
 };
 
-/// What kernels need of a field while paths are traced. All operations but record() and add() are constant between two
-/// updates; these two may be called by any thread in any order and have to give the same sums.
+/// The operations of a field that kernels call while paths are traced. All but record() and add() are constant
+/// between two updates; these two may be called by any thread in any order and have to give the same sums.
 ///   Location                   the part of the field that serves a surface point (a volume); default: none, is_served() false
 ///   Entry                      the part of the field that a direction trains (a cell); default: none, is_trained() false
 ///   locate(surface)            the location of a surface point
@@ -55,11 +55,12 @@ concept GuidingField = std::is_trivially_copyable_v<Field> && std::default_initi
     { field.is_clamped(float{}) } -> std::same_as<bool>;
 };
 
-/// A field that also knows its radiance in single directions, as the targets of Sarsa need.
+/// A field that also returns its radiance in single directions, for the targets of Sarsa.
 template <class Field>
 concept RadianceField = GuidingField<Field> &&
     requires(const Field& field, const typename Field::Location& location) {
-    /// Incident radiance (luminance) in the direction of DirectionSample::bin; value_at() if nothing is known of it.
+    /// Incident radiance (luminance) in the direction of DirectionSample::bin; value_at() before the first training
+    /// sample of that direction.
     { field.radiance_at(location, std::int32_t{}) } -> std::same_as<float>;
 };
 

@@ -27,9 +27,9 @@ struct MixtureSettings {
 inline constexpr float kMixtureStepsPerUnit = 65536.0f;
 inline constexpr float kMaxMixtureWeight = 64.0f;
 
-/// Weight of a training sample for the BSDF fraction and the reach: f L cos / q up to a factor that is the same for all
-/// samples of the volume, clamped. `bsdf_ratio` is p_bsdf / q of the direction, `radiance` the target. 0 without radiance, or
-/// if the volume expects none.
+/// Weight of a training sample for the BSDF fraction and the reach: f L cos / q up to a factor that is the same for
+/// all samples of the volume, clamped. `bsdf_ratio` is p_bsdf / q of the direction, `radiance` the target. 0 without
+/// radiance, or if the mean radiance of the volume is 0.
 PL_HD inline float light_weight(const TableView& field, std::int32_t volume, float bsdf_ratio, float radiance) {
     const float expected = field.mean_radiance[static_cast<std::uint32_t>(volume)];
     if (!(expected > 0.0f) || !(radiance > 0.0f)) return 0.0f;
@@ -49,8 +49,8 @@ PL_HD inline void record_mixture(const TableView& field, std::int32_t volume, fl
     atomic_add(field.pending_curvature[index], static_cast<std::int64_t>(curvature), field.writers);
 }
 
-/// Moves a volume's fraction to the mean of the Newton steps so far, weighted by curvature and recency: early steps rest on
-/// worse tables.
+/// Moves a volume's fraction to the mean of the Newton steps so far, weighted by curvature and recency: early steps
+/// are based on worse tables.
 PL_HD inline void move_mixture(const TableUpdateView& field, std::uint32_t volume) {
     constexpr float kKept = 0.9f;             // weight of the older steps, per update with training samples
     constexpr float kPriorCurvature = 32.0f;  // weight of the initial fraction: that of about thirty training samples

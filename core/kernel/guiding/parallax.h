@@ -1,7 +1,7 @@
-// Parallax: one table serves all points around its volume, and each of them sees the same light in another direction. All
-// incident radiance is assumed to come from a sphere around the volume's site: a direction at a point maps to the direction
-// from the site to the intersection of the point's ray with that sphere. The map is a bijection for every point inside, so
-// densities stay exact for any radius; a wrong radius costs variance, not bias.
+// Parallax: one table serves all points around its volume, and each of them receives the same light from another
+// direction. All incident radiance is assumed to come from a sphere around the volume's site: a direction at a point
+// maps to the direction from the site to the intersection of the point's ray with that sphere. The map is a bijection
+// for every point inside, so densities stay exact for any radius; a wrong radius costs variance, not bias.
 // [after Ruppert et al. 2020, "Robust Fitting of Parallax-Aware Mixtures for Path Guiding"]
 #pragma once
 

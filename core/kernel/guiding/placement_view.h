@@ -1,5 +1,5 @@
-// The radiance volumes as kernels see them: where each stands, and the search structures that find the one that serves a
-// point. Representations that keep one hemisphere per volume share it.
+// The placement of the radiance volumes as kernels read it: positions, normals, and the search structures for the
+// volume that serves a point. Shared by all representations that keep one hemisphere per volume.
 #pragma once
 
 #include "core/kernel/base/frame.h"

@@ -8,8 +8,8 @@ namespace pl {
 
 /// Distances are in units of the extent, the diagonal of the scene's bounds, and clamped to this; so are rays that miss.
 inline constexpr float kMostDistance = 1.0f;
-/// Radius per mean distance: a sphere too small distorts directions more than one too large. Measured from 1 to 2, see
-/// docs/learning.md.
+/// Radius per mean distance: too small a sphere distorts directions more than too large a one. Measured from 1 to 2,
+/// see docs/notebook/2026-11-21-parallax.md.
 inline constexpr float kReachPerDistance = 1.5f;
 /// Prior of the mean distance, and its weight in training samples.
 inline constexpr float kUnknownDistance = 1.0f / 3.0f;

@@ -1,5 +1,5 @@
-// The arrays of a field of tables, named once for files, host memory, device memory and kernels.
-// core/fields/table_model.h says how long each is, how it begins and what happens to it when a volume is split.
+// The arrays of a field of tables, named once for files, host memory, device memory and kernels. Their lengths,
+// initial values and division when a volume is split are in core/fields/table_model.h.
 #pragma once
 
 #include <cstdint>

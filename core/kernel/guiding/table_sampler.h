@@ -1,5 +1,5 @@
-// Directions from the tables of volumes as seen from the points that these serve, and the one-sample mixture of table and BSDF,
-// for one path or for a vector of paths in lanes.
+// Sampling directions at surface points from the tables of the volumes that serve them, and the one-sample mixture of
+// table and BSDF, for one path or for a vector of paths in lanes.
 #pragma once
 
 #include "core/kernel/base/frame.h"
@@ -8,7 +8,8 @@
 
 namespace pl {
 
-/// A point on a surface and the volume that serves it; any finite numbers but `volume` if none does.
+/// A surface point and the volume that serves it; without a volume all members but `volume` are arbitrary finite
+/// numbers.
 template <class N>
 struct ServedPoint {
     typename N::Int volume;  ///< kNoVolume if none serves it
@@ -17,7 +18,7 @@ struct ServedPoint {
     Real3<N> position;
 };
 
-/// A served point with the rest that its mixture depends on.
+/// A served point with the other parameters of its mixture.
 template <class N>
 struct MixturePoint {
     ServedPoint<N> served;

@@ -6,8 +6,9 @@
 
 namespace pl {
 
-/// The learning rate. With N training samples in a cell and m new ones the learned radiance moves towards the mean of the new
-/// ones by a step that depends on s = m/(N+m), one over the number n of batches of this size. The values are those of files.
+/// The learning rate. With N training samples in a cell and m new ones the learned radiance moves towards the mean of
+/// the new ones by a step that depends on s = m/(N+m), one over the number n of batches of this size. Files store
+/// these numbers.
 enum class LearningRate : std::uint32_t {
     SampleMean = 1,  ///< s, the rate 1/(1+visits) of Dahm and Keller 2017: the mean of all targets
     /// s^0.7, the polynomial rate n^-0.7: between 1/2, where noise would stay, and 1   [Even-Dar and Mansour 2003]
@@ -20,7 +21,8 @@ enum class LearningRate : std::uint32_t {
 inline constexpr float kLeastStep = 0.05f;
 inline constexpr float kPowerRate = 0.7f;
 
-/// Uniform share of a table's probabilities: no cell is impossible, and unseen light has bounded weight.
+/// Uniform share of a table's probabilities: every cell has a positive one, which bounds the weight of light that no
+/// training sample has found.
 inline constexpr float kUniformShare = 0.1f;
 
 /// All arrays of a table, to be written.

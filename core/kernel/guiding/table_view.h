@@ -1,5 +1,5 @@
-// A field of tables as kernels see it while paths are traced: constant sampling tables, and the pending sums that training
-// samples are added to. core/fields owns the memory.
+// A field of tables as kernels read it while paths are traced: constant sampling tables, and the pending sums that
+// training samples are added to. core/fields owns the memory.
 #pragma once
 
 #include "core/kernel/base/atomics.h"

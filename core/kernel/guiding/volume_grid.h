@@ -1,6 +1,6 @@
-// Finds the volume that serves a point of a triangle in a few loads: the triangle's side, or the cell of the grid on
-// it, names the few volumes that can be nearest there. Same answer as the searches of volume_lookup.h for every point
-// that make_surface_point() makes; core/fields/volume_grid.h builds it and says why.
+// Lookup of the volume that serves a point of a triangle in a few loads: the triangle's side, or the cell of the grid
+// on it, lists the few volumes that can be nearest there. Returns the same volume as the searches of volume_lookup.h
+// for every point of make_surface_point(). Built by core/fields/volume_grid.h, which gives the conditions.
 #pragma once
 
 #include <bit>
@@ -10,13 +10,13 @@
 
 namespace pl {
 
-/// What is known of the side of a triangle, or of a point on it: a kind in the two highest bits, a number below.
+/// The entry of a triangle's side, or of a point on it: a kind in the two highest bits, a number below.
 class VolumePlace {
 public:
     enum class Kind : std::uint32_t {
-        Node,    ///< always the volume of this tree node; the largest number says none
-        Cell,    ///< the nearest of this cell
-        Grid,    ///< look into this grid
+        Node,    ///< the volume of this tree node serves all points; kNone: no volume does
+        Cell,    ///< the nearest volume of this cell
+        Grid,    ///< the cell of this grid that holds the point
         Search,  ///< search the tree
     };
     static constexpr std::uint32_t kNumberBits = 30;
@@ -33,7 +33,8 @@ private:
     std::uint32_t word_ = 0;
 };
 
-/// The volumes that can be nearest in a cell, as numbers of tree nodes: up to three in the cell itself, or a list.
+/// The volumes that can be nearest to a point of a cell, as numbers of tree nodes: up to three in the word itself, or
+/// a list.
 class VolumeCell {
 public:
     static constexpr int kMostNodes = 3;
@@ -42,10 +43,10 @@ public:
 
     /// Search the tree.
     VolumeCell() = default;
-    /// Of these. Fewer than three are given with the last one repeated; none above kMaxNode.
+    /// A cell of these nodes. Fewer than three are given with the last one repeated; none above kMaxNode.
     PL_HD constexpr VolumeCell(std::uint32_t a, std::uint32_t b, std::uint32_t c)
         : word_(a | std::uint64_t{b} << kNodeBits | std::uint64_t{c} << 2 * kNodeBits) {}
-    /// Of the list that starts at this entry.
+    /// A cell of the list that starts at this entry.
     static PL_HD constexpr VolumeCell list(std::uint32_t first) {
         VolumeCell cell;
         cell.word_ = kIsList | first;
@@ -59,7 +60,7 @@ public:
         return static_cast<std::uint32_t>(word_ >> (i * kNodeBits)) & kMaxNode;
     }
     PL_HD constexpr std::uint32_t first_of_list() const { return static_cast<std::uint32_t>(word_); }
-    /// The same for equal cells only.
+    /// Equal for equal cells only.
     PL_HD constexpr std::uint64_t word() const { return word_; }
 
 private:
@@ -80,7 +81,7 @@ struct SideGrid {
     std::uint32_t rows;
 };
 
-/// Entries of lists are numbers of tree nodes, by ascending volume; the last one is marked.
+/// Entries of lists are numbers of tree nodes, by ascending volume; this bit marks the last one.
 inline constexpr std::uint32_t kLastOfList = 0x80000000u;
 
 struct VolumeGridView {
@@ -89,7 +90,7 @@ struct VolumeGridView {
     Span<const VolumeCell> cells;
     Span<const std::uint32_t> lists;
 
-    /// A node, a cell, or search: nothing is read of either.
+    /// Kind Node, Cell or Search. Reads neither nodes nor cells.
     PL_HD VolumePlace place_of(std::uint32_t primitive, bool front, Vec3f position) const {
         const std::uint32_t triangles = sides.count / 2;
         if (primitive >= triangles) return {VolumePlace::Kind::Search, 0};
@@ -107,7 +108,7 @@ struct VolumeGridView {
     }
 };
 
-/// The volume that serves a point, and the tree node that holds its place and normal if that is known at no cost.
+/// The volume that serves a point, and the tree node that holds its position and normal, if the lookup read it.
 struct FoundVolume {
     static constexpr std::uint32_t kUnknown = 0xffffffffu;
 
@@ -115,8 +116,8 @@ struct FoundVolume {
     std::uint32_t node = kUnknown;
 };
 
-/// The nearest so far, in one word: the squared distance above the number, so that the smaller word is nearer, and of equal
-/// distances the lower number. A distance that is not finite is further than none.
+/// The nearest volume so far, in one word: the squared distance above the number, so that the smaller word is nearer,
+/// and of equal distances the lower number. Distances that are not finite never win.
 class NearestWord {
 public:
     PL_HD void consider(const KdTreeView& tree, std::uint32_t number, Vec3f position) {
@@ -129,11 +130,11 @@ public:
     PL_HD FoundVolume found() const { return {static_cast<std::int32_t>(static_cast<std::uint32_t>(word_)), node_}; }
 
 private:
-    std::uint64_t word_ = (std::uint64_t{std::bit_cast<std::uint32_t>(kInfinity)} << 32) - 1;  ///< says kNoVolume
+    std::uint64_t word_ = (std::uint64_t{std::bit_cast<std::uint32_t>(kInfinity)} << 32) - 1;  ///< number kNoVolume
     std::uint32_t node_ = FoundVolume::kUnknown;
 };
 
-/// The nearest of a cell that is not to be searched.
+/// The nearest volume of a cell that has nodes or a list.
 PL_HD inline FoundVolume nearest_of_cell(const KdTreeView& tree, Span<const std::uint32_t> lists, VolumeCell cell,
                                          Vec3f position) {
     NearestWord nearest;
@@ -147,7 +148,7 @@ PL_HD inline FoundVolume nearest_of_cell(const KdTreeView& tree, Span<const std:
     }
 }
 
-/// What a grid knows of a place: what serves a position there, or that the tree has to be searched.
+/// Result of a lookup in a grid; without is_known the tree has to be searched.
 struct GridAnswer {
     FoundVolume found;
     bool is_known = false;

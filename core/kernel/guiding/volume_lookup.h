@@ -1,5 +1,6 @@
-// Which radiance volume serves a surface point: the nearest whose normal agrees; ties go to the lowest number.
-// All searches give the same answer for every input, which tests prove. The grid is in volume_grid.h.
+// Lookup of the radiance volume that serves a surface point: the nearest with an agreeing normal; ties go to the
+// lowest number. All searches return the same volume for every input, which tests assert. The grid is in
+// volume_grid.h.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace pl {
 
 inline constexpr std::int32_t kNoVolume = -1;
 
-/// How the nearest volume is searched. The answer is the same, the time is not.
+/// Search structure of the lookup. All find the same volume, in different times.
 enum class Lookup : std::uint32_t { KdTree, Linear, Grid };
 
 /// Cosine of the largest angle between the normals of a surface point and of the volume that serves it.
@@ -43,7 +44,7 @@ PL_HD inline float squared_distance(Vec3f a, Vec3f b) {
 
 PL_HD inline bool normals_agree(Vec3f a, Vec3f b) { return glm::dot(a, b) > kMinNormalCosine; }
 
-/// The order of candidates: nearer first, then the lower number, whatever the order of the search.
+/// The order of candidates: nearer first, then the lower number; it does not depend on the order of the search.
 PL_HD inline bool is_nearer(float d2, std::int32_t volume, float other_d2, std::int32_t other_volume) {
     return d2 < other_d2 || (d2 == other_d2 && volume < other_volume);
 }
@@ -87,8 +88,8 @@ struct NearestSeveral {
     PL_HD float limit() const { return found == Count ? distance2[Count - 1] : kInfinity; }
 };
 
-/// Offers to `result` every volume that may belong to it. Subtrees are skipped only if they lie strictly beyond
-/// the limit, so that ties are seen: the plane distance never exceeds the computed distance of a point behind it,
+/// Offers to `result` every volume that may belong to it. Subtrees are skipped only if they lie strictly beyond the
+/// limit, so that ties are not missed: the plane distance never exceeds the computed distance of a point behind it,
 /// because subtraction, multiplication and addition of non-negative numbers round monotonically.
 template <class Result>
 PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f normal, Result& result) {
@@ -119,13 +120,13 @@ PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f n
     }
 }
 
-/// Offers every volume to `result`: the reference of the tests, and what a tree has to beat.
+/// Offers every volume to `result`: the reference for the tests and timings of the tree.
 template <class Result>
 PL_HD inline void search_all(const KdTreeView& tree, Vec3f position, Vec3f normal, Result& result) {
     for (std::uint32_t i = 0; i < tree.nodes.count; ++i) result.consider(tree.nodes[i], position, normal);
 }
 
-/// The volume that serves a point of which only position and normal are known, or kNoVolume.
+/// The volume that serves a point given by position and normal alone, or kNoVolume.
 PL_HD inline std::int32_t find_volume(const KdTreeView& tree, Vec3f position, Vec3f normal) {
     Nearest nearest;
     if (tree.lookup == Lookup::Linear)

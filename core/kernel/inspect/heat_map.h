@@ -44,7 +44,7 @@ struct TableVolumeSummary {
         for (int row = 0; row < field.cells.side; ++row)
             for (int column = 0; column < field.cells.side; ++column) {
                 const float p = table.cell_probability(column, row);
-                // Smaller ones add less than any sum here resolves.
+                // Smaller probabilities add less than the resolution of this sum.
                 if (p >= std::numeric_limits<float>::min()) bits -= p * log2_normal(p);
             }
         return bits;

@@ -38,7 +38,7 @@ PL_HD inline Vec3f color_of_id(std::uint32_t id) {
            0.85f * Vec3f{to_unit_float(block.v[0]), to_unit_float(block.v[1]), to_unit_float(block.v[2])};
 }
 
-/// The part of a field that views show: any representation that keeps numbers per volume.
+/// The part of a field that views show, for any representation that keeps numbers per volume.
 struct ShownField {
     PlacementView placement;
     /// Heat maps: volume_value(); View::RadianceMap: irradiance / pi (luminance); other views: empty. [volume]
@@ -52,7 +52,7 @@ PL_HD inline Vec3f shown_volume(View view, const ShownField& shown, std::int32_t
     return is_heat_map(view) ? Vec3f{shown.volume_values[number]} : color_of_id(number);
 }
 
-/// The first surface that a pixel sees.
+/// The first surface seen through a pixel.
 struct FirstSurface {
     SurfacePoint point;
     Vec3f weights{0.0f};  ///< barycentric
@@ -95,14 +95,14 @@ PL_HD inline float interpolated_mean_radiance(const ShownField& shown, const Sur
     float weight_sum = 0.0f;
     for (int i = 0; i < nearest.found; ++i) {
         const float ratio = reach > 0.0f ? std::sqrt(nearest.distance2[i]) / reach : 0.0f;
-        const float weight = square(1.0f - ratio) + 1.0e-6f;  // the last one alone must not divide by zero
+        const float weight = square(1.0f - ratio) + 1.0e-6f;  // keeps the sum positive if there is only one volume
         sum += weight * shown.volume_values[static_cast<std::uint32_t>(nearest.volume[i])];
         weight_sum += weight;
     }
     return sum / weight_sum;
 }
 
-/// What the samples of a view of one pass have in common.
+/// The parameters common to all samples of a view in one pass.
 struct ViewContext {
     View view = View::Normal;
     ShownField shown;

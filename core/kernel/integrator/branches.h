@@ -9,7 +9,7 @@
 
 namespace pl {
 
-/// Most branches of a path, itself included: bounds the cost of a wrong contribution estimate.
+/// Most branches of a path, itself included: bounds the time spent on a wrong contribution estimate.
 inline constexpr std::uint32_t kMostBranches = 32;
 /// Most vertices with branches waiting at the same time.
 inline constexpr std::uint32_t kMostForks = 4;

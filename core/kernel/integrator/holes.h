@@ -1,5 +1,4 @@
-// Rays pass through holes in surfaces: what is behind one is looked for with another ray, until something solid is
-// met.
+// Rays through holes of surfaces: the ray is continued behind each hole until it meets a solid surface.
 #pragma once
 
 #include "core/kernel/geometry/intersector.h"
@@ -7,7 +6,7 @@
 
 namespace pl {
 
-/// Holes in a row after which the next one is taken for solid: a bound for files made to be endless.
+/// Most holes in a row; the next one counts as solid. Bounds the time of files made of endless holes.
 inline constexpr int kMostHoles = 1024;
 
 template <FeatureSet F>
@@ -17,7 +16,7 @@ PL_HD inline bool meets_hole(const SceneView& scene, const Hit& hit) {
     return false;
 }
 
-/// What is left of a ray beyond a hole that it met. A segment keeps its end.
+/// The part of a ray beyond the hole it met. The ray keeps its end point if it has one.
 PL_HD inline Ray ray_behind(const SceneView& scene, const Ray& ray, const Hit& hit) {
     const SurfacePoint point = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
     Ray rest = ray;
@@ -30,7 +29,7 @@ PL_HD inline Ray ray_behind(const SceneView& scene, const Ray& ray, const Hit& h
     return rest;
 }
 
-/// The closest hit that is no hole; its distance is from the ray's origin if the direction is unit.
+/// The closest hit that is no hole; its distance is measured from the ray's origin if the direction is unit.
 template <FeatureSet F, Intersector I>
 PL_HD inline Hit closest_solid_hit(const SceneView& scene, const I& intersector, const Ray& ray) {
     Hit hit = intersector.closest_hit(ray);
@@ -47,7 +46,7 @@ PL_HD inline Hit closest_solid_hit(const SceneView& scene, const I& intersector,
     return hit;
 }
 
-/// Whether anything solid is in the way of a shadow ray.
+/// Whether a solid surface blocks a shadow ray.
 template <FeatureSet F, Intersector I>
 PL_HD inline bool is_blocked(const SceneView& scene, const I& intersector, const Ray& ray) {
     if constexpr (F.has(Feature::CutOuts)) {

@@ -10,15 +10,15 @@
 
 namespace pl {
 
-/// The contribution estimate that Russian roulette goes by. The product of albedos is always known; the estimate by a guiding
-/// field is more precise, and may be wrong.
+/// Source of the contribution estimate that decides roulette and splitting. The product of albedos is always
+/// available; the estimate by a guiding field is more precise, but may be wrong.
 enum class RouletteRule : std::uint32_t {
-    Spare,  ///< the field's estimate may spare a path or split it, but not end it sooner than the albedos alone would
+    Spare,   ///< the field's estimate may keep or split a path, but not end it sooner than the albedos alone would
     Albedo,  ///< the albedos alone; no path is split
-    Field,   ///< the field's estimate alone, where there is one   [Vorba and Krivanek 2016]
+    Field,   ///< the field's estimate alone, if there is one   [Vorba and Krivanek 2016]
 };
 
-/// What decides a path besides scene, camera and method.
+/// The settings of paths besides scene, camera and method.
 struct PathSettings {
     std::uint64_t seed = 1;
     Stream stream = Stream::Picture;
@@ -30,7 +30,7 @@ struct PathSettings {
     std::uint32_t next_event = 0;  ///< 1: sample lights at every vertex, combined by multiple importance sampling
 };
 
-/// What the steps of all paths of a pass have in common.
+/// The parameters common to all paths of a pass.
 template <class M>
 struct PathContext {
     const SceneView& scene;
@@ -40,12 +40,12 @@ struct PathContext {
 
 struct Nothing {};
 
-/// The specular chain since the last vertex that learns: mirrors and glass have no location in a field and pass radiance on.
+/// The specular chain since the last vertex with a location: mirrors and glass have none and pass radiance on.
 struct SpecularChain {
     Vec3f weight{1.0f};   ///< product of f cos / pdf, and of roulette weights, along the chain
     Vec3f emitted{0.0f};  ///< radiance emitted by its surfaces, as seen from that vertex
     float distance = 0.0f;
-    bool is_open = false;  ///< there are such surfaces
+    bool is_open = false;  ///< the chain has at least one vertex
 };
 
 template <FeatureSet F, class M>

@@ -1,4 +1,4 @@
-// Precomputation: probe paths start at a radiance volume instead of the camera and end in its table.
+// Precomputation: probe paths start at a radiance volume instead of the camera and train one cell of its table.
 #pragma once
 
 #include "core/kernel/guiding/reach.h"
@@ -72,7 +72,7 @@ PL_HD inline PathState<F, ProbeMethod> begin_probe(const TableView& field, const
 template <FeatureSet F>
 PL_HD inline void finish_probe(const TableView& field, const PathState<F, ProbeMethod>& state,
                                MethodCounters& counters) {
-    constexpr float kWeightPerUnit = 256.0f;  // the mean radiance that weights are relative to is not known yet
+    constexpr float kWeightPerUnit = 256.0f;  // before the first update there is no mean radiance to be relative to
     const ProbeTarget target = probe_target(field, state.pixel);
     const float radiance = luminance(state.radiance);
     record(field, target.volume, target.cell, radiance);

@@ -8,9 +8,10 @@ namespace pl {
 /// Roulette never ends more than 9 of 10 paths at once, which bounds its weight.
 inline constexpr float kMinSurvival = 0.1f;
 
-/// Survival probability for a contribution estimate. Estimates by a field may be wrong, most of all early, so with
-/// RouletteRule::Spare they can spare a path but not end it sooner than the albedos alone would: weights then grow no faster
-/// than reflection reduces them, and their variance stays finite. RouletteRule::Field trusts the estimate.
+/// Survival probability for a contribution estimate. Estimates by a field may be wrong, most of all early; with
+/// RouletteRule::Spare they can keep a path but not end it sooner than the albedos alone would: weights then grow no
+/// faster than reflection reduces them, and their variance stays finite. RouletteRule::Field uses the field's
+/// estimate alone.
 PL_HD inline float survival_probability(const PathSettings& settings, float estimate, float survival) {
     float wanted = survival;
     if (settings.roulette == RouletteRule::Spare) wanted = max_of(estimate / settings.roulette_threshold, survival);
@@ -25,7 +26,8 @@ struct Continuation {
         1.0f;  ///< of one branch, as an estimator of the radiance reflected there: 1 / survival probability
 };
 
-/// As many branches as the estimate asks for, on the mean, each with its share of the throughput. `u` decides the last one.
+/// Splits a path into branches, estimate / split_threshold on the mean, each with its share of the throughput. `u`
+/// decides about the last one.
 template <FeatureSet F, class M>
 PL_HD inline Continuation split(const PathSettings& settings, float estimate, float u, PathState<F, M>& state) {
     const float wanted = min_of(estimate / settings.split_threshold, static_cast<float>(state.branches.room()));

@@ -22,7 +22,7 @@ struct StepOutput {
     PathCounters& counters;
 };
 
-/// Density, per steradian, of scattering into wi: the delta lobes' share of samples has none.
+/// Density, per steradian, of scattering into wi by the lobes other than delta lobes, times their share of samples.
 template <FeatureSet F, Method M>
 PL_HD inline float scatter_pdf_sa(const M& method, const ScatterPoint<F, M>& from, Vec3f wi) {
     if constexpr (F.has_any(kLobeFeatures)) {
@@ -32,7 +32,7 @@ PL_HD inline float scatter_pdf_sa(const M& method, const ScatterPoint<F, M>& fro
     return method.pdf_sa(from.vertex, from.surface, wi);
 }
 
-/// An observation as the last vertex that learns sees it, through the specular chain if there is one.
+/// An observation for the last vertex with a location, through the specular chain if there is one.
 template <FeatureSet F, class M>
 PL_HD inline Observation through_chain(const PathState<F, M>& state, Observation observation) {
     if constexpr (F.has_any(kLobeFeatures)) {
@@ -45,7 +45,8 @@ PL_HD inline Observation through_chain(const PathState<F, M>& state, Observation
     return observation;
 }
 
-/// Ends a path at a vertex that reflects. An open specular chain is then all that the last vertex that learns will observe.
+/// Ends a path at a vertex that reflects. An open specular chain is then the last observation of the last vertex with
+/// a location.
 template <FeatureSet F, Method M>
 PL_HD inline PathStatus terminate_path(const M& method, PathState<F, M>& state, const StepOutput<M>& out) {
     if constexpr (F.has_any(kLobeFeatures)) {

@@ -94,13 +94,13 @@ PL_HD inline void sample_light(const PathContext<M>& context, const ScatterPoint
     shadow.wanted = true;
     Vec3f reflected = reflectance * sample.emitted * (weight / sample.pdf_sa);
     if constexpr (F.has_any(kLobeFeatures)) {
-        // The radiance of a specular chain is what its scattered directions bring.
+        // The radiance of a specular chain is that of its scattered directions.
         reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : state.chain.weight * reflected;
     }
     context.method.light_sampled(state.memory, reflected);
 }
 
-/// Lets the method observe the surface hit. Returns its knowledge of the vertex.
+/// Calls the method's observe() for the surface hit. Returns the method's data of the vertex.
 template <FeatureSet F, Method M>
 PL_HD inline typename M::Vertex observe_vertex(const M& method, const SurfacePoint& surface, const Bsdf<F>& bsdf,
                                                const Observation& observation, PathState<F, M>& state,
@@ -158,8 +158,8 @@ PL_HD inline PathStatus continue_path(const PathContext<M>& context, const Hit& 
     return PathStatus::Continues;
 }
 
-/// Shades the end of the path's segment: adds emission, lets the method observe, samples a light, and decides whether the path
-/// continues. `surface_of()` is called once if there is a hit.
+/// Shades the end of the path's segment: adds emission, calls the observe() of the method, samples a light, and
+/// decides whether the path continues. `surface_of()` is called once if there is a hit.
 template <FeatureSet F, Method M, class SurfaceOf>
 PL_HD inline PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const SurfaceOf& surface_of,
                                   const VertexNumbers& numbers, PathState<F, M>& state,
@@ -204,7 +204,7 @@ PL_HD inline PathStatus extend_path(const PathContext<M>& context, const Hit& hi
     return status;
 }
 
-/// Adds a light sample whose shadow ray was not occluded.
+/// Adds a light sample whose shadow ray is not occluded.
 template <FeatureSet F, Method M>
 PL_HD inline void connect_light(const M& method, const ShadowRequest& shadow, PathState<F, M>& state,
                                 PathCounters& counters) {
@@ -212,7 +212,7 @@ PL_HD inline void connect_light(const M& method, const ShadowRequest& shadow, Pa
     method.light_received(state.memory, counters.method);
 }
 
-/// Scatters the next waiting branch. It starts with an empty memory, and without a light sample of its own.
+/// Scatters the next waiting branch. It starts with an empty Memory, and without a light sample of its own.
 template <FeatureSet F, SplittingMethod M>
 PL_HD inline PathStatus begin_branch(const PathContext<M>& context, PathState<F, M>& state, PathCounters& counters) {
     const Fork<typename M::Vertex> fork = state.branches.begin();
@@ -230,8 +230,8 @@ PL_HD inline PathStatus begin_branch(const PathContext<M>& context, PathState<F,
                          {.rng = rng, .index = state.draw_index(), .u = u}, state, {none, counters});
 }
 
-/// Ends a path, or a branch of it, after its last shadow ray: training samples that need whole paths are made, and the next
-/// branch begins. Returns whether there is one.
+/// Ends a path, or a branch of it, after its last shadow ray: makes the training samples that need whole paths, and
+/// begins the next branch. Returns whether there is one.
 template <FeatureSet F, Method M>
 PL_HD inline PathStatus finish_branch(const PathContext<M>& context, PathState<F, M>& state, PathCounters& counters) {
     context.method.finished(state.memory, counters.method);

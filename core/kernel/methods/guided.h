@@ -17,7 +17,7 @@ struct FieldTrainer : MethodHooks {
     Field field;
     MixtureSettings mixture{};
 
-    /// The training sample that a scattered direction opens; none if the field is not trained by it.
+    /// The training sample opened by a scattered direction; none if it trains no entry of the field.
     PL_HD OpenSample<Field> open_sample(const Vertex& vertex, const DirectionSample& direction) const {
         const typename Field::Entry entry = field.entry_of(vertex, direction);
         if (!entry.is_trained()) return {};
@@ -33,7 +33,7 @@ struct FieldTrainer : MethodHooks {
     }
 };
 
-/// Radiance (luminance) that a path was expected to reflect at its first vertex with a location; 0 before.
+/// Radiance (luminance) expected to be reflected at the path's first vertex with a location; 0 before it.
 struct GuidedExpectation {
     float first = 0.0f;
 };
@@ -81,15 +81,15 @@ struct Guided : Target<F> {
         return vertex.is_served() ? mix(vertex, surface, wi, bsdf_pdf_sa).pdf_sa : bsdf_pdf_sa;
     }
 
-    /// By the field: a direction guided towards light has a low throughput but a high expected radiance, so it is not ended for
-    /// its throughput, and one into the dark is.
+    /// From the learned radiance: a direction guided towards light has a low throughput but a high expected radiance,
+    /// so roulette does not end it for its throughput, while it ends one into the dark.
     /// [after Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation"]
     PL_HD float estimate_contribution(const Vertex& vertex, Vec3f albedo, Vec3f throughput, float survival,
                                       Expectation& expectation) const {
         if (!vertex.is_served()) return survival;
         const float expected = luminance(throughput * albedo) * field.value_at(vertex);
         if (expectation.first == 0.0f) expectation.first = expected;
-        // Infinite or NaN if nothing was expected first, or the ratio is beyond the range of float.
+        // Infinite or NaN if the first expectation is 0 or the ratio is beyond the range of float.
         const float estimate = expected / expectation.first;
         return estimate < kInfinity ? estimate : survival;
     }

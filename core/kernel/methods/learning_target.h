@@ -1,4 +1,4 @@
-// The training target of reinforcement, and the light that it holds.
+// The training target of the method reinforcement, and the part of incident radiance that it includes.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +7,18 @@
 
 namespace pl {
 
-/// The target of the training sample for leaving x through a cell, if the ray hits y.   [Sutton and Barto 2018, 5.1, 6.4, 6.6]
+/// The target of the training sample for scattering from x through a cell, if the ray hits y.   [Sutton and Barto
+/// 2018, 5.1, 6.4, 6.6]
 enum class LearningTarget : std::uint32_t {
     ExpectedSarsa,  ///< L_e(y) + the expectation over the next direction of y's reflected radiance   [Dahm and Keller 2017, section 3]
     Sarsa,       ///< L_e(y) + the reflected radiance of the sampled next direction w: f cos / pdf * Q(y, w)
-    MonteCarlo,  ///< the radiance that the path brings from y
+    MonteCarlo,  ///< the radiance from y of the rest of the path
 };
 
-/// The light in a target where lights are sampled; without light samples both are the same.
+/// The part of incident radiance in a target if lights are sampled; without light samples both are the same.
 enum class LearnedLight : std::uint32_t {
     All,       ///< all radiance incident through the cell
-    Indirect,  ///< without the light samples of x: emission at y counts by its share of scattered directions
+    Indirect,  ///< without the light samples of x: emission at y is weighted by its MIS share of scattered directions
 };
 
 struct LearningSettings {
@@ -27,7 +28,7 @@ struct LearningSettings {
     friend bool operator==(const LearningSettings&, const LearningSettings&) = default;
 };
 
-/// Whether targets are complete when the next vertex is reached: its own direction and light sample are not needed.
+/// Whether targets are complete at the next vertex: they need neither its scattered direction nor its light sample.
 constexpr bool is_complete_at_next_vertex(const LearningSettings& learning, bool samples_lights) {
     return learning.target == LearningTarget::ExpectedSarsa &&
            !(learning.light == LearnedLight::Indirect && samples_lights);

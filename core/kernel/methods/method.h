@@ -24,16 +24,16 @@ PL_HD inline DirectionSample sample_bsdf(const SurfacePoint& surface, const Laye
     return {wi, pdf_sa, pdf_sa};
 }
 
-/// The end of a path's segment as its last scattering vertex sees it: reward and next state of reinforcement learning.
+/// The end of a path's segment for the vertex that scattered it: reward and next state of reinforcement learning.
 struct Observation {
     Vec3f emitted{0.0f};  ///< radiance emitted towards that vertex, or the environment's
     Vec3f albedo{0.0f};   ///< reflectance of the surface hit; 0 on a miss
-    /// Share of `emitted` that scattered directions bring; light samples at that vertex bring the rest (MIS).
+    /// MIS share of `emitted` of scattered directions; light samples at that vertex have the rest.
     float direction_share = 1.0f;
     float distance = kInfinity;  ///< scene units
 };
 
-/// How a path was scattered at a vertex.
+/// The scattering of a path at a vertex.
 struct ScatterEvent {
     Vec3f weight{0.0f};  ///< f cos / pdf, times the weight of Russian roulette
     Vec3f albedo{0.0f};
@@ -43,14 +43,14 @@ struct ScatterEvent {
 /// Events that a method counts.
 struct MethodCounters {
     std::uint64_t records = 0;          ///< training samples
-    std::uint64_t clamped_records = 0;  ///< of them, those too bright for the pending sums
+    std::uint64_t clamped_records = 0;  ///< training samples whose target exceeds the range of the pending sums
     std::uint64_t lookups = 0;
-    std::uint64_t lookup_misses = 0;  ///< of them, those without a location
-    std::uint64_t cut_returns = 0;    ///< paths too long for their memory of vertices
+    std::uint64_t lookup_misses = 0;  ///< lookups without a location
+    std::uint64_t cut_returns = 0;    ///< Monte-Carlo returns of paths with more vertices than their memory holds
 };
 
-/// The training hooks of a method that does not learn: each does nothing and costs nothing. The integrator calls them in this
-/// order; a method that learns derives from this and hides the types and the hooks it needs.
+/// The training hooks of a method that does not learn: each does nothing and compiles to nothing. The integrator
+/// calls them in this order; a method that learns derives from this and hides the types and the hooks it needs.
 ///
 ///        segment traced ----> miss -----------------> observe --------------------+
 ///              |                                                                   |
@@ -65,7 +65,7 @@ struct MethodCounters {
 ///
 /// Branches of a split path run through it one after the other, each with a Memory of its own.
 struct MethodHooks {
-    struct Vertex {};       ///< the method's knowledge of a surface point, e.g. its location in a field
+    struct Vertex {};       ///< data of a surface point, e.g. its location in a field
     struct Memory {};       ///< part of the path's state: training samples whose targets are not complete
     struct Sample {};       ///< a complete training sample made by observe(), added by record() before the pass ends
     struct Expectation {};  ///< part of the path's state: the contribution expected at its first vertex
@@ -73,17 +73,18 @@ struct MethodHooks {
     static constexpr bool kSplitsPaths = false;  ///< whether estimate_contribution() is good enough to split by
     static constexpr KernelRange kKernelRange = KernelRange::Full;  ///< sets of features it is compiled for
 
-    /// Whether it serves these settings of its method.
+    /// Whether the integrator serves these settings of its method.
     static constexpr bool serves(const LearningSettings&, bool /*samples_lights*/) { return true; }
 
     PL_HD Vertex locate(const SurfacePoint&, MethodCounters&) const { return {}; }
     PL_HD Sample observe(auto&, const Observation&, const auto& /*vertex*/, MethodCounters&) const { return {}; }
     PL_HD void record(const Sample&) const {}
-    /// `reflected`: radiance that the surface reflects of its light sample, if nothing occludes it.
+    /// `reflected`: radiance of the light sample reflected at the vertex, if nothing occludes it.
     PL_HD void light_sampled(auto&, Vec3f /*reflected*/) const {}
     PL_HD void light_received(auto&, MethodCounters&) const {}
-    /// Radiance (luminance) that the path can still bring as a share of that at its first vertex. `survival`: the product of the
-    /// albedos so far over that of the survival probabilities, the estimate of a method without a field. Once per vertex.
+    /// Contribution estimate: the radiance (luminance) still expected of the path as a share of that at its first
+    /// vertex. `survival`: the product of the albedos so far over that of the survival probabilities, the estimate of
+    /// a method without a field. Called once per vertex.
     PL_HD float estimate_contribution(const auto&, Vec3f /*albedo*/, Vec3f /*throughput*/, float survival,
                                       auto&) const {
         return survival;
@@ -91,11 +92,12 @@ struct MethodHooks {
     PL_HD void scattered(auto&, const auto& /*vertex*/, const ScatterEvent&, MethodCounters&) const {}
     /// Roulette, the depth limit or a zero-valued direction ended the path at a vertex that reflects.
     PL_HD void terminated(auto&, MethodCounters&) const {}
-    /// The path, or a branch of it, is over, its last light sample included.
+    /// The path, or a branch of it, has ended, and its last light sample is connected.
     PL_HD void finished(auto&, MethodCounters&) const {}
 };
 
-/// sample_direction() and pdf_sa() come twice: for Lambert reflectors, and with a LayeredBsdf for any other surface.
+/// sample_direction() and pdf_sa() have two overloads: for Lambert reflectors, and with a LayeredBsdf for all other
+/// surfaces.
 template <class M>
 concept Method = std::derived_from<M, MethodHooks> &&
     requires(const M& method, const typename M::Vertex& vertex, typename M::Memory& memory,

@@ -1,4 +1,4 @@
-// A method as people meet it: one MethodInfo in the header of each method.
+// A method in the user interface: one MethodInfo in the header of each method.
 #pragma once
 
 #include <concepts>

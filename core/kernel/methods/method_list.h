@@ -43,7 +43,8 @@ constexpr std::uint32_t method_index() {
 
 inline constexpr int kMethodCount = static_cast<int>(method_index<MethodList::kCount - 1>()) + 1;
 
-/// Calls visit.operator()<kEntry>() for the entries of the list in order, until one returns true. Returns whether one did.
+/// Calls visit.operator()<kEntry>() for the entries of the list in order until one returns true. Returns whether one
+/// did.
 template <int kEntry = 0, class Visit>
 constexpr bool any_method_kernel(Visit&& visit) {
     if constexpr (kEntry == MethodList::kCount) {

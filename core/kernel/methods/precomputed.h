@@ -1,4 +1,4 @@
-// Importance sampling from a radiance map that probes fill before rendering and that is frozen then.
+// Importance sampling from a radiance map that probes fill before rendering and that stays constant while rendering.
 #pragma once
 
 #include "core/kernel/methods/method_info.h"

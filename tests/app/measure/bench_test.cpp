@@ -1,4 +1,4 @@
-// `pathlight bench` from outside: what it leaves, going on after an interruption, references, and the gate.
+// `pathlight bench` from a shell: its files, continuing after an interruption, references, and the gate.
 #include <algorithm>
 #include <csignal>
 #include <map>
@@ -82,7 +82,7 @@ TEST_CASE("a bench leaves everything it knows") {
         CHECK((seconds.at("precompute").get<double>() > 0.0) == (method == "precomputed"));
         CHECK((seconds.at("learn").get<double>() > 0.0) == (method == "reinforcement"));
         CHECK((seconds.at("place").get<double>() > 0.0) == (method != "default"));
-        // The precomputed curve starts when the map is there.
+        // The precomputed curve starts when the map is complete.
         const json& first = run.at("points").front().at("seconds");
         CHECK(first.at("precompute") == seconds.at("precompute"));
     }
@@ -91,7 +91,7 @@ TEST_CASE("a bench leaves everything it knows") {
     CHECK(lines_of(read_all(folder / "b/series.csv")).size() == 1 + 4 * 9);
     CHECK(lines_of(read_all(folder / "b/summary.csv")).size() == 1 + 3);
     CHECK_THAT(read_all(folder / "b/summary.md"), contains("only 2 runs: no interval"));
-    // Pictures of the first seed, as half floats: a digit in a thousand of what the reference has.
+    // Pictures of the first seed, as half floats: within a thousandth of the values of the reference.
     CHECK(std::distance(fs::directory_iterator(folder / "b/pictures"), fs::directory_iterator{}) == 3 * 4 + 1);
     CHECK(read_exr(folder / "b/pictures/cornell-reference.exr").height == 16);
     CHECK(results.at("references").at("cornell").at("spp") == json::array({32, 32}));
@@ -127,7 +127,7 @@ TEST_CASE("the errors of a bench do not depend on its order or its folder") {
     const auto some = errors_in(folder / "c");
     CHECK(some.size() == 4);
     for (const auto& [run, error] : some) CHECK(all.at(run) == error);
-    // The first method is what others are held against.
+    // The first method is the baseline.
     CHECK(results_in(folder / "c").at("comparisons").at(0).at("base") == "reinforcement");
 }
 
@@ -160,7 +160,7 @@ TEST_CASE("130: an interrupted bench keeps its runs and goes on with the same co
     CHECK(kept >= 1);
     CHECK(results_in(folder / "b").at("complete") == false);
     const auto errors = errors_in(folder / "b");
-    make(folder / "b", {"--seeds", std::to_string(kept)});  // at least as many as it has of any method
+    make(folder / "b", {"--seeds", std::to_string(kept)});  // at least as many as the folder has of any method
     CHECK(results_in(folder / "b").at("complete") == true);
     for (const auto& [run, error] : errors) CHECK(errors_in(folder / "b").at(run) == error);
 }

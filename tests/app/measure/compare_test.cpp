@@ -1,4 +1,4 @@
-// `pathlight compare` from outside: numbers, and everything it refuses to compare.
+// `pathlight compare` from a shell: metrics, and the inputs it refuses to compare.
 #include <cmath>
 #include <limits>
 
@@ -81,7 +81,7 @@ TEST_CASE("5: compare misses a target error") {
     const ProgramResult missed = run_program({"compare", files.picture, files.reference, "--target-error", "0.2"});
     CHECK(missed.code == 5);
     CHECK_THAT(missed.err, contains("--target-error"));
-    CHECK_THAT(missed.out, contains("relmse"));  // the numbers are told all the same
+    CHECK_THAT(missed.out, contains("relmse"));  // the metrics are printed in either case
 }
 
 TEST_CASE("2 and 3: what compare refuses") {

@@ -1,4 +1,4 @@
-// `pathlight reference` from outside: two independent halves, gone on with, and never taken for another picture's.
+// `pathlight reference` from a shell: two independent halves, continued, and never used for another picture.
 #include <algorithm>
 #include <csignal>
 
@@ -26,7 +26,7 @@ void make(const std::string& folder, const Arguments& more) {
     REQUIRE(result.code == 0);
 }
 
-/// The only file in the folder that ends so.
+/// The only file in the folder with this suffix.
 fs::path file_ending(const fs::path& folder, const std::string& ending) {
     std::vector<fs::path> found;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -68,7 +68,8 @@ TEST_CASE("a reference is two halves, a manifest, and nothing else") {
     CHECK(manifest.at("picture_hash").get<std::string>().size() == 16);
     CHECK((samples_in(folder / "refs") == std::vector<std::uint32_t>{40, 40}));
 
-    // Independent, and of the same picture: their difference is noise, so much as one of them leaves to a good one.
+    // Independent, and of the same picture: the noise estimated from their difference is about the error of their
+    // mean against a good reference.
     make(folder / "good", {"--spp", "2000"});
     const LinearImage first = read_exr(file_ending(folder / "refs", "-1.exr"));
     const LinearImage second = read_exr(file_ending(folder / "refs", "-2.exr"));
@@ -91,7 +92,7 @@ TEST_CASE("a reference is gone on with") {
     make(folder / "refs", {"--spp", "30", "--method", "reinforcement", "--nee", "off", "--seed", "7"});
     CHECK((samples_in(folder / "refs") == std::vector<std::uint32_t>{30, 30}));
     CHECK(manifest_in(folder / "refs").at("halves").at(0).at("parts") == 2);
-    // Fewer than there are: they stay.
+    // Fewer samples than there are: the halves stay unchanged.
     make(folder / "refs", {"--spp", "5"});
     CHECK((samples_in(folder / "refs") == std::vector<std::uint32_t>{30, 30}));
 }
@@ -136,7 +137,7 @@ TEST_CASE("a picture is scored against its own reference, found by what it shows
     CHECK(scored.code == 0);
     CHECK(json::parse(scored.out).at("relmse").get<double>() > 0.0);
 
-    // The light's power has changed: refused, whatever the files are called.
+    // The light's power has changed: refused, given the folder or a single file.
     render(brighter, "bright.exr");
     check_refused(3, {"compare", folder / "bright.exr", folder / "refs"},
                   "room-" + manifest_in(folder / "refs").at("picture_hash").get<std::string>() +

@@ -1,4 +1,4 @@
-// `pathlight report` as a shell sees it: one page that needs no other file, and plots beside it.
+// `pathlight report` from a shell: one page that needs no other file, and plots beside it.
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"
@@ -62,7 +62,7 @@ TEST_CASE("a report is one page with plots, sentences, tables and pictures") {
         }
     }
 
-    // Without its pictures the page has its numbers all the same.
+    // Without its pictures the page still has its numbers.
     std::filesystem::remove_all(folder / "b/pictures");
     CHECK(run_program({"report", folder / "b", "-q"}).out.empty());
     CHECK_THAT(read_all(folder / "b/report.html"), contains("class=\"headline\""));

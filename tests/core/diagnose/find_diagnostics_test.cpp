@@ -13,7 +13,7 @@ using namespace pl::test;
 
 namespace {
 
-/// Two walls so bright that a path that meets both has an infinite sum, and one that meets one has not.
+/// Two walls so bright that a path that hits both has an infinite sum, and one that hits one has not.
 SceneDescription overflowing_room() {
     BoxLook look;
     look.albedo.fill(glm::vec3{0.9f});

@@ -139,7 +139,7 @@ TEST_CASE("Volumes stand inside their triangles and face their side") {
         const SurfacePoint& site = volumes.sites[i];
         REQUIRE(volumes.normals[i] == site.geometric_normal);
         places.insert({site.position.x, site.position.y, site.position.z});
-        // A ray from above meets the triangle right there, and not at an edge.
+        // A ray from above hits the triangle at this point, and not at an edge.
         const Ray ray{.origin = site.position + 0.01f * site.geometric_normal, .direction = -site.geometric_normal};
         const Hit hit = closest_hit_by_all(scene.view(), ray);
         REQUIRE(hit.primitive == site.primitive);

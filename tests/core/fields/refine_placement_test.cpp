@@ -67,7 +67,7 @@ double sum(const Array& values) {
 
 TEST_CASE("Equal tables do not disagree, and the distance grows to 1 with their difference") {
     Learned field(lit_room(), 100);
-    // A volume and its neighbour on one plane, and with one frame: around other axes, frames tell 0 from -0.
+    // A volume and its neighbor on one plane, and with one frame: around other axes, frames tell 0 from -0.
     const TableField view = field.view();
     const auto along_z = std::ranges::find_if(field.volumes.normals, [](Vec3f n) { return n.z == 1.0f; });
     const auto one = static_cast<std::int32_t>(along_z - field.volumes.normals.begin());

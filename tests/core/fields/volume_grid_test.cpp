@@ -48,7 +48,7 @@ Placed with_grid(const SceneDescription& description, int volumes, int threads =
     return placed;
 }
 
-/// Volumes at points of the scene's own triangles, or wherever `sites` says.
+/// Volumes at points of the scene's own triangles, or at `sites`.
 Placed with_sites(const SceneDescription& description, std::vector<SurfacePoint> sites) {
     Placed placed{pack_scene(description), {}};
     for (const SurfacePoint& site : sites) placed.volumes.normals.push_back(site.geometric_normal);
@@ -295,7 +295,7 @@ TEST_CASE("Hostile volumes and triangles are answered like by a linear search, i
     CHECK(compare_on_triangles(placed, 20000).wrong == 0);
     CHECK(within_bounds(placed));
 
-    // Beyond the range in which squared distances are finite the grid stands aside.
+    // Beyond the range of finite squared distances every lookup searches the tree.
     add(Vec3f{1e19f, 0.0f, 0.0f});
     placed = with_sites(description, sites);
     CHECK(placed.volumes.grid.sides.empty());

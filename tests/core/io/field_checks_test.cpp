@@ -131,7 +131,7 @@ TEST_CASE("Whole field files with numbers that no session could have learned are
     }
 }
 
-// A table that falls again would give a direction a negative probability; four columns are needed to see it.
+// A table that is not monotonic would give a direction a negative probability; this takes at least four columns.
 TEST_CASE("Probabilities that fall are refused") {
     const TemporaryFolder folder;
     LearnedField field = small_field();

@@ -129,7 +129,7 @@ TEST_CASE("A reader sees one version or the other, never a part") {
 
 namespace {
 
-/// Another process that begins to write `target`, and ends it when it is told to, unless it is killed before.
+/// Another process that begins to write `target`, and finishes on request, unless it is killed before.
 class OtherWriter {
 public:
     explicit OtherWriter(const fs::path& target) {

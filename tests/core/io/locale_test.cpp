@@ -1,4 +1,4 @@
-// Files are read and written alike in every locale.
+// Files are read and written in the same way in every locale.
 #include <clocale>
 #include <cstring>
 #include <locale>

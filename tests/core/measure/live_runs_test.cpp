@@ -334,7 +334,7 @@ TEST_CASE("pictures keep within their memory, the figures stay") {
     const double mean = (all.back() - all.front()) / kRoom;
     for (std::size_t i = 1; i < kept.size(); ++i) CHECK(kept[i] - kept[i - 1] < longest + 2.0 * mean);
 
-    // Another method of the same picture shares the room, one of another picture takes it.
+    // Another method of the same picture shares the memory, one of another picture takes it over.
     recording.slot.method = MethodId::Reinforcement;
     recording.record(3);
     CHECK(pictures_of(recording.run(0)) > 0);

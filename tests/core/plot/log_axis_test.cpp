@@ -1,4 +1,4 @@
-// Logarithmic axes: positions, and ticks that people can read.
+// Logarithmic axes: positions, and ticks with short labels.
 #include "core/plot/log_axis.h"
 
 #include <cmath>

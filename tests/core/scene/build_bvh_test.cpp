@@ -1,4 +1,4 @@
-// The hierarchy's structure: complete, tight, shallow and always the same, whatever it is built from.
+// The hierarchy's structure: complete, tight, shallow and deterministic, also for hard inputs.
 #include "core/scene/build_bvh.h"
 
 #include <algorithm>

@@ -51,7 +51,7 @@ TEST_CASE("Error map: a pixel counts as in relMSE, and colors follow its logarit
     CHECK(std::isnan(pixel_error(Vec3f{NAN}, Vec3f{1.0f})));
     std::uint32_t same[8], off[8], invalid[8];
     write_error_map(*plain_picture(0x3c00), *plain_picture(0x3c00), same, 4);
-    write_error_map(*plain_picture(0x5000), *plain_picture(0x3c00), off, 4);  // 32: more than the scale holds
+    write_error_map(*plain_picture(0x5000), *plain_picture(0x3c00), off, 4);  // 32: beyond the end of the scale
     write_error_map(*plain_picture(0x7e00), *plain_picture(0x3c00), invalid, 4);
     const auto color = [](float share) {
         const ByteColor c = heat_color(share);

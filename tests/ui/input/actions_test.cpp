@@ -84,7 +84,7 @@ TEST_CASE("Actions: flying keys work with Shift and Alt, and leave Ctrl to comma
     CHECK(find_action({s.scancode, s.symbol, {.shift = true}})->id == ActionId::MoveBack);
     CHECK(find_action({s.scancode, s.symbol, {.ctrl = true}})->id == ActionId::Save);
     CHECK(find_action({SDL_SCANCODE_Q, SDLK_q, {.ctrl = true}})->id == ActionId::Quit);
-    // Flying goes by place, commands by symbol: a French keyboard has its Z where others have W.
+    // Flying keys are found by place, commands by symbol: a French keyboard has Z in the place of W.
     CHECK(find_action({SDL_SCANCODE_W, SDLK_z, {}})->id == ActionId::MoveForward);
     CHECK(find_action({SDL_SCANCODE_A, SDLK_q, {.ctrl = true}})->id == ActionId::Quit);
     CHECK(find_action({SDL_SCANCODE_F9, SDLK_F9, {}}) == nullptr);

@@ -1,4 +1,4 @@
-// Every action of the key table does something.
+// Every action of the key table has an effect.
 #include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "ui/input/perform_action.h"

@@ -35,7 +35,7 @@ TEST_CASE("Camera controls: the way flown in a second does not depend on the fra
     for (int i = 0; i < 240; ++i) fast.move(keys, 1.0 / 240.0);
     // 240 additions to coordinates near 1000 round by half a float each: 240 * 1000 * 2^-24.
     check_close(slow.camera().eye, fast.camera().eye, 0.02f);
-    // A fifth of the diagonal per second, times four, whatever the combination of keys.
+    // A fifth of the diagonal per second, times four, for any combination of keys.
     CHECK_THAT(glm::length(slow.camera().eye - home_camera().eye), WithinRel(800.0f, 1.0e-4f));
 }
 

@@ -36,9 +36,9 @@ TEST_CASE("Compare controls: choosing a method ends turns, with that method") {
     TurnsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
-    model.comparison().set_turns(true);  // default, and what is compared with it
+    model.comparison().set_turns(true);  // the default method and the one compared with it
     REQUIRE(bench.run_until(model, [&] { return model.status().turns && model.status().turns->passes[1] > 0; }));
-    model.render().set_method(MethodId::Default);  // the one that it is already
+    model.render().set_method(MethodId::Default);  // the present method
     CHECK_FALSE(model.comparison().in_turns());
     CHECK(bench.run_until(
         model, [&] { return !model.status().turns && model.frame()->snapshot.slot.method == MethodId::Default; }));

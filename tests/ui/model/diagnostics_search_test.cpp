@@ -1,4 +1,4 @@
-// The search for invalid samples: counted, found in the background, marked while the picture stands.
+// The search for invalid samples: counted, found in the background, marked until the picture changes.
 #include "tests/support/catch.hpp"
 #include "tests/ui/model_bench.h"
 #include "ui/script/script_values.h"
@@ -11,7 +11,7 @@ namespace {
 constexpr int kSide = 16;
 constexpr int kBad = 37;
 
-/// A viewer of a picture in which one pixel has only invalid samples.
+/// A viewer of a picture with one pixel that has only invalid samples.
 struct DiagnosticsBench : ModelBench {
     DiagnosticsBench() : ModelBench(kSide) {
         devices.cpu->bad_pixel = kBad;

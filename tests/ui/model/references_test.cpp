@@ -73,7 +73,7 @@ TEST_CASE("References: rendering one holds the picture, and ending it keeps its 
     REQUIRE(bench.run_until(model, [&] { return model.references().current() != nullptr; }));
     CHECK_FALSE(model.references().progress().has_value());
     CHECK(ReferenceStore(bench.options.reference_dir).require(bench.content()).has_samples());
-    CHECK(bench.run_until(model, [&] { return model.status().seconds > seconds; }));  // rendering goes on
+    CHECK(bench.run_until(model, [&] { return model.status().seconds > seconds; }));  // rendering continues
 }
 
 TEST_CASE("References: a pause by the user outlasts it") {

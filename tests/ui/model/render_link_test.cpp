@@ -1,4 +1,4 @@
-// The window's end of the render thread, over fake back ends.
+// The window's interface to the render thread, over fake back ends.
 #include "tests/support/catch.hpp"
 #include "tests/ui/worker_bench.h"
 #include "ui/model/render_link.h"

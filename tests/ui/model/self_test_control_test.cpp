@@ -27,7 +27,7 @@ TEST_CASE("Self test: rendering rests while it runs, and Esc ends it") {
     CHECK(model.self_test().run().checks()[0].backend == "cpu");
     model.cancel();
     REQUIRE(bench.run_until(model, [&] { return !model.self_test().run().is_running(); }));
-    // The fake back end paints one value, which agrees with no closed form.
+    // The fake back end paints one value, which no closed form matches.
     CHECK(model.self_test().run().outcome() == SelfTestRun::Outcome::Failed);
     CHECK(told(model, "self test: "));
     REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Rendering; }));

@@ -1,4 +1,4 @@
-// References of the window: in the store of `pathlight reference`, continued, and of exactly one picture.
+// References of the window: in the store of `pathlight reference`, continued, and used for exactly one picture.
 #include "ui/model/stored_reference.h"
 
 #include "core/bench/reference_store.h"
@@ -16,11 +16,11 @@ RenderSettings small_settings(const SceneDescription& scene) {
     settings.width = 16;
     settings.height = 16;
     settings.camera = scene.camera;
-    settings.method = MethodId::Reinforcement;  // of the viewer: a reference is made without
+    settings.method = MethodId::Reinforcement;  // the viewer's method: references use another
     return settings;
 }
 
-/// Makes a reference and stops it after so many passes.
+/// Renders a reference and stops after this many passes.
 std::shared_ptr<const StoredReference> make_for(int passes, const std::filesystem::path& folder,
                                                 const std::shared_ptr<const SceneDescription>& scene,
                                                 const RenderSettings& settings) {
@@ -48,7 +48,7 @@ TEST_CASE("Stored reference: one that is stopped at once has both halves, is fou
     REQUIRE(found != nullptr);
     CHECK(found->spp == made->spp);
     CHECK(found->halves.first == made->halves.first);
-    // As `pathlight reference` finds it.
+    // The reference in the store of `pathlight reference`.
     CHECK(ReferenceStore(folder.path()).require(content_of(*scene, settings)).has_samples());
     const auto more = make_for(20, folder.path(), scene, settings);
     CHECK(more->spp[0] + more->spp[1] > made->spp[0] + made->spp[1]);

@@ -11,7 +11,7 @@ TEST_CASE("Viewer model: Esc closes the help, then interrupts precomputation, th
     bench.control->pass_microseconds = 0;
     bench.control->hold = true;
     model.render().set_method(MethodId::Precomputed);
-    // The first slice is held: the state shows once it is let go and the next one is under way.
+    // The first slice is held: the state is visible after its release, during the next slice.
     REQUIRE(bench.run_until(model, [&] { return bench.control->inside.load(); }));
     bench.control->hold = false;
     bench.run_until(model, [&] {

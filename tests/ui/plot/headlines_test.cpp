@@ -37,13 +37,13 @@ TEST_CASE("Headline: runs of several seeds give an interval") {
                                                       : std::string("(95 %: ")));
         CHECK((lines[0].text.find("seed") == std::string::npos));
     }
-    // One that has just begun does not shorten the others; a second one of the same seed takes the place of the first.
+    // A run that has just begun does not shorten the others; a second one of the same seed replaces the first.
     const std::string before = make_headlines(runs, kThisPicture)[0].text;
     const auto begun = make_run({.number = 20, .method = MethodId::Reinforcement, .last_sample = 4});
     begun->label.seed = 6;
     runs.push_back(begun);
     CHECK(make_headlines(runs, kThisPicture)[0].text == before);
-    // What was set otherwise is no repetition.
+    // Runs with other settings are no repetitions.
     const auto other = make_run({.number = 21, .method = MethodId::Reinforcement});
     other->label.details = "400 volumes";
     runs.push_back(other);
@@ -67,7 +67,7 @@ TEST_CASE("Headline: says what to do while there is nothing to compare") {
     CHECK_THAT(make_headlines(Runs{make_run({})}, kThisPicture)[0].text, contains("Only default"));
     const Runs alone{make_run({.method = MethodId::Reinforcement})};
     CHECK_THAT(make_headlines(alone, kThisPicture)[0].text, contains("nothing to be compared with yet"));
-    // A run that has just begun is there, but does not take the place of one that was measured.
+    // A run that has just begun is listed, but does not replace one that was measured.
     const auto begun = std::make_shared<LiveRun>(*make_run({.number = 3, .method = MethodId::Reinforcement}));
     begun->points.clear();
     CHECK_THAT(make_headlines(Runs{make_run({}), begun}, kThisPicture)[0].text, contains("too few samples"));
@@ -76,7 +76,7 @@ TEST_CASE("Headline: says what to do while there is nothing to compare") {
     const std::vector<Headline> lines = make_headlines(runs, kThisPicture);
     REQUIRE(lines.size() == 1);
     CHECK(lines[0].text == make_headlines(two_runs(), kThisPicture)[0].text);
-    // A default run of another picture is no measure.
+    // A default run of another picture is no baseline.
     const Runs other{make_run({.picture = 8}), make_run({.number = 2, .method = MethodId::Reinforcement})};
     CHECK_THAT(make_headlines(other, kThisPicture)[0].text, contains("nothing to be compared with yet"));
 }

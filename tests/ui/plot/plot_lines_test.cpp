@@ -28,13 +28,13 @@ TEST_CASE("Plot: runs of another picture and hidden ones do not stretch the axes
     lines[1].comparable = false;
     CHECK(fit_range(lines).y_high <= 1.0 + 1e-9);
     lines[0].hidden = true;
-    CHECK(fit_range(lines).y_high >= 1e6);  // there is nothing else to show
+    CHECK(fit_range(lines).y_high >= 1e6);  // no other line is visible
     CHECK(fit_range(std::span<const PlotLine>{}).x_low < fit_range(std::span<const PlotLine>{}).x_high);
 }
 
 TEST_CASE("Plot: points that logarithmic axes cannot show are left out") {
     auto run = make_run({.last_sample = 8});
-    run->points[1].metrics->relmse = -1e-6;  // below what the reference resolves
+    run->points[1].metrics->relmse = -1e-6;  // below the resolution of the reference
     run->points[2].metrics.reset();
     const std::vector<LinePoint> points = plot_points(*run, {});
     REQUIRE(points.size() == 2);

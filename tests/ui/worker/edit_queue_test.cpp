@@ -29,7 +29,7 @@ TEST_CASE("Edit queue: of each kind only the newest is left, in order of its arr
     const auto edits = queue.take();
     CHECK(queue.empty());
     REQUIRE(edits.size() == 3);
-    // A camera that follows a scene must be applied after it: a new scene brings its own.
+    // A camera edit after a scene edit must be applied after it: a new scene has its own camera.
     CHECK(find_edit<EditScene>(edits[0]));
     REQUIRE(find_edit<EditCamera>(edits[1]));
     CHECK(find_edit<EditCamera>(edits[1])->camera.fov_deg == 20.0f);

@@ -23,7 +23,7 @@ TEST_CASE("Effects: a trial forces its effects in every second pass, only of who
         return forced;
     };
     CHECK(forced_in_pass(false) == features(Feature::Rough));
-    CHECK(forced_in_pass(true) == FeatureSet{});  // the first pass only tells the film
+    CHECK(forced_in_pass(true) == FeatureSet{});  // the first pass only identifies the film
     const FeatureSet first = forced_in_pass(true);
     const FeatureSet second = forced_in_pass(true);
     CHECK((first == kEveryFeature) != (second == kEveryFeature));

@@ -72,7 +72,7 @@ TEST_CASE("Render worker: exposure and curve show at once, paused, done or in th
     CHECK(worker.status().passes == 4);
     CHECK(bench.control->stopped == 1);
     bench.control->hold = false;
-    CHECK(eventually([&] { return worker.status().passes >= 6; }));  // the pass goes on
+    CHECK(eventually([&] { return worker.status().passes >= 6; }));  // the pass continues
 }
 
 TEST_CASE("Render worker: an exposure set before the first picture does not keep it from coming") {

@@ -8,7 +8,7 @@ using namespace pl::test;
 
 namespace {
 
-/// The device with the tables is lost while the worker rests, which shows at the next request.
+/// The device with the tables is lost while the worker rests; the next request fails.
 void lose_resting_device(RenderWorker& worker, Bench& bench) {
     learn_on_cuda(worker);
     REQUIRE(rests(worker));
@@ -116,7 +116,7 @@ TEST_CASE("Back-end switch: a lost device hands over nothing, and the CPU learns
     bench.control->hold = true;
     bench.devices.cuda->lost = true;
     REQUIRE(is_told(worker, "CUDA failed: the device is lost. CPU takes over; the learned fields are lost"));
-    // Until the CPU has a picture the window keeps the last one.
+    // Until the first picture of the CPU the window keeps the last one.
     REQUIRE(eventually([&] { return bench.control->inside.load(); }));
     CHECK(worker.latest()->backend.name == "cuda");
     CHECK(worker.latest()->serial >= last->serial);

@@ -6,9 +6,9 @@
 
 namespace pl {
 
-/// Target for leaving x through the direction that hits y: T = L_e(y) + rho(y) V(y). The expectation over the next direction is
-/// the irradiance / pi that the field keeps at y, one load. T has no BSDF of x: the field holds incident radiance. If y
-/// reflects but has no location, T is unknown and no sample is made.
+/// Target for scattering from x into the direction that hits y: T = L_e(y) + rho(y) V(y). The expectation over the
+/// next direction is the irradiance / pi that the field keeps at y, one load. T has no BSDF of x: the field holds
+/// incident radiance. If y reflects but has no location, T is unknown and no sample is made.
 template <GuidingField F>
 struct ExpectedSarsa : FieldTrainer<F> {
     using typename FieldTrainer<F>::Vertex;

@@ -1,4 +1,4 @@
-// No target: the field stays as it is while paths are traced.
+// No target: the field stays constant while paths are traced.
 #pragma once
 
 #include "core/kernel/methods/guided.h"

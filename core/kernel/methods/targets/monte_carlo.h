@@ -1,4 +1,4 @@
-// Monte-Carlo targets: each is the radiance that the rest of the path brings.   [Sutton and Barto 2018, section 5.1]
+// Monte-Carlo targets: the radiance of the rest of the path.   [Sutton and Barto 2018, section 5.1]
 #pragma once
 
 #include "core/kernel/methods/guided.h"
@@ -6,12 +6,12 @@
 
 namespace pl {
 
-/// With y_1, y_2, ... the vertices behind x, w_i the weights f cos / pdf (times that of roulette) with which the path left them,
-/// s_i the share of L_e(y_i) that scattered directions bring, and D_i the radiance that y_i reflects of its own light sample,
-/// the return is
+/// With y_1, y_2, ... the vertices after x, w_i the weights f cos / pdf (times that of roulette) of the directions
+/// scattered there, s_i the MIS share of L_e(y_i) of scattered directions, and D_i the radiance of its light sample
+/// reflected at y_i, the return is
 ///   R_i = s_i L_e(y_i) + D_i + w_i R_(i+1),   T = R_1 (indirect light), T = R_1 + (1 - s_1) L_e(y_1) (all light).
-/// A path remembers up to kMostSteps vertices until it ends. Beyond them its returns are cut: rho V replaces the rest, the later
-/// vertices make no training samples, and the path is counted in cut_returns.
+/// A path remembers up to kMostSteps vertices until it ends. Beyond them its returns are truncated: rho V replaces
+/// the rest, later vertices make no training samples, and the path is counted in cut_returns.
 template <GuidingField F>
 struct MonteCarlo : FieldTrainer<F> {
     using typename FieldTrainer<F>::Vertex;
@@ -35,7 +35,7 @@ struct MonteCarlo : FieldTrainer<F> {
     };
     struct Memory {
         std::int32_t count = 0;
-        std::int32_t lit = -1;  ///< step of the light sample under way; negative: none
+        std::int32_t lit = -1;  ///< step of the light sample whose shadow ray is pending; negative: none
         std::uint32_t is_cut = 0;
         Vec3f light{0.0f};  ///< reflected radiance of that light sample
         Step steps[kMostSteps];
@@ -74,7 +74,7 @@ struct MonteCarlo : FieldTrainer<F> {
         memory.is_cut = 1;
         ++counters.cut_returns;
         if (!vertex.is_served()) return;
-        // V holds direct light, too, unless only indirect light is learned: the light sample counts only then.
+        // V includes direct light, unless only indirect light is learned: only then is the light sample added.
         if (learning.light == LearnedLight::All) memory.lit = -1;
         memory.steps[memory.count - 1].brought += event.albedo * this->field.value_at(vertex);
     }

@@ -1,4 +1,5 @@
-// Targets that are complete only when the next vertex scatters: Sarsa, and indirect radiance alone where lights are sampled.
+// Targets that are complete only when the next vertex scatters: Sarsa, and indirect radiance alone if lights are
+// sampled.
 // [Sutton and Barto 2018, section 6.4; Dahm and Keller 2017, section 3]
 #pragma once
 
@@ -7,7 +8,7 @@
 
 namespace pl {
 
-/// The target for leaving x, if the ray hits y and is scattered into w with weight f cos / pdf:
+/// The target for scattering from x, if the ray hits y and is scattered into w with weight f cos / pdf:
 ///   Sarsa            T = L + f cos / pdf Q(y, w); 0 instead of the product if the path is terminated at y, which the roulette
 ///                    weight of the surviving paths compensates
 ///   Expected Sarsa   T = L + rho(y) V(y)
@@ -28,7 +29,7 @@ struct Sarsa : FieldTrainer<F> {
 
     struct Memory {
         OpenSample<F> scattered;  ///< of the last direction
-        OpenSample<F> lit;        ///< of the direction before: gets the radiance of the light sample under way
+        OpenSample<F> lit;        ///< of the direction before: receives the radiance of the pending light sample
         float emitted = 0.0f;     ///< L
         float light = 0.0f;       ///< reflected radiance of the light sample
     };
@@ -64,7 +65,7 @@ struct Sarsa : FieldTrainer<F> {
 
     PL_HD void light_sampled(Memory& memory, Vec3f reflected) const { memory.light = luminance(reflected); }
     PL_HD void light_received(Memory& memory, MethodCounters&) const {
-        // Added, not recorded: the sample it belongs to is counted elsewhere.
+        // Added, not recorded: the training sample is already counted.
         if (memory.lit.entry.is_trained()) this->field.add({memory.lit, memory.light}, this->mixture.learned != 0);
     }
 

@@ -1,4 +1,5 @@
-// No ray from inside a closed mesh gets out, wherever it aims: inside facets, at vertices, at edges, far from the origin.
+// No ray from inside a closed mesh gets out, for rays aimed inside facets, at vertices, at edges and far from the
+// origin.
 #include "core/kernel/geometry/intersector.h"
 
 #include "tests/support/catch.hpp"

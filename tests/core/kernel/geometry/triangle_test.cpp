@@ -50,7 +50,7 @@ TEST_CASE("Edge functions are antisymmetric bit by bit") {
     CHECK(all);
 }
 
-// Kettner's construction: a grid of neighbouring floats around a degenerate configuration.
+// Kettner's construction: a grid of neighboring floats around a degenerate configuration.
 TEST_CASE("Edge functions are antisymmetric on a grid around a degenerate point") {
     const Corner q{12.0f, 12.0f, 0.0f};
     bool all = true;
@@ -73,7 +73,7 @@ TEST_CASE("Edge functions are antisymmetric on a grid around a degenerate point"
 }
 
 // A ray along z from the origin sees corners as they are. Where the float products of an edge cancel to 0 although the
-// origin lies outside by less than rounding, the exact products must refuse the hit, and the neighbour must take it.
+// origin lies outside by less than rounding, the exact products must refuse the hit, and the neighbor must take it.
 TEST_CASE("Edges that rounding cannot decide are decided exactly") {
     Uniforms random(7);
     int undecided = 0;

@@ -70,7 +70,7 @@ TEST_CASE("Cells of every grid share the cosine of the hemisphere equally and lo
     }
 }
 
-// Directions that were not made by a cell may lie on a border; then rounding may name the neighbour, and nothing else.
+// Directions that were not made by a cell may lie on a border; then rounding may name the neighbor, and nothing else.
 TEST_CASE("Directions keep their cell or the neighbour on the way through the world") {
     Uniforms random(2);
     const DirectionCells cells{12};

@@ -40,7 +40,7 @@ struct TwoHalves {
     }
 };
 
-/// Passes of training samples drawn from the mixture as it stands.
+/// Passes of training samples drawn from the present mixture.
 void learn(TestField& field, const TwoHalves& halves, int passes, int records, Uniforms& random) {
     for (int pass = 0; pass < passes; ++pass) {
         field.tables.mean_radiance[0] = static_cast<float>(halves.mean_radiance());

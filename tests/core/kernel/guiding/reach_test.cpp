@@ -1,4 +1,5 @@
-// The distance of the light that a volume learns: a weighted mean, whatever the order and however bad the numbers are.
+// The learned reach of a volume: a weighted mean of distances, in any order of samples and for numbers that are not
+// finite.
 #include "core/kernel/guiding/reach.h"
 
 #include "tests/support/field/guided_methods.h"
@@ -33,7 +34,7 @@ double expected_reach(double distance, double weight) {
     return static_cast<double>(kReachPerDistance) * mean;
 }
 
-/// A path that scatters at the volume, meets light at a distance, and ends there.
+/// A path that scatters at the volume, hits a light at a distance, and ends there.
 template <class M>
 double reach_after_one_path(LearningSettings learning) {
     Field field;

@@ -1,4 +1,5 @@
-// From records to tables: exact sums, exact rates, tables that are probabilities whatever memory holds.
+// From training samples to tables: exact sums, exact learning rates, and tables that are probabilities also if memory
+// is damaged.
 #include "core/kernel/guiding/table_update.h"
 
 #include <algorithm>

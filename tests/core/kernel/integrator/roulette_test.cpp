@@ -1,4 +1,4 @@
-// Russian roulette and splitting keep means and bound weights, whatever the contribution estimate of a method.
+// Russian roulette and splitting keep means and bound weights, for any contribution estimate of a method.
 #include <set>
 
 #include "core/kernel/integrator/steps.h"
@@ -35,7 +35,7 @@ float survive(const M& method, const PathSettings& settings, Uniforms& random) {
     return state.throughput.x;
 }
 
-/// One that splits paths: its estimate is as good as it can be, times a factor, because every path brings the same.
+/// A method that splits paths: its estimate is exact up to a factor, because every path has the same contribution.
 struct Splitting : DefaultMethod {
     static constexpr bool kSplitsPaths = true;
     float factor = 1.0f;

@@ -140,7 +140,7 @@ TEST_CASE("Indirect light: emission by its share, and the reflected light sample
         // Volume 1 has a mean of 2 and no visits.
         CHECK(learner.recorded(0) == Approx(1.0f + 0.5f * 2.0f + 7.0f));
         CHECK(learner.count(0) == 1);
-        // A light sample that is blocked brings nothing, also not later.
+        // A blocked light sample adds nothing, neither now nor at a later vertex.
         method.observe(memory, meeting(0.0f), {1}, learner.counters);
         method.light_sampled(memory, Vec3f{7.0f});
         method.terminated(memory, learner.counters);

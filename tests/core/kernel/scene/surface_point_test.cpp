@@ -1,4 +1,4 @@
-// Leaving a surface: rays do not meet it again, steps stay small, shadow segments end where they should.
+// Rays spawned at a surface: they do not hit it again, offsets stay small, and shadow segments end at their light.
 #include "tests/support/catch.hpp"
 #include "tests/support/rays/walk.h"
 
@@ -58,7 +58,7 @@ void check_self_hits(std::uint64_t quads) {
     for (const float size : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f})
         for (const float place : {0.0f, 1.0f, 1e3f, 1e6f})
             for (const bool narrow : {false, true}) {
-                if (place > 1e4f * size) continue;  // floats cannot tell the corners apart
+                if (place > 1e4f * size) continue;  // floats cannot distinguish the corners
                 const SelfHits result = leave_quads(size, place * Vec3f{0.7f, -0.5f, 0.4f}, narrow, quads);
                 INFO("size " << size << " at " << place << (narrow ? ", narrow" : ""));
                 CHECK(result.hits == 0);

@@ -98,7 +98,8 @@ TEST_CASE("The density of a map integrates to one, and is that of its samples") 
         for (int i = 0; i < 100000; ++i) {
             const FarSample sample = sample_map(map, random.square());
             REQUIRE(std::fabs(glm::length(sample.wi) - 1.0f) < 1e-6f);
-            // Between texels the density may rise from 0 to all: its slope there is that of the rounded direction.
+            // Between texels the density may rise from 0 to its maximum: its slope there is that of the rounded
+            // direction.
             const float evaluated = map_pdf_sa(map, sample.wi);
             REQUIRE(std::fabs(evaluated - sample.pdf_sa) <= 2e-3f * sample.pdf_sa + 1e-5f);
         }

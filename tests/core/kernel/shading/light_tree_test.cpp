@@ -89,7 +89,7 @@ TEST_CASE("Irradiance from many lights does not depend on how they are chosen, b
     }
 }
 
-// A hundred equal lamps in a row: a handful is near, wherever one stands. By power, a hundredth of the samples go to each.
+// A hundred equal lamps in a row: a handful is near any point. By power, each would get a hundredth of the samples.
 TEST_CASE("Below a long row of lamps the near ones get the samples") {
     SceneDescription row;
     row.materials.push_back(gray());
