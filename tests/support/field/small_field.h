@@ -69,6 +69,7 @@ inline LearnedField small_field() {
     for (std::int64_t& light : tables.pending_light) light = static_cast<std::int64_t>(random());
     for (LargeArray<float>* cdf : {&tables.row_cdf, &tables.column_cdf})
         for (std::size_t i = 0; i < cdf->size(); i += 2) (*cdf)[i] = uniform();
+    field.field = std::move(tables);
     return field;
 }
 
