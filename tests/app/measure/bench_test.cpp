@@ -155,7 +155,7 @@ TEST_CASE("130: an interrupted bench keeps its runs and goes on with the same co
     running.send(SIGINT);
     const ProgramResult result = running.wait();
     CHECK(result.code == 130);
-    CHECK_THAT(result.err, contains("the same command goes on"));
+    CHECK_THAT(result.err, contains("the same command continues"));
     const std::size_t kept = errors_in(folder / "b").size();
     CHECK(kept >= 1);
     CHECK(results_in(folder / "b").at("complete") == false);
