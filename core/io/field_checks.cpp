@@ -167,7 +167,8 @@ private:
         const char* where = spec.extent == ArrayExtent::Cell ? "cell" : "volume";
         const auto all = [&](std::string_view expected, const auto& is_valid) {
             for (std::size_t i = 0; i < values.size(); ++i)
-                if (!is_valid(values[i])) fail(fmt::format("{} of {} {}", spec.single, where, i), expected, values[i]);
+                if (!is_valid(values[i]))
+                    fail(fmt::format("{} of {} {}", spec.single, where, i), expected, values[i]);
         };
         switch (spec.valid) {
         case ValidRange::Any: break;

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "core/base/kernel_row.h"
-#include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/film/frame_pixel.h"
+#include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/method_list.h"

@@ -48,7 +48,8 @@ std::vector<Vec3f> render_with(const HostScene& scene, const RenderSettings& set
                 Vec3d sum{0.0};
                 for (std::uint32_t sample = 0; sample < samples; ++sample) {
                     auto state = begin_path<F, UniformMethod>(camera, path, {width, height, sample}, pixel);
-                    trace_path<F>(PathContext<UniformMethod>{view, UniformMethod{}, path}, intersector, state, counters);
+                    trace_path<F>(PathContext<UniformMethod>{view, UniformMethod{}, path}, intersector, state,
+                                  counters);
                     sum += Vec3d{state.radiance};
                 }
                 pixels[pixel] = Vec3f{sum / static_cast<double>(samples)};

@@ -2,9 +2,9 @@
 #include <cstring>
 
 #include "cpu/guided_block.h"
-#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
+#include "tests/support/field/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -6,8 +6,8 @@
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/integrator/trace_path.h"
 #include "tests/cpu/small_room.h"
-#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/field/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;

@@ -1,9 +1,9 @@
 // Pending sums of training samples from several threads equal those of a single thread.
 #include "cpu/parallel_for.h"
 #include "cpu/training_queue.h"
-#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
+#include "tests/support/field/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;

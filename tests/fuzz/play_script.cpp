@@ -174,7 +174,8 @@ void play_script(std::vector<ScriptCommand> commands) {
         std::this_thread::sleep_for(std::chrono::microseconds(100));  // for passes of the fake back end
         seconds += ScriptPlayer::kFrameSeconds;
         const Layout layout = panels.layout(model);
-        const Rect image = place_image(layout.view, model.render().settings().width, model.render().settings().height);
+        const Rect image =
+            place_image(layout.view, model.render().settings().width, model.render().settings().height);
         const ComparePlan plan = model.comparison().plan(layout.view);
         player.step(model, image, seconds);
         const ImGuiIO& io = ImGui::GetIO();

@@ -3,9 +3,9 @@
 
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/default.h"
-#include "tests/support/field/guided_methods.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/scenes/closed_scenes.h"
 #include "tests/support/statistics/rules.h"
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/kernel/methods/default.h"
-#include "tests/support/field/guided_methods.h"
 #include "tests/mutants/small_field.h"
 #include "tests/mutants/trace_many.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/scenes/cube_radiosity.h"
 #include "tests/support/scenes/rectangle_light.h"
 #include "tests/support/statistics/rules.h"

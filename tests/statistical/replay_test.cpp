@@ -3,9 +3,9 @@
 #include "core/kernel/integrator/trace_path.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
-#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/scenes/shipped_scenes.h"
 
 using namespace pl;

@@ -28,7 +28,7 @@ void draw_method(ViewerModel& model) {
         model.render().set_next_event(next_event);
 }
 
-/// An unavailable one is greyed, with the reason in place of its device.
+/// An unavailable one is grayed out, with the reason in place of its device.
 void draw_back_end(ViewerModel& model) {
     if (!section("Back end", true)) return;
     const std::string wanted = model.render().wanted_backend();

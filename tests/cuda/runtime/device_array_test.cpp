@@ -35,7 +35,8 @@ TEST_CASE("An error names call, cause and place") {
     shim::reset();
     CHECK(error_of(cudaSuccess).empty());
     const std::string text = error_of(cudaErrorMemoryAllocation);
-    CHECK_THAT(text, contains("cutting the grass") && contains("out of memory") && contains("device_array_test.cpp:"));
+    CHECK_THAT(text,
+               contains("cutting the grass") && contains("out of memory") && contains("device_array_test.cpp:"));
 }
 
 TEST_CASE("Arrays go to the device and come back once the stream was waited for") {

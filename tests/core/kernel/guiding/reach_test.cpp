@@ -2,9 +2,9 @@
 // finite.
 #include "core/kernel/guiding/reach.h"
 
-#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
+#include "tests/support/field/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;

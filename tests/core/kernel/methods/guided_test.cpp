@@ -1,9 +1,9 @@
 // The mixture of BSDF and table: samples follow its density, the density belongs to the direction, weights are bounded.
 #include "core/kernel/methods/guided.h"
 
-#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
+#include "tests/support/field/guided_methods.h"
 #include "tests/support/statistics/sampling_rule.h"
 
 using namespace pl;

@@ -1,9 +1,9 @@
 // Targets of reinforcement learning, one call at a time: their training samples for a path of known radiance.
 #include "core/kernel/methods/learning_target.h"
 
-#include "tests/support/field/guided_methods.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
+#include "tests/support/field/guided_methods.h"
 
 using namespace pl;
 using namespace pl::test;
