@@ -6,6 +6,7 @@
 
 #include "app/progress.h"
 #include "core/base/timer.h"
+#include "core/session/methods.h"
 
 namespace pl {
 namespace {
@@ -31,7 +32,7 @@ public:
 
 private:
     EndedBy limit_met(bool has_new_sample) const {
-        if (until_ == Until::Learned && slot_.method == MethodId::Precomputed)
+        if (until_ == Until::Learned && info_of(slot_.method).precomputes)
             return precomputed_share().value_or(0.0) >= 1.0 ? EndedBy::Learned : EndedBy::Nothing;
         if (session_.passes(slot_) == 0) return EndedBy::Nothing;
         if (has_new_sample && target_ != nullptr && target_->is_met(session_, slot_)) return EndedBy::TargetError;

@@ -10,6 +10,7 @@
 
 #include "core/base/timer.h"
 #include "core/selftest/known_scenes.h"
+#include "core/session/methods.h"
 #include "core/session/session.h"
 
 namespace pl {
@@ -206,10 +207,10 @@ private:
     void check_means() {
         const SceneDescription closed = furnace(glm::vec3{0.5f}, 0.5f);
         const SceneDescription cube = cube_under_ceiling();
-        for (const MethodId method : {MethodId::Default, MethodId::Precomputed, MethodId::Reinforcement}) {
-            check_mean("furnace", closed, {method, false}, 16, 1.0, 0.0, 0.02);
-            check_mean("cube under a bright ceiling", cube, {method, method != MethodId::Default}, 64,
-                       kCubeFloorRadiance, kCubeFloorError, 0.03);
+        for (const MethodInfo& method : all_methods()) {
+            check_mean("furnace", closed, {method.id, false}, 16, 1.0, 0.0, 0.02);
+            check_mean("cube under a bright ceiling", cube, {method.id, method.uses_field}, 64, kCubeFloorRadiance,
+                       kCubeFloorError, 0.03);
         }
         for (const bool next_event : {false, true}) {
             const Way way{MethodId::Reinforcement, next_event};
