@@ -40,7 +40,7 @@ void load_mtl(const fs::path& path, SceneDescription& scene) {
         std::vector<std::string> notes;
         MaterialDescription material = surface_of(entry, notes);
         if (entry.map_kd && entry.kd == glm::vec3(0.0f)) {
-            notes.push_back("multiplies its map_Kd with a black Kd");
+            notes.emplace_back("multiplies its map_Kd with a black Kd");
         }
         for (const std::string& note : notes) {
             scene.warnings.push_back(

@@ -107,10 +107,10 @@ MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& 
     const bool says_color = entry.kd || entry.ke || entry.map_kd || entry.map_ke;
     if (!says_color && (material.kind == SurfaceKind::Diffuse || material.kind == SurfaceKind::Plastic)) {
         material.albedo = kDefaultAlbedo;
-        notes.push_back("has neither Kd nor Ke and is shown in the default color");
+        notes.emplace_back("has neither Kd nor Ke and is shown in the default color");
     }
     if (entry.d.value_or(1.0f) < 1.0f && material.kind != SurfaceKind::Dielectric) {
-        notes.push_back("is partly transparent (d, Tr) without refraction (Tf, Ni): shown opaque");
+        notes.emplace_back("is partly transparent (d, Tr) without refraction (Tf, Ni): shown opaque");
     }
     if (material.kind == SurfaceKind::Diffuse) {
         return material;
@@ -122,7 +122,7 @@ MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& 
         material.transmission = strongest(entry.tf) > 0.0f ? *entry.tf : glm::vec3(1.0f);
         if (material.roughness > 0.0f && material.ior < kLeastRoughIor) {
             material.roughness = 0.0f;
-            notes.push_back("is rough glass of almost no refraction (Ni): shown smooth");
+            notes.emplace_back("is rough glass of almost no refraction (Ni): shown smooth");
         }
     }
     return material;
