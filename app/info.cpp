@@ -15,8 +15,6 @@
 namespace pl {
 namespace {
 
-Json vector_json(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
-
 struct Effect {
     std::string name;
     std::string reason;
@@ -46,7 +44,7 @@ double bytes_per_triangle(const HostScene& scene) {
     return triangles == 0 ? 0.0 : static_cast<double>(bytes_of(scene)) / static_cast<double>(triangles);
 }
 
-std::string text_of(const SceneReport& report) {
+std::string report_text(const SceneReport& report) {
     const SceneDescription& scene = report.scene;
     const CameraDescription& camera = scene.camera;
     std::string text = fmt::format("name       {}\nfile       {}\nhash       {}\n", scene.name, scene.source.string(),
@@ -128,7 +126,7 @@ int run_info(const CommandLine& line, Console& console) {
                              .effects = effects_of(needed, *loaded.scene),
                              .compiled = effect_names(kernel.compiled),
                              .kernel = kernel.name};
-    console.result(text_of(report));
+    console.result(report_text(report));
     console.event("info", json_of(report));
     return 0;
 }

@@ -21,8 +21,6 @@ std::vector<Vec3f> world_directions(const VolumeInspection& volume) {
     return directions;
 }
 
-Json vector_json(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
-
 ImageMetadata metadata_of(const VolumeInspection& volume, const InspectionSource& source) {
     ImageMetadata metadata{{"Software", "pathlight " PL_VERSION},    {"scene", source.scene},
                            {"scene_hash", source.scene_hash},        {"method", source.method},

@@ -97,20 +97,16 @@ void require_target(ErrorTarget* target, const RunOutcome& outcome) {
                             name_of(outcome.ended_by)));
 }
 
-/// Writes the file of --diagnostics, and puts its counts into the statistics. False if an interruption ended the
-/// search: the file then has the findings until then.
-bool write_diagnostics(DiagnosticsInput source, const Snapshot& snapshot, const Options& options,
-                       const ImageMetadata& metadata, const InterruptGuard& interrupt, Console& console,
-                       Json& stats) {
+/// Writes the file of --diagnostics; after an interruption, with the findings until then.
+DiagnosticsMap write_diagnostics(DiagnosticsInput source, const Snapshot& snapshot, const Options& options,
+                                 const ImageMetadata& metadata, const InterruptGuard& interrupt, Console& console) {
     ProgressDisplay progress(console, !options.no_progress && !options.quiet);
-    const DiagnosticsMap found =
-        find_diagnostics(std::move(source), options.threads, interrupt.flag(), [&](double share) {
-            progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
-        });
+    DiagnosticsMap found = find_diagnostics(std::move(source), options.threads, interrupt.flag(), [&](double share) {
+        progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
+    });
     save_diagnostics(options.diagnostics_file, snapshot, options.display, found, metadata);
-    stats["diagnostics"] = diagnostics_json(snapshot, &found);
     console.remark(fmt::format("{}: {}\n", options.diagnostics_file, summary_of(found)));
-    return found.is_complete;
+    return found;
 }
 
 void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted,
@@ -163,9 +159,13 @@ int run_render(const CommandLine& line, Console& console) {
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
     save_picture(options.output, snapshot, options.display, metadata);
-    const bool is_searched =
-        options.diagnostics_file.empty() ||
-        write_diagnostics(diagnostics_input(session, slot), snapshot, options, metadata, interrupt, console, stats);
+    bool is_searched = true;
+    if (!options.diagnostics_file.empty()) {
+        const DiagnosticsMap found =
+            write_diagnostics(diagnostics_input(session, slot), snapshot, options, metadata, interrupt, console);
+        stats["diagnostics"] = diagnostics_json(snapshot, &found);
+        is_searched = found.is_complete;
+    }
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, console);

@@ -13,13 +13,14 @@ using LaneEdges = EdgeFunctions<LaneFloat>;
 
 /// The rays of a group from lane `first`, transformed for the watertight test.
 PL_INLINE LaneRaySpace load_ray_space(const RayGroup& rays, std::uint32_t first) {
-    const auto dx = load_lanes<LaneFloat>(rays.direction_x + first);
-    const auto dy = load_lanes<LaneFloat>(rays.direction_y + first);
-    const auto dz = load_lanes<LaneFloat>(rays.direction_z + first);
-    return make_ray_space<LaneFloat, LaneInt>(load_lanes<LaneFloat>(rays.origin_x + first),
-                                              load_lanes<LaneFloat>(rays.origin_y + first),
-                                              load_lanes<LaneFloat>(rays.origin_z + first), dx, dy, dz, magnitude(dx),
-                                              magnitude(dy), magnitude(dz), broadcast(1.0f));
+    const RayVector<LaneFloat> origin{load_lanes<LaneFloat>(rays.origin_x + first),
+                                      load_lanes<LaneFloat>(rays.origin_y + first),
+                                      load_lanes<LaneFloat>(rays.origin_z + first)};
+    const RayVector<LaneFloat> direction{load_lanes<LaneFloat>(rays.direction_x + first),
+                                         load_lanes<LaneFloat>(rays.direction_y + first),
+                                         load_lanes<LaneFloat>(rays.direction_z + first)};
+    return make_ray_space<LaneFloat, LaneInt>(
+        origin, direction, {magnitude(direction.x), magnitude(direction.y), magnitude(direction.z)}, broadcast(1.0f));
 }
 
 PL_INLINE RayCorner<float> lane_of(const LaneCorner& corner, std::uint32_t lane) {

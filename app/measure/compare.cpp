@@ -74,7 +74,7 @@ Reference reference_for(const Picture& picture, const std::string& folder) {
                                            .max_depth = max_depth});
 }
 
-struct Comparison {
+struct MeasuredError {
     Metrics metrics;
     std::optional<double> flip;
 };
@@ -88,15 +88,15 @@ std::optional<double> flip_resolution(const Options& options) {
 }
 
 /// `resolution` is for FLIP, in pixels per degree.
-Comparison compare(const Picture& picture, const ReferenceHalves& halves, Pixels mean,
-                   std::optional<double> resolution) {
-    Comparison result{.metrics = measure_error(picture.image.pixels, halves), .flip = {}};
+MeasuredError compare(const Picture& picture, const ReferenceHalves& halves, Pixels mean,
+                      std::optional<double> resolution) {
+    MeasuredError result{.metrics = measure_error(picture.image.pixels, halves), .flip = {}};
     if (resolution) result.flip = mean_of(flip_map(picture.image.pixels, mean, picture.image.width, *resolution));
     return result;
 }
 
-Comparison compare(const Picture& picture, const std::string& reference, std::optional<double> resolution,
-                   Console& console) {
+MeasuredError compare(const Picture& picture, const std::string& reference, std::optional<double> resolution,
+                      Console& console) {
     if (std::filesystem::is_directory(reference)) {
         const Reference found = reference_for(picture, reference);
         const auto& [first, second] = found.halves;
@@ -108,7 +108,7 @@ Comparison compare(const Picture& picture, const std::string& reference, std::op
     return compare(picture, {other.image.pixels, other.image.pixels}, other.image.pixels, resolution);
 }
 
-std::string text_of(const Comparison& comparison, std::optional<double> resolution, const Picture& picture,
+std::string text_of(const MeasuredError& comparison, std::optional<double> resolution, const Picture& picture,
                     const std::string& reference) {
     const Metrics& m = comparison.metrics;
     std::string text =
@@ -138,7 +138,7 @@ int run_compare(const CommandLine& line, Console& console) {
     const std::optional<double> resolution = flip_resolution(line.options);
     const Picture picture = read_picture(line.options.inputs[0]);
     const std::string& reference = line.options.inputs[1];
-    const Comparison comparison = compare(picture, reference, resolution, console);
+    const MeasuredError comparison = compare(picture, reference, resolution, console);
     const Metrics& metrics = comparison.metrics;
     console.result(text_of(comparison, resolution, picture, reference));
     if (metrics.invalid_reference > 0)

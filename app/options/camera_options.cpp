@@ -5,10 +5,8 @@
 namespace pl {
 namespace {
 
-using enum Command;
-
 // clang-format off
-constexpr auto kOptions = std::to_array<OptionSpec>({
+constexpr auto kCameraOptions = std::to_array<OptionSpec>({
     {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical, "
              "\"aperture_radius\": r, \"focus_distance\": d}; overrides the scene's camera, and the options "
@@ -41,6 +39,6 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
 
 }  // namespace
 
-std::span<const OptionSpec> camera_options() { return kOptions; }
+std::span<const OptionSpec> camera_options() { return kCameraOptions; }
 
 }  // namespace pl

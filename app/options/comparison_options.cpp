@@ -3,17 +3,15 @@
 namespace pl {
 namespace {
 
-using enum Command;
-
 // clang-format off
-constexpr auto kOptions = std::to_array<OptionSpec>({
+constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
     {.name = "at", .flags = "--at", .value = "X,Y,Z[,NX,NY,NZ]", .group = kPlace,
      .help = "The nearest volume whose normal agrees; a point without a normal is moved to the closest "
              "surface, on the side that it lies on",
-     .commands = CommandSet(Inspect), .parse = parse_at},
+     .commands = CommandSet(Command::Inspect), .parse = parse_at},
     {.name = "pixel", .flags = "--pixel", .value = "X,Y", .group = kPlace,
      .help = "The volume that serves the surface seen there; 0,0 is the top left pixel",
-     .commands = CommandSet(Inspect), .parse = parse_pixel},
+     .commands = CommandSet(Command::Inspect), .parse = parse_pixel},
 
     {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,
      .help = "Sampling of directions: default, precomputed, reinforcement (see --list-methods)",
@@ -22,39 +20,39 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
     {.name = "method", .flags = "--method", .value = "NAME,..", .group = kCompared,
      .help = "Methods to compare, separated by commas (default: all); the first one is the baseline of the "
              "others",
-     .commands = CommandSet(Bench), .parse = parse_methods},
+     .commands = CommandSet(Command::Bench), .parse = parse_methods},
     {.name = "backend", .flags = "--backend", .value = "NAME,..", .group = kCompared,
      .help = "Back ends to compare: cpu, cuda (default: all that are available)",
-     .commands = CommandSet(Bench), .parse = parse_backends},
+     .commands = CommandSet(Command::Bench), .parse = parse_backends},
     {.name = "effects", .flags = "--effects", .value = "", .group = kCompared,
      .help = "Compare kernels instead of methods: the one that a scene needs, and those compiled for more "
              "effects; --seeds is the number of rounds",
-     .commands = CommandSet(Bench), .parse = parse_flag<&Options::effects>},
+     .commands = CommandSet(Command::Bench), .parse = parse_flag<&Options::effects>},
     {.name = "seeds", .flags = "--seeds", .value = "N", .group = kCompared,
      .help = "Runs of each method on each scene and back end (default 10); intervals need at least 5",
-     .commands = CommandSet(Bench),
+     .commands = CommandSet(Command::Bench),
      .parse = [](Options& o, Text text) { o.seeds = static_cast<int>(parse_whole(text, 1, 100000)); }},
     {.name = "reference", .flags = "--reference", .value = "DIR", .group = kCompared,
      .help = "Folder of references; a missing one is an error (default: DIR/references, made as needed)",
-     .commands = CommandSet(Bench), .parse = parse_text<&Options::reference_folder>},
+     .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::reference_folder>},
     {.name = "reference-spp", .flags = "--reference-spp", .value = "N", .group = kCompared,
      .help = "Samples per pixel in each half of references made here (default 4096)",
-     .commands = CommandSet(Bench),
+     .commands = CommandSet(Command::Bench),
      .parse = [](Options& o, Text text) {
          o.reference_spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000));
      }},
     {.name = "gate", .flags = "--gate", .value = "FILE", .group = kOutcome,
      .help = "Exit with 5 if a method takes longer to the same error than in this earlier results.json: by "
              "more than the tolerance even at the low end of its interval",
-     .commands = CommandSet(Bench), .parse = parse_text<&Options::gate>},
+     .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::gate>},
     {.name = "tolerance", .flags = "--tolerance", .value = "PERCENT", .group = kOutcome,
      .help = "Tolerance of the gate (default 10)",
-     .commands = CommandSet(Bench),
+     .commands = CommandSet(Command::Bench),
      .parse = [](Options& o, Text text) { o.tolerance_percent = parse_real(text, 0.0, 1.0e6); }},
     {.name = "measure-share", .flags = "--measure-share", .value = "PERCENT", .group = kOutcome,
      .help = "Time for measuring, on top of and relative to the charged time (default 1); points of a run are "
              "left out to keep within it, except for the first and the last",
-     .commands = CommandSet(Bench),
+     .commands = CommandSet(Command::Bench),
      .parse = [](Options& o, Text text) { o.measure_percent = parse_real(text, 0.0, 1.0e9); },
      .print = [](const Options& o) { return print_real(o.measure_percent); }},
 });
@@ -62,6 +60,6 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
 
 }  // namespace
 
-std::span<const OptionSpec> comparison_options() { return kOptions; }
+std::span<const OptionSpec> comparison_options() { return kComparisonOptions; }
 
 }  // namespace pl

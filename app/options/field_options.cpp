@@ -5,14 +5,12 @@
 namespace pl {
 namespace {
 
-using enum Command;
-
 void refuse_save_field(Options&, const std::string&) {
     throw Error(ErrorKind::Usage, "the viewer saves the learned field when Ctrl+Shift+S is pressed");
 }
 
 // clang-format off
-constexpr auto kOptions = std::to_array<OptionSpec>({
+constexpr auto kFieldOptions = std::to_array<OptionSpec>({
     {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,
      .help = "Number of radiance volumes (default: what the budget holds, at most 1000)",
      .commands = kPaths, .in_scene_files = true,
@@ -71,12 +69,12 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
      .help = "Write the learned field, also when interrupted; a run that loads it continues exactly there",
      .commands = kFiles, .parse = parse_text<&Options::save_field>},
     {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kHidden, .help = "",
-     .commands = CommandSet(View), .parse = refuse_save_field},
+     .commands = CommandSet(Command::View), .parse = refuse_save_field},
 });
 // clang-format on
 
 }  // namespace
 
-std::span<const OptionSpec> field_options() { return kOptions; }
+std::span<const OptionSpec> field_options() { return kFieldOptions; }
 
 }  // namespace pl

@@ -3,14 +3,12 @@
 namespace pl {
 namespace {
 
-using enum Command;
-
 void parse_spp(Options& options, const std::string& text) {
     options.spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000));
 }
 
 // clang-format off
-constexpr auto kOptions = std::to_array<OptionSpec>({
+constexpr auto kLimitOptions = std::to_array<OptionSpec>({
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel (default 64 unless another limit is given; the viewer has no limit by default)",
      .commands = kSampling, .in_scene_files = true,
@@ -18,14 +16,14 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel in each half (default 4096 unless a time limit is given)",
-     .commands = CommandSet(Reference), .parse = parse_spp},
+     .commands = CommandSet(Command::Reference), .parse = parse_spp},
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel of a run (default 64 unless a time limit or a target error is given)",
-     .commands = CommandSet(Bench), .parse = parse_spp,
+     .commands = CommandSet(Command::Bench), .parse = parse_spp,
      .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kStop,
      .help = "A relMSE at which runs end; the time to it is reported",
-     .commands = CommandSet(Bench), .parse = parse_target_error,
+     .commands = CommandSet(Command::Bench), .parse = parse_target_error,
      .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
     {.name = "time-limit", .flags = "--time-limit", .value = "SECONDS", .group = kStop,
      .help = "Seconds of work after loading, checked after each pass; at least one pass is made",
@@ -35,32 +33,32 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
      .help = "A relMSE: of the error against the reference in the folder --reference, or without one of the "
              "picture's own noise, estimated from two halves of its samples and trusted from 16 samples per "
              "pixel on. Exit with 5 if another limit is reached first",
-     .commands = CommandSet(Render), .in_scene_files = true, .parse = parse_target_error,
+     .commands = CommandSet(Command::Render), .in_scene_files = true, .parse = parse_target_error,
      .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
     {.name = "reference", .flags = "--reference", .value = "DIR", .group = kStop,
      .help = "Folder of references for --target-error; a missing one is an error",
-     .commands = CommandSet(Render), .parse = parse_text<&Options::reference_folder>,
+     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::reference_folder>,
      .print = [](const Options& o) { return o.reference_folder; }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kHidden, .help = "",
-     .commands = CommandSet(View, Inspect),
+     .commands = CommandSet(Command::View, Command::Inspect),
      .parse = [](Options&, Text) { fail_not_yet("stop by --spp or --time-limit"); }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kOutcome,
      .help = "Exit with 5 if relMSE is above this",
-     .commands = CommandSet(Compare), .parse = parse_target_error},
+     .commands = CommandSet(Command::Compare), .parse = parse_target_error},
     {.name = "flip", .flags = "--flip", .value = "", .group = kOutcome,
      .help = "Also FLIP, the visible difference when a display flips between both pictures: 0 none, 1 the "
              "largest; radiance above 1 is white there",
-     .commands = CommandSet(Compare), .parse = parse_flag<&Options::flip>},
+     .commands = CommandSet(Command::Compare), .parse = parse_flag<&Options::flip>},
     {.name = "pixels-per-degree", .flags = "--pixels-per-degree", .value = "N", .group = kOutcome,
      .help = "With --flip, resolution of the display as the eye sees it (default 67: a 0.7 m wide 4K display "
              "from 0.7 m)",
-     .commands = CommandSet(Compare),
+     .commands = CommandSet(Command::Compare),
      .parse = [](Options& o, Text text) { o.pixels_per_degree = parse_real(text, 1.0, 1000.0); }},
 });
 // clang-format on
 
 }  // namespace
 
-std::span<const OptionSpec> limit_options() { return kOptions; }
+std::span<const OptionSpec> limit_options() { return kLimitOptions; }
 
 }  // namespace pl

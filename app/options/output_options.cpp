@@ -3,10 +3,8 @@
 namespace pl {
 namespace {
 
-using enum Command;
-
 // clang-format off
-constexpr auto kOptions = std::to_array<OptionSpec>({
+constexpr auto kOutputOptions = std::to_array<OptionSpec>({
     {.name = "output", .flags = "-o,--output,--outfile", .value = "FILE", .group = kOutput,
      .help = "File to write; its suffix decides the kind: .exr and .pfm linear, .png tone mapped (inspect: "
              ".json, .csv, .png)",
@@ -14,10 +12,10 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return o.output; }},
     {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
      .help = "Folder of references; it may hold those of other pictures",
-     .commands = CommandSet(Reference), .parse = parse_text<&Options::output>},
+     .commands = CommandSet(Command::Reference), .parse = parse_text<&Options::output>},
     {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
      .help = "Folder of this bench; an interrupted bench continues",
-     .commands = CommandSet(Bench), .parse = parse_text<&Options::output>},
+     .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::output>},
     {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
      .help = "Write counts and timings as JSON",
      .commands = kFiles, .parse = parse_text<&Options::stats_file>},
@@ -25,12 +23,12 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
      .help = "Locate invalid samples, escaped paths, lookup misses and clamped training samples by tracing the "
              "paths again: .png marks their pixels in the picture, .exr and .pfm hold their counts per pixel; "
              "--stats has both as numbers",
-     .commands = CommandSet(Render), .parse = parse_text<&Options::diagnostics_file>},
+     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::diagnostics_file>},
 });
 // clang-format on
 
 }  // namespace
 
-std::span<const OptionSpec> output_options() { return kOptions; }
+std::span<const OptionSpec> output_options() { return kOutputOptions; }
 
 }  // namespace pl

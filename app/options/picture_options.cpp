@@ -8,12 +8,10 @@
 namespace pl {
 namespace {
 
-using enum Command;
-
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
 // clang-format off
-constexpr auto kOptions = std::to_array<OptionSpec>({
+constexpr auto kPictureOptions = std::to_array<OptionSpec>({
     {.name = "view", .flags = "--view", .value = "NAME", .group = kPicture,
      .help = "Quantity in the picture: beauty, direct, radiance-map, voronoi, normal, albedo, depth; heat maps "
              "of the learned field: visits, irradiance, entropy, bsdf-share, change, unvisited (see "
@@ -26,7 +24,7 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return o.backend; }},
     {.name = "backend", .flags = "--backend", .value = "NAME", .group = kCompared,
      .help = "Back end to test: cpu, cuda (default: all that are available)",
-     .commands = CommandSet(SelfTest), .parse = parse_backend},
+     .commands = CommandSet(Command::SelfTest), .parse = parse_backend},
     {.name = "threads", .flags = "-t,--threads", .value = "N", .group = kPicture,
      .help = "CPU threads (default: all); the picture does not depend on their number",
      .commands = kThreaded, .in_scene_files = true,
@@ -85,6 +83,6 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
 
 }  // namespace
 
-std::span<const OptionSpec> picture_options() { return kOptions; }
+std::span<const OptionSpec> picture_options() { return kPictureOptions; }
 
 }  // namespace pl

@@ -3,10 +3,8 @@
 namespace pl {
 namespace {
 
-using enum Command;
-
 // clang-format off
-constexpr auto kOptions = std::to_array<OptionSpec>({
+constexpr auto kProgramOptions = std::to_array<OptionSpec>({
     {.name = "json", .flags = "--json", .value = "", .group = kMessages,
      .help = "One JSON object per line on standard output instead of text",
      .commands = kEverywhere, .parse = parse_flag<&Options::json>},
@@ -24,21 +22,21 @@ constexpr auto kOptions = std::to_array<OptionSpec>({
      .commands = kHeadless, .parse = [](Options&, Text) {}},
 
     {.name = "window", .flags = "--window", .value = "WxH", .group = kViewer, .help = "Window size (default 1440x900)",
-     .commands = CommandSet(View), .parse = parse_window},
+     .commands = CommandSet(Command::View), .parse = parse_window},
     {.name = "software", .flags = "--software", .value = "", .group = kViewer,
      .help = "Draw the window without a graphics card",
-     .commands = CommandSet(View), .parse = parse_flag<&Options::software>},
+     .commands = CommandSet(Command::View), .parse = parse_flag<&Options::software>},
     {.name = "script", .flags = "--script", .value = "FILE", .group = kViewer,
      .help = "Feed the window with input from a file; needs no display",
-     .commands = CommandSet(View), .parse = parse_text<&Options::script>},
+     .commands = CommandSet(Command::View), .parse = parse_text<&Options::script>},
     {.name = "ui-trace", .flags = "--ui-trace", .value = "FILE", .group = kViewer,
      .help = "Write the time of every frame of the window",
-     .commands = CommandSet(View), .parse = parse_text<&Options::ui_trace>},
+     .commands = CommandSet(Command::View), .parse = parse_text<&Options::ui_trace>},
 });
 // clang-format on
 
 }  // namespace
 
-std::span<const OptionSpec> program_options() { return kOptions; }
+std::span<const OptionSpec> program_options() { return kProgramOptions; }
 
 }  // namespace pl

@@ -102,12 +102,11 @@ private:
 
     Json about() const {
         const RenderSettings& settings = session_.settings();
-        const auto vector = [](const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); };
         return {{"scene", plan_.scene},
                 {"camera",
-                 {{"eye", vector(settings.camera.eye)},
-                  {"target", vector(settings.camera.target)},
-                  {"up", vector(settings.camera.up)},
+                 {{"eye", vector_json(settings.camera.eye)},
+                  {"target", vector_json(settings.camera.target)},
+                  {"up", vector_json(settings.camera.up)},
                   {"fov_deg", settings.camera.fov_deg},
                   {"aperture_radius", settings.camera.aperture_radius},
                   {"focus_distance", settings.camera.focus_distance}}},

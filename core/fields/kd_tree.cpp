@@ -7,8 +7,6 @@
 namespace pl {
 namespace {
 
-bool is_finite(Vec3f v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 using NodeIterator = std::vector<KdNode>::iterator;
 
 std::uint32_t longest_axis(NodeIterator begin, NodeIterator end) {

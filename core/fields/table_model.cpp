@@ -62,10 +62,9 @@ bool fits(const FieldShape& shape, const HostTables& tables, std::size_t volumes
 std::size_t table_bytes(int bins) {
     const FieldShape shape{.cells = {static_cast<int>(rounded_root(bins))}};
     std::size_t bytes = 0;
-    for_each_table_array([&](const auto& spec) {
-        const HostTables tables;
-        bytes += extent_of(spec.extent, shape, 1) * sizeof spec.get(tables)[0];
-    });
+    const HostTables tables;
+    for_each_table_array(
+        [&](const auto& spec) { bytes += extent_of(spec.extent, shape, 1) * sizeof spec.get(tables)[0]; });
     return bytes;
 }
 

@@ -133,10 +133,11 @@ inline std::size_t volume_count(const HostTables& tables) { return tables.mean_r
 /// stay with the parent.
 HostTables split_field(const FieldShape& shape, HostTables tables, std::span<const std::uint32_t> parents);
 
-/// Views of the arrays for kernels that trace paths, and for the update. `tables` may be empty for views of the placement.
+/// Views of the arrays for kernels that trace paths, for the update and for heat maps: overloads that code for any
+/// representation calls, see field_model.h. `tables` may be empty for views of the placement.
 template <template <class> class Array, template <class> class TableArray>
-TableField table_field(const FieldShape& shape, const VolumeStorage<Array>& volumes,
-                       TableStorage<TableArray>& tables) {
+TableField field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes,
+                      TableStorage<TableArray>& tables) {
     TableField field;
     static_cast<PlacementView&>(field) = placement_view(volumes, shape.lookup, shape.extent);
     field.cells = shape.cells;
@@ -146,7 +147,7 @@ TableField table_field(const FieldShape& shape, const VolumeStorage<Array>& volu
 }
 
 template <template <class> class Array>
-TableUpdateView table_update_view(const FieldShape& shape, TableStorage<Array>& tables) {
+TableUpdateView update_view(const FieldShape& shape, TableStorage<Array>& tables) {
     TableUpdateView view;
     view.cells = shape.cells;
     view.radiance_unit = shape.radiance_unit;
@@ -157,16 +158,6 @@ TableUpdateView table_update_view(const FieldShape& shape, TableStorage<Array>& 
     return view;
 }
 
-/// Overloads called by the code for any representation, see field_model.h.
-template <template <class> class Array, template <class> class TableArray>
-TableField field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes,
-                      TableStorage<TableArray>& tables) {
-    return table_field(shape, volumes, tables);
-}
-template <template <class> class Array>
-TableUpdateView update_view(const FieldShape& shape, TableStorage<Array>& tables) {
-    return table_update_view(shape, tables);
-}
 inline TableVolumeSummary summary_of(const TableUpdateView& field) { return {field}; }
 
 }  // namespace pl

@@ -7,11 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/kernel/base/math.h"
 
 namespace pl {
 namespace {
-
-bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// A frame of a longer vector would give directions outside of the direction cells.
 bool is_unit(const Vec3f& v) { return std::fabs(glm::dot(v, v) - 1.0f) < 1.0e-4f; }

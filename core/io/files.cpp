@@ -33,10 +33,6 @@ std::string reason(int error_number) { return std::generic_category().message(er
     throw Error(ErrorKind::Input, fmt::format("{}: cannot be read: {}", path.string(), why));
 }
 
-[[noreturn]] void fail_write(const fs::path& path, const std::string& why) {
-    throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
-}
-
 /// Writes to a device or pipe; returns 0 or errno.
 int write_through(const fs::path& path, std::string_view bytes) {
     const int file = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
@@ -54,6 +50,10 @@ void clear_once(const fs::path& folder) {
 }
 
 }  // namespace
+
+void fail_write(const fs::path& path, const std::string& why) {
+    throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
+}
 
 std::string read_file(const fs::path& path) {
     std::error_code error;

@@ -24,6 +24,9 @@ bool stays_inside(const std::filesystem::path& path);
 /// leaves no temporary file. The first write of a process to a folder removes temporary files of killed processes.
 void write_file_atomic(const std::filesystem::path& path, std::string_view bytes);
 
+/// Throws the Error(Runtime) of a file that cannot be written.
+[[noreturn]] void fail_write(const std::filesystem::path& path, const std::string& why);
+
 /// write_file_atomic() for text.
 inline void write_text_file_atomic(const std::filesystem::path& path, std::string_view text) {
     write_file_atomic(path, text);

@@ -9,17 +9,17 @@ namespace pl {
 Json read_json_file(const std::filesystem::path& path, std::string_view schema) {
     const std::string text = read_text_file(path);
     return read_members(path, [&] {
-        Json json = Json::parse(text);
-        const std::string found = json.at("schema").get<std::string>();
+        Json document = Json::parse(text);
+        const std::string found = document.at("schema").get<std::string>();
         if (found != schema)
             throw Error(ErrorKind::Input,
                         fmt::format("{}: expected schema {}, got {}", path.string(), schema, found));
-        return json;
+        return document;
     });
 }
 
-void write_json_file(const std::filesystem::path& path, const Json& json) {
-    write_text_file_atomic(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+void write_json_file(const std::filesystem::path& path, const Json& document) {
+    write_text_file_atomic(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -8,17 +8,21 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/kernel/base/math.h"
 
 namespace pl {
 
 /// Members stay in the order in which they were written.
 using Json = nlohmann::ordered_json;
 
+/// [x, y, z].
+inline Json vector_json(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
+
 /// Throws Error(Input): missing, not JSON, not of this "schema".
 Json read_json_file(const std::filesystem::path& path, std::string_view schema);
 
 /// The file appears under its name only when it is complete.
-void write_json_file(const std::filesystem::path& path, const Json& json);
+void write_json_file(const std::filesystem::path& path, const Json& document);
 
 /// Makes the folder and those above it. Throws Error(Runtime).
 void make_folder(const std::filesystem::path& folder);

@@ -20,10 +20,6 @@ namespace fs = std::filesystem;
 
 std::uint8_t to_byte(float linear) { return static_cast<std::uint8_t>(std::lround(255.0f * encode_srgb(linear))); }
 
-[[noreturn]] void fail_write(const fs::path& path, const std::string& why) {
-    throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
-}
-
 }  // namespace
 
 ByteImage display_image(const Snapshot& snapshot, const DisplaySettings& display) {

@@ -11,8 +11,6 @@
 namespace pl {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Exponents and knee of the color difference, exponent and width of the feature difference.   [section 4, table 1]
 constexpr double kColorExponent = 0.7;
 constexpr double kKneeInput = 0.4;
@@ -127,16 +125,17 @@ const std::vector<Gaussian> kSensitivity[3] = {{{1.0, 0.0047}}, {{1.0, 0.0053}},
 /// A channel filtered by the contrast sensitivity of the eye.
 Plane seen(const Plane& plane, const Grid& grid, int channel, double pixels_per_degree) {
     constexpr double kWidest = 0.04;
-    const int radius = static_cast<int>(std::ceil(3.0 * std::sqrt(kWidest / (2.0 * kPi * kPi)) * pixels_per_degree));
+    const int radius = static_cast<int>(
+        std::ceil(3.0 * std::sqrt(kWidest / (2.0 * std::numbers::pi * std::numbers::pi)) * pixels_per_degree));
     Plane result(plane.size(), 0.0);
     double total = 0.0;
     for (const Gaussian& part : kSensitivity[channel]) {
         Kernel kernel(radius, [&](double i) {
             const double degrees = i / pixels_per_degree;
-            return std::exp(-kPi * kPi * degrees * degrees / part.spread);
+            return std::exp(-std::numbers::pi * std::numbers::pi * degrees * degrees / part.spread);
         });
         const double sum = kernel.sum();
-        const double share = part.height * std::sqrt(kPi / part.spread) * sum * sum;
+        const double share = part.height * std::sqrt(std::numbers::pi / part.spread) * sum * sum;
         kernel.scale(1.0 / sum);
         const Plane blurred = filtered(filtered(plane, grid, kernel, true), grid, kernel, false);
         for (std::size_t i = 0; i < result.size(); ++i) result[i] += share * blurred[i];

@@ -48,11 +48,6 @@ Metrics measure_error(Pixels picture, Pixels reference, int threads = 1);
 /// mean of the halves.
 Metrics measure_error(Pixels picture, const ReferenceHalves& reference, int threads = 1);
 
-/// Without a branch: called for four pictures at every pixel.
-inline bool is_finite(const Vec3f& pixel) {
-    const Vec3f zero = 0.0f * pixel;  // NaN where a component is not finite
-    return zero.x + zero.y + zero.z == 0.0f;
-}
 inline double luminance_of(const Vec3d& radiance) {
     return 0.2126 * radiance.x + 0.7152 * radiance.y + 0.0722 * radiance.z;
 }

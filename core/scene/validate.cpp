@@ -8,12 +8,11 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/kernel/base/math.h"
 
 namespace pl {
 
 namespace {
-
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool is_light(const glm::vec3& v) { return is_finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f; }
 

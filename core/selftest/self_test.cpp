@@ -194,13 +194,19 @@ private:
         });
     }
 
+    struct ExpectedMean {
+        double radiance;
+        double error;  ///< of `radiance` itself
+        double delta;  ///< smallest relative difference that the check finds
+    };
+
     /// A mean, rendered in one way, over pixels that all see the same radiance.
     void check_mean(const std::string& name, const SceneDescription& scene, Way way, std::uint32_t passes,
-                    double expected, double reference_error, double delta) {
-        check(fmt::format("{}: {}", name, words_of(way)), fmt::format("the mean, resolving {:.3g} %", 100.0 * delta),
-              [&](SelfCheck& result) {
-                  judge_mean(result, render(scene, settings_of(scene, way, 64), passes), expected, reference_error,
-                             delta);
+                    const ExpectedMean& mean) {
+        check(fmt::format("{}: {}", name, words_of(way)),
+              fmt::format("the mean, resolving {:.3g} %", 100.0 * mean.delta), [&](SelfCheck& result) {
+                  judge_mean(result, render(scene, settings_of(scene, way, 64), passes), mean.radiance, mean.error,
+                             mean.delta);
               });
     }
 
@@ -208,26 +214,26 @@ private:
         const SceneDescription closed = furnace(glm::vec3{0.5f}, 0.5f);
         const SceneDescription cube = cube_under_ceiling();
         for (const MethodInfo& method : all_methods()) {
-            check_mean("furnace", closed, {method.id, false}, 16, 1.0, 0.0, 0.02);
-            check_mean("cube under a bright ceiling", cube, {method.id, method.uses_field}, 64, kCubeFloorRadiance,
-                       kCubeFloorError, 0.03);
+            check_mean("furnace", closed, {method.id, false}, 16, {1.0, 0.0, 0.02});
+            check_mean("cube under a bright ceiling", cube, {method.id, method.uses_field}, 64,
+                       {kCubeFloorRadiance, kCubeFloorError, 0.03});
         }
         for (const bool next_event : {false, true}) {
             const Way way{MethodId::Reinforcement, next_event};
             // Mirrors count as vertices, so that the usual maximal depth would cut off a thousandth of the light.
             const Way long_way{way.method, next_event, 10000};
             const LampScene over = lamp_over_floor();
-            check_mean("lamp over a floor", over.scene, way, 64, over.floor_radiance, 1e-6, 0.03);
-            check_mean("plates between mirrors", plates_between_mirrors(), long_way, 32, kPlateRadiance, 0.0, 0.03);
+            check_mean("lamp over a floor", over.scene, way, 64, {over.floor_radiance, 1e-6, 0.03});
+            check_mean("plates between mirrors", plates_between_mirrors(), long_way, 32, {kPlateRadiance, 0.0, 0.03});
         }
         const LampScene beside = lamp_beside_floor();
-        check_mean("lamp beside a floor", beside.scene, {MethodId::Default, true}, 64, beside.floor_radiance, 1e-6,
-                   0.02);
+        check_mean("lamp beside a floor", beside.scene, {MethodId::Default, true}, 64,
+                   {beside.floor_radiance, 1e-6, 0.02});
         const LampScene tiny = tiny_lamp();
-        check_mean("tiny lamp", tiny.scene, {MethodId::Default, true}, 16, tiny.floor_radiance,
-                   1e-3 * tiny.floor_radiance, 0.02);
+        check_mean("tiny lamp", tiny.scene, {MethodId::Default, true}, 16,
+                   {tiny.floor_radiance, 1e-3 * tiny.floor_radiance, 0.02});
         check_mean("floor under a linear sky", floor_under_linear_sky(0.6f, 1.0f, 0.5f), {MethodId::Default, true},
-                   16, static_cast<double>(0.6f) * (1.0 + 2.0 * 0.5 / 3.0), 1e-4, 0.02);
+                   16, {static_cast<double>(0.6f) * (1.0 + 2.0 * 0.5 / 3.0), 1e-4, 0.02});
     }
 
     std::shared_ptr<RenderBackend> backend_;

@@ -54,7 +54,7 @@ TEST_CASE("Views in parallel equal views pixel by pixel") {
     const auto side = static_cast<std::size_t>(room.shape.cells.side);
     for (std::size_t i = 0; i < tables.row_cdf.size(); ++i)
         if (i % side + 1 < side) tables.row_cdf[i] *= 1.0f / static_cast<float>(1 + i % 3);
-    const TableField field = table_field(room.shape, *room.volumes, tables);
+    const TableField field = field_view(room.shape, *room.volumes, tables);
     const SceneView scene = room.scene->view();
     for (const ViewInfo& info : all_views()) {
         const View view = info.id;
@@ -62,7 +62,7 @@ TEST_CASE("Views in parallel equal views pixel by pixel") {
         INFO(info.name);
         std::vector<float> values;
         for (std::uint32_t volume = 0; volume < tables.mean_radiance.size(); ++volume)
-            values.push_back(volume_value(TableVolumeSummary{table_update_view(room.shape, tables)}, volume, view));
+            values.push_back(volume_value(TableVolumeSummary{update_view(room.shape, tables)}, volume, view));
         if (is_heat_map(view)) CHECK(std::set<float>(values.begin(), values.end()).size() > 2);
         const ShownField shown{field, view_of(std::as_const(values))};
         const ViewContext context{.view = view,
@@ -189,7 +189,7 @@ TEST_CASE("An update in parallel equals an update volume by volume") {
     CHECK(same_bits(expected.pending_sum, tables_of(backend->download_field(MethodId::Precomputed)).pending_sum));
     backend->update_field(MethodId::Precomputed);
     for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)
-        update_volume(table_update_view(room.shape, expected), volume);
+        update_volume(update_view(room.shape, expected), volume);
     const HostTables tables = tables_of(backend->download_field(MethodId::Precomputed));
     CHECK(same_bits(expected.radiance, tables.radiance));
     CHECK(same_bits(expected.visits, tables.visits));

@@ -56,7 +56,7 @@ Outcome loop_over_paths(const Room& room) {
     const SceneView scene = room.scene->view();
     const PathSettings settings = path_settings(F.has(Feature::NextEventEstimation));
     M method;
-    if constexpr (GuidedMethod<M>) method.field = table_field(room.shape, *room.volumes, outcome.tables);
+    if constexpr (GuidedMethod<M>) method.field = field_view(room.shape, *room.volumes, outcome.tables);
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
         for (std::uint32_t pixel = 0; pixel < pixels.size(); ++pixel) {
             auto state = begin_path<F, M>(room.camera, settings, {kWidth, kHeight, sample}, pixel);
@@ -66,7 +66,7 @@ Outcome loop_over_paths(const Room& room) {
         }
         if constexpr (std::is_same_v<M, ReinforcementMethod>)
             for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)
-                update_volume(table_update_view(room.shape, outcome.tables), volume);
+                update_volume(update_view(room.shape, outcome.tables), volume);
     }
     for (const FilmPixel& pixel : pixels) outcome.film.push_back(mean_radiance(pixel));
     return outcome;
@@ -132,7 +132,7 @@ TEST_CASE("Batches of reinforcement paths equal single paths") {
 TEST_CASE("Batches of probes equal single probes") {
     const Room room;
     HostTables expected = room.empty_tables();
-    const TableField field = table_field(room.shape, *room.volumes, expected);
+    const TableField field = field_view(room.shape, *room.volumes, expected);
     const SceneView scene = room.scene->view();
     PathSettings settings = path_settings(true);
     settings.stream = Stream::Precompute;

@@ -17,9 +17,9 @@ public:
         tables_ = make_tables(shape_, volumes_.sites.size());
     }
 
-    TableField view() { return table_field(shape_, volumes_, tables_); }
+    TableField view() { return field_view(shape_, volumes_, tables_); }
     void update() {
-        const TableUpdateView view = table_update_view(shape_, tables_);
+        const TableUpdateView view = update_view(shape_, tables_);
         for (std::uint32_t volume = 0; volume < volumes_.sites.size(); ++volume) update_volume(view, volume);
     }
 

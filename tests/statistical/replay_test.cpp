@@ -72,7 +72,7 @@ void check_replay(const std::string& name, bool next_event) {
     HostVolumes volumes = place_volumes(scene, settings);
     HostTables tables = make_tables(shape, volumes.sites.size());
     ReplayedMethod method;
-    method.field = table_field(shape, volumes, tables);
+    method.field = field_view(shape, volumes, tables);
     method.learning = {LearningTarget::MonteCarlo, LearnedLight::Indirect};
     const Camera camera = make_camera(description.camera, kSide, kSide);
     const PathSettings path{.seed = 1, .next_event = next_event ? 1u : 0u};

@@ -103,7 +103,7 @@ LearnedField map_of_one_cell(const SceneDescription& scene) {
         tables_of(field.field).radiance[i] = i % cells == 5 ? 1.0f : 0.0f;
         tables_of(field.field).visits[i] = 1000000;
     }
-    const TableUpdateView view = table_update_view(field.shape, tables_of(field.field));
+    const TableUpdateView view = update_view(field.shape, tables_of(field.field));
     for (std::uint32_t volume = 0; volume < view.mean_radiance.count; ++volume) update_volume(view, volume);
     return field;
 }
@@ -120,7 +120,7 @@ TEST_CASE("After training every table's density integrates to one") {
         Session session = make_session(scene, settings);
         render_passes(session, 16);
         LearnedField field = session.export_field(session.settings().method);
-        const TableField view = table_field(field.shape, *field.volumes, tables_of(field.field));
+        const TableField view = field_view(field.shape, *field.volumes, tables_of(field.field));
         INFO(learner);
         REQUIRE(view.volume_count() >= 300);
         for (std::int32_t volume = 0; volume < view.volume_count(); ++volume)

@@ -51,9 +51,14 @@ struct TableSummary {
 };
 TableSummary summarize(const VolumeInspection& volume);
 
-/// The hemisphere as shapes around its volume; `highlighted` cell or -1.
+struct HemisphereStyle {
+    float radius = 1.0f;  ///< in scene units
+    std::uint8_t alpha = 255;
+    int highlighted = -1;  ///< cell, or -1
+};
+/// The hemisphere as shapes around its volume.
 void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::vector<CellFan>& fans,
-                    const CellValues& values, float radius, std::uint8_t alpha, int highlighted);
+                    const CellValues& values, const HemisphereStyle& style);
 
 /// Point of the unit disk for a direction in scene space; empty below the horizon of the volume.
 std::optional<Vec2f> disk_point_of(const VolumeInspection& volume, Vec3f direction);

@@ -85,6 +85,13 @@ void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32
     }
 }
 
+void text_cell(const std::string& text, ImU32 color) {
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
 void tooltip(const char* text) {
     constexpr float kRestSeconds = 0.4f;  // a moving pointer should not open tooltips on its way
     if (*text == '\0' || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
@@ -132,15 +139,15 @@ void text_row(const char* label, const std::string& value, const char* tip, ImU3
     tooltip(tip);
 }
 
-bool slider_row(const char* label, const char* tip, float* value, float low, float high, float standard,
-                const char* format, ImGuiSliderFlags flags) {
+bool slider_row(const char* label, const char* tip, float* value, const SliderRange& range) {
     begin_row(label, tip);
-    bool changed = ImGui::SliderFloat(hidden_label(label).c_str(), value, low, high, format,
-                                      flags | ImGuiSliderFlags_AlwaysClamp);
+    bool changed = ImGui::SliderFloat(hidden_label(label).c_str(), value, range.low, range.high, range.format,
+                                      range.flags | ImGuiSliderFlags_AlwaysClamp);
     note_place(label);
-    tooltip(fmt::format("{}\nCtrl+click to type, right click for the default ({:.4g}).", tip, standard).c_str());
+    tooltip(
+        fmt::format("{}\nCtrl+click to type, right click for the default ({:.4g}).", tip, range.standard).c_str());
     if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) {
-        *value = standard;
+        *value = range.standard;
         changed = true;
     }
     return changed;

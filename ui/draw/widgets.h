@@ -18,6 +18,9 @@ void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32
 /// Explains the last item while the pointer rests on it.
 void tooltip(const char* text);
 
+/// The next cell of a table.
+void text_cell(const std::string& text, ImU32 color = colors::kText);
+
 /// Records the rectangle of the last item for scripts.
 void note_place(const char* label);
 
@@ -30,9 +33,16 @@ void end_row(const char* label, const char* tip);
 /// A read-only value.
 void text_row(const char* label, const std::string& value, const char* tip = "", ImU32 color = colors::kText);
 
+struct SliderRange {
+    float low;
+    float high;
+    float standard;      ///< value after a right click
+    const char* format;  ///< of printf
+    ImGuiSliderFlags flags = 0;
+};
+
 /// Ctrl+click to type, right click for the default. True if the value changed.
-bool slider_row(const char* label, const char* tip, float* value, float low, float high, float standard,
-                const char* format, ImGuiSliderFlags flags = 0);
+bool slider_row(const char* label, const char* tip, float* value, const SliderRange& range);
 
 bool toggle_row(const char* label, const char* tip, bool* value);
 

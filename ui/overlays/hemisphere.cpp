@@ -56,7 +56,7 @@ void draw_hemisphere(const ViewerModel& model, const Rect& image) {
     const std::uint8_t alpha = is_hidden(frame, *volume, radius) ? kHiddenAlpha : kAlpha;
 
     DrawList shapes;
-    add_hemisphere(shapes, *volume, fans, values, radius, alpha, model.selection().hovered_cell());
+    add_hemisphere(shapes, *volume, fans, values, {radius, alpha, model.selection().hovered_cell()});
     if (model.selection().hovered_cell() >= 0 &&
         static_cast<std::size_t>(model.selection().hovered_cell()) < fans.size())
         add_ray(shapes, frame, *volume, fans[static_cast<std::size_t>(model.selection().hovered_cell())], radius);

@@ -10,13 +10,6 @@
 namespace pl {
 namespace {
 
-void cell(const std::string& text, ImU32 color = colors::kText) {
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
-}
-
 std::string margin_text(const SelfCheck& check) {
     if (check.tolerance <= 0.0) return "exact";
     return std::isfinite(check.used_share) ? fmt::format("{:.0f} % used", 100.0 * check.used_share) : "none";
@@ -24,13 +17,13 @@ std::string margin_text(const SelfCheck& check) {
 
 void draw_check(const SelfCheck& check) {
     ImGui::TableNextRow();
-    cell(check.passed ? "ok" : "FAILED", check.passed ? colors::kGood : colors::kError);
-    cell(check.backend, colors::kFaint);
-    cell(check.name);
+    text_cell(check.passed ? "ok" : "FAILED", check.passed ? colors::kGood : colors::kError);
+    text_cell(check.backend, colors::kFaint);
+    text_cell(check.name);
     tooltip(check.criterion.c_str());
-    cell(fmt::format("{:.6g}", check.expected));
-    cell(fmt::format("{:.6g}", check.measured), check.passed ? colors::kText : colors::kError);
-    cell(margin_text(check), colors::kFaint);
+    text_cell(fmt::format("{:.6g}", check.expected));
+    text_cell(fmt::format("{:.6g}", check.measured), check.passed ? colors::kText : colors::kError);
+    text_cell(margin_text(check), colors::kFaint);
     tooltip("The deviation as a share of the tolerance; exact: no deviation is allowed.");
 }
 

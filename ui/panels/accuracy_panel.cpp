@@ -55,14 +55,6 @@ std::string cost_text(double cost, CostAxis axis) {
     return axis == CostAxis::Seconds ? short_seconds(cost) : fmt::format("{:.0f} spp", cost);
 }
 
-/// The next cell of the table.
-void cell(const std::string& text, ImU32 color = colors::kText) {
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
-}
-
 /// The reason for a missing value.
 std::string missing_text(const CursorRow& row, const AccuracyModel& model) {
     const CostAxis axis = model.kind().axis;
@@ -76,21 +68,21 @@ void draw_row(const CursorRow& row, const AccuracyModel& model) {
     const auto run = find_run(model.runs(), row.run);
     if (!run) return;
     ImGui::TableNextRow();
-    cell(name_of(run->label), to_imgui_color(info_of(run->label.method).color));
+    text_cell(name_of(run->label), to_imgui_color(info_of(run->label.method).color));
     const bool at_error = model.cursor().kind == Cursor::Kind::EqualError;
     const std::optional<double>& shown = at_error ? row.cost : row.error;
     if (!shown)
-        cell(missing_text(row, model), colors::kFaint);
+        text_cell(missing_text(row, model), colors::kFaint);
     else
-        cell(at_error ? cost_text(*shown, kind.axis) : fmt::format("{:.3g}", *shown));
+        text_cell(at_error ? cost_text(*shown, kind.axis) : fmt::format("{:.3g}", *shown));
     const CostAxis other = kind.axis == CostAxis::Seconds ? CostAxis::Samples : CostAxis::Seconds;
-    cell(row.other_cost && shown ? cost_text(*row.other_cost, other) : "-");
+    text_cell(row.other_cost && shown ? cost_text(*row.other_cost, other) : "-");
     if (row.is_base)
-        cell("default", colors::kFaint);
+        text_cell("default", colors::kFaint);
     else if (!row.ratio)
-        cell("-", colors::kFaint);
+        text_cell("-", colors::kFaint);
     else
-        cell(fmt::format("{:.2f}x", *row.ratio), *row.ratio >= 1.0 ? colors::kGood : colors::kWarning);
+        text_cell(fmt::format("{:.2f}x", *row.ratio), *row.ratio >= 1.0 ? colors::kGood : colors::kWarning);
 }
 
 void draw_cursor_table(const AccuracyModel& model) {

@@ -43,11 +43,11 @@ bool draw_reflection(MaterialDescription& m, const MaterialDescription& file) {
         changed |= share_row("Transmitted", "Tint of the transmitted light.", m.transmission);
     if (m.kind == SurfaceKind::Diffuse) return changed;
     changed |= slider_row("Roughness", "0 is a mirror; the alpha of the microfacet distribution is its square.",
-                          &m.roughness, 0.0f, 1.0f, file.roughness, "%.3f");
+                          &m.roughness, {0.0f, 1.0f, file.roughness, "%.3f"});
     if (m.kind != SurfaceKind::Conductor)
         changed |=
             slider_row("Index", "Index of refraction, inside over outside: water 1.33, glass 1.5, diamond 2.4.",
-                       &m.ior, kLeastIor, kMostIor, file.ior, "%.3f");
+                       &m.ior, {kLeastIor, kMostIor, file.ior, "%.3f"});
     return changed;
 }
 
@@ -57,9 +57,10 @@ float strength_of(const glm::vec3& emission) { return std::max({emission.x, emis
 bool draw_emission(MaterialDescription& m, const MaterialDescription& file) {
     float strength = strength_of(m.emission);
     glm::vec3 color = strength > 0.0f ? m.emission / strength : glm::vec3{1.0f};
-    bool changed = slider_row("Emission", "Emitted radiance of the front, in the largest channel. 0: no light.",
-                              &strength, 0.0f, std::max(kMostStrength, 2.0f * strength_of(file.emission)),
-                              strength_of(file.emission), "%.4g", ImGuiSliderFlags_Logarithmic);
+    bool changed =
+        slider_row("Emission", "Emitted radiance of the front, in the largest channel. 0: no light.", &strength,
+                   {0.0f, std::max(kMostStrength, 2.0f * strength_of(file.emission)), strength_of(file.emission),
+                    "%.4g", ImGuiSliderFlags_Logarithmic});
     if (strength > 0.0f) {
         changed |= share_row("Lamp color", "Color of the emitted radiance.", color);
         changed |= toggle_row("Both sides emit", "Otherwise only the front.", &m.two_sided_emission);

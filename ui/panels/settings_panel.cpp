@@ -120,7 +120,7 @@ void draw_refinement(ViewerModel& model, FieldSettings settings) {
         model.render().set_field(settings);
     }
     if (!is_auto && slider_row("Added share", "Volumes that refinement may add, as a share of the placed ones.",
-                               &settings.refine_share, 0.0f, 1.0f, 0.0f, "%.2f"))
+                               &settings.refine_share, {0.0f, 1.0f, 0.0f, "%.2f"}))
         model.render().set_field(settings);
 }
 
@@ -151,8 +151,8 @@ void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
     model.render().set_field(settings);
 }
 
-void draw_learning(ViewerModel& model) {
-    if (!section("Learning", true)) return;
+/// Number of passes and training samples of the method on show.
+void draw_learned_amount(const ViewerModel& model) {
     const std::optional<FieldStatus>& field = model.status().field;
     if (field) {
         text_row(
@@ -163,6 +163,11 @@ void draw_learning(ViewerModel& model) {
         const MethodInfo& method = info_of(model.render().method());
         faint_text(method.uses_field ? "nothing yet" : fmt::format("{} has no field.", method.label).c_str());
     }
+}
+
+void draw_learning(ViewerModel& model) {
+    if (!section("Learning", true)) return;
+    draw_learned_amount(model);
     MixtureSettings mixture = model.render().settings().mixture;
     bool learned = mixture.learned != 0;
     if (toggle_row("Learned share", "A method that learns also learns the BSDF fraction of each volume.", &learned)) {
@@ -173,7 +178,7 @@ void draw_learning(ViewerModel& model) {
             "BSDF share",
             "BSDF fraction of the mixture: the share of directions sampled from the BSDF instead of the field, for "
             "volumes that have not learned it.",
-            &mixture.bsdf_fraction, kMinBsdfFraction, 1.0f, MixtureSettings{}.bsdf_fraction, "%.2f"))
+            &mixture.bsdf_fraction, {kMinBsdfFraction, 1.0f, MixtureSettings{}.bsdf_fraction, "%.2f"}))
         model.render().set_mixture(mixture);
     FieldSettings settings = model.render().settings().field;
     int volumes = settings.volumes;
@@ -201,15 +206,15 @@ void draw_camera(ViewerModel& model) {
     CameraDescription camera = model.camera().camera();
     if (point_row("Eye", "Position in scene units.", &camera.eye.x)) model.camera().set(camera);
     if (point_row("Target", "The point that the camera looks at.", &camera.target.x)) model.camera().set(camera);
-    if (slider_row("View angle", "Vertical field of view in degrees.", &camera.fov_deg, 5.0f, 120.0f,
-                   model.camera().given().fov_deg, "%.1f\xc2\xb0"))
+    if (slider_row("View angle", "Vertical field of view in degrees.", &camera.fov_deg,
+                   {5.0f, 120.0f, model.camera().given().fov_deg, "%.1f\xc2\xb0"}))
         model.camera().set(camera);
     const CameraDescription& given = model.camera().given();
-    if (slider_row("Aperture", "Radius of the lens in scene units; 0 is a pinhole.", &camera.aperture_radius, 0.0f,
-                   0.1f * camera.focus_distance, given.aperture_radius, "%.4g"))
+    if (slider_row("Aperture", "Radius of the lens in scene units; 0 is a pinhole.", &camera.aperture_radius,
+                   {0.0f, 0.1f * camera.focus_distance, given.aperture_radius, "%.4g"}))
         model.camera().set(camera);
     if (slider_row("Focus", "Focus distance along the view direction, in scene units.", &camera.focus_distance,
-                   0.1f * given.focus_distance, 10.0f * given.focus_distance, given.focus_distance, "%.4g"))
+                   {0.1f * given.focus_distance, 10.0f * given.focus_distance, given.focus_distance, "%.4g"}))
         model.camera().set(camera);
     const auto& picked = model.selection().picked();
     if (picked && wide_button("Focus on the selected point", "Sets the focus distance to it."))
@@ -229,7 +234,7 @@ void draw_display(ViewerModel& model) {
                    labels.c_str()))
         model.render().set_view(all_views()[static_cast<std::size_t>(view)].id);
     float exposure = model.display().settings().exposure_ev;
-    if (slider_row("Exposure", "In stops; display only.", &exposure, -8.0f, 8.0f, 0.0f, "%+.2f EV"))
+    if (slider_row("Exposure", "In stops; display only.", &exposure, {-8.0f, 8.0f, 0.0f, "%+.2f EV"}))
         model.display().set_exposure(exposure);
     int curve = static_cast<int>(model.display().settings().curve);
     if (choice_row("Tone curve", "Display only. Clamp shows values up to 1 unchanged.", &curve,
@@ -239,7 +244,7 @@ void draw_display(ViewerModel& model) {
     if (toggle_row("Tint by radiance volume", "V: the Voronoi cells of the radiance volumes, over any view.", &cells))
         model.display().set_cells(cells);
     float opacity = model.display().cells_opacity();
-    if (slider_row("Opacity", "Of the tint.", &opacity, 0.0f, 1.0f, 0.4f, "%.2f"))
+    if (slider_row("Opacity", "Of the tint.", &opacity, {0.0f, 1.0f, 0.4f, "%.2f"}))
         model.display().set_cells_opacity(opacity);
     toggle_row("Hemisphere in the picture", "H: the field of the selected volume, drawn at its position.",
                &model.window().hemisphere);

@@ -6,10 +6,6 @@
 namespace pl {
 namespace {
 
-bool can_be_shown(const PlotValue& value) {
-    return value.x > 0.0 && value.y > 0.0 && std::isfinite(value.x) && std::isfinite(value.y);
-}
-
 /// Appends the lowest and the highest point of a stretch, in their order.
 void append_extremes(std::span<const LinePoint> stretch, std::vector<LinePoint>& out) {
     if (stretch.empty()) return;

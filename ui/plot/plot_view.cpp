@@ -40,7 +40,7 @@ double round_to_tick(double value, bool up) {
     return power;
 }
 
-struct Bounds {
+struct AxisBounds {
     double low = std::numeric_limits<double>::infinity();
     double high = 0.0;
 
@@ -59,11 +59,11 @@ struct Bounds {
     }
 };
 
+}  // namespace
+
 bool can_be_shown(const PlotValue& value) {
     return value.x > 0.0 && value.y > 0.0 && std::isfinite(value.x) && std::isfinite(value.y);
 }
-
-}  // namespace
 
 PlotView::PlotView(const PlotRange& range)
     : x_(LogAxis::exactly(range.x_low, range.x_high)), y_(LogAxis::exactly(range.y_low, range.y_high)) {}
@@ -89,8 +89,8 @@ void PlotView::zoom(float notches, Vec2f at, const Rect& frame) {
 }
 
 PlotRange fit_range(std::span<const PlotValue> values) {
-    Bounds x;
-    Bounds y;
+    AxisBounds x;
+    AxisBounds y;
     for (const PlotValue& value : values) {
         if (!can_be_shown(value)) continue;
         x.add(value.x);

@@ -22,6 +22,9 @@ struct PlotValue {
     double y = 0.0;
 };
 
+/// Whether logarithmic axes have a place for a value: both coordinates positive and finite.
+bool can_be_shown(const PlotValue& value);
+
 class PlotView {
 public:
     /// Limits of zooming, in powers of ten.

@@ -32,6 +32,21 @@ void require(const ScriptCommand& command, const ViewerModel& model) {
                                                     condition.op, condition.value, actual));
 }
 
+Vec2f point_in(const Rect& frame, const ScriptCommand& command) {
+    return {frame.x + static_cast<float>(command.x) * frame.width,
+            frame.y + static_cast<float>(command.y) * frame.height};
+}
+
+/// The frame of a control of the last frame. Throws Error(Runtime) if there is none of this label.
+const Rect& place_of(const ScriptCommand& command) {
+    const auto& places = gui_memory().places;
+    const auto place = places.find(command.text);
+    if (place == places.end())
+        throw Error(ErrorKind::Runtime,
+                    fmt::format("{}: there is no control '{}' in the window", command.where, command.text));
+    return place->second;
+}
+
 }  // namespace
 
 ScriptPlayer::ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* window)
@@ -65,26 +80,9 @@ bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, 
 bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds) {
     switch (command.kind) {
     case Kind::Move: push_motion({static_cast<float>(command.x), static_cast<float>(command.y)}); break;
-    case Kind::Aim:
-        push_motion({image.x + static_cast<float>(command.x) * image.width,
-                     image.y + static_cast<float>(command.y) * image.height});
-        break;
-    case Kind::AimPlot: {
-        const Rect& plot = model.window().plot.frame;
-        push_motion({plot.x + static_cast<float>(command.x) * plot.width,
-                     plot.y + static_cast<float>(command.y) * plot.height});
-        break;
-    }
-    case Kind::AimAt: {
-        const auto& places = gui_memory().places;
-        const auto place = places.find(command.text);
-        if (place == places.end())
-            throw Error(ErrorKind::Runtime,
-                        fmt::format("{}: there is no control '{}' in the window", command.where, command.text));
-        push_motion({place->second.x + static_cast<float>(command.x) * place->second.width,
-                     place->second.y + static_cast<float>(command.y) * place->second.height});
-        break;
-    }
+    case Kind::Aim: push_motion(point_in(image, command)); break;
+    case Kind::AimPlot: push_motion(point_in(model.window().plot.frame, command)); break;
+    case Kind::AimAt: push_motion(point_in(place_of(command), command)); break;
     case Kind::Down:
     case Kind::Up: push_button(command.button, command.kind == Kind::Down); break;
     case Kind::Wheel: {

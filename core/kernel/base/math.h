@@ -50,6 +50,12 @@ PL_HD inline float square(float x) { return x * x; }
 PL_HD inline float safe_sqrt(float x) { return std::sqrt(max_of(x, 0.0f)); }
 PL_HD inline Vec3f absolute(Vec3f v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 
+/// Without a branch: measurements of error ask for every pixel of four pictures.
+PL_HD inline bool is_finite(const Vec3f& v) {
+    const Vec3f zero = 0.0f * v;  // NaN where a component is not finite
+    return zero.x + zero.y + zero.z == 0.0f;
+}
+
 /// Relative luminance of linear sRGB (Rec. 709 weights).
 PL_HD inline float luminance(Vec3f rgb) { return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z; }
 

@@ -33,22 +33,28 @@ PL_INLINE void permute_axes(Mask along_x, Mask along_y, Real& x, Real& y, Real& 
     z = pz;
 }
 
-/// `abs_*` are the magnitudes of the direction's components.
+/// A vector of one ray, or of a group of rays in lanes.
+template <class Real>
+struct RayVector {
+    Real x, y, z;
+};
+
+/// `size` holds the magnitudes of the components of `direction`.
 template <class Real, class Mask>
-PL_INLINE RaySpace<Real, Mask> make_ray_space(Real ox, Real oy, Real oz, Real dx, Real dy, Real dz, Real abs_x,
-                                              Real abs_y, Real abs_z, Real one) {
-    RaySpace<Real, Mask> space{ox,
-                               oy,
-                               oz,
+PL_INLINE RaySpace<Real, Mask> make_ray_space(const RayVector<Real>& origin, RayVector<Real> direction,
+                                              const RayVector<Real>& size, Real one) {
+    RaySpace<Real, Mask> space{origin.x,
+                               origin.y,
+                               origin.z,
                                {},
                                {},
                                {},
-                               static_cast<Mask>((abs_x > abs_y) & (abs_x > abs_z)),
-                               static_cast<Mask>((abs_y >= abs_x) & (abs_y > abs_z))};
-    permute_axes(space.along_x, space.along_y, dx, dy, dz);
-    space.shear_x = dx / dz;
-    space.shear_y = dy / dz;
-    space.scale_z = one / dz;
+                               static_cast<Mask>((size.x > size.y) & (size.x > size.z)),
+                               static_cast<Mask>((size.y >= size.x) & (size.y > size.z))};
+    permute_axes(space.along_x, space.along_y, direction.x, direction.y, direction.z);
+    space.shear_x = direction.x / direction.z;
+    space.shear_y = direction.y / direction.z;
+    space.scale_z = one / direction.z;
     return space;
 }
 
@@ -103,9 +109,10 @@ PL_HD inline bool is_closer(float t, std::uint32_t primitive, const Hit& best) {
 using ScalarRaySpace = RaySpace<float, bool>;
 
 PL_HD inline ScalarRaySpace make_ray_space(const Ray& ray) {
-    const Vec3f d = ray.direction;
-    return make_ray_space<float, bool>(ray.origin.x, ray.origin.y, ray.origin.z, d.x, d.y, d.z, std::fabs(d.x),
-                                       std::fabs(d.y), std::fabs(d.z), 1.0f);
+    const Vec3f& o = ray.origin;
+    const Vec3f& d = ray.direction;
+    const Vec3f size = absolute(d);
+    return make_ray_space<float, bool>({o.x, o.y, o.z}, {d.x, d.y, d.z}, {size.x, size.y, size.z}, 1.0f);
 }
 
 /// Two-sided test of one triangle; updates `best` if the hit is closer. `best.t` starts as the ray's t_max. The

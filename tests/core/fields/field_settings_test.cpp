@@ -98,7 +98,7 @@ TEST_CASE("Empty tables sample uniformly and end in exactly 1") {
         REQUIRE(shape.cells.count() == bins);
         HostTables tables = make_tables(shape, 3);
         const HostVolumes volumes;
-        const TableField field = table_field(shape, volumes, tables);
+        const TableField field = field_view(shape, volumes, tables);
         for (std::int32_t volume = 0; volume < 3; ++volume) {
             const DirectionTable table(field, volume);
             const auto side = shape.cells.side;

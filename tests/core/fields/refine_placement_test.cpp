@@ -35,7 +35,7 @@ struct Learned {
         for (std::size_t i = 0; i < volumes.normals.size(); ++i) teach(i, visits, false);
     }
 
-    TableField view() { return table_field(shape, volumes, tables); }
+    TableField view() { return field_view(shape, volumes, tables); }
     std::size_t count() const { return volumes.normals.size(); }
 
     /// Light from the first rows, or from the last ones.
@@ -44,7 +44,7 @@ struct Learned {
             tables.radiance[volume * kCells + cell] = (cell < kCells / 2) != other_way ? 1.0f : 0.0f;
             tables.visits[volume * kCells + cell] = visits;
         }
-        update_volume(table_update_view(shape, tables), static_cast<std::uint32_t>(volume));
+        update_volume(update_view(shape, tables), static_cast<std::uint32_t>(volume));
         tables.inverse_reach[volume] = 0.0f;  // as if all light came from far away
     }
 

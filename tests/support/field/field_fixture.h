@@ -29,8 +29,8 @@ struct TestField {
         tables = make_tables(shape, normals.size());
     }
 
-    TableField view() { return table_field(shape, volumes, tables); }
-    TableUpdateView update_view() { return table_update_view(shape, tables); }
+    TableField view() { return field_view(shape, volumes, tables); }
+    TableUpdateView update_view() { return pl::update_view(shape, tables); }
     DirectionTable table(std::int32_t volume = 0) { return DirectionTable(view(), volume); }
 
     /// Sampling tables of a volume made of weights, [row][column], without the uniform share of an update.

@@ -65,17 +65,17 @@ TEST_CASE("Hemisphere: lies on its sphere above the surface, and a highlighted c
     const std::vector<CellFan> fans = make_cell_fans(volume.side);
     const CellValues values = cell_values(volume, CellQuantity::Radiance, ColorScale::Linear);
     DrawList list;
-    add_hemisphere(list, volume, fans, values, 0.5f, 255, -1);
+    add_hemisphere(list, volume, fans, values, {0.5f, 255, -1});
     CHECK(list.shapes().size() == 64);
     for (const Vec3f& point : list.points()) {
         CHECK_THAT(glm::length(point - volume.position), WithinAbs(0.5f, 1.0e-4f));
         CHECK(glm::dot(point - volume.position, volume.normal) >= -1.0e-4f);
     }
     list.clear();
-    add_hemisphere(list, volume, fans, values, 0.5f, 255, 10);
+    add_hemisphere(list, volume, fans, values, {0.5f, 255, 10});
     CHECK(list.shapes().size() == 64 + kCellBorderPoints);
     list.clear();
-    add_hemisphere(list, volume, make_cell_fans(4), values, 0.5f, 255, -1);
+    add_hemisphere(list, volume, make_cell_fans(4), values, {0.5f, 255, -1});
     CHECK(list.shapes().empty());  // fans of another table
 }
 
