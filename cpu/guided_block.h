@@ -106,10 +106,11 @@ template <FeatureSet F, TableGuided M>
 struct BlockMemory<F, M> {
     LookupsAhead lookups[2];  ///< of the current and the next block
     ScatterBlock<F, M> scattered;
-    TrainingQueue<M> training;
+    TrainingQueue<M, QueuedSample<M>> training;
+    TrainingQueue<M, QueuedLight<M>> lights;
 
     BlockMemory(const M& method, const PathSettings& settings, SharedByThreads<M>& shared)
-        : scattered(method, settings), training(method, shared.locks) {}
+        : scattered(method, settings), training(method, shared.locks), lights(method, shared.locks) {}
 };
 
 }  // namespace pl

@@ -67,7 +67,10 @@ public:
             if constexpr (kSamplesLights) connect();
             retire(source);
         }
-        if constexpr (TableGuided<M>) block_.training.flush();
+        if constexpr (TableGuided<M>) {
+            block_.training.flush();
+            block_.lights.flush();
+        }
         return counters_;
     }
 
@@ -119,7 +122,7 @@ private:
     /// Shades and scatters path by path: half of the run time of a small scene.
     [[gnu::flatten, gnu::noinline]] void extend_each() {
         for (std::uint32_t i = 0; i < active_; ++i) {
-            ShadowRequest shadow;
+            ShadowRequest<M> shadow;
             statuses_[i] =
                 extend_path<F>(context_, rays_.hit(i), numbers_.numbers(i), states_[i], shadow, counters_.path);
             push(shadow, i);
@@ -142,7 +145,7 @@ private:
 
     /// Shades path i with the surface point and volume of `lookups`.
     void shade_ahead(std::uint32_t i, const LookupsAhead& lookups) {
-        ShadowRequest shadow;
+        ShadowRequest<M> shadow;
         typename M::Sample sample{};
         const StepOutput<M> out{sample, counters_.path};
         const VertexNumbers numbers = numbers_.numbers(i);
@@ -169,9 +172,9 @@ private:
         block_.scattered.add(i, states_[i], u);
     }
 
-    void push(const ShadowRequest& shadow, std::uint32_t path) {
+    void push(const ShadowRequest<M>& shadow, std::uint32_t path) {
         if constexpr (kSamplesLights) {
-            if (!shadow.wanted) return;
+            if (!shadow.wanted) return record_light(shadow, false);
             shadow_rays_.set_ray(shadow_count_, shadow.ray);
             shadow_paths_[shadow_count_] = path;
             shadows_[shadow_count_++] = shadow;
@@ -180,10 +183,19 @@ private:
 
     [[gnu::flatten, gnu::noinline]] void connect() {
         find_blocked();
-        for (std::uint32_t i = 0; i < shadow_count_; ++i)
-            if (!shadow_rays_.occluded(i))
-                connect_light(method_, shadows_[i], states_[shadow_paths_[i]], counters_.path);
+        for (std::uint32_t i = 0; i < shadow_count_; ++i) {
+            const bool is_visible = !shadow_rays_.occluded(i);
+            if (is_visible) connect_light(method_, shadows_[i], states_[shadow_paths_[i]], counters_.path);
+            record_light(shadows_[i], is_visible);
+        }
         counters_.path.shadow_rays += shadow_count_;
+    }
+
+    void record_light(const ShadowRequest<M>& shadow, bool is_visible) {
+        if constexpr (TableGuided<M>)
+            block_.lights.push(shadow.light, is_visible);
+        else
+            method_.record_light(shadow.light, is_visible);
     }
 
     /// Marks the shadow rays that are occluded.
@@ -226,7 +238,7 @@ private:
     std::vector<PathStatus> statuses_;
     NumberBatch numbers_;
     RayBatch rays_;
-    std::vector<ShadowRequest> shadows_;
+    std::vector<ShadowRequest<M>> shadows_;
     std::vector<std::uint32_t> shadow_paths_;
     RayBatch shadow_rays_;
     SolidHits<F, I> solid_hits_;

@@ -1,4 +1,4 @@
-// Queues of one thread's training samples, one per range of volumes. Threads share the pending sums of a table, and a
+// Queues of one thread's training samples and light samples, one per range of volumes. Threads share the pending sums of a table, and a
 // sample is up to six additions; with two threads, atomic additions made a segment one sixth slower than plain ones.
 // A queue is added under the lock of its range once it is full. The sums are integers, so their order changes no bit.
 #pragma once
@@ -18,10 +18,6 @@ namespace pl {
 /// Methods guided by tables: the CPU back end looks up volumes and samples directions for blocks of their paths.
 template <class M>
 concept TableGuided = GuidedMethod<M> && std::same_as<typename M::Field, TableField>;
-
-/// True for methods whose observe() returns complete training samples.
-template <class M>
-inline constexpr bool kSamplesInObserve = !std::is_empty_v<typename M::Sample>;
 
 /// One lock per range of volumes, held while adding to their pending sums without atomic operations.
 class VolumeLocks {
@@ -43,37 +39,64 @@ private:
     Lock locks_[kRanges];
 };
 
-/// Empty for methods whose observe() returns no training samples.
+/// A training sample in a queue.
 template <TableGuided M>
+struct QueuedSample {
+    using Source = typename M::Sample;
+
+    typename M::Sample sample;
+
+    std::int32_t volume() const { return sample.entry.volume; }
+    void prefetch(const TableField& field) const {
+        const std::uint32_t cell = field.cell_index(sample.entry.volume, sample.entry.cell);
+        __builtin_prefetch(field.pending_sum.data + cell, 1);
+        __builtin_prefetch(field.pending_count.data + cell, 1);
+    }
+    void add_to(const M& method) const { method.record(sample); }
+};
+
+/// A light sample in a queue.
+template <TableGuided M>
+struct QueuedLight {
+    using Source = typename M::Light;
+
+    typename M::Light light;
+    bool is_visible = false;
+
+    std::int32_t volume() const { return light.location.volume; }
+    void prefetch(const TableField&) const {}  // there are few volumes
+    void add_to(const M& method) const { method.record_light(light, is_visible); }
+};
+
+/// `Item` is QueuedSample or QueuedLight. Empty for methods that make none.
+template <TableGuided M, class Item>
 class TrainingQueue {
 public:
     TrainingQueue(const M&, VolumeLocks&) {}
-    void push(const typename M::Sample&) {}
+    void push(const auto&...) {}
     void flush() {}
 };
 
-template <TableGuided M>
-requires kSamplesInObserve<M>
-class TrainingQueue<M> {
+template <TableGuided M, class Item>
+requires(!std::is_empty_v<typename Item::Source>) class TrainingQueue<M, Item> {
 public:
     TrainingQueue(const M& method, VolumeLocks& locks)
         : method_(method), locks_(locks), ranges_(VolumeLocks::kRanges) {
         method_.field.writers = Writers::One;
     }
 
-    /// Queues a training sample and prefetches the pending sums of its cell.
-    void push(const typename M::Sample& sample) {
-        if (!sample.entry.is_trained()) return;
-        const std::uint32_t cell = method_.field.cell_index(sample.entry.volume, sample.entry.cell);
-        __builtin_prefetch(method_.field.pending_sum.data + cell, 1);
-        __builtin_prefetch(method_.field.pending_count.data + cell, 1);
-        const std::uint32_t number = locks_.range_of(sample.entry.volume);
+    /// Queues an item, unless it has no volume, and prefetches the pending sums that it is added to.
+    void push(const auto&... parts) {
+        const Item item{parts...};
+        if (item.volume() == kNoVolume) return;
+        item.prefetch(method_.field);
+        const std::uint32_t number = locks_.range_of(item.volume());
         Range& range = ranges_[number];
-        range.samples[range.count++] = sample;
+        range.items[range.count++] = item;
         if (range.count == kCapacity) flush(number);
     }
 
-    /// Adds all queued samples to the pending sums. Call after the thread's last path.
+    /// Adds all queued items to the pending sums. Call after the thread's last path.
     void flush() {
         for (std::uint32_t range = 0; range < VolumeLocks::kRanges; ++range) flush(range);
     }
@@ -83,13 +106,13 @@ private:
 
     struct Range {
         std::uint32_t count = 0;
-        typename M::Sample samples[kCapacity];
+        Item items[kCapacity];
     };
 
     [[gnu::flatten, gnu::noinline]] void flush(std::uint32_t number) {
         Range& range = ranges_[number];
         const std::lock_guard lock(locks_.of_range(number));
-        for (std::uint32_t i = 0; i < range.count; ++i) method_.record(range.samples[i]);
+        for (std::uint32_t i = 0; i < range.count; ++i) range.items[i].add_to(method_);
         range.count = 0;
     }
 

@@ -17,6 +17,7 @@ struct CountingMethod : Guided<Field, ExpectedSarsa> {
         if (clamped == nullptr || !sample.entry.is_trained()) return;
         *clamped += this->field.is_clamped(sample.target) ? 1u : 0u;
     }
+    void record_light(const LightSample<Field>&, bool) const {}
 };
 
 /// The kernel of all features traces the same bits as the one that rendered the pass.
@@ -41,6 +42,7 @@ PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std
         CountingMethod<std::remove_cvref_t<decltype(view)>> method;
         method.field = view;
         method.mixture = passes.mixture;
+        method.learning = passes.learning;
         if (passes.repeats_training) method.clamped = &clamped;
         PathDefects defects = trace_again(passes, method, pixel, sample);
         defects.clamped_samples = clamped;

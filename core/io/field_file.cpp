@@ -19,7 +19,7 @@ namespace pl {
 namespace {
 
 constexpr std::string_view kMagic = "PLFIELD\n";
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 constexpr std::size_t kPrefixBytes = kMagic.size() + sizeof kVersion + sizeof(std::uint64_t);
 

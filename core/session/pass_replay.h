@@ -28,6 +28,7 @@ struct PassReplay {
     FieldShape shape{};
     HostField field{};
     MixtureSettings mixture{};
+    LearningSettings learning{};
     bool has_moving_tables = false;  ///< updates have changed the tables since they were sampled by the passes
     bool repeats_training = false;   ///< a path traced again makes the same training samples as in its pass
 };

@@ -37,12 +37,13 @@ PassReplay Session::pass_replay(FilmSlot slot) const {
         source.first_sample = static_cast<std::uint32_t>(
             std::max(field(slot.method).passes, std::uint64_t{state.passes}) - state.passes);
         source.has_moving_tables = true;
-        source.repeats_training = is_complete_at_next_vertex(settings_.field.learning, settings_.next_event);
+        source.repeats_training = settings_.field.learning.target == LearningTarget::ExpectedSarsa;
     }
     source.volumes = placement_.volumes();
     source.shape = placement_.shape();
     source.field = backend_->download_field(slot.method);
     source.mixture = mixture_of(settings_, slot.method);
+    source.learning = settings_.field.learning;
     return source;
 }
 

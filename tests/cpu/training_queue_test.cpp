@@ -59,7 +59,7 @@ TEST_CASE("Training samples of many threads give the sums of one, for any number
         const ReinforcementMethod method = guided_by(shared.view());
         VolumeLocks locks(static_cast<std::uint32_t>(volumes));
         run_on_plain_threads(kThreads, [&](int thread) {
-            TrainingQueue<ReinforcementMethod> kept(method, locks);
+            TrainingQueue<ReinforcementMethod, QueuedSample<ReinforcementMethod>> kept(method, locks);
             for (const Record& record : records[static_cast<std::size_t>(thread)]) kept.push(record);
             kept.flush();
         });

@@ -120,7 +120,7 @@ registers() {
             name = part("trace_paths|show_view|volume_values|add_samples|set_samples|read_film|read_halves|show_film|largest_value|run_step")
             set = part("ILj[0-9]+E")
             gsub(/[^0-9-]/, "", set)
-            if (name == "run_step") set = part("absorb_samples|update_means|weigh_row|build_row_choice|move_mixture|move_reach|build_row")
+            if (name == "run_step") set = part("absorb_samples|update_means|weigh_row|build_row_choice|absorb_light_samples|move_mixture|move_reach|build_row")
         }
         /bytes stack frame/ { stack = $1; spills = $5 + $9 }
         /Used [0-9]+ registers/ {

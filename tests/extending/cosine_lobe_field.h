@@ -26,11 +26,14 @@ struct CosineLobeField : PlacementView {
     static constexpr float kStepsPerUnit = 65536.0f;
     static constexpr float kMostTarget = 65536.0f;
 
-    Span<const Vec3f> axis;                 ///< unit: mean direction of incident radiance. [volume]
-    Span<const float> mean_radiance;        ///< irradiance / pi, luminance. [volume]
-    Span<std::int64_t> pending_direction;   ///< sum of target times wi, fixed point. [volume][3]
-    Span<std::int64_t> pending_irradiance;  ///< sum of target cos / (pi q), fixed point. [volume]
-    Span<std::uint32_t> pending_count;      ///< [volume]
+    Span<const Vec3f> axis;                   ///< unit: mean direction of incident radiance. [volume]
+    Span<const float> mean_radiance;          ///< irradiance / pi, luminance. [volume]
+    Span<const float> mean_direct;            ///< the same by light samples. [volume]
+    Span<std::int64_t> pending_direction;     ///< sum of target times wi, fixed point. [volume][3]
+    Span<std::int64_t> pending_irradiance;    ///< sum of target cos / (pi q), fixed point. [volume]
+    Span<std::uint32_t> pending_count;        ///< [volume]
+    Span<std::int64_t> pending_direct;        ///< sum of irradiance / pi of light samples, fixed point. [volume]
+    Span<std::uint32_t> pending_light_count;  ///< [volume]
 
     PL_HD Location locate(const SurfacePoint& surface) const { return {volume_at(surface)}; }
 
@@ -51,6 +54,10 @@ struct CosineLobeField : PlacementView {
         return mean_radiance[static_cast<std::uint32_t>(location.volume)];
     }
 
+    PL_HD float direct_at(const Location& location) const {
+        return mean_direct[static_cast<std::uint32_t>(location.volume)];
+    }
+
     PL_HD Entry entry_of(const Location& location, const DirectionSample& direction) const {
         return {location.volume, direction.wi};
     }
@@ -67,6 +74,11 @@ struct CosineLobeField : PlacementView {
         const auto volume = static_cast<std::uint32_t>(sample.entry.volume);
         atomic_add(pending_irradiance[volume], steps(sample.target * sample.bsdf_ratio), Writers::Many);
     }
+    PL_HD void record_light(const Location& location, float irradiance) const {
+        const auto volume = static_cast<std::uint32_t>(location.volume);
+        atomic_add(pending_direct[volume], steps(min_of(irradiance, kMostTarget)), Writers::Many);
+        atomic_add(pending_light_count[volume], 1u, Writers::Many);
+    }
     PL_HD bool is_clamped(float target) const { return target > kMostTarget; }
 
 private:
@@ -78,36 +90,45 @@ static_assert(GuidingField<CosineLobeField>);
 /// The storage of its arrays, and the update.
 struct CosineLobes {
     HostArray<Vec3f> axis;
-    HostArray<float> mean_radiance;
-    HostArray<std::int64_t> pending_direction, pending_irradiance;
-    HostArray<std::uint32_t> pending_count;
+    HostArray<float> mean_radiance, mean_direct;
+    HostArray<std::int64_t> pending_direction, pending_irradiance, pending_direct;
+    HostArray<std::uint32_t> pending_count, pending_light_count;
 
     explicit CosineLobes(const PlacementView& placement)
         : axis(placement.normals.begin(), placement.normals.end()), mean_radiance(axis.size(), 0.0f),
-          pending_direction(3 * axis.size(), 0), pending_irradiance(axis.size(), 0), pending_count(axis.size(), 0) {}
+          mean_direct(axis.size(), 0.0f), pending_direction(3 * axis.size(), 0), pending_irradiance(axis.size(), 0),
+          pending_direct(axis.size(), 0), pending_count(axis.size(), 0), pending_light_count(axis.size(), 0) {}
 
     CosineLobeField view(const PlacementView& placement) {
         CosineLobeField field;
         static_cast<PlacementView&>(field) = placement;
         field.axis = view_of(std::as_const(axis));
         field.mean_radiance = view_of(std::as_const(mean_radiance));
+        field.mean_direct = view_of(std::as_const(mean_direct));
         field.pending_direction = view_of(pending_direction);
         field.pending_irradiance = view_of(pending_irradiance);
         field.pending_count = view_of(pending_count);
+        field.pending_direct = view_of(pending_direct);
+        field.pending_light_count = view_of(pending_light_count);
         return field;
     }
 
     /// Turns all training samples so far into the lobes of the next pass.
     void update() {
         for (std::size_t i = 0; i < axis.size(); ++i) {
+            if (pending_light_count[i] > 0) mean_direct[i] = mean_of(pending_direct[i], pending_light_count[i]);
             if (pending_count[i] == 0) continue;
             const Vec3f sum{static_cast<float>(pending_direction[3 * i]),
                             static_cast<float>(pending_direction[3 * i + 1]),
                             static_cast<float>(pending_direction[3 * i + 2])};
             if (glm::dot(sum, sum) > 0.0f) axis[i] = glm::normalize(sum);
-            mean_radiance[i] = static_cast<float>(pending_irradiance[i]) / CosineLobeField::kStepsPerUnit /
-                               static_cast<float>(pending_count[i]);
+            mean_radiance[i] = mean_of(pending_irradiance[i], pending_count[i]);
         }
+    }
+
+private:
+    static float mean_of(std::int64_t sum, std::uint32_t count) {
+        return static_cast<float>(sum) / CosineLobeField::kStepsPerUnit / static_cast<float>(count);
     }
 };
 

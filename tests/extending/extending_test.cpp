@@ -64,6 +64,7 @@ TEST_CASE("Extending: a representation in one header learns, and agrees with def
     Guided<CosineLobeField, ExpectedSarsa> method;
     method.field = lobes.view(placement);
     method.mixture.learned = 0;
+    method.learning.light = LearnedLight::All;
     Picture picture(kSide, kSide);
     for (std::uint32_t batch = 0; batch < kBatches; ++batch) {
         add_batch(picture, room, method, 1, 16, 16 * batch);
@@ -79,6 +80,19 @@ TEST_CASE("Extending: a representation in one header learns, and agrees with def
     }
     CHECK(turned > 10);
     CHECK(lit > static_cast<int>(lobes.axis.size()) * 3 / 4);
+}
+
+TEST_CASE("Extending: a representation keeps the light of light samples apart") {
+    const Room room;
+    CosineLobes lobes(placement_view(*room.volumes, room.shape.lookup, room.shape.extent));
+    Guided<CosineLobeField, ExpectedSarsa> method;
+    method.field = lobes.view(placement_view(*room.volumes, room.shape.lookup, room.shape.extent));
+    method.mixture.learned = 0;
+    Picture picture(kSide, kSide);
+    add_batch(picture, room, method, 1, 16, 0);
+    lobes.update();
+    const auto lit = std::ranges::count_if(lobes.mean_direct, [](float direct) { return direct > 0.0f; });
+    CHECK(2 * static_cast<std::size_t>(lit) > lobes.mean_direct.size());
 }
 
 TEST_CASE("Extending: every model has the interface of its concept") {

@@ -31,10 +31,10 @@ struct ReplayedMethod : MonteCarloMethod {
         memory.first_light_waits = false;
         return MonteCarloMethod::observe(memory, observation, vertex, counters);
     }
-    void light_sampled(Memory& memory, Vec3f reflected) const {
+    Light light_sampled(Memory& memory, const Vertex& vertex, const LightEstimate& estimate) const {
         memory.first_light_waits = !memory.has_left;
-        memory.first_light = reflected;
-        MonteCarloMethod::light_sampled(memory, reflected);
+        memory.first_light = estimate.reflected;
+        return MonteCarloMethod::light_sampled(memory, vertex, estimate);
     }
     void light_received(Memory& memory, MethodCounters& counters) const {
         if (memory.first_light_waits) memory.brought += memory.first_light;

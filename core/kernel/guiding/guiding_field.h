@@ -23,8 +23,16 @@ struct TrainingSample : OpenSample<Field> {
     float target = 0.0f;  ///< incident radiance, luminance
 };
 
-/// The operations of a field that kernels call while paths are traced. All but record() and add() are constant
-/// between two updates; these two may be called by any thread in any order and have to give the same sums.
+/// A light sample at a surface point, for the field's irradiance by light samples.
+template <class Field>
+struct LightSample {
+    typename Field::Location location{};
+    float irradiance =
+        0.0f;  ///< irradiance / pi (luminance) with the sample's MIS weight, if nothing occludes the light
+};
+
+/// The operations of a field that kernels call while paths are traced. All but record(), add() and
+/// record_light() are constant between two updates; these may be called by any thread in any order and have to give the same sums.
 ///   Location                   the part of the field that serves a surface point (a volume); default: none, is_served() false
 ///   Entry                      the part of the field that a direction trains (a cell); default: none, is_trained() false
 ///   locate(surface)            the location of a surface point
@@ -32,9 +40,11 @@ struct TrainingSample : OpenSample<Field> {
 ///   density(l, surface, wi)    of sample(), per steradian at the surface point
 ///   bsdf_fraction_at(l)        learned fraction a of BSDF samples in the mixture, in (0, 1]
 ///   value_at(l)                expected irradiance / pi (luminance): the value function V of reinforcement learning
+///   direct_at(l)               the same by light samples alone, with their MIS weights; 0 before the first one
 ///   entry_of(l, direction)     the entry that a sampled direction trains
 ///   record(sample, fraction)   adds a training sample to the pending sums; `fraction`: also to those of the BSDF fraction
 ///   add(sample, fraction)      adds radiance to the target of a training sample that was recorded before
+///   record_light(l, e)         adds a light sample of irradiance / pi e, 0 if it is occluded
 ///   is_clamped(target)         whether the sums will hold less than this target
 template <class Field>
 concept GuidingField = std::is_trivially_copyable_v<Field> && std::default_initializable<typename Field::Location> &&
@@ -48,10 +58,12 @@ concept GuidingField = std::is_trivially_copyable_v<Field> && std::default_initi
     { field.density(location, surface, Vec3f{}) } -> std::same_as<FieldDensity>;
     { field.bsdf_fraction_at(location) } -> std::same_as<float>;
     { field.value_at(location) } -> std::same_as<float>;
+    { field.direct_at(location) } -> std::same_as<float>;
     { field.entry_of(location, direction) } -> std::same_as<typename Field::Entry>;
     { entry.is_trained() } -> std::same_as<bool>;
     field.record(sample, bool{});
     field.add(sample, bool{});
+    field.record_light(location, float{});
     { field.is_clamped(float{}) } -> std::same_as<bool>;
 };
 

@@ -22,7 +22,11 @@ struct TableArrays {
     Learned<float> column_cdf;  ///< within the row. [volume][row][column]
 
     Learned<float> mean_radiance;  ///< cosine-weighted mean of Q over the hemisphere: irradiance / pi. [volume]
-    Learned<float> change;         ///< mean |new - old| of the cells that the last update moved. [volume]
+    Pending<std::int64_t> pending_direct;         ///< of irradiance / pi by light samples, fixed point. [volume]
+    Pending<std::uint32_t> pending_direct_count;  ///< of light samples, occluded ones included. [volume]
+    Learned<float> direct;                        ///< mean irradiance / pi by light samples. [volume]
+    Learned<std::uint32_t> direct_count;          ///< light samples so far. [volume]
+    Learned<float> change;  ///< mean |new - old| of the cells that the last update moved. [volume]
 
     Pending<std::int64_t> pending_slope;      ///< see record_mixture(). [volume]
     Pending<std::int64_t> pending_curvature;  ///< [volume]

@@ -51,6 +51,9 @@ struct TableField : TableView {
     PL_HD float value_at(const Location& location) const {
         return mean_radiance[static_cast<std::uint32_t>(location.volume)];
     }
+    PL_HD float direct_at(const Location& location) const {
+        return direct[static_cast<std::uint32_t>(location.volume)];
+    }
     PL_HD float radiance_at(const Location& location, std::int32_t cell) const {
         if (cell < 0) return value_at(location);
         const std::uint32_t index = cell_index(location.volume, cell);
@@ -69,6 +72,11 @@ struct TableField : TableView {
         const std::uint32_t index = cell_index(sample.entry.volume, sample.entry.cell);
         atomic_add(pending_sum[index], to_fixed_point(sample.target, radiance_unit), writers);
         record_light(sample, learns_fraction);
+    }
+    PL_HD void record_light(const Location& location, float irradiance) const {
+        const auto index = static_cast<std::uint32_t>(location.volume);
+        atomic_add_counted(pending_direct[index], to_fixed_point(irradiance, radiance_unit),
+                           pending_direct_count[index], writers);
     }
     PL_HD bool is_clamped(float target) const { return pl::is_clamped(target, radiance_unit); }
 

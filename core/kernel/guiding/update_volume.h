@@ -1,6 +1,7 @@
-// The update of one volume: its table, BSDF fraction and reach.
+// The update of one volume: its table, irradiance by light samples, BSDF fraction and reach.
 #pragma once
 
+#include "core/kernel/guiding/direct_light.h"
 #include "core/kernel/guiding/mixture.h"
 #include "core/kernel/guiding/reach.h"
 
@@ -16,6 +17,7 @@ PL_HD inline void update_volume(const TableUpdateView& field, std::uint32_t volu
     for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row) weigh_row(field, row);
     for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row) build_row(field, row);
     build_row_choice(field, volume);
+    absorb_light_samples(field, volume);
     move_mixture(field, volume);
     move_reach(field, volume);
 }

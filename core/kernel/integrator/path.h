@@ -71,10 +71,12 @@ struct PathState {
 };
 
 /// A light sample that contributes if nothing occludes it.
+template <class M>
 struct ShadowRequest {
     Ray ray;
     Vec3f contribution{0.0f};
-    bool wanted = false;
+    bool wanted = false;  ///< the light sample contributes if the ray is not occluded
+    [[no_unique_address]] typename M::Light light{};
 };
 
 enum class PathStatus : std::uint32_t { Continues, Finished };

@@ -45,7 +45,8 @@ struct ProbeStratum {
 };
 
 /// Starts a path that measures the radiance incident through one cell. Its direction is stratified over the cell. `u` is drawn
-/// for vertex 0 and Purpose::Probe.
+/// for vertex 0 and Purpose::Probe. Where lights are sampled, emission of the first surface hit gets the MIS weight of a
+/// Lambert BSDF at the volume: paths guided by the map sample lights there, too.
 template <FeatureSet F>
 PL_HD inline PathState<F, ProbeMethod> begin_probe(const TableView& field, std::uint32_t probe, ProbeStratum stratum,
                                                    Vec4f u) {
@@ -57,6 +58,7 @@ PL_HD inline PathState<F, ProbeMethod> begin_probe(const TableView& field, std::
     PathState<F, ProbeMethod> state;
     state.ray =
         spawn_ray(field.sites[static_cast<std::uint32_t>(target.volume)], field.frame(target.volume).to_world(local));
+    state.direction_pdf_sa = local.z * kInvPi;
     state.pixel = probe;
     state.sample = stratum.index;
     return state;

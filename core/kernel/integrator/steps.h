@@ -84,20 +84,23 @@ PL_HD inline float add_emission(const SceneView& scene, const PathSettings& sett
 /// Samples a light at a vertex; `shadow.wanted` stays false if the sample cannot contribute.
 template <FeatureSet F, Method M>
 PL_HD inline void sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
-                               PathState<F, M>& state, ShadowRequest& shadow) {
+                               PathState<F, M>& state, ShadowRequest<M>& shadow) {
     const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, {u.x, u.y, u.z}, u.w);
-    if (!(sample.pdf_sa > 0.0f)) return;
-    const float weight = balance_weight(sample.pdf_sa, scatter_pdf_sa(context.method, from, sample.wi));
-    const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
-    shadow.ray = shadow_ray_to<F>(from.surface, sample);
-    shadow.contribution = state.throughput * reflectance * sample.emitted * (weight / sample.pdf_sa);
-    shadow.wanted = true;
-    Vec3f reflected = reflectance * sample.emitted * (weight / sample.pdf_sa);
-    if constexpr (F.has_any(kLobeFeatures)) {
-        // The radiance of a specular chain is that of its scattered directions.
-        reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : state.chain.weight * reflected;
+    LightEstimate estimate;
+    if (sample.pdf_sa > 0.0f) {
+        const float weight = balance_weight(sample.pdf_sa, scatter_pdf_sa(context.method, from, sample.wi));
+        const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
+        shadow.ray = shadow_ray_to<F>(from.surface, sample);
+        shadow.contribution = state.throughput * reflectance * sample.emitted * (weight / sample.pdf_sa);
+        shadow.wanted = true;
+        estimate.reflected = reflectance * sample.emitted * (weight / sample.pdf_sa);
+        estimate.irradiance = luminance(sample.emitted) * (kInvPi * sample.cos_i * (weight / sample.pdf_sa));
+        if constexpr (F.has_any(kLobeFeatures)) {
+            // The radiance of a specular chain is that of its scattered directions.
+            estimate.reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : state.chain.weight * estimate.reflected;
+        }
     }
-    context.method.light_sampled(state.memory, reflected);
+    shadow.light = context.method.light_sampled(state.memory, from.vertex, estimate);
 }
 
 /// Calls the method's observe() for the surface hit. Returns the method's data of the vertex.
@@ -136,7 +139,7 @@ PL_HD inline PathStatus shade_miss(const PathContext<M>& context, PathState<F, M
 template <FeatureSet F, class M>
 struct ShadeOutput : StepOutput<M> {
     ScatterPoint<F, M>& from;
-    ShadowRequest& shadow;
+    ShadowRequest<M>& shadow;
 };
 
 /// Russian roulette and splitting at the vertex `from`, whose random numbers are `u`. Returns whether the path continues.
@@ -192,7 +195,7 @@ PL_HD inline PathStatus shade_hit(const PathContext<M>& context, const Hit& hit,
 /// Shades the end of a segment and scatters the path: its ray is then the next segment. `shadow` comes in cleared.
 template <FeatureSet F, Method M>
 PL_HD inline PathStatus extend_path(const PathContext<M>& context, const Hit& hit, const VertexNumbers& numbers,
-                                    PathState<F, M>& state, ShadowRequest& shadow, PathCounters& counters) {
+                                    PathState<F, M>& state, ShadowRequest<M>& shadow, PathCounters& counters) {
     ScatterPoint<F, M> from;
     typename M::Sample sample{};
     const StepOutput<M> out{sample, counters};
@@ -206,7 +209,7 @@ PL_HD inline PathStatus extend_path(const PathContext<M>& context, const Hit& hi
 
 /// Adds a light sample whose shadow ray is not occluded.
 template <FeatureSet F, Method M>
-PL_HD inline void connect_light(const M& method, const ShadowRequest& shadow, PathState<F, M>& state,
+PL_HD inline void connect_light(const M& method, const ShadowRequest<M>& shadow, PathState<F, M>& state,
                                 PathCounters& counters) {
     state.radiance += shadow.contribution;
     method.light_received(state.memory, counters.method);

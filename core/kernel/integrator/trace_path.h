@@ -13,14 +13,16 @@ PL_HD inline PathStatus trace_segment(const PathContext<M>& context, const I& in
                                       PathCounters& counters) {
     const Hit hit = closest_solid_hit<F>(context.scene, intersector, state.ray);
     const VertexNumbers numbers = draw_vertex_numbers<F>(context.settings, state);
-    ShadowRequest shadow;
+    ShadowRequest<M> shadow;
     PathStatus status = extend_path<F>(context, hit, numbers, state, shadow, counters);
     if constexpr (F.has(Feature::NextEventEstimation)) {
+        bool is_visible = false;
         if (shadow.wanted) {
             ++counters.shadow_rays;
-            if (!is_blocked<F>(context.scene, intersector, shadow.ray))
-                connect_light(context.method, shadow, state, counters);
+            is_visible = !is_blocked<F>(context.scene, intersector, shadow.ray);
+            if (is_visible) connect_light(context.method, shadow, state, counters);
         }
+        context.method.record_light(shadow.light, is_visible);
     }
     if (status == PathStatus::Finished) status = finish_branch(context, state, counters);
     return status;

@@ -18,20 +18,14 @@ enum class LearningTarget : std::uint32_t {
 /// The part of incident radiance in a target if lights are sampled; without light samples both are the same.
 enum class LearnedLight : std::uint32_t {
     All,       ///< all radiance incident through the cell
-    Indirect,  ///< without the light samples of x: emission at y is weighted by its MIS share of scattered directions
+    Indirect,  ///< without that of the light samples of x: emission at y has the MIS weight of scattered directions
 };
 
 struct LearningSettings {
     LearningTarget target = LearningTarget::ExpectedSarsa;
-    LearnedLight light = LearnedLight::All;
+    LearnedLight light = LearnedLight::Indirect;
 
     friend bool operator==(const LearningSettings&, const LearningSettings&) = default;
 };
-
-/// Whether targets are complete at the next vertex: they need neither its scattered direction nor its light sample.
-constexpr bool is_complete_at_next_vertex(const LearningSettings& learning, bool samples_lights) {
-    return learning.target == LearningTarget::ExpectedSarsa &&
-           !(learning.light == LearnedLight::Indirect && samples_lights);
-}
 
 }  // namespace pl

@@ -33,6 +33,12 @@ struct Observation {
     float distance = kInfinity;  ///< scene units
 };
 
+/// A light sample at a vertex, with its MIS weight, if nothing occludes the light.
+struct LightEstimate {
+    Vec3f reflected{0.0f};    ///< radiance reflected there towards the path's last vertex with a location
+    float irradiance = 0.0f;  ///< irradiance / pi, luminance
+};
+
 /// The scattering of a path at a vertex.
 struct ScatterEvent {
     Vec3f weight{0.0f};  ///< f cos / pdf, times the weight of Russian roulette
@@ -56,18 +62,20 @@ struct MethodCounters {
 ///              |                                                                   |
 ///             hit -> locate -> observe -+-> surface does not scatter --------------+
 ///              ^                        v                                          |
-///              |               light_sampled (if a light sample can contribute)    |
+///              |               light_sampled (if lights are sampled)                |
 ///              |                        v                                          v
 ///              |            estimate_contribution ---> roulette ends it: terminated -> finished
 ///              |                        v
-///              +-- scattered <--- sample_direction          (light_received: any time after
-///                                                            light_sampled, before the next observe)
+///              +-- scattered <--- sample_direction          (record_light, before it light_received if the light is
+///                                                            visible: any time after light_sampled, before the
+///                                                            next observe)
 ///
 /// Branches of a split path run through it one after the other, each with a Memory of its own.
 struct MethodHooks {
     struct Vertex {};       ///< data of a surface point, e.g. its location in a field
     struct Memory {};       ///< part of the path's state: training samples whose targets are not complete
     struct Sample {};       ///< a complete training sample made by observe(), added by record() before the pass ends
+    struct Light {};        ///< a light sample made by light_sampled(), added by record_light() before the pass ends
     struct Expectation {};  ///< part of the path's state: the contribution expected at its first vertex
 
     static constexpr bool kSplitsPaths = false;  ///< whether estimate_contribution() is good enough to split by
@@ -79,8 +87,9 @@ struct MethodHooks {
     PL_HD Vertex locate(const SurfacePoint&, MethodCounters&) const { return {}; }
     PL_HD Sample observe(auto&, const Observation&, const auto& /*vertex*/, MethodCounters&) const { return {}; }
     PL_HD void record(const Sample&) const {}
-    /// `reflected`: radiance of the light sample reflected at the vertex, if nothing occludes it.
-    PL_HD void light_sampled(auto&, Vec3f /*reflected*/) const {}
+    /// Called for light samples that cannot contribute, too: their estimate is 0.
+    PL_HD Light light_sampled(auto&, const auto& /*vertex*/, const LightEstimate&) const { return {}; }
+    PL_HD void record_light(const Light&, bool /*is_visible*/) const {}
     PL_HD void light_received(auto&, MethodCounters&) const {}
     /// Contribution estimate: the radiance (luminance) still expected of the path as a share of that at its first
     /// vertex. `survival`: the product of the albedos so far over that of the survival probabilities, the estimate of
@@ -112,7 +121,8 @@ concept Method = std::derived_from<M, MethodHooks> &&
     { method.record(typename M::Sample{}) } -> std::same_as<void>;
     { method.estimate_contribution(vertex, wi, wi, float{}, expectation) } -> std::same_as<float>;
     { M::kSplitsPaths } -> std::convertible_to<bool>;
-    method.light_sampled(memory, wi);
+    { method.light_sampled(memory, vertex, LightEstimate{}) } -> std::same_as<typename M::Light>;
+    method.record_light(typename M::Light{}, bool{});
     method.light_received(memory, counters);
     method.scattered(memory, vertex, ScatterEvent{}, counters);
     method.terminated(memory, counters);

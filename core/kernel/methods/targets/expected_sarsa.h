@@ -6,17 +6,26 @@
 
 namespace pl {
 
-/// Target for scattering from x into the direction that hits y: T = L_e(y) + rho(y) V(y). The expectation over the
-/// next direction is the irradiance / pi that the field keeps at y, one load. T has no BSDF of x: the field holds
-/// incident radiance. If y reflects but has no location, T is unknown and no sample is made.
+/// Target for scattering from x into the direction that hits y:
+///   all light       T = L_e(y) + rho(y) V(y)
+///   indirect light  T = w L_e(y) + rho(y) (V(y) + D(y))
+/// The expectation over the next direction is the irradiance / pi V that the field keeps at y, one load. T has no BSDF of x:
+/// the field holds incident radiance. w = q / (q + p_light) is the MIS weight of L_e(y) at x, and D(y) the irradiance / pi by
+/// the light samples of y, which a field of indirect light keeps apart. Directions sampled in proportion to f T then have the
+/// fixed point q = max(0, c f L - p_light): none goes where light samples do as well.   [compare Karlik et al. 2019, "MIS
+/// Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling"]
+/// If y reflects but has no location, T is unknown and no sample is made.
 template <GuidingField F>
 struct ExpectedSarsa : FieldTrainer<F> {
     using typename FieldTrainer<F>::Vertex;
     using Memory = OpenSample<F>;  ///< of the last direction
     using Sample = TrainingSample<F>;
+    using Light = LightSample<F>;
 
-    static constexpr bool serves(const LearningSettings& learning, bool samples_lights) {
-        return is_complete_at_next_vertex(learning, samples_lights);
+    LearningSettings learning{};
+
+    static constexpr bool serves(const LearningSettings& learning, bool) {
+        return learning.target == LearningTarget::ExpectedSarsa;
     }
 
     PL_HD void scattered(Memory& memory, const Vertex& vertex, const ScatterEvent& event, MethodCounters&) const {
@@ -25,16 +34,26 @@ struct ExpectedSarsa : FieldTrainer<F> {
     PL_HD Sample observe(Memory& memory, const Observation& observation, const Vertex& vertex,
                          MethodCounters& counters) const {
         if (!memory.entry.is_trained()) return {};
-        float target = luminance(observation.emitted);
+        const bool indirect = learning.light == LearnedLight::Indirect;
+        float target = luminance(observation.emitted) * (indirect ? observation.direction_share : 1.0f);
         if (!is_black(observation.albedo)) {
             if (!vertex.is_served()) return {};
-            target += luminance(observation.albedo) * this->field.value_at(vertex);
+            const float direct = indirect ? this->field.direct_at(vertex) : 0.0f;
+            target += luminance(observation.albedo) * (this->field.value_at(vertex) + direct);
         }
         this->count_sample(target, counters);
         memory.distance = observation.distance;
         return {memory, target};
     }
     PL_HD void record(const Sample& sample) const { this->train(sample, sample.target); }
+
+    PL_HD Light light_sampled(Memory&, const Vertex& vertex, const LightEstimate& estimate) const {
+        return {vertex, estimate.irradiance};
+    }
+    PL_HD void record_light(const Light& light, bool is_visible) const {
+        if (learning.light != LearnedLight::Indirect || !light.location.is_served()) return;
+        this->field.record_light(light.location, is_visible ? light.irradiance : 0.0f);
+    }
 };
 
 }  // namespace pl

@@ -53,10 +53,12 @@ struct MonteCarlo : FieldTrainer<F> {
         return {};
     }
 
-    PL_HD void light_sampled(Memory& memory, Vec3f reflected) const {
-        if (memory.count == 0 || memory.is_cut != 0) return;
+    PL_HD typename FieldTrainer<F>::Light light_sampled(Memory& memory, const Vertex&,
+                                                        const LightEstimate& estimate) const {
+        if (memory.count == 0 || memory.is_cut != 0) return {};
         memory.lit = memory.count - 1;
-        memory.light = reflected;
+        memory.light = estimate.reflected;
+        return {};
     }
     PL_HD void light_received(Memory& memory, MethodCounters&) const {
         if (memory.lit >= 0) memory.steps[memory.lit].brought += memory.light;

@@ -1,5 +1,4 @@
-// Targets that are complete only when the next vertex scatters: Sarsa, and indirect radiance alone if lights are
-// sampled.
+// Sarsa: a training sample is complete when the next vertex scatters.
 // [Sutton and Barto 2018, section 6.4; Dahm and Keller 2017, section 3]
 #pragma once
 
@@ -9,20 +8,19 @@
 namespace pl {
 
 /// The target for scattering from x, if the ray hits y and is scattered into w with weight f cos / pdf:
-///   Sarsa            T = L + f cos / pdf Q(y, w); 0 instead of the product if the path is terminated at y, which the roulette
-///                    weight of the surviving paths compensates
-///   Expected Sarsa   T = L + rho(y) V(y)
+///   T = L + f cos / pdf Q(y, w)
+/// with 0 instead of the product if the path is terminated at y, which the roulette weight of the surviving paths compensates.
 ///   all light        L = L_e(y)
 ///   indirect light   L = the share of L_e(y) that scattered directions bring, plus the radiance that y reflects of its own
-///                    light sample, which a field without direct light lacks
+///                    light sample, which a field of indirect light lacks
 template <RadianceField F>
 struct Sarsa : FieldTrainer<F> {
     using typename FieldTrainer<F>::Vertex;
 
     static constexpr KernelRange kKernelRange = KernelRange::Sparse;
 
-    static constexpr bool serves(const LearningSettings& learning, bool samples_lights) {
-        return learning.target != LearningTarget::MonteCarlo && !is_complete_at_next_vertex(learning, samples_lights);
+    static constexpr bool serves(const LearningSettings& learning, bool) {
+        return learning.target == LearningTarget::Sarsa;
     }
 
     LearningSettings learning{};
@@ -53,17 +51,17 @@ struct Sarsa : FieldTrainer<F> {
             complete(memory, 0.0f, counters);
         } else if (!vertex.is_served()) {
             memory.scattered = {};  // the radiance reflected there is unknown
-        } else if (learning.target == LearningTarget::ExpectedSarsa) {
-            const OpenSample<F> open = memory.scattered;
-            complete(memory, luminance(observation.albedo) * this->field.value_at(vertex), counters);
-            if (indirect) memory.lit = open;
         } else if (indirect) {
             memory.lit = memory.scattered;
         }
         return {};
     }
 
-    PL_HD void light_sampled(Memory& memory, Vec3f reflected) const { memory.light = luminance(reflected); }
+    PL_HD typename FieldTrainer<F>::Light light_sampled(Memory& memory, const Vertex&,
+                                                        const LightEstimate& estimate) const {
+        memory.light = luminance(estimate.reflected);
+        return {};
+    }
     PL_HD void light_received(Memory& memory, MethodCounters&) const {
         // Added, not recorded: the training sample is already counted.
         if (memory.lit.entry.is_trained()) this->field.add({memory.lit, memory.light}, this->mixture.learned != 0);

@@ -1,6 +1,7 @@
 // Targets of reinforcement learning, one call at a time: their training samples for a path of known radiance.
 #include "core/kernel/methods/learning_target.h"
 
+#include "core/kernel/guiding/update_volume.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 #include "tests/support/field/guided_methods.h"
@@ -68,7 +69,8 @@ TEST_CASE("Each target is served by the integrator with the least memory per pat
         CHECK(serving({LearningTarget::MonteCarlo, Indirect}, lights) == kMonteCarlo);
     }
     CHECK(serving({LearningTarget::ExpectedSarsa, Indirect}, false) == kExpectedSarsa);
-    CHECK(serving({LearningTarget::ExpectedSarsa, Indirect}, true) == kSarsa);
+    CHECK(serving({LearningTarget::ExpectedSarsa, Indirect}, true) == kExpectedSarsa);
+    CHECK(serving({LearningTarget::Sarsa, Indirect}, true) == kSarsa);
 }
 
 TEST_CASE("Sarsa takes the learned radiance of the sampled direction") {
@@ -79,7 +81,7 @@ TEST_CASE("Sarsa takes the learned radiance of the sampled direction") {
     CHECK(learner.counters.records == 0);
     method.observe(memory, meeting(3.0f, 0.25f), kVertex, learner.counters);
     CHECK(learner.counters.records == 0);  // not before the next direction is known
-    method.light_sampled(memory, Vec3f{7.0f});
+    method.light_sampled(memory, kVertex, {.reflected = Vec3f{7.0f}});
     method.scattered(memory, kVertex, going(0.5f, 2), learner.counters);
     method.light_received(memory, learner.counters);  // all light: it is in the table
     CHECK(learner.recorded(1) == Approx(3.0f + 0.5f * 3.0f));
@@ -128,26 +130,47 @@ TEST_CASE("Sarsa takes the volume's mean for a cell without visits, and has no s
     CHECK(learner.recorded(2) == Approx(4.0f));
 }
 
-TEST_CASE("Indirect light: emission by its share, and the reflected light sample of the next vertex") {
-    for (const LearningTarget target : {LearningTarget::ExpectedSarsa, LearningTarget::Sarsa}) {
+TEST_CASE("Sarsa of indirect light: emission by its share, and the reflected light sample of the next vertex") {
+    Learner learner;
+    const auto method = learner.method<SarsaMethod>(LearningTarget::Sarsa, LearnedLight::Indirect);
+    SarsaMethod::Memory memory{.scattered = method.open_sample(kVertex, towards(0)), .lit = {}};
+    method.observe(memory, meeting(4.0f, 0.25f), {1}, learner.counters);
+    method.light_sampled(memory, kVertex, {.reflected = Vec3f{7.0f}});
+    method.scattered(memory, {1}, going(0.5f, 0), learner.counters);
+    method.light_received(memory, learner.counters);
+    // Volume 1 has a mean of 2 and no visits.
+    CHECK(learner.recorded(0) == Approx(1.0f + 0.5f * 2.0f + 7.0f));
+    CHECK(learner.count(0) == 1);
+    // A blocked light sample adds nothing, neither now nor at a later vertex.
+    method.observe(memory, meeting(0.0f), {1}, learner.counters);
+    method.light_sampled(memory, kVertex, {.reflected = Vec3f{7.0f}});
+    method.terminated(memory, learner.counters);
+    const float before = learner.recorded(4);
+    method.observe(memory, meeting(0.0f), {1}, learner.counters);
+    method.light_received(memory, learner.counters);
+    CHECK(learner.recorded(4) == before);
+}
+
+TEST_CASE("Expected Sarsa of indirect light: emission by its share, and the light of learned light samples") {
+    for (const LearnedLight light : {LearnedLight::All, LearnedLight::Indirect}) {
         Learner learner;
-        const auto method = learner.method<SarsaMethod>(target, LearnedLight::Indirect);
-        SarsaMethod::Memory memory{.scattered = method.open_sample(kVertex, towards(0)), .lit = {}};
-        method.observe(memory, meeting(4.0f, 0.25f), {1}, learner.counters);
-        method.light_sampled(memory, Vec3f{7.0f});
-        method.scattered(memory, {1}, going(0.5f, 0), learner.counters);
-        method.light_received(memory, learner.counters);
-        // Volume 1 has a mean of 2 and no visits.
-        CHECK(learner.recorded(0) == Approx(1.0f + 0.5f * 2.0f + 7.0f));
-        CHECK(learner.count(0) == 1);
-        // A blocked light sample adds nothing, neither now nor at a later vertex.
-        method.observe(memory, meeting(0.0f), {1}, learner.counters);
-        method.light_sampled(memory, Vec3f{7.0f});
-        method.terminated(memory, learner.counters);
-        const float before = learner.recorded(4);
-        method.observe(memory, meeting(0.0f), {1}, learner.counters);
-        method.light_received(memory, learner.counters);
-        CHECK(learner.recorded(4) == before);
+        learner.field.tables.direct = {3.0f, 8.0f};
+        const auto method = learner.method<ReinforcementMethod>(LearningTarget::ExpectedSarsa, light);
+        ReinforcementMethod::Memory memory = method.open_sample(kVertex, towards(0));
+        method.record(method.observe(memory, meeting(4.0f, 0.25f), {1}, learner.counters));
+        const bool all = light == LearnedLight::All;
+        CHECK(learner.recorded(0) == Approx((all ? 4.0f : 1.0f) + 0.5f * (2.0f + (all ? 0.0f : 8.0f))));
+        // Light samples of a vertex train its volume; blocked ones count as 0, those without a volume not at all.
+        const auto lit = method.light_sampled(memory, {1}, {.irradiance = 6.0f});
+        method.record_light(lit, true);
+        method.record_light(lit, false);
+        method.record_light(method.light_sampled(memory, {}, {.irradiance = 6.0f}), true);
+        const HostTables& tables = learner.field.tables;
+        CHECK(tables.pending_direct_count[1] == (all ? 0u : 2u));
+        CHECK(tables.pending_direct_count[0] == 0u);
+        absorb_light_samples(learner.field.update_view(), 1);
+        CHECK(tables.direct[1] == Approx(all ? 8.0f : 3.0f));
+        CHECK(tables.direct_count[1] == (all ? 0u : 2u));
     }
 }
 
@@ -157,15 +180,15 @@ TEST_CASE("Monte-Carlo targets are the radiance of the path") {
         const auto method = learner.method<MonteCarloMethod>(LearningTarget::MonteCarlo, light);
         MonteCarloMethod::Memory memory;
         method.observe(memory, meeting(9.0f), kVertex, learner.counters);  // the camera learns nothing
-        method.light_sampled(memory, Vec3f{9.0f});
+        method.light_sampled(memory, kVertex, {.reflected = Vec3f{9.0f}});
         method.scattered(memory, kVertex, going(1.0f, 0), learner.counters);
         method.light_received(memory, learner.counters);
         method.observe(memory, meeting(4.0f, 0.25f), kVertex, learner.counters);
-        method.light_sampled(memory, Vec3f{2.0f});
+        method.light_sampled(memory, kVertex, {.reflected = Vec3f{2.0f}});
         method.scattered(memory, kVertex, going(0.5f, 1), learner.counters);
         method.light_received(memory, learner.counters);
         method.observe(memory, meeting(0.0f), {kNoVolume}, learner.counters);
-        method.light_sampled(memory, Vec3f{100.0f});  // blocked
+        method.light_sampled(memory, kVertex, {.reflected = Vec3f{100.0f}});  // blocked
         method.scattered(memory, {kNoVolume}, going(0.25f, -1), learner.counters);
         method.observe(memory, meeting(8.0f, 0.5f, 0.0f), {}, learner.counters);
         CHECK(learner.counters.records == 0);
@@ -190,7 +213,8 @@ TEST_CASE("Monte Carlo cuts paths that are too long, takes the table for the res
         MonteCarloMethod::Memory memory;
         for (int i = 0; i < 3 * MonteCarloMethod::kMostSteps; ++i) {
             method.observe(memory, meeting(0.0f), kVertex, learner.counters);
-            method.light_sampled(memory, Vec3f{i == MonteCarloMethod::kMostSteps ? 3.0f : 0.0f});
+            method.light_sampled(memory, kVertex,
+                                 {.reflected = Vec3f{i == MonteCarloMethod::kMostSteps ? 3.0f : 0.0f}});
             method.scattered(memory, kVertex, going(1.0f, i == MonteCarloMethod::kMostSteps - 1 ? 1 : 0),
                              learner.counters);
             method.light_received(memory, learner.counters);
