@@ -93,13 +93,28 @@ using LaneLong = std::int64_t __attribute__((vector_size(4 * kLaneWidth)));
 using LaneDouble = double __attribute__((vector_size(4 * kLaneWidth)));
 using HalfFloat = float __attribute__((vector_size(2 * kLaneWidth)));
 
-PL_INLINE HalfFloat round_to_float(const LaneLong& integers) { return __builtin_convertvector(integers, HalfFloat); }
+template <std::size_t... kLanes>
+PL_INLINE LaneFloat join_halves(const HalfFloat& low, const HalfFloat& high, std::index_sequence<kLanes...>) {
+    return __builtin_shufflevector(low, high, static_cast<int>(kLanes)...);
+}
+
+/// The nearest floats.
+PL_INLINE HalfFloat round_to_float(const LaneLong& integers) {
+#if !defined(__AVX512DQ__)
+    // Without an instruction for it: up to 52 bits by way of the mantissa of a double, which holds them exactly.
+    constexpr std::int64_t kBits = 0x4330000000000000;  // of 2^52
+    const LaneWide above = std::bit_cast<LaneWide>(integers) >> 52;
+    if (!Lanes::any(std::bit_cast<LaneUint>(above) != 0u))
+        return __builtin_convertvector(std::bit_cast<LaneDouble>(integers | kBits) - 0x1p52, HalfFloat);
+#endif
+    return __builtin_convertvector(integers, HalfFloat);
+}
 
 /// The nearest floats of kLaneWidth integers.
 PL_INLINE LaneFloat load_rounded(const std::int64_t* values) {
-    const HalfFloat halves[2] = {round_to_float(load_lanes<LaneLong>(values)),
-                                 round_to_float(load_lanes<LaneLong>(values + kLaneWidth / 2))};
-    return load_lanes<LaneFloat>(halves);
+    return join_halves(round_to_float(load_lanes<LaneLong>(values)),
+                       round_to_float(load_lanes<LaneLong>(values + kLaneWidth / 2)),
+                       std::make_index_sequence<kLaneWidth>());
 }
 
 /// Lane kHalf * kLaneWidth / 2 + i / 2: each lane of one half twice.
