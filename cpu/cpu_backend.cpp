@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/scene/pack_scene.h"
 #include "cpu/batch_tracer.h"
@@ -15,6 +14,7 @@
 #include "cpu/launchers.h"
 #include "cpu/parallel_for.h"
 #include "cpu/view_pass.h"
+#include "cpu/volume_update.h"
 
 namespace pl {
 namespace {
@@ -26,6 +26,12 @@ const PassKernels<PicturePass>& kernels_for(const PassRequest& request) {
     if (kernels == nullptr) throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
     return *kernels;
 }
+
+/// The field of one method.
+struct StoredField {
+    HostField arrays;
+    bool is_updated = false;  ///< all volumes, since the arrays were made, split or loaded
+};
 
 class CpuBackend final : public RenderBackend {
 public:
@@ -57,10 +63,11 @@ public:
 
     void upload_field(MethodId method, HostField field) override {
         if (!volumes_) throw Error(ErrorKind::Runtime, "CPU back end: expected volumes before tables, got none");
-        fields_[index_of(method)] = std::move(field);
+        fields_[index_of(method)] = StoredField{std::move(field)};
     }
     HostField download_field(MethodId method) const override {
-        return fields_[index_of(method)].value_or(HostField{});
+        const std::optional<StoredField>& field = fields_[index_of(method)];
+        return field ? field->arrays : HostField{};
     }
     bool has_field(MethodId method) const override { return fields_[index_of(method)].has_value(); }
 
@@ -100,12 +107,18 @@ public:
     }
 
     void update_field(MethodId method) override {
+        StoredField& learned = existing_field(method);
+        const LaneKernels& kernels = best_lane_kernels();
         std::visit(
             [&](auto& arrays) {
                 const auto field = update_view(shape_, arrays);
-                for_each_volume(volume_count(arrays), [&](std::uint32_t volume) { update_volume(field, volume); });
+                for_each_volume(volume_count(arrays), [&](std::uint32_t volume) {
+                    if (!learned.is_updated || has_new_samples(kernels, field, volume))
+                        update_volume_in_lanes(kernels, field, volume);
+                });
             },
-            existing_field(method));
+            learned.arrays);
+        learned.is_updated = true;
     }
 
 private:
@@ -121,15 +134,15 @@ private:
                 .batch_paths = settings_.batch_paths};
     }
 
-    HostField& existing_field(MethodId method) {
-        std::optional<HostField>& field = fields_[index_of(method)];
+    StoredField& existing_field(MethodId method) {
+        std::optional<StoredField>& field = fields_[index_of(method)];
         if (!field)
             throw Error(ErrorKind::Runtime,
                         fmt::format("CPU back end: expected tables of '{}', got none", info_of(method).name));
         return *field;
     }
     AnyFieldView learned_field(MethodId method) {
-        AnyFieldView field = field_view(shape_, *volumes_, existing_field(method));
+        AnyFieldView field = field_view(shape_, *volumes_, existing_field(method).arrays);
         visit_field(field, [&](auto& view) { view.writers = settings_.threads == 1 ? Writers::One : Writers::Many; });
         return field;
     }
@@ -162,7 +175,7 @@ private:
                     volume_values_[volume] = volume_value(summary, volume, slot.view);
                 });
             },
-            existing_field(field_owner(slot.method)));
+            existing_field(field_owner(slot.method)).arrays);
         return view_of(std::as_const(volume_values_));
     }
 
@@ -182,7 +195,7 @@ private:
     std::optional<BatchTracer> tracer_;
     std::shared_ptr<const HostVolumes> volumes_;
     FieldShape shape_;
-    std::array<std::optional<HostField>, kMethodCount> fields_;
+    std::array<std::optional<StoredField>, kMethodCount> fields_;
     HostArray<float> volume_values_;  ///< of the latest heat map
     FilmStore films_;
 };

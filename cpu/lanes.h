@@ -94,10 +94,12 @@ PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
 struct Lanes {
     using Real = LaneFloat;
     using Int = LaneInt;
+    using Uint = LaneUint;
     using Mask = LaneInt;
 
     static PL_INLINE Real constant(float x) { return broadcast(x); }
     static PL_INLINE Int constant(std::int32_t x) { return x - Int{}; }
+    static PL_INLINE Uint count(std::uint32_t x) { return broadcast(x); }
     static PL_INLINE Real sqrt(const Real& x) {
 #if defined(__AVX512F__)
         return std::bit_cast<Real>(_mm512_maskz_sqrt_ps(0xffff, std::bit_cast<__m512>(x)));
@@ -119,6 +121,13 @@ struct Lanes {
     }
     static PL_INLINE Int truncate(const Real& x) { return __builtin_convertvector(x, Int); }
     static PL_INLINE Real to_real(const Int& i) { return __builtin_convertvector(i, Real); }
+    static PL_INLINE Real count_to_real(const Uint& i) { return __builtin_convertvector(i, Real); }
+    static PL_INLINE Int to_int(const Uint& i) { return std::bit_cast<Int>(i); }
+    static PL_INLINE Real power(const Real& x, float p) {
+        Real powers = x;
+        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) powers[lane] = pl::power(x[lane], p);
+        return powers;
+    }
     static PL_INLINE bool any(const Mask& mask) { return mask_bits(mask) != 0; }
     static PL_INLINE Real load(const float* values, const Int& index) {
 #if defined(__AVX512F__)

@@ -65,7 +65,7 @@ PL_HD inline bool is_valid_radiance(Vec3f v) {
 }
 
 /// ln(x) for positive, normal x, error below 2e-7 (1 + |ln x|). Polynomial of the Cephes library.
-PL_HD inline float log_of(float x) {
+PL_INLINE float log_of(float x) {
     constexpr float kRootOfHalf = 0.70710678118654752440f;
     const auto bits = std::bit_cast<std::uint32_t>(x);
     auto exponent = static_cast<float>(static_cast<int>(bits >> 23) - 126);
@@ -81,7 +81,7 @@ PL_HD inline float log_of(float x) {
     return (z + (p * z * z * z - 0.5f * z * z)) + exponent * 0.69314718055994530942f;
 }
 /// e^x for x in [-87, 0], relative error below 1e-6. Polynomial of the Cephes library.
-PL_HD inline float exp_of(float x) {
+PL_INLINE float exp_of(float x) {
     const float n = std::floor(x * 1.44269504088896341f + 0.5f);
     const float z = (x - n * 0.693359375f) + n * 2.12194440e-4f;  // ln 2 in two parts
     const float high = ((1.9875691500e-4f * z + 1.3981999507e-3f) * z + 8.3334519073e-3f) * z + 4.1665795894e-2f;
@@ -90,7 +90,7 @@ PL_HD inline float exp_of(float x) {
     return (p * z * z + z + 1.0f) * scale;
 }
 /// x^p for x in (0, 1], normal, and p in (0, 1].
-PL_HD inline float power(float x, float p) { return exp_of(p * log_of(x)); }
+PL_INLINE float power(float x, float p) { return exp_of(p * log_of(x)); }
 
 /// log2(x) for normal x > 0, exact for powers of two, error below 2e-7 (1 + |log2(x)|). Series of atanh; not the math
 /// library's, which rounds differently on CPU and GPU.

@@ -17,15 +17,20 @@ PL_INLINE T select(Mask mask, T yes, T no) {
 struct One {
     using Real = float;
     using Int = std::int32_t;
+    using Uint = std::uint32_t;
     using Mask = bool;
 
     static PL_INLINE Real constant(float x) { return x; }
     static PL_INLINE Int constant(std::int32_t x) { return x; }
+    static PL_INLINE Uint count(std::uint32_t x) { return x; }
     static PL_INLINE Real sqrt(Real x) { return std::sqrt(x); }
     static PL_INLINE Real magnitude(Real x) { return std::fabs(x); }
     static PL_INLINE Real copy_sign(Real size, Real sign) { return std::copysign(size, sign); }
     static PL_INLINE Int truncate(Real x) { return static_cast<Int>(x); }
     static PL_INLINE Real to_real(Int i) { return static_cast<Real>(i); }
+    static PL_INLINE Real count_to_real(Uint i) { return static_cast<Real>(i); }
+    static PL_INLINE Int to_int(Uint i) { return static_cast<Int>(i); }
+    static PL_INLINE Real power(Real x, float p) { return pl::power(x, p); }
     static PL_INLINE bool any(Mask mask) { return mask; }
     static PL_INLINE Real load(const float* values, Int index) { return values[index]; }
     /// Number of the `count` ascending values from values[first] on that are not above x.
@@ -71,6 +76,15 @@ PL_INLINE typename N::Real clamp_real(typename N::Real x, float low, float high)
 template <class N>
 PL_INLINE typename N::Int clamp_int(typename N::Int i, std::int32_t low, std::int32_t high) {
     return select(i < low, N::constant(low), select(i > high, N::constant(high), i));
+}
+
+template <class N>
+PL_INLINE typename N::Real min_real(const typename N::Real& x, float most) {
+    return select(static_cast<typename N::Mask>(most < x), N::constant(most), x);
+}
+template <class N>
+PL_INLINE typename N::Real max_real(const typename N::Real& x, float least) {
+    return select(static_cast<typename N::Mask>(x < least), N::constant(least), x);
 }
 
 /// Largest integer not above x (floor), for |x| < 2^31.

@@ -43,9 +43,14 @@ PL_HD inline std::int64_t to_fixed_point(float target, float radiance_unit) {
     return static_cast<std::int64_t>(min_of(units, kMaxRecordedUnits) * kStepsPerUnit);
 }
 
-/// Mean target of `count` training samples.
+/// Mean target of `count` training samples, whose sum in fixed-point steps is rounded to `steps`.
+template <class N>
+PL_INLINE typename N::Real mean_of_steps(const typename N::Real& steps, const typename N::Uint& count,
+                                         float radiance_unit) {
+    return (steps / kStepsPerUnit) / N::count_to_real(count) * radiance_unit;
+}
 PL_HD inline float from_fixed_point(std::int64_t sum, std::uint32_t count, float radiance_unit) {
-    return (static_cast<float>(sum) / kStepsPerUnit) / static_cast<float>(count) * radiance_unit;
+    return mean_of_steps<One>(static_cast<float>(sum), count, radiance_unit);
 }
 
 /// Adds one training sample of the radiance incident at a volume through a cell. Any thread, any order: the same sums.
