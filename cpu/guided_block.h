@@ -11,6 +11,80 @@ namespace pl {
 
 inline constexpr std::uint32_t kGuidedGroups = group_count(kGuidedBlock);
 
+/// Dummy table, loaded by lanes without a volume if the field is empty.
+inline constexpr float kOneCell[] = {1.0f};
+inline constexpr TableSampler kNoTables{.cells = {1}, .row_cdf = kOneCell, .column_cdf = kOneCell};
+
+inline TableSampler sampler_of(const TableField& field) {
+    return field.normals.empty() ? kNoTables : field.sampler();
+}
+
+/// The volume of a vertex. Its position and normal come from the tree node of the lookup, if known: the node is in the cache.
+inline ServedPoint<One> served_point(const TableField& field, const TableLocation& vertex,
+                                     const SurfacePoint& surface) {
+    ServedPoint<One> point = field.served_point(vertex, surface);
+    if (vertex.node == FoundVolume::kUnknown) return point;
+    const KdNode& node = field.tree.nodes[vertex.node];
+    point.site = unpack(node.position);
+    point.normal = unpack(node.normal);
+    return point;
+}
+
+/// Sets the lane of a group to the vertex `from`, and prefetches the rows of its table.
+template <FeatureSet F, TableGuided M>
+void set_lane(const M& method, const ScatterPoint<F, M>& from, GuidedGroup& group, std::uint32_t lane) {
+    const TableField& field = method.field;
+    group.volume[lane] = kNoVolume;
+    if (from.vertex.is_served()) {
+        __builtin_prefetch(field.row_cdf.data + from.vertex.volume * field.cells.side);
+        group.set_volume(lane, served_point(field, from.vertex, from.surface), method.bsdf_fraction(from.vertex));
+    }
+    group.position.set(lane, from.surface.position);
+    group.shading_normal.set(lane, from.surface.shading_normal);
+}
+
+/// At most kGuidedBlock light samples at Lambert reflectors, whose densities by the method are evaluated at once: bit-identical to
+/// M::pdf_sa(). Empty if lights are not sampled.
+template <FeatureSet F, TableGuided M>
+class LightBlock {
+public:
+    explicit LightBlock(const M& method) : method_(method) {}
+
+    std::uint32_t count() const { return count_; }
+    void clear() { count_ = 0; }
+    void add(std::uint32_t path, const ScatterPoint<F, M>& from, const UnweightedLight& light) {
+        set_lane(method_, from, groups_[count_ / kGroupSize], count_ % kGroupSize);
+        sampled_[count_ / kGroupSize].direction.set(count_ % kGroupSize, light.wi);
+        vertices_[count_] = from.vertex;
+        lights_[count_] = light;
+        paths_[count_++] = path;
+    }
+    void weigh_directions() {
+        kernels_.weigh_guided(sampler_of(method_.field), groups_, sampled_, directions_, group_count(count_));
+    }
+
+    std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
+    const typename M::Vertex& vertex(std::uint32_t i) const { return vertices_[i]; }
+    const UnweightedLight& light(std::uint32_t i) const { return lights_[i]; }
+    float pdf_sa(std::uint32_t i) const { return directions_[i / kGroupSize].pdf_sa[i % kGroupSize]; }
+
+private:
+    const M& method_;
+    LaneKernels kernels_ = best_lane_kernels();
+    std::uint32_t count_ = 0;
+    std::uint32_t paths_[kGuidedBlock];
+    typename M::Vertex vertices_[kGuidedBlock];
+    UnweightedLight lights_[kGuidedBlock];
+    GuidedGroup groups_[kGuidedGroups];
+    SampledGroup sampled_[kGuidedGroups];
+    DirectionGroup directions_[kGuidedGroups];
+};
+template <FeatureSet F, TableGuided M>
+requires(!F.has(Feature::NextEventEstimation)) class LightBlock<F, M> {
+public:
+    explicit LightBlock(const M&) {}
+};
+
 /// At most kGuidedBlock paths at Lambert reflectors. Their directions are bit-identical to M::sample_direction().
 template <FeatureSet F, TableGuided M>
 class ScatterBlock {
@@ -26,13 +100,7 @@ public:
         const ScatterPoint<F, M>& from = points_[count_];
         GuidedGroup& group = groups_[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
-        group.volume[lane] = kNoVolume;
-        if (from.vertex.is_served()) {
-            __builtin_prefetch(method_.field.row_cdf.data + from.vertex.volume * method_.field.cells.side);
-            group.set_volume(lane, served_point(from), method_.bsdf_fraction(from.vertex));
-        }
-        group.position.set(lane, from.surface.position);
-        group.shading_normal.set(lane, from.surface.shading_normal);
+        set_lane(method_, from, group, lane);
         group.choice[lane] = u.x;
         group.u_x[lane] = u.y;
         group.u_y[lane] = u.z;
@@ -45,8 +113,8 @@ public:
 
     void sample_directions() {
         if (count_ % kGroupSize != 0) sample_rows();
-        kernels_.sample_guided(sampler(), {settings_.seed, settings_.stream, Purpose::CellJitter}, groups_, sampled_,
-                               directions_, group_count(count_));
+        kernels_.sample_guided(sampler_of(method_.field), {settings_.seed, settings_.stream, Purpose::CellJitter},
+                               groups_, sampled_, directions_, group_count(count_));
     }
 
     std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
@@ -54,26 +122,11 @@ public:
     DirectionSample direction(std::uint32_t i) const { return directions_[i / kGroupSize].get(i % kGroupSize); }
 
 private:
-    /// Reads position and normal of the volume from the tree node of the lookup, if known: the node is in the cache.
-    ServedPoint<One> served_point(const ScatterPoint<F, M>& from) const {
-        ServedPoint<One> point = method_.field.served_point(from.vertex, from.surface);
-        if (from.vertex.node == FoundVolume::kUnknown) return point;
-        const KdNode& node = method_.field.tree.nodes[from.vertex.node];
-        point.site = unpack(node.position);
-        point.normal = unpack(node.normal);
-        return point;
-    }
     /// Samples the table rows of the last group.
     void sample_rows() {
         const std::uint32_t group = (count_ - 1) / kGroupSize;
-        kernels_.sample_rows(sampler(), groups_[group], sampled_[group]);
+        kernels_.sample_rows(sampler_of(method_.field), groups_[group], sampled_[group]);
     }
-    TableSampler sampler() const { return method_.field.normals.empty() ? kNoTables : method_.field.sampler(); }
-
-    /// Dummy table, loaded by lanes without a volume if the field is empty.
-    static constexpr float kOneCell[] = {1.0f};
-    static constexpr TableSampler kNoTables{.cells = {1}, .row_cdf = kOneCell, .column_cdf = kOneCell};
-
     const M& method_;
     const PathSettings& settings_;
     LaneKernels kernels_ = best_lane_kernels();
@@ -106,11 +159,12 @@ template <FeatureSet F, TableGuided M>
 struct BlockMemory<F, M> {
     LookupsAhead lookups[2];  ///< of the current and the next block
     ScatterBlock<F, M> scattered;
+    [[no_unique_address]] LightBlock<F, M> lit;
     TrainingQueue<M, QueuedSample<M>> training;
     TrainingQueue<M, QueuedLight<M>> lights;
 
     BlockMemory(const M& method, const PathSettings& settings, SharedByThreads<M>& shared)
-        : scattered(method, settings), training(method, shared.locks), lights(method, shared.locks) {}
+        : scattered(method, settings), lit(method), training(method, shared.locks), lights(method, shared.locks) {}
 };
 
 }  // namespace pl

@@ -32,20 +32,14 @@ public:
 
     PL_INLINE void sample_direction(const DrawKey& jitter_key, SampledGroup& sampled) const {
         const Real3<Lanes> wi = mixture_direction(jitter_key, load_lanes<LaneInt>(sampled.row + first_));
-        const TableDirection<Lanes> direction = tables_.locate(point_.served, wi);
         store(wi.x, sampled.direction.x);
         store(wi.y, sampled.direction.y);
         store(wi.z, sampled.direction.z);
-        store(direction.square.x, sampled.square_x);
-        store(direction.square.y, sampled.square_y);
-        store(direction.cosine, sampled.cosine);
-        store(direction.jacobian, sampled.jacobian);
-        const DirectionTables<Lanes> tables = tables_of(point_.served.volume >= 0);
-        const CellPair<Lanes> columns(tables_.cells, direction.square.x);
-        const CellPair<Lanes> rows(tables_.cells, direction.square.y);
-        Lanes::prefetch(tables_.column_cdf, tables.first_of_row(rows.first) + columns.first);
-        Lanes::prefetch(tables_.column_cdf, tables.first_of_row(rows.second) + columns.first);
+        locate(wi, sampled);
     }
+
+    /// The same for directions that come in `sampled`.
+    PL_INLINE void locate_direction(SampledGroup& sampled) const { locate(vector(sampled.direction), sampled); }
 
     PL_INLINE void weigh(const SampledGroup& sampled, DirectionGroup& directions) const {
         const Real3<Lanes> wi = vector(sampled.direction);
@@ -67,6 +61,20 @@ public:
 
 private:
     static constexpr int kFloatsPerLine = 16;
+
+    /// Finds the directions in their tables.
+    PL_INLINE void locate(const Real3<Lanes>& wi, SampledGroup& sampled) const {
+        const TableDirection<Lanes> direction = tables_.locate(point_.served, wi);
+        store(direction.square.x, sampled.square_x);
+        store(direction.square.y, sampled.square_y);
+        store(direction.cosine, sampled.cosine);
+        store(direction.jacobian, sampled.jacobian);
+        const DirectionTables<Lanes> tables = tables_of(point_.served.volume >= 0);
+        const CellPair<Lanes> columns(tables_.cells, direction.square.x);
+        const CellPair<Lanes> rows(tables_.cells, direction.square.y);
+        Lanes::prefetch(tables_.column_cdf, tables.first_of_row(rows.first) + columns.first);
+        Lanes::prefetch(tables_.column_cdf, tables.first_of_row(rows.second) + columns.first);
+    }
 
     /// Mask of the lanes that sample the table rather than the BSDF.
     PL_INLINE LaneInt is_guided() const {
@@ -104,6 +112,16 @@ private:
 PL_INLINE void sample_rows_of_group(const TableSampler& tables, const GuidedGroup& paths, SampledGroup& sampled) {
     for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
         GuidedLanes(tables, paths, first).sample_rows(sampled);
+}
+
+PL_INLINE void weigh_guided_groups(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
+                                   DirectionGroup* directions, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            GuidedLanes(tables, paths[group], first).locate_direction(sampled[group]);
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            GuidedLanes(tables, paths[group], first).weigh(sampled[group], directions[group]);
 }
 
 PL_INLINE void sample_guided_groups(const TableSampler& tables, const DrawKey& jitter_key, const GuidedGroup* paths,

@@ -111,6 +111,9 @@ struct LaneKernels {
     /// Guided::sample_direction() of every path, at Lambert reflectors. `jitter_key` has Purpose::CellJitter.
     void (*sample_guided)(const TableSampler& tables, const DrawKey& jitter_key, const GuidedGroup* paths,
                           SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups);
+    /// Guided::pdf_sa() of the directions in `sampled`, at Lambert reflectors.
+    void (*weigh_guided)(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
+                         DirectionGroup* directions, std::uint32_t groups);
     /// Whether any cell of a volume has new training samples.
     bool (*has_samples)(const TableUpdateView& field, std::uint32_t volume);
     /// The update of one volume's table: update_volume() without the BSDF fraction and the reach. Returns false, and changes

@@ -30,12 +30,18 @@ void sample_guided(const TableSampler& tables, const DrawKey& jitter_key, const 
     sample_guided_groups(tables, jitter_key, paths, sampled, directions, groups);
 }
 
+void weigh_guided(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
+                  DirectionGroup* directions, std::uint32_t groups) {
+    weigh_guided_groups(tables, paths, sampled, directions, groups);
+}
+
 bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return any_sample_in_lanes(field, volume); }
 
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name, find_closest, find_occluded, draw, sample_rows, sample_guided, has_samples, update_table};
+    return {name,          find_closest, find_occluded, draw,        sample_rows,
+            sample_guided, weigh_guided, has_samples,   update_table};
 }
 
 }  // namespace

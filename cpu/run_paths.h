@@ -133,7 +133,9 @@ private:
     [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end,
                                                       const LookupsAhead& lookups) {
         block_.scattered.clear();
+        if constexpr (kSamplesLights) block_.lit.clear();
         for (std::uint32_t i = first; i < end; ++i) shade_ahead(i, lookups);
+        if constexpr (kSamplesLights) weigh_lights();
         block_.scattered.sample_directions();
         for (std::uint32_t i = 0; i < block_.scattered.count(); ++i) {
             const std::uint32_t path = block_.scattered.path(i);
@@ -145,25 +147,59 @@ private:
 
     /// Shades path i with the surface point and volume of `lookups`.
     void shade_ahead(std::uint32_t i, const LookupsAhead& lookups) {
-        ShadowRequest<M> shadow;
         typename M::Sample sample{};
         const StepOutput<M> out{sample, counters_.path};
         const VertexNumbers numbers = numbers_.numbers(i);
         const Hit hit = rays_.hit(i);
         method_.found = lookups.found(i);
         const auto surface_of = [&]() -> decltype(auto) { return lookups.template surface<F>(setup_.scene, hit, i); };
-        statuses_[i] =
-            shade_hit<F, M>(context_, hit, surface_of, numbers, states_[i], {out, block_.scattered.next(), shadow});
+        ScatterPoint<F, M>& from = block_.scattered.next();
+        statuses_[i] = shade_hit<F, M>(context_, hit, surface_of, states_[i], {out, from});
+        if (statuses_[i] == PathStatus::Continues) {
+            request_light_later(i, numbers.light);
+            statuses_[i] = continue_path(context_, hit, numbers.scatter.w, states_[i], from, out);
+        }
         if (statuses_[i] == PathStatus::Continues) scatter_later(i, numbers.scatter, out);
         block_.training.push(sample);
-        push(shadow, i);
+    }
+
+    /// Samples a light for path i. At a Lambert reflector it is weighed with those of the other paths of the block.
+    void request_light_later(std::uint32_t i, Vec4f u) {
+        if constexpr (kSamplesLights) {
+            if (setup_.path.next_event == 0) return;
+            const ScatterPoint<F, M>& from = block_.scattered.next();
+            if (is_lambert(from)) {
+                const UnweightedLight light = sample_light(context_, from, u, states_[i]);
+                if (light.pdf_sa > 0.0f) return block_.lit.add(i, from, light);
+            }
+            ShadowRequest<M> shadow;
+            if (is_lambert(from))
+                weigh_light<F>(method_, from.vertex, {}, 0.0f, states_[i], shadow);
+            else
+                request_light(context_, from, u, states_[i], shadow);
+            push(shadow, i);
+        }
+    }
+    void weigh_lights() {
+        block_.lit.weigh_directions();
+        for (std::uint32_t k = 0; k < block_.lit.count(); ++k) {
+            const std::uint32_t path = block_.lit.path(k);
+            ShadowRequest<M> shadow;
+            weigh_light<F>(method_, block_.lit.vertex(k), block_.lit.light(k), block_.lit.pdf_sa(k), states_[path],
+                           shadow);
+            push(shadow, path);
+        }
+    }
+    static bool is_lambert(const ScatterPoint<F, M>& from) {
+        if constexpr (F.has_any(kLobeFeatures)) return from.bsdf.is_lambert();
+        return true;
     }
 
     /// Queues path i for the sampling of its direction at a Lambert reflector; scatters it at once at other surfaces.
     void scatter_later(std::uint32_t i, Vec4f u, const StepOutput<M>& out) {
         if constexpr (F.has_any(kLobeFeatures)) {
             const ScatterPoint<F, M>& from = block_.scattered.next();
-            if (!from.bsdf.is_lambert()) {
+            if (!is_lambert(from)) {
                 statuses_[i] =
                     scatter_layered(method_, from, scatter_numbers(setup_.path, states_[i], u), states_[i], out);
                 return;

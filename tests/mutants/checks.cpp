@@ -29,6 +29,7 @@ constexpr Check kChecks[] = {
     {"learned-cells", check_learned_cells},
     {"probed-cells", check_probed_cells},
     {"furnace-cells", check_furnace_cells},
+    {"furnace-lights", check_furnace_lights},
     {"mixture-density", check_mixture_density},
     {"floor", check_floor},
     {"facets", check_facets},

@@ -123,6 +123,29 @@ inline Decision check_furnace_cells() {
     return {cells > 100 ? Verdict::Pass : Verdict::Inconclusive, reason};
 }
 
+/// With light samples, the learned irradiance of scattered directions and that of light samples are together e/(1-rho) = 1 in
+/// every volume that paths meet often.
+inline Decision check_furnace_lights() {
+    const HostScene scene = pack_scene(furnace_scene(0.5f, 0.5f));
+    SmallField field(scene, 30, 4);
+    for (std::uint32_t pass = 0; pass < 64; ++pass) {
+        trace_many<kWithNextEvent>(scene, CameraDescription{.eye = Vec3f{0.0f}, .target = Vec3f{1.0f}},
+                                   guided_by(field.view()), {.seed = 1, .next_event = 1}, {1000 * pass, 1000},
+                                   [](const auto&, const auto&) {});
+        field.update();
+    }
+    float worst = 0.0f;
+    int volumes = 0;
+    for (std::size_t i = 0; i < field.tables().direct.size(); ++i)
+        if (field.tables().direct_count[i] >= 2000) {
+            worst = max_of(worst, std::fabs(field.tables().mean_radiance[i] + field.tables().direct[i] - 1.0f));
+            ++volumes;
+        }
+    const std::string reason = std::to_string(volumes) + " volumes, the worst off by " + std::to_string(worst);
+    if (!(worst <= 0.1f)) return {Verdict::Fail, reason};
+    return {volumes > 10 ? Verdict::Pass : Verdict::Inconclusive, reason};
+}
+
 /// Mixture samples on the floor follow the mixture's density, by rule S3 on quarters of cells, in which the bilinear
 /// density is integrated exactly by its value in the middle. Seed 1, 3e6 samples, resolves 1.2 %.
 inline Decision check_mixture_density() {

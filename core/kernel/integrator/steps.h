@@ -1,7 +1,8 @@
-// The integrator as steps on one path: begin, shade (once per hit), scatter, connect (once per shadow ray). Pure functions of
+// The integrator as steps on one path: begin, shade (once per hit), sample a light, continue (roulette), scatter, connect (once per
+// shadow ray). Pure functions of
 // their arguments, so that a loop over one path (trace_path.h), a batch of paths (cpu/run_paths.h) and a GPU thread
-// (cuda/kernels/trace.cuh) call the same code. Drivers of several paths call shade_hit() and scatter() apart, so that they can
-// sample directions for many paths at once.
+// (cuda/kernels/trace.cuh) call the same code. Drivers of several paths call the steps apart, so that they can sample
+// directions, and evaluate densities towards lights, for many paths at once.
 #pragma once
 
 #include "core/kernel/film/pixel_sequence.h"
@@ -81,26 +82,60 @@ PL_HD inline float add_emission(const SceneView& scene, const PathSettings& sett
     return weight;
 }
 
-/// Samples a light at a vertex; `shadow.wanted` stays false if the sample cannot contribute.
+/// A light sample that contributes if nothing occludes the light, before its MIS weight is known.
+struct UnweightedLight {
+    Ray ray;                   ///< the shadow ray
+    Vec3f wi{0.0f};            ///< unit, towards the light
+    float pdf_sa = 0.0f;       ///< of light sampling; 0: the sample cannot contribute
+    Vec3f contribution{0.0f};  ///< times pdf_sa, without the weight; so are the next two
+    Vec3f reflected{0.0f};     ///< LightEstimate::reflected
+    float irradiance = 0.0f;   ///< LightEstimate::irradiance
+};
+
+/// Samples a light at a vertex, by the numbers `u`.
 template <FeatureSet F, Method M>
-PL_HD inline void sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
-                               PathState<F, M>& state, ShadowRequest<M>& shadow) {
+PL_HD inline UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
+                                          const PathState<F, M>& state) {
     const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, {u.x, u.y, u.z}, u.w);
-    LightEstimate estimate;
-    if (sample.pdf_sa > 0.0f) {
-        const float weight = balance_weight(sample.pdf_sa, scatter_pdf_sa(context.method, from, sample.wi));
-        const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
-        shadow.ray = shadow_ray_to<F>(from.surface, sample);
-        shadow.contribution = state.throughput * reflectance * sample.emitted * (weight / sample.pdf_sa);
-        shadow.wanted = true;
-        estimate.reflected = reflectance * sample.emitted * (weight / sample.pdf_sa);
-        estimate.irradiance = luminance(sample.emitted) * (kInvPi * sample.cos_i * (weight / sample.pdf_sa));
-        if constexpr (F.has_any(kLobeFeatures)) {
-            // The radiance of a specular chain is that of its scattered directions.
-            estimate.reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : state.chain.weight * estimate.reflected;
-        }
+    if (!(sample.pdf_sa > 0.0f)) return {};
+    const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
+    UnweightedLight light{.ray = shadow_ray_to<F>(from.surface, sample), .wi = sample.wi, .pdf_sa = sample.pdf_sa};
+    light.contribution = state.throughput * reflectance * sample.emitted;
+    light.reflected = reflectance * sample.emitted;
+    light.irradiance = luminance(sample.emitted) * (kInvPi * sample.cos_i);
+    if constexpr (F.has_any(kLobeFeatures)) {
+        // The radiance of a specular chain is that of its scattered directions.
+        light.reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : state.chain.weight * light.reflected;
     }
-    shadow.light = context.method.light_sampled(state.memory, from.vertex, estimate);
+    return light;
+}
+
+/// Weighs a light sample by multiple importance sampling. `scatter_pdf_sa`: of its direction, see scatter_pdf_sa(). `shadow` comes
+/// in cleared; `shadow.wanted` stays false if the sample cannot contribute.
+template <FeatureSet F, Method M>
+PL_HD inline void weigh_light(const M& method, const typename M::Vertex& vertex, const UnweightedLight& light,
+                              float scatter_pdf_sa, PathState<F, M>& state, ShadowRequest<M>& shadow) {
+    LightEstimate estimate;
+    if (light.pdf_sa > 0.0f) {
+        const float weight = balance_weight(light.pdf_sa, scatter_pdf_sa) / light.pdf_sa;
+        shadow.ray = light.ray;
+        shadow.contribution = light.contribution * weight;
+        shadow.wanted = true;
+        estimate = {light.reflected * weight, light.irradiance * weight};
+    }
+    shadow.light = method.light_sampled(state.memory, vertex, estimate);
+}
+
+/// Samples a light at a vertex, if the settings ask for it.
+template <FeatureSet F, Method M>
+PL_HD inline void request_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
+                                PathState<F, M>& state, ShadowRequest<M>& shadow) {
+    if constexpr (F.has(Feature::NextEventEstimation)) {
+        if (context.settings.next_event == 0) return;
+        const UnweightedLight light = sample_light(context, from, u, state);
+        const float pdf_sa = light.pdf_sa > 0.0f ? scatter_pdf_sa(context.method, from, light.wi) : 0.0f;
+        weigh_light<F>(context.method, from.vertex, light, pdf_sa, state, shadow);
+    }
 }
 
 /// Calls the method's observe() for the surface hit. Returns the method's data of the vertex.
@@ -135,11 +170,10 @@ PL_HD inline PathStatus shade_miss(const PathContext<M>& context, PathState<F, M
     return PathStatus::Finished;
 }
 
-/// Results of shade_hit(). `from` is valid only if the path continues; `shadow` comes in cleared.
+/// Results of shade_hit(). `from` is valid only if the path continues.
 template <FeatureSet F, class M>
 struct ShadeOutput : StepOutput<M> {
     ScatterPoint<F, M>& from;
-    ShadowRequest<M>& shadow;
 };
 
 /// Russian roulette and splitting at the vertex `from`, whose random numbers are `u`. Returns whether the path continues.
@@ -161,12 +195,11 @@ PL_HD inline PathStatus continue_path(const PathContext<M>& context, const Hit& 
     return PathStatus::Continues;
 }
 
-/// Shades the end of the path's segment: adds emission, calls the observe() of the method, samples a light, and
-/// decides whether the path continues. `surface_of()` is called once if there is a hit.
+/// Shades the end of the path's segment: adds emission and calls the observe() of the method. Returns whether the path reaches a
+/// vertex where it may go on. `surface_of()` is called once if there is a hit.
 template <FeatureSet F, Method M, class SurfaceOf>
 PL_HD inline PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const SurfaceOf& surface_of,
-                                  const VertexNumbers& numbers, PathState<F, M>& state,
-                                  const ShadeOutput<F, M>& out) {
+                                  PathState<F, M>& state, const ShadeOutput<F, M>& out) {
     ++out.counters.segments;
     if (!hit.found()) return shade_miss(context, state, out);
     const SceneView& scene = context.scene;
@@ -186,10 +219,7 @@ PL_HD inline PathStatus shade_hit(const PathContext<M>& context, const Hit& hit,
         return terminate_path(context.method, state, out);
     }
     out.from = {surface, bsdf, vertex};
-    if constexpr (F.has(Feature::NextEventEstimation)) {
-        if (context.settings.next_event != 0) sample_light(context, out.from, numbers.light, state, out.shadow);
-    }
-    return continue_path(context, hit, numbers.scatter.w, state, out.from, out);
+    return PathStatus::Continues;
 }
 
 /// Shades the end of a segment and scatters the path: its ray is then the next segment. `shadow` comes in cleared.
@@ -200,7 +230,11 @@ PL_HD inline PathStatus extend_path(const PathContext<M>& context, const Hit& hi
     typename M::Sample sample{};
     const StepOutput<M> out{sample, counters};
     const auto surface_of = [&] { return make_surface_point<F>(context.scene, hit, -state.ray.direction); };
-    PathStatus status = shade_hit<F, M>(context, hit, surface_of, numbers, state, {out, from, shadow});
+    PathStatus status = shade_hit<F, M>(context, hit, surface_of, state, {out, from});
+    if (status == PathStatus::Continues) {
+        request_light(context, from, numbers.light, state, shadow);
+        status = continue_path(context, hit, numbers.scatter.w, state, from, out);
+    }
     if (status == PathStatus::Continues)
         status = scatter(context.method, from, scatter_numbers(context.settings, state, numbers.scatter), state, out);
     context.method.record(sample);
