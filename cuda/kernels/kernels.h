@@ -110,7 +110,7 @@ struct UpdateStep {
     UpdateItem item;
     const char* name;
 };
-inline constexpr int kUpdateStepCount = 7;
+inline constexpr int kUpdateStepCount = 8;
 /// The steps of update_volume() in order.
 extern const std::array<UpdateStep, kUpdateStepCount> kUpdateSteps;
 
