@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/io/files.h"
 #include "core/kernel/film/heat_color.h"
 #include "core/session/shown_range.h"
 
