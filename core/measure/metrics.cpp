@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -19,9 +20,18 @@ void require_same_size(Pixels picture, Pixels reference) {
                                           " pixels as the reference has, got " + std::to_string(picture.size()));
 }
 
-std::size_t trimmed_count(std::size_t pixels) {
-    const auto kept = static_cast<std::size_t>(std::ceil((1.0 - kTrimmedShare) * static_cast<double>(pixels)));
+std::size_t trimmed_count(std::size_t pixels, double share = kTrimmedShare) {
+    const auto kept = static_cast<std::size_t>(std::ceil((1.0 - share) * static_cast<double>(pixels)));
     return pixels - kept;
+}
+
+/// Mean without the largest terms; 0 for none.
+double trimmed_mean(std::vector<double> terms, double left_out) {
+    if (terms.empty()) return 0.0;
+    const std::size_t kept = terms.size() - trimmed_count(terms.size(), left_out);
+    std::sort(terms.begin(), terms.end());
+    return std::accumulate(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(kept), 0.0) /
+           static_cast<double>(kept);
 }
 
 /// A sum that keeps its largest terms apart, so that one of them, however large, costs the others no digit.
@@ -176,6 +186,26 @@ Metrics measure_error(Pixels picture, const ReferenceHalves& reference, int thre
     for (const ErrorSums& sums : sums_of_chunks(picture.size(), kPixelChunk, threads, ErrorSums(picture.size()), add))
         total.add(sums);
     return total.finish();
+}
+
+TrimmedErrors measure_trimmed(Pixels picture, const ReferenceHalves& reference, double left_out) {
+    require_same_size(picture, reference.first);
+    require_same_size(picture, reference.second);
+    std::vector<double> squares;
+    std::vector<double> relative_squares;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        if (!is_finite(picture[i]) || !is_finite(reference.first[i]) || !is_finite(reference.second[i])) continue;
+        const Vec3d x{picture[i]};
+        const Vec3d r1{reference.first[i]};
+        const Vec3d r2{reference.second[i]};
+        const Vec3d r = 0.5 * (r1 + r2);
+        const Vec3d square = (x - r1) * (x - r2);
+        squares.push_back((square.x + square.y + square.z) / 3.0);
+        double relative = 0.0;
+        for (int c = 0; c < 3; ++c) relative += square[c] / (r[c] * r[c] + kEpsilon);
+        relative_squares.push_back(relative / 3.0);
+    }
+    return {trimmed_mean(std::move(squares), left_out), trimmed_mean(std::move(relative_squares), left_out)};
 }
 
 }  // namespace pl
