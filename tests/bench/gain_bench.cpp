@@ -11,6 +11,8 @@
 // taken the time t that `default` needs for that length. Between checkpoints errors lie on straight lines in log-log; where a
 // run has ended before t, on a line of slope -1 from its last point. Means and 95 % intervals are over seeds, of logarithms
 // of ratios of runs with the same seed.
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 
@@ -22,12 +24,16 @@
 namespace pl::bench {
 namespace {
 
-/// By `reinforcement` with light samples, which needs the fewest samples on most scenes, and with defaults for the keys of
-/// learning, so that runs with other keys have the same reference.
+/// Scenes where light samples find little of the light: guided references need far fewer samples.
+constexpr std::array kGuidedReferences{"door",    "indirect",  "labyrinth", "pillars",
+                                       "shelter", "staircase", "thin-wall"};
+
+/// With light samples and with defaults for the keys of learning, so that runs with other keys have the same reference.
 Reference reference_of(const GainSetup& setup, const std::string& name,
                        const std::shared_ptr<const SceneDescription>& scene) {
     RenderSettings settings;
-    settings.method = MethodId::Reinforcement;
+    if (std::find(kGuidedReferences.begin(), kGuidedReferences.end(), name) != kGuidedReferences.end())
+        settings.method = MethodId::Reinforcement;
     settings.width = setup.width();
     settings.height = setup.height();
     settings.camera = scene->camera;
