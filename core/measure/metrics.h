@@ -54,9 +54,11 @@ struct TrimmedErrors {
     double relmse = 0.0;
 };
 
-/// Means without the `left_out` share, in [0, 1), of pixels where each is largest; the number of pixels left out is rounded
-/// down. Squares and finite pixels as in measure_error(), which agrees at kTrimmedShare. Sorts a number per pixel: for
-/// benchmarks, not for pictures that are measured while they are rendered. Throws as measure_error() does.
+/// Means without the `left_out` share, in [0, 1), of the pixels: those farthest from the mean of the halves, for relmse
+/// relative to it; their number is rounded down. Squares and finite pixels as in measure_error(), and without halves the
+/// same as its twins. With them the order differs: theirs leaves out large products, but only positive ones, so that noise in
+/// the reference pulls the rest below the truth. Sorts pixels: for benchmarks, not for pictures that are
+/// measured while they are rendered. Throws as measure_error() does.
 TrimmedErrors measure_trimmed(Pixels picture, const ReferenceHalves& reference, double left_out);
 
 inline double luminance_of(const Vec3d& radiance) {

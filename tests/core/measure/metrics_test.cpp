@@ -98,17 +98,24 @@ TEST_CASE("errors without a share of the pixels: those where each is largest") {
     CHECK_THROWS_AS(measure_trimmed(Picture(3), {Picture(3), Picture(4)}, 0.01), Error);
 }
 
+TEST_CASE("errors without a share of the pixels: outliers of a reference's half go, whatever their sign") {
+    // A quarter of the pixels has an outlier in one half: the product is 1 * 99 or 1 * -101, the truth is 1.
+    Picture first(1000, Vec3f(0.0f));
+    const Picture second(1000, Vec3f(0.0f));
+    const Picture picture(1000, Vec3f(1.0f));
+    for (std::size_t i = 0; i < 250; ++i) first[i] = Vec3f(i % 2 == 0 ? 102.0f : -98.0f);
+    CHECK_THAT(measure_trimmed(picture, {first, second}, 0.25).mse, WithinRel(1.0, 1e-12));
+}
+
 TEST_CASE("errors without one in a thousand pixels are the trimmed twins") {
-    Picture first(2000);
-    Picture second(2000);
+    Picture reference(2000);
     Picture picture(2000);
     for (std::size_t i = 0; i < picture.size(); ++i) {
-        first[i] = Vec3f(0.01f * static_cast<float>(i % 37));
-        second[i] = Vec3f(0.01f * static_cast<float>(i % 31));
+        reference[i] = Vec3f(0.01f * static_cast<float>(i % 37));
         picture[i] = Vec3f(0.02f * static_cast<float>(i % 41), 0.3f, 0.001f * static_cast<float>(i));
     }
-    const Metrics metrics = measure_error(picture, {first, second});
-    const TrimmedErrors errors = measure_trimmed(picture, {first, second}, kTrimmedShare);
+    const Metrics metrics = measure_error(picture, reference);
+    const TrimmedErrors errors = measure_trimmed(picture, {reference, reference}, kTrimmedShare);
     CHECK_THAT(errors.mse, WithinRel(metrics.mse_trimmed, 1e-9));
     CHECK_THAT(errors.relmse, WithinRel(metrics.relmse_trimmed, 1e-9));
 }
