@@ -30,8 +30,16 @@ NOT_WORSE_THAN_KNOWN = 0.9
 CHECKS = [("0.7 s", "mse"), ("0.7 s", "relmse"), ("128", "mse"), ("128", "relmse")]
 R = None  # reaches the bound
 # Lower ends of the intervals, in the order of CHECKS, by scene and light samples; measured as in
-# docs/notebook/2026-11-23-light-samples-before.md.
+# docs/notebook/2026-11-23-light-samples-before.md, on a busy machine. 0: there is no picture yet after 0.7 s.
 KNOWN = {
+    ("cornell", True): (0.155, 0.388, 0.152, 0.397),
+    ("two-lights", True): (0.161, 0.223, 0.102, 0.256),
+    ("gallery", True): (0.289, 0.414, 0.197, 0.668),
+    ("thin-wall", True): (0.216, R, 0.217, R),
+    ("spheres", True): (0.506, 0.554, 0.54, 0.648),
+    ("plates", True): (0.398, 0.577, 0.511, 0.727),
+    ("open-box", True): (0.654, 0.752, 0.678, 0.78),
+    ("spaceship", True): (0, 0, 0.264, 0.444),
 }
 
 # Least gains of reinforcement at equal samples and at equal time, and of precomputed. The pictures are always the same, times are not.
@@ -97,11 +105,11 @@ def bound_failures(document):
             known = KNOWN.get((scene, light_samples), (R,) * len(CHECKS))
             for (length, error), value in zip(CHECKS, known):
                 where = f"{scene}, light samples {'on' if light_samples else 'off'}, {length}, {error}"
-                low = methods["reinforcement"][length]["equal_time"][error][1]
+                low = methods["reinforcement"][length]["equal_time"][error][1] or 0.0
                 least = BOUND if value is R else NOT_WORSE_THAN_KNOWN * value
-                if low is None or not low >= least:
+                if not low >= least:
                     failures.append(("time", f"{where}: expected the interval of the equal-time factor to lie above "
-                                             f"{least:.3g}, got {'nothing' if low is None else f'{low:.3g}'}"))
+                                             f"{least:.3g}, got {low:.3g}"))
                 elif value is not R and low >= BOUND:
                     print(f"{where}: reaches {low:.3g}: remove it from KNOWN")
     return failures
