@@ -1,7 +1,8 @@
 // The cost of a segment of a guided path, compared with one of default path tracing.
-// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER]]]]]; the scene "ball" has a million triangles, the tracer is
-// auto, dense, bvh or embree. Processor time, of one thread unless told otherwise. The methods take turns, one pass each,
-// so that other work on the machine meets all of them; a checksum tells whether two builds make the same pictures.
+// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER [LIGHT]]]]]]; the scene "ball" has a million triangles, the
+// tracer is auto, dense, bvh or embree, LIGHT is off, on or both: without and with light samples. Processor time, of one
+// thread unless told otherwise. The methods take turns, one pass each, so that other work on the machine meets all of them; a
+// ratio is to `default` with the same light samples. A checksum tells whether two builds make the same pictures.
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -28,11 +29,19 @@ constexpr int kSide = 512;      ///< of the picture
 constexpr int kWarmUp = 4;      ///< passes before the first that counts
 constexpr int kPrecompute = 4;  ///< paths per cell: the learned values hardly matter to the time
 
+/// What the methods have in common.
+struct Common {
+    std::shared_ptr<const SceneDescription> scene;
+    int volumes = 0;
+    CpuSettings cpu;
+    bool light_samples = false;
+};
+
 /// One method under way, and the time of its passes.
 class Run {
 public:
-    Run(std::shared_ptr<const SceneDescription> scene, MethodId method, int volumes, const CpuSettings& cpu)
-        : session_(make_cpu_backend(cpu), scene, settings_of(*scene, method, volumes)) {}
+    Run(const Common& common, MethodId method)
+        : session_(make_cpu_backend(common.cpu), common.scene, settings_of(common, method)) {}
 
     void render_pass() {
         std::clock_t start = std::clock();
@@ -61,12 +70,13 @@ public:
     std::vector<double> learn_ns;   ///< per segment, between passes. [pass]
 
 private:
-    static RenderSettings settings_of(const SceneDescription& scene, MethodId method, int volumes) {
+    static RenderSettings settings_of(const Common& common, MethodId method) {
         RenderSettings settings;
         settings.method = method;
         settings.width = settings.height = kSide;
-        settings.camera = scene.camera;
-        settings.field.volumes = volumes;
+        settings.camera = common.scene->camera;
+        settings.next_event = common.light_samples;
+        settings.field.volumes = common.volumes;
         settings.field.precompute_samples = kPrecompute;
         return settings;
     }
@@ -91,11 +101,17 @@ IntersectorChoice tracer_of(const std::string& name) {
     throw Error(ErrorKind::Usage, "tracer: expected auto, dense, bvh or embree, got " + name);
 }
 
-void measure(const std::string& name, int volumes, int rounds, const CpuSettings& cpu) {
-    const auto scene = std::make_shared<const SceneDescription>(open_scene(name));
+/// Without and with light samples.
+std::vector<bool> light_samples_of(const std::string& name) {
+    if (name == "both") return {false, true};
+    if (name == "off") return {false};
+    if (name == "on") return {true};
+    throw Error(ErrorKind::Usage, "light samples: expected off, on or both, got " + name);
+}
+
+void measure(const Common& common, int rounds) {
     std::vector<std::unique_ptr<Run>> runs;
-    for (const MethodInfo& method : all_methods())
-        runs.push_back(std::make_unique<Run>(scene, method.id, volumes, cpu));
+    for (const MethodInfo& method : all_methods()) runs.push_back(std::make_unique<Run>(common, method.id));
     for (const auto& run : runs) {
         for (int pass = 0; pass < kWarmUp; ++pass) run->render_pass();
         run->forget_times();
@@ -108,7 +124,8 @@ void measure(const std::string& name, int volumes, int rounds, const CpuSettings
         for (std::size_t round = 0; round < plain.size(); ++round)
             ratio.push_back(runs[i]->render_ns[round] / plain[round]);
         const Quartiles quartiles = quartiles_of(ratio);
-        std::printf("%-14s %8.1f %8.1f %8.2f [%.2f, %.2f] %8.1f   %08x\n", std::string(all_methods()[i].name).c_str(),
+        std::printf("%-14s %-5s %8.1f %8.1f %8.2f [%.2f, %.2f] %8.1f   %08x\n",
+                    std::string(all_methods()[i].name).c_str(), common.light_samples ? "on" : "off",
                     quartiles_of(runs[i]->render_ns).median,
                     *std::min_element(runs[i]->render_ns.begin(), runs[i]->render_ns.end()), quartiles.median,
                     quartiles.lower, quartiles.upper, quartiles_of(runs[i]->learn_ns).median, runs[i]->checksum());
@@ -119,20 +136,26 @@ void measure(const std::string& name, int volumes, int rounds, const CpuSettings
 }  // namespace pl::bench
 
 int main(int count, char** arguments) try {
-    const std::string scene = count > 1 ? arguments[1] : "cornell";
+    const auto word = [&](int index, const char* otherwise) {
+        return std::string(count > index ? arguments[index] : otherwise);
+    };
+    const std::string scene = word(1, "cornell");
     const int volumes = count > 2 ? std::atoi(arguments[2]) : 0;
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 15;
     const int threads = count > 4 ? std::max(1, std::atoi(arguments[4])) : 1;
-    const std::string tracer = count > 5 ? arguments[5] : "auto";
+    const std::string tracer = word(5, "auto");
+    const std::vector<bool> light_samples = pl::bench::light_samples_of(word(6, "both"));
     const pl::CpuSettings cpu{.threads = threads, .intersector = pl::bench::tracer_of(tracer)};
     const pl::bench::MachineLoad load;
     std::printf(
-        "%s, %d volumes (0: the default), %d threads, tracer %s: ns per segment, as a multiple of the first row, "
-        "and for learning\n",
+        "%s, %d volumes (0: the default), %d threads, tracer %s: ns per segment, as a multiple of `default` with "
+        "the same light samples, and for learning\n",
         scene.c_str(), volumes, threads, tracer.c_str());
-    std::printf("%-14s %8s %8s %8s %13s %8s   picture\n", "method", "median", "least", "ratio", "[quartiles]",
-                "learning");
-    pl::bench::measure(scene, volumes, rounds, cpu);
+    std::printf("%-14s %-5s %8s %8s %8s %13s %8s   picture\n", "method", "light", "median", "least", "ratio",
+                "[quartiles]", "learning");
+    const auto description = std::make_shared<const pl::SceneDescription>(pl::bench::open_scene(scene));
+    for (const bool light : light_samples)
+        pl::bench::measure({.scene = description, .volumes = volumes, .cpu = cpu, .light_samples = light}, rounds);
     const pl::bench::MachineLoad::Shares shares = load.shares();
     std::printf("processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
                 shares.stolen);
