@@ -46,6 +46,7 @@ void add_counters(Json& stats, const PassCounters& counters) {
     stats["paths"] = counters.paths;
     stats["segments"] = counters.path.segments;
     stats["shadow_rays"] = counters.path.shadow_rays;
+    stats["emission_rays"] = counters.path.emission_rays;
     stats["zero_contribution_paths"] = counters.zero_contribution_paths;
     stats["mean_path_length"] = counters.paths == 0 ? 0.0 : static_cast<double>(counters.path.segments) / paths;
     stats["invalid_samples"] = counters.invalid_samples;

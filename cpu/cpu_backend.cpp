@@ -10,6 +10,7 @@
 #include "core/scene/pack_scene.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/device_name.h"
+#include "cpu/emission_pass.h"
 #include "cpu/film_store.h"
 #include "cpu/launchers.h"
 #include "cpu/parallel_for.h"
@@ -87,15 +88,17 @@ public:
         if (request.slot.view != View::Beauty) return run_view(setup, request);
         const MethodId method = request.slot.method;
         const AnyFieldView field = info_of(method).uses_field ? learned_field(method) : AnyFieldView{};
-        return launch(kernels_for(request), request.features,
-                      PicturePass{.setup = setup,
-                                  .tracer = *tracer_,
-                                  .field = field,
-                                  .mixture = request.mixture,
-                                  .learning = request.learning,
-                                  .camera = request.camera,
-                                  .sample = request.sample,
-                                  .film = films_.view(request.slot)});
+        PassCounters counters = launch(kernels_for(request), request.features,
+                                       PicturePass{.setup = setup,
+                                                   .tracer = *tracer_,
+                                                   .field = field,
+                                                   .mixture = request.mixture,
+                                                   .learning = request.learning,
+                                                   .camera = request.camera,
+                                                   .sample = request.sample,
+                                                   .film = films_.view(request.slot)});
+        counters += refine_emission_of(request, static_cast<std::uint32_t>(counters.paths));
+        return counters;
     }
 
     PassCounters precompute(const PrecomputeRequest& request) override {
@@ -177,6 +180,18 @@ private:
             },
             existing_field(field_owner(slot.method)).arrays);
         return view_of(std::as_const(volume_values_));
+    }
+
+    /// Refines the emission in the `paths` samples that a pass has added from its first pixel on.
+    PassCounters refine_emission_of(const PassRequest& request, std::uint32_t paths) {
+        if (scene_->lights.empty()) return {};
+        const IndexRange pixels{request.first_pixel, request.first_pixel + paths};
+        const FilmView film = films_.view(request.slot);
+        return launch(
+            kEmissionKernels, request.features,
+            EmissionPass{.setup = make_setup(request.path, pixels, nullptr),
+                         .context = {request.camera, request.path, {film.width, film.height, request.sample}},
+                         .film = film});
     }
 
     PassCounters run_view(const PassSetup& setup, const PassRequest& request) {

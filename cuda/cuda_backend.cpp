@@ -202,6 +202,13 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
         else
             launch_view(request, context, pixels);
         launch(add, blocks_for(count), stream_, "add_samples", film, pixels.radiance, range.first, request.sample);
+        if (is_picture && existing_scene().lights.size() > 0)
+            launch(kEmissionKernels[covering_set(request.features)], blocks_for(count), stream_, "refine_film",
+                   EmissionSetup{.scene = existing_scene().view(),
+                                 .context = {request.camera, request.path, grid},
+                                 .film = film,
+                                 .range = range,
+                                 .counters = counters_.data()});
     });
 }
 

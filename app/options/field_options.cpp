@@ -50,8 +50,8 @@ constexpr auto kFieldOptions = std::to_array<OptionSpec>({
      .commands = kSampling, .in_scene_files = true, .parse = parse_learn_target,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.target)); }},
     {.name = "learn-from", .flags = "--learn-from", .value = "NAME", .group = kField,
-     .help = "With next-event estimation, light in reinforcement's training samples: all (default), or "
-             "indirect: only light that light samples do not bring",
+     .help = "With next-event estimation, light in reinforcement's training samples: indirect (default), only "
+             "light that light samples do not bring, or all",
      .commands = kSampling, .in_scene_files = true, .parse = parse_learn_from,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.light)); }},
     {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,

@@ -25,6 +25,7 @@ Json point_json(const RunPoint& point) {
             {"paths", counters.paths},
             {"segments", counters.path.segments},
             {"shadow_rays", counters.path.shadow_rays},
+            {"emission_rays", counters.path.emission_rays},
             {"zero_contribution_paths", counters.zero_contribution_paths},
             {"invalid_samples", counters.invalid_samples}};
 }
@@ -66,6 +67,7 @@ RunPoint point_from(const Json& json) {
     point.counters.paths = json.at("paths");
     point.counters.path.segments = json.at("segments");
     point.counters.path.shadow_rays = json.at("shadow_rays");
+    point.counters.path.emission_rays = json.value("emission_rays", std::uint64_t{0});  // absent in results of earlier versions
     point.counters.zero_contribution_paths = json.at("zero_contribution_paths");
     point.counters.invalid_samples = json.at("invalid_samples");
     return point;

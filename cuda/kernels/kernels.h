@@ -7,6 +7,7 @@
 #include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/inspect/heat_map.h"
+#include "core/kernel/integrator/camera_emission.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/method_list.h"
 
@@ -64,6 +65,17 @@ template <int kEntry>
 const PictureKernels<kEntry>& picture_kernels();
 extern const KernelRow<ProbeKernel> kProbeKernels;
 extern const KernelRow<ViewKernel> kViewKernels;
+
+/// Refines the samples of a launch that are in the film, see refine_emission(). One thread per pixel.
+struct EmissionSetup {
+    SceneView scene;
+    EmissionContext context;
+    FilmView film;
+    PathRange range;
+    PassCounters* counters = nullptr;
+};
+using EmissionKernel = void (*)(EmissionSetup);
+extern const KernelRow<EmissionKernel> kEmissionKernels;
 
 /// Evaluates volume_value(). One thread per volume.
 using VolumeValueKernel = void (*)(TableUpdateView field, View view, Span<float> values);

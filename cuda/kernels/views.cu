@@ -21,6 +21,17 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(ViewSetup setup) {
     add_up(*setup.counters, counters);
 }
 
+template <std::uint32_t kFeatureBits>
+__global__ void __launch_bounds__(kThreadsPerBlock) refine_film(EmissionSetup setup) {
+    const BvhIntersector intersector{setup.scene};
+    const std::uint32_t pixel = setup.range.first + thread_number();
+    PassCounters counters;
+    if (pixel < setup.range.end)
+        counters.path.emission_rays =
+            refine_emission<FeatureSet{kFeatureBits}>(setup.context, setup.scene, intersector, setup.film, pixel);
+    add_up(*setup.counters, counters);
+}
+
 __global__ void __launch_bounds__(kThreadsPerBlock)
     volume_values(TableUpdateView field, View view, Span<float> values) {
     const std::uint32_t volume = thread_number();
@@ -31,6 +42,8 @@ __global__ void __launch_bounds__(kThreadsPerBlock)
 
 constinit const KernelRow<ViewKernel> kViewKernels =
     make_kernel_row<ViewKernel, kViewRange>([]<FeatureSet F>() { return show_view<F.bits>; });
+constinit const KernelRow<EmissionKernel> kEmissionKernels =
+    make_kernel_row<EmissionKernel, kEmissionRange>([]<FeatureSet F>() { return refine_film<F.bits>; });
 constinit const VolumeValueKernel kVolumeValues = volume_values;
 
 }  // namespace pl::cuda

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "core/kernel/guiding/update_volume.h"
+#include "core/kernel/integrator/camera_emission.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/integrator/trace_path.h"
 #include "tests/cpu/small_room.h"
@@ -63,6 +64,8 @@ Outcome loop_over_paths(const Room& room) {
             trace_path<F>(PathContext<M>{scene, method, settings}, BvhIntersector{scene}, state,
                           outcome.counters.path);
             count_path(outcome.counters, state.radiance, accumulate(film, pixel, state.radiance, sample));
+            outcome.counters.path.emission_rays += refine_emission<F>(
+                {room.camera, settings, {kWidth, kHeight, sample}}, scene, BvhIntersector{scene}, film, pixel);
         }
         if constexpr (std::is_same_v<M, ReinforcementMethod>)
             for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)

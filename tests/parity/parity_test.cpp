@@ -45,6 +45,8 @@ HostTables tables_with_samples(const FieldShape& shape, std::size_t volumes) {
     for (std::uint32_t i = 0; i < tables.pending_light.size(); ++i) {
         const Vec4f u = rng.draw(i, Purpose::Light);
         if (u.x < 0.2f) continue;
+        tables.pending_direct_count[i] = 1 + static_cast<std::uint32_t>(100.0f * u.y);
+        tables.pending_direct[i] = to_fixed_point(50.0f * shape.radiance_unit * u.z, shape.radiance_unit);
         tables.pending_light[i] = steps(1.0e4f * u.x, kReachStepsPerUnit);
         tables.pending_distance[i] = steps(1.0e4f * u.x * u.y, kReachStepsPerUnit);
         tables.pending_curvature[i] = steps(100.0f * u.z, kMixtureStepsPerUnit);

@@ -49,6 +49,8 @@ void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
     text_row("Mean length", fmt::format("{:.3f}", static_cast<double>(c.path.segments) * per_path),
              "Segments per path.");
     text_row("Shadow rays", count_text(c.path.shadow_rays));
+    text_row("Emission rays", count_text(c.path.emission_rays),
+             "Further camera rays, for the emission of lamps whose border crosses a pixel.");
     text_row("Dark paths", share_text(c.zero_contribution_paths, c.paths),
              "Paths without contribution; guiding reduces them.");
     text_row("Escaped", count_text(c.path.escaped), "Paths that left the scene. 0 in a closed one.");

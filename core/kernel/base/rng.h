@@ -17,6 +17,7 @@ enum class Purpose : std::uint32_t {
     Probe = 4,       ///< first direction of a probe
     Placement = 5,   ///< placement of radiance volumes
     Lobe = 6,        ///< choice among the lobes of a surface
+    Emission = 7,    ///< further camera rays for emission alone, see camera_emission.h
 };
 
 /// Independent families of random numbers: camera paths, probes and placement never share one.

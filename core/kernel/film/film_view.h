@@ -9,6 +9,27 @@ namespace pl {
 /// Even and odd passes form the two halves of a film: independent estimates whose difference measures the noise.
 PL_HD inline bool in_second_half(std::uint32_t pass) { return (pass & 1u) != 0; }
 
+/// The emission that a pixel has seen last, and whether it varies within the pixel. Two objects: neighbors read the value while
+/// the pixel's own thread sets the flag.
+struct EmissionSeen {
+    std::uint16_t value = 0;   ///< 0: nothing; else the upper half of a float (luminance), plus 1
+    std::uint16_t varies = 0;  ///< 1: further camera rays are worth their time
+
+    static constexpr float kContrast = 0.1f;  ///< least relative difference of two values
+
+    PL_HD float luminance() const { return std::bit_cast<float>(static_cast<std::uint32_t>(value - 1) << 16); }
+    /// Whether the two have seen values that differ.
+    PL_HD bool differs_from(const EmissionSeen& other) const {
+        if (value == 0 || other.value == 0) return false;
+        const float a = luminance();
+        const float b = other.luminance();
+        return std::fabs(a - b) > kContrast * max_of(a, b);
+    }
+    PL_HD static EmissionSeen of(float luminance) {
+        return {static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(luminance) >> 16) + 1u)};
+    }
+};
+
 /// One cache line: a sample touches no other.
 struct alignas(64) FilmPixel {
     Vec3d sum{0.0};             ///< of all valid samples: linear sRGB radiance
@@ -16,6 +37,7 @@ struct alignas(64) FilmPixel {
     std::uint32_t samples = 0;  ///< number of valid samples
     std::uint32_t second_samples = 0;
     std::uint32_t invalid = 0;  ///< number of dropped samples: NaN, infinite or negative
+    EmissionSeen emission;      ///< by the camera, see camera_emission.h
 };
 
 struct FilmView {
@@ -44,6 +66,14 @@ PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f ra
         ++p.second_samples;
     }
     return true;
+}
+
+/// Adds a correction of the sample of a pass that is in the film: the sample itself is not counted again.
+PL_HD inline void correct_sample(const FilmView& film, std::uint32_t pixel, Vec3f correction, std::uint32_t pass) {
+    FilmPixel& p = film.pixels[pixel];
+    if (p.samples == kMostSamples) return;
+    p.sum += Vec3d{correction};
+    if (in_second_half(pass)) p.second_sum += Vec3d{correction};
 }
 
 /// Replaces the contents of a pixel by one sample. Returns false if the sample is invalid.

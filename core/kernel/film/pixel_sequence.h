@@ -16,15 +16,16 @@ PL_HD inline float moved_by_steps(float start, std::uint32_t step, std::uint32_t
     return to_unit_float(static_cast<std::uint32_t>(start * 16777216.0f) * 256u + step * steps);
 }
 
-/// Point of a pixel's sequence for a pass, in [0,1)^4: x, y on the film, z, w on the lens. `start` is the draw of
-/// sample sequence_of(pass) for vertex 0 and Purpose::Pixel, a random shift that makes every point uniform. Additive
-/// recurrence by powers of the plastic number (film) and by sqrt(2), sqrt(3) (lens).   [Roberts 2018, "The
-/// Unreasonable Effectiveness of Quasirandom Sequences"; Cranley and Patterson 1976, "Randomization of Number
+/// Point of a sequence in [0,1)^4: x, y on the film, z, w on the lens. `start`, uniform, is a random shift that makes every
+/// point uniform. Additive recurrence by powers of the plastic number (film) and by sqrt(2), sqrt(3) (lens).   [Roberts
+/// 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"; Cranley and Patterson 1976, "Randomization of Number
 /// Theoretic Methods for Multiple Integration"]
-PL_HD inline Vec4f pixel_sample(Vec4f start, std::uint32_t pass) {
-    const std::uint32_t steps = pass / 2;
+PL_HD inline Vec4f sequence_point(Vec4f start, std::uint32_t steps) {
     return {moved_by_steps(start.x, 0xc13fa9a9u, steps), moved_by_steps(start.y, 0x91e10da5u, steps),
             moved_by_steps(start.z, 0x6a09e667u, steps), moved_by_steps(start.w, 0xbb67ae85u, steps)};
 }
+
+/// The point of a pixel for a pass. `start` is the draw of sample sequence_of(pass) for vertex 0 and Purpose::Pixel.
+PL_HD inline Vec4f pixel_sample(Vec4f start, std::uint32_t pass) { return sequence_point(start, pass / 2); }
 
 }  // namespace pl

@@ -49,7 +49,9 @@ struct TableVolumeSummary {
             }
         return bits;
     }
-    PL_HD float mean_radiance(std::uint32_t volume) const { return field.mean_radiance[volume]; }
+    PL_HD float mean_radiance(std::uint32_t volume) const {
+        return field.mean_radiance[volume] + field.direct[volume];
+    }
     PL_HD float change(std::uint32_t volume) const { return field.change[volume]; }
     PL_HD float bsdf_fraction(std::uint32_t volume) const { return field.bsdf_fraction[volume]; }
 };

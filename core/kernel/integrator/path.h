@@ -85,6 +85,7 @@ enum class PathStatus : std::uint32_t { Continues, Finished };
 struct PathCounters {
     std::uint64_t segments = 0;  ///< path rays traced, without shadow rays
     std::uint64_t shadow_rays = 0;
+    std::uint64_t emission_rays = 0;    ///< further camera rays for emission alone, see camera_emission.h
     std::uint64_t escaped = 0;          ///< paths that left the scene
     std::uint64_t truncated = 0;        ///< paths cut at max_depth
     std::uint64_t zero_directions = 0;  ///< sampled directions with f cos = 0
@@ -104,6 +105,7 @@ template <class Add>
 PL_HD inline void add_counters(PassCounters& totals, const PassCounters& counts, Add&& add) {
     add(totals.path.segments, counts.path.segments);
     add(totals.path.shadow_rays, counts.path.shadow_rays);
+    add(totals.path.emission_rays, counts.path.emission_rays);
     add(totals.path.escaped, counts.path.escaped);
     add(totals.path.truncated, counts.path.truncated);
     add(totals.path.zero_directions, counts.path.zero_directions);

@@ -41,6 +41,11 @@ PL_HD inline ScatterNumbers scatter_numbers(const PathSettings& settings, const 
     return {.rng = path_rng(settings, state.pixel, state.sample), .index = state.draw_index(), .u = u};
 }
 
+/// The first number of a pixel's sequence.
+PL_HD inline Vec4f pixel_start(const PathSettings& settings, std::uint32_t pixel, std::uint32_t sample) {
+    return path_rng(settings, pixel, sequence_of(sample)).draw(0, Purpose::Pixel);
+}
+
 /// The raster that paths start from, and the number of their sample.
 struct PixelGrid {
     std::uint32_t width = 0;
@@ -48,17 +53,23 @@ struct PixelGrid {
     std::uint32_t sample = 0;
 };
 
+/// A camera ray through the point u.x, u.y of a pixel and u.z, u.w of the lens, all in [0,1).
+template <FeatureSet F>
+PL_HD inline Ray camera_ray(const Camera& camera, const PixelGrid& grid, std::uint32_t pixel, Vec4f u) {
+    const Vec2f film{static_cast<float>(pixel % grid.width) + u.x, static_cast<float>(pixel / grid.width) + u.y};
+    const Ray ray = generate_ray(camera, film, {static_cast<float>(grid.width), static_cast<float>(grid.height)});
+    if constexpr (F.has(Feature::ThinLens)) {
+        if (camera.aperture_radius > 0.0f) return through_lens(camera, ray, {u.z, u.w});
+    }
+    return ray;
+}
+
 /// Starts a path at the camera; `start` is the first number of the pixel's sequence, see pixel_sample().
 template <FeatureSet F, class M>
 PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PixelGrid& grid, std::uint32_t pixel,
                                         Vec4f start) {
-    const Vec4f u = pixel_sample(start, grid.sample);
-    const Vec2f film{static_cast<float>(pixel % grid.width) + u.x, static_cast<float>(pixel / grid.width) + u.y};
     PathState<F, M> state;
-    state.ray = generate_ray(camera, film, {static_cast<float>(grid.width), static_cast<float>(grid.height)});
-    if constexpr (F.has(Feature::ThinLens)) {
-        if (camera.aperture_radius > 0.0f) state.ray = through_lens(camera, state.ray, {u.z, u.w});
-    }
+    state.ray = camera_ray<F>(camera, grid, pixel, pixel_sample(start, grid.sample));
     state.pixel = pixel;
     state.sample = grid.sample;
     return state;
@@ -67,8 +78,7 @@ PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PixelGrid& g
 template <FeatureSet F, class M>
 PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PathSettings& settings, const PixelGrid& grid,
                                         std::uint32_t pixel) {
-    const Vec4f start = path_rng(settings, pixel, sequence_of(grid.sample)).draw(0, Purpose::Pixel);
-    return begin_path<F, M>(camera, grid, pixel, start);
+    return begin_path<F, M>(camera, grid, pixel, pixel_start(settings, pixel, grid.sample));
 }
 
 /// Adds the emission of the surface hit to the path's estimator, weighted where the last vertex sampled lights. Returns the

@@ -1,0 +1,18 @@
+// Further camera rays for the emission of lamps whose border crosses a pixel, after a pass has added its samples.
+#pragma once
+
+#include "core/kernel/integrator/camera_emission.h"
+#include "cpu/launchers.h"
+
+namespace pl {
+
+/// Arguments of an emission kernel; it visits the pixels of setup.paths.
+struct EmissionPass {
+    PassSetup setup;
+    EmissionContext context;
+    FilmView film;
+};
+
+extern const PassKernels<EmissionPass> kEmissionKernels;
+
+}  // namespace pl
