@@ -33,7 +33,7 @@ struct GainSetup {
         {"precompute", 0},
         {"megabytes", 16.0},
         {"target", 0},
-        {"light", 0},
+        {"light", 1},
         {"roulette", 0},
         {"uniform", 0},
         {"refine", kRefineByRecords},
