@@ -34,7 +34,7 @@ mkdir -p "$build"
 : >"$log"
 export CCACHE_DISABLE=1
 launcher="$script;--launch;$log"
-cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPL_TESTS=OFF "$@" \
+cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DPL_TESTS=OFF "$@" \
     -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_CUDA_COMPILER_LAUNCHER="$launcher" >"$build/configure.log"
 ninja -C "$build" -j2 --quiet "$target"
 awk '{ cpu = $1 + $2; sum += cpu; printf "%7.2f  %s\n", cpu, $3 }
