@@ -99,18 +99,24 @@ inline Decision check_probed_cells() {
     return judge_cells(field, volume, field.site(volume).position);
 }
 
+/// 30 volumes of 16 cells in a furnace of emission and albedo 1/2, after 64 passes of 1000 paths.
+template <FeatureSet F>
+SmallField field_of_furnace(const PathSettings& settings) {
+    const HostScene scene = pack_scene(furnace_scene(0.5f, 0.5f));
+    SmallField field(scene, 30, 4);
+    for (std::uint32_t pass = 0; pass < 64; ++pass) {
+        trace_many<F>(scene, CameraDescription{.eye = Vec3f{0.0f}, .target = Vec3f{1.0f}}, guided_by(field.view()),
+                      settings, {1000 * pass, 1000}, [](const auto&, const auto&) {});
+        field.update();
+    }
+    return field;
+}
+
 /// In a furnace every target is a function of the learned radiance alone, so cells approach 1 without noise; the
 /// error falls like 1/passes^2 here. 64 passes of 1000 paths, seed 1: every cell with samples in half of the passes
 /// has to be within 2 %.
 inline Decision check_furnace_cells() {
-    const HostScene scene = pack_scene(furnace_scene(0.5f, 0.5f));
-    SmallField field(scene, 30, 4);
-    for (std::uint32_t pass = 0; pass < 64; ++pass) {
-        trace_many<FeatureSet{}>(scene, CameraDescription{.eye = Vec3f{0.0f}, .target = Vec3f{1.0f}},
-                                 guided_by(field.view()), {.seed = 1}, {1000 * pass, 1000},
-                                 [](const auto&, const auto&) {});
-        field.update();
-    }
+    SmallField field = field_of_furnace<FeatureSet{}>({.seed = 1});
     float worst = 0.0f;
     int cells = 0;
     for (std::size_t i = 0; i < field.tables().radiance.size(); ++i)
@@ -126,14 +132,7 @@ inline Decision check_furnace_cells() {
 /// With light samples, the learned irradiance of scattered directions and that of light samples are together e/(1-rho) = 1 in
 /// every volume that paths meet often.
 inline Decision check_furnace_lights() {
-    const HostScene scene = pack_scene(furnace_scene(0.5f, 0.5f));
-    SmallField field(scene, 30, 4);
-    for (std::uint32_t pass = 0; pass < 64; ++pass) {
-        trace_many<kWithNextEvent>(scene, CameraDescription{.eye = Vec3f{0.0f}, .target = Vec3f{1.0f}},
-                                   guided_by(field.view()), {.seed = 1, .next_event = 1}, {1000 * pass, 1000},
-                                   [](const auto&, const auto&) {});
-        field.update();
-    }
+    SmallField field = field_of_furnace<kWithNextEvent>({.seed = 1, .next_event = 1});
     float worst = 0.0f;
     int volumes = 0;
     for (std::size_t i = 0; i < field.tables().direct.size(); ++i)

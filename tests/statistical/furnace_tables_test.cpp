@@ -24,6 +24,16 @@ HostTables learned_tables(Session& session) {
     return tables_of(session.backend_access().download_field(session.settings().method));
 }
 
+/// Tables of the furnace that are precomputed by 24^2 paths per cell.
+HostTables precomputed_tables(bool next_event) {
+    const SceneDescription scene = furnace_scene(kEmission, kRho);
+    RenderSettings settings = furnace_settings({MethodId::Precomputed, next_event}, scene);
+    settings.field.precompute_samples = 24 * 24;
+    Session session = make_session(scene, settings);
+    render_passes(session, 1);
+    return learned_tables(session);
+}
+
 /// The share of the old mean that remains where this share of the visits is new.
 double kept_share(double share, LearningRate rate) {
     switch (rate) {
@@ -133,12 +143,7 @@ TEST_CASE("Reinforcement learns e/(1-rho) in every cell of the furnace") {
 // of the cells is the standard error of each of them: rule S1 per cell (24^2 paths of coefficient of variation 0.4,
 // resolves 15 %) and for the mean of all of them (192 cells, resolves 1 %). Seed 1.
 TEST_CASE("Precomputation fills e/(1-rho) into every cell of the furnace") {
-    const SceneDescription scene = furnace_scene(kEmission, kRho);
-    RenderSettings settings = furnace_settings({MethodId::Precomputed, false}, scene);
-    settings.field.precompute_samples = 24 * 24;
-    Session session = make_session(scene, settings);
-    render_passes(session, 1);
-    const HostTables tables = learned_tables(session);
+    const HostTables tables = precomputed_tables(false);
     Moments cells;
     for (const float radiance : tables.radiance) cells.add(static_cast<double>(radiance));
     CHECK(mean_equals(cells, {1.0}, 0.01));
@@ -152,13 +157,9 @@ TEST_CASE("Precomputation fills e/(1-rho) into every cell of the furnace") {
 
 // Of the emission, light samples have their share: every cell lies between the reflected light alone and all light.
 TEST_CASE("Precomputation leaves to light samples what they bring") {
-    const SceneDescription scene = furnace_scene(kEmission, kRho);
-    RenderSettings settings = furnace_settings({MethodId::Precomputed, true}, scene);
-    settings.field.precompute_samples = 24 * 24;
-    Session session = make_session(scene, settings);
-    render_passes(session, 1);
     Moments cells;
-    for (const float radiance : learned_tables(session).radiance) cells.add(static_cast<double>(radiance));
+    const HostTables tables = precomputed_tables(true);
+    for (const float radiance : tables.radiance) cells.add(static_cast<double>(radiance));
     CHECK(cells.mean() < 1.0 - 0.2 * static_cast<double>(kEmission));
     CHECK(cells.mean() > 1.0 - 0.8 * static_cast<double>(kEmission));
 }
