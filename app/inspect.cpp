@@ -88,7 +88,9 @@ int run_inspect(const CommandLine& line, Console& console) {
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_inside(options);
-    Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
+    RenderSettings training = options.render;
+    training.guiding = GuidingRule::Always;  // the field is wanted, not the picture: every pass trains it
+    Session session(make_backend(options.backend, options.threads), loaded.scene, training,
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
     // Before training, so that a place without a volume fails at once.

@@ -37,6 +37,8 @@ constexpr std::array kLights{Named<LearnedLight>{LearnedLight::All, "all"},
 constexpr std::array kRoulettes{Named<RouletteRule>{RouletteRule::Spare, "spare"},
                                 Named<RouletteRule>{RouletteRule::Albedo, "albedo"},
                                 Named<RouletteRule>{RouletteRule::Field, "field"}};
+constexpr std::array kGuidings{Named<GuidingRule>{GuidingRule::Paying, "paying"},
+                               Named<GuidingRule>{GuidingRule::Always, "always"}};
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
 
 /// "a, b or c"
@@ -231,6 +233,10 @@ void parse_roulette(Options& options, const std::string& text) {
     parse_named(options.render.roulette, kRoulettes, text);
 }
 
+void parse_guiding(Options& options, const std::string& text) {
+    parse_named(options.render.guiding, kGuidings, text);
+}
+
 void parse_forced_effects(Options& options, const std::string& text) {
     if (text == "all") {
         options.render.forced_effects = kEveryFeature;
@@ -293,6 +299,7 @@ std::string_view name_of(LearningRate rate) { return name_in(kRates, rate); }
 std::string_view name_of(LearningTarget target) { return name_in(kTargets, target); }
 std::string_view name_of(LearnedLight light) { return name_in(kLights, light); }
 std::string_view name_of(RouletteRule rule) { return name_in(kRoulettes, rule); }
+std::string_view name_of(GuidingRule rule) { return name_in(kGuidings, rule); }
 
 std::string_view lookup_name(Lookup lookup) { return kLookups[static_cast<std::size_t>(lookup)]; }
 

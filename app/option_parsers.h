@@ -36,6 +36,7 @@ void parse_learning_rate(Options& options, const std::string& text);
 void parse_learn_target(Options& options, const std::string& text);
 void parse_learn_from(Options& options, const std::string& text);
 void parse_roulette(Options& options, const std::string& text);
+void parse_guiding(Options& options, const std::string& text);
 /// "NAME,NAME..." or "all".
 void parse_forced_effects(Options& options, const std::string& text);
 /// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
@@ -53,5 +54,6 @@ std::string_view name_of(LearningRate rate);
 std::string_view name_of(LearningTarget target);
 std::string_view name_of(LearnedLight light);
 std::string_view name_of(RouletteRule rule);
+std::string_view name_of(GuidingRule rule);
 
 }  // namespace pl

@@ -41,6 +41,14 @@ Json field_json(const std::optional<FieldStatus>& field) {
             {"lookup_misses", field->lookup_misses}};
 }
 
+Json guiding_json(const std::optional<GuidingStatus>& guiding) {
+    if (!guiding) return nullptr;
+    return {{"pays", guiding->pays},
+            {"predicted_gain", guiding->gain ? Json(*guiding->gain) : Json(nullptr)},
+            {"unguided_passes", guiding->unguided_passes},
+            {"trial_paths", guiding->trial_paths}};
+}
+
 void add_counters(Json& stats, const PassCounters& counters) {
     const double paths = static_cast<double>(counters.paths);
     stats["paths"] = counters.paths;
@@ -82,6 +90,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
     stats["diagnostics"] = diagnostics_json(snapshot, nullptr);
     stats["mean_radiance"] = mean_radiance(snapshot);
     stats["field"] = field_json(snapshot.field);
+    stats["guiding"] = guiding_json(snapshot.guiding);
     stats["effects_needed"] = effect_names(needed);
     if (settings.forced_effects != FeatureSet{}) stats["effects_forced"] = effect_names(settings.forced_effects);
     stats["effects_compiled"] = effect_names(session.served_kernel(snapshot.slot).compiled);

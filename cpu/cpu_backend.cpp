@@ -22,7 +22,7 @@ namespace {
 
 const PassKernels<PicturePass>& kernels_for(const PassRequest& request) {
     const PassKernels<PicturePass>* kernels = nullptr;
-    with_method_kernel(request.slot.method, request.learning, request.path.next_event != 0,
+    with_method_kernel(request.method(), request.learning, request.path.next_event != 0,
                        [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); });
     if (kernels == nullptr) throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
     return *kernels;
@@ -86,7 +86,7 @@ public:
     PassCounters run_pass(const PassRequest& request) override {
         const PassSetup setup = make_setup(request.path, {request.first_pixel, request.end_pixel}, request.stop);
         if (request.slot.view != View::Beauty) return run_view(setup, request);
-        const MethodId method = request.slot.method;
+        const MethodId method = request.method();
         const AnyFieldView field = info_of(method).uses_field ? learned_field(method) : AnyFieldView{};
         PassCounters counters = launch(kernels_for(request), request.features,
                                        PicturePass{.setup = setup,
@@ -96,8 +96,11 @@ public:
                                                    .learning = request.learning,
                                                    .camera = request.camera,
                                                    .sample = request.sample,
-                                                   .film = films_.view(request.slot)});
-        counters += refine_emission_of(request, static_cast<std::uint32_t>(counters.paths));
+                                                   .film = films_.view(request.slot),
+                                                   .use = request.use,
+                                                   .subset = request.subset});
+        if (request.use != SampleUse::Trial)
+            counters += refine_emission_of(request, static_cast<std::uint32_t>(counters.paths));
         return counters;
     }
 

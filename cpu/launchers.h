@@ -21,6 +21,8 @@ struct PicturePass {
     Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
+    SampleUse use = SampleUse::Film;
+    PixelSubset subset{};
 };
 
 /// Arguments of a probe kernel.
@@ -54,7 +56,7 @@ template <FeatureSet F, Method M>
 PassCounters run_picture_pass(const PicturePass& pass) {
     typename RunMethod<M>::Type method;
     configure_method(method, pass.field, pass.mixture, pass.learning);
-    const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film};
+    const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film, pass.use, pass.subset};
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }
 

@@ -37,7 +37,7 @@ struct PassSetup {
 /// number of their random numbers at vertex 0; finish() returns true if the sample is valid.
 template <class W, FeatureSet F, class M>
 concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<F, M>& state,
-                            MethodCounters& counters) {
+                            PassCounters& counters) {
     { work.count() } -> std::same_as<std::uint32_t>;
     { work.start_sample() } -> std::same_as<std::uint32_t>;
     { work.begin(number, u) } -> std::same_as<PathState<F, M>>;
@@ -262,7 +262,7 @@ private:
     }
 
     void finish(const PathState<F, M>& state) {
-        count_path(counters_, state.radiance, work_.finish(state, counters_.path.method));
+        count_path(counters_, state.radiance, work_.finish(state, counters_));
     }
 
     const PassSetup& setup_;

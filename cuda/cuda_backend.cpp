@@ -162,7 +162,7 @@ void CudaBackend::launch_paths(void (*kernel)(TraceSetup, M, Paths), const PathS
 }
 
 void CudaBackend::launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels) {
-    const MethodId id = request.slot.method;
+    const MethodId id = request.method();
     const AnyFieldView field = info_of(id).uses_field ? learned_field(id) : AnyFieldView{};
     with_method_kernel(id, request.learning, request.path.next_event != 0, [&]<int kEntry>() {
         IntegratorAt<kEntry> method;
@@ -191,18 +191,28 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
                               .grid = grid};
     const AddSamplesKernel add = is_heat_map(request.slot.view) ? kSetSamples : kAddSamples;
     LaunchSize& size = picture_sizes_[static_cast<std::size_t>(request.slot.index())];
-    const std::uint32_t end = std::min(request.end_pixel, film.pixels.count);
+    const std::uint32_t end = std::min(request.end_pixel, request.subset.count(film.pixels.count));
+    const bool refines = is_picture && request.use != SampleUse::Trial && existing_scene().lights.size() > 0;
     return run_launches(size, request.first_pixel, end, request.stop, [&](PathRange range) {
         const std::uint32_t count = range.end - range.first;
         if (samples_.size() < count) samples_ = DeviceArray<Vec3f>(count);
-        const PixelPaths pixels{
-            .camera = request.camera, .grid = grid, .first = range.first, .radiance = {samples_.data(), count}};
+        const PixelPaths pixels{.camera = request.camera,
+                                .grid = grid,
+                                .first = range.first,
+                                .subset = request.subset,
+                                .radiance = {samples_.data(), count}};
         if (is_picture)
             launch_picture(request, range, pixels);
         else
             launch_view(request, context, pixels);
-        launch(add, blocks_for(count), stream_, "add_samples", film, pixels.radiance, range.first, request.sample);
-        if (is_picture && existing_scene().lights.size() > 0)
+        launch(add, blocks_for(count), stream_, "add_samples", film,
+               LaunchSamples{.radiance = pixels.radiance,
+                             .first = range.first,
+                             .pass = request.sample,
+                             .subset = request.subset,
+                             .use = request.use,
+                             .counters = counters_.data()});
+        if (refines)
             launch(kEmissionKernels[covering_set(request.features)], blocks_for(count), stream_, "refine_film",
                    EmissionSetup{.scene = existing_scene().view(),
                                  .context = {request.camera, request.path, grid},

@@ -22,12 +22,13 @@ struct CountingMethod : Guided<Field, ExpectedSarsa> {
 
 /// The kernel of all features traces the same bits as the one that rendered the pass.
 template <class M>
-PathDefects trace_again(const PassReplay& passes, const M& method, std::uint32_t pixel, std::uint32_t sample) {
+PathDefects trace_again(const PassReplay& passes, const PathSettings& path, const M& method, std::uint32_t pixel,
+                        std::uint32_t sample) {
     const SceneView scene = passes.scene->view();
     const PixelGrid grid{static_cast<std::uint32_t>(passes.width), static_cast<std::uint32_t>(passes.height), sample};
-    auto state = begin_path<kEveryFeature, M>(passes.camera, passes.path, grid, pixel);
+    auto state = begin_path<kEveryFeature, M>(passes.camera, path, grid, pixel);
     PathCounters counters;
-    trace_path<kEveryFeature>(PathContext<M>{scene, method, passes.path}, BvhIntersector{scene}, state, counters);
+    trace_path<kEveryFeature>(PathContext<M>{scene, method, path}, BvhIntersector{scene}, state, counters);
     return {.escapes = static_cast<std::uint32_t>(counters.escaped),
             .lookup_misses = static_cast<std::uint32_t>(counters.method.lookup_misses)};
 }
@@ -36,7 +37,9 @@ PathDefects trace_again(const PassReplay& passes, const M& method, std::uint32_t
 
 PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel,
                         std::uint32_t sample) {
-    if (!passes.volumes) return trace_again(passes, DefaultMethod{}, pixel, sample);
+    if (!passes.volumes) return trace_again(passes, passes.path, DefaultMethod{}, pixel, sample);
+    if (!passes.is_guided(sample - passes.first_sample))
+        return trace_again(passes, passes.unguided_path, DefaultMethod{}, pixel, sample);
     return visit_field(field, [&](const auto& view) {
         std::uint32_t clamped = 0;
         CountingMethod<std::remove_cvref_t<decltype(view)>> method;
@@ -44,7 +47,7 @@ PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std
         method.mixture = passes.mixture;
         method.learning = passes.learning;
         if (passes.repeats_training) method.clamped = &clamped;
-        PathDefects defects = trace_again(passes, method, pixel, sample);
+        PathDefects defects = trace_again(passes, passes.path, method, pixel, sample);
         defects.clamped_samples = clamped;
         return defects;
     });

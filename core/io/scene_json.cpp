@@ -23,9 +23,10 @@ constexpr const char* kSchema = "pathlight.scene/1";
 
 /// Options that a scene may preset: those that affect the picture, not output and reporting.
 const std::vector<std::string> kSettings = {
-    "method",  "view", "backend",       "threads",       "spp",          "time-limit", "target-error", "width",
-    "height",  "size", "seed",          "nee",           "max-depth",    "exposure",   "tonemap",      "field-budget",
-    "volumes", "bins", "bsdf-fraction", "learning-rate", "learn-target", "learn-from", "roulette",     "refine"};
+    "method",     "view",         "backend", "threads", "spp",           "time-limit",    "target-error",
+    "width",      "height",       "size",    "seed",    "nee",           "max-depth",     "exposure",
+    "tonemap",    "field-budget", "volumes", "bins",    "bsdf-fraction", "learning-rate", "learn-target",
+    "learn-from", "roulette",     "refine",  "guiding"};
 
 void read_camera(const JsonDocument& file, SceneDescription& scene) {
     const bool given =

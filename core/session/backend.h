@@ -11,6 +11,7 @@
 
 #include "core/fields/field_model.h"
 #include "core/kernel/film/frame_pixel.h"
+#include "core/kernel/film/sample_variance.h"
 #include "core/kernel/integrator/path.h"
 #include "core/kernel/methods/learning_target.h"
 #include "core/kernel/scene/camera.h"
@@ -47,7 +48,8 @@ inline constexpr std::uint32_t kToTheLast = 0xffffffffu;
 /// One sample for every pixel of a film from `first_pixel` up to, but not including, `end_pixel`.
 struct PassRequest {
     FilmSlot slot;
-    FeatureSet features;  ///< needed; the back end runs the smallest compiled superset
+    bool is_guided = true;  ///< false: directions by the BSDF alone, by the kernel of the baseline method
+    FeatureSet features;    ///< needed; the back end runs the smallest compiled superset
     PathSettings path;
     Camera camera;
     MixtureSettings mixture{};
@@ -55,7 +57,12 @@ struct PassRequest {
     std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel; decides the half of the film
     std::uint32_t first_pixel = 0;
     std::uint32_t end_pixel = kToTheLast;
+    SampleUse use = SampleUse::Film;
+    PixelSubset subset{};  ///< with a step above 1, `first_pixel` and `end_pixel` number its pixels
     const StopFlag* stop = nullptr;
+
+    /// The method whose kernel runs.
+    MethodId method() const { return is_guided ? slot.method : baseline_method(); }
 };
 
 /// One stratified probe for every cell of every volume from `first_probe` on, recorded into a method's field.

@@ -25,7 +25,8 @@ struct EditEstimator {
     int max_depth;
     bool next_event;
     RouletteRule roulette = RouletteRule::Spare;
-};  ///< length, light sampling and roulette of paths
+    GuidingRule guiding = GuidingRule::Paying;
+};  ///< length, light sampling, roulette and guiding of paths
 struct EditMixture {
     MixtureSettings mixture;
 };

@@ -12,7 +12,7 @@ namespace pl {
 
 /// Progress of a method's learning. Exact: interrupted work continues where it stopped.
 struct FieldProgress {
-    std::uint64_t passes = 0;           ///< that trained the field
+    std::uint64_t passes = 0;           ///< of the method; unguided ones train nothing
     std::uint64_t records = 0;          ///< training samples
     std::uint64_t clamped_records = 0;  ///< of them
     std::uint64_t lookup_misses = 0;

@@ -1,6 +1,7 @@
 // The passes of a picture as data: enough to trace any of their paths again in another thread and at a later time.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -29,8 +30,15 @@ struct PassReplay {
     HostField field{};
     MixtureSettings mixture{};
     LearningSettings learning{};
-    bool has_moving_tables = false;  ///< updates have changed the tables since they were sampled by the passes
-    bool repeats_training = false;   ///< a path traced again makes the same training samples as in its pass
+    PathSettings unguided_path{};           ///< of passes that are not guided
+    std::vector<std::uint32_t> switches{};  ///< passes by which guiding begins or ends; the first pass is guided
+    bool has_moving_tables = false;         ///< updates have changed the tables since they were sampled by the passes
+    bool repeats_training = false;          ///< a path traced again makes the same training samples as in its pass
+
+    /// Whether the pass of this number within the picture is guided; of methods without a field, too.
+    bool is_guided(std::uint32_t pass) const {
+        return (std::ranges::upper_bound(switches, pass) - switches.begin()) % 2 == 0;
+    }
 };
 
 }  // namespace pl

@@ -8,6 +8,9 @@ namespace {
 /// play at every vertex. Lower thresholds leave a little less noise for the same samples and more for the same time
 /// (docs/notebook/2026-11-22-roulette-and-splitting.md).
 constexpr float kGuidedRouletteThreshold = 0.2f;
+/// The same with light samples: a path that ends has had some of the light at each of its vertices
+/// (docs/notebook/2026-11-23-guiding-choice.md).
+constexpr float kLightSampledRouletteThreshold = 0.35f;
 /// Threshold of RouletteRule::Field: the lower end of a window of weights around 1, whose ends differ by a factor of
 /// 5.   [Vorba and Krivanek 2016, section 4]
 constexpr float kFieldRouletteThreshold = 2.0f / (1.0f + 5.0f);
@@ -21,8 +24,8 @@ constexpr float kSplitThreshold = 2.0f;
 PathSettings path_settings(const RenderSettings& settings, MethodId method) {
     const bool is_guided = info_of(method).uses_field;
     const bool splits = is_guided && settings.roulette != RouletteRule::Albedo;
-    const float threshold =
-        settings.roulette == RouletteRule::Field ? kFieldRouletteThreshold : kGuidedRouletteThreshold;
+    float threshold = settings.next_event ? kLightSampledRouletteThreshold : kGuidedRouletteThreshold;
+    if (settings.roulette == RouletteRule::Field) threshold = kFieldRouletteThreshold;
     return {.seed = settings.seed,
             .max_depth = static_cast<std::uint32_t>(settings.max_depth),
             .roulette_threshold = is_guided ? threshold : 1.0f,

@@ -80,6 +80,7 @@ Snapshot Session::summary(FilmSlot slot) const {
             .is_closed = scene_.is_closed(),
             .clocks = clocks(slot),
             .field = field_status(slot.method),
+            .guiding = guiding_status(slot),
             .bins = placement_.bins(),
             .camera = settings_.camera,
             .kernel = served_kernel(slot).name};

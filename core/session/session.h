@@ -88,6 +88,8 @@ public:
     std::uint32_t passes(FilmSlot slot) const { return films_[slot].passes; }
     /// Empty for methods without a field, and before the volumes are placed.
     std::optional<FieldStatus> field_status(MethodId method) const;
+    /// Empty for films without guided paths, and if every pass is guided by setting.
+    std::optional<GuidingStatus> guiding_status(FilmSlot slot) const;
     /// Of the placement that all methods share.
     Refinement refinement() const { return placement_.refinement(); }
     /// Of a film and its method; cheap, unlike a snapshot.
@@ -119,6 +121,12 @@ private:
     Progress render_slot(FilmSlot slot, const StopFlag* stop);
     Progress render_pass(FilmSlot slot, const StopFlag* stop);
     void render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop);
+    PassRequest pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const;
+    bool chooses_guiding(FilmSlot slot) const;
+    bool choose_guiding(FilmSlot slot, const StopFlag* stop);
+    bool run_trial(FilmSlot slot, const StopFlag* stop);
+    void measure_guiding(FilmSlot slot);
+    PathCosts path_costs(FilmSlot slot) const;
     std::uint32_t end_of_part(FilmSlot slot) const;
     void finish_learning_part(FilmSlot slot);
     void finish_learning_pass(FilmSlot slot);

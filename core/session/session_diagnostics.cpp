@@ -44,6 +44,8 @@ PassReplay Session::pass_replay(FilmSlot slot) const {
     source.field = backend_->download_field(slot.method);
     source.mixture = mixture_of(settings_, slot.method);
     source.learning = settings_.field.learning;
+    source.unguided_path = path_settings(settings_, baseline_method());
+    source.switches = state.switches;
     return source;
 }
 

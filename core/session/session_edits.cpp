@@ -20,6 +20,7 @@ struct Assign {
         settings.max_depth = edit.max_depth;
         settings.next_event = edit.next_event;
         settings.roulette = edit.roulette;
+        settings.guiding = edit.guiding;
     }
     void operator()(const EditMixture& edit) const { settings.mixture = edit.mixture; }
     void operator()(const EditField& edit) const { settings.field = edit.field; }

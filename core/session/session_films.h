@@ -6,19 +6,27 @@
 #include <vector>
 
 #include "core/session/backend.h"
+#include "core/session/guiding_choice.h"
 #include "core/session/snapshot.h"
 
 namespace pl {
 
 /// Progress of one film.
 struct FilmProgress {
-    FilmOrigin origin;
+    FilmOrigin origin{};
     bool is_allocated = false;
     std::uint32_t passes = 0;      ///< complete ones
     std::uint32_t next_pixel = 0;  ///< first pixel that the running pass has not rendered
     PassCounters counters{};
     double render_seconds = 0.0;
     double learn_seconds = 0.0;
+
+    GuidingChoice guiding{};
+    bool is_guided = true;    ///< the pass under way, or the last one; of methods without a field, too
+    PassCounters measured{};  ///< of the pass under way
+    std::uint32_t unguided_passes = 0;
+    std::uint64_t trial_paths = 0;
+    std::vector<std::uint32_t> switches{};  ///< passes by which guiding begins or ends; the first pass is guided
 };
 
 /// A back end that is not in use, with its films and the scene uploaded to it.

@@ -100,6 +100,7 @@ Progress Session::render_slot(FilmSlot slot, const StopFlag* stop) {
 /// The rest of a pass, in parts.
 Progress Session::render_pass(FilmSlot slot, const StopFlag* stop) {
     FilmProgress& state = films_[slot];
+    if (state.next_pixel == 0 && !choose_guiding(slot, stop)) return Progress::Stopped;
     while (true) {
         const std::uint32_t end = end_of_part(slot);
         render_part(slot, end, stop);
@@ -108,6 +109,7 @@ Progress Session::render_pass(FilmSlot slot, const StopFlag* stop) {
         finish_learning_part(slot);
     }
     state.next_pixel = 0;
+    measure_guiding(slot);
     ++state.passes;
     if (learns_from(slot)) finish_learning_pass(slot);
     return Progress::Rendered;
@@ -118,28 +120,37 @@ std::uint32_t Session::end_of_part(FilmSlot slot) const {
     return end_of_first_part(films_[slot].next_pixel, pixel_count(), static_cast<std::uint32_t>(placement_.count()));
 }
 
+/// One sample for every pixel, by directions of a method.
+PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const {
+    const FilmProgress& state = films_[slot];
+    // Random numbers that were not drawn for the training samples of the tables, see FieldProgress::without_part().
+    std::uint32_t sample = learns_from(slot) ? static_cast<std::uint32_t>(field(slot.method).passes) : state.passes;
+    // Passes of a heat map replace one another: they use the same points, so that borders do not flicker.
+    if (is_heat_map(slot.view)) sample = 0;
+    return {.slot = slot,
+            .is_guided = method == slot.method,
+            .features = needed_features(slot).with(settings_.forced_effects),
+            .path = path_settings(settings_, method),
+            .camera = make_camera(settings_.camera, settings_.width, settings_.height),
+            .mixture = mixture_of(settings_, method),
+            .learning = settings_.field.learning,
+            .sample = sample,
+            .stop = stop};
+}
+
 void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop) {
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
     FieldProgress& learned = field(slot.method);
-    // Random numbers that were not drawn for the training samples of the tables, see FieldProgress::without_part().
-    std::uint32_t sample = learns_from(slot) ? static_cast<std::uint32_t>(learned.passes) : state.passes;
-    // Passes of a heat map replace one another: they use the same points, so that borders do not flicker.
-    if (is_heat_map(slot.view)) sample = 0;
     state.origin.forced = state.origin.forced.with(settings_.forced_effects);
-    const PassCounters counters =
-        backend_->run_pass({.slot = slot,
-                            .features = needed_features(slot).with(settings_.forced_effects),
-                            .path = path_settings(settings_, slot.method),
-                            .camera = make_camera(settings_.camera, settings_.width, settings_.height),
-                            .mixture = mixture_of(settings_, slot.method),
-                            .learning = settings_.field.learning,
-                            .sample = sample,
-                            .first_pixel = state.next_pixel,
-                            .end_pixel = end,
-                            .stop = stop});
+    PassRequest request = pass_request(slot, state.is_guided ? slot.method : baseline_method(), stop);
+    request.first_pixel = state.next_pixel;
+    request.end_pixel = end;
+    if (chooses_guiding(slot)) request.use = SampleUse::Measured;
+    const PassCounters counters = backend_->run_pass(request);
     state.render_seconds += watch.seconds();
     state.counters += counters;
+    state.measured += counters;
     note_escapes(slot, counters);
     state.next_pixel += static_cast<std::uint32_t>(counters.paths);
     if (slot.view == View::Beauty) {
@@ -158,7 +169,9 @@ void Session::finish_learning_part(FilmSlot slot) {
 
 void Session::finish_learning_pass(FilmSlot slot) {
     const Stopwatch watch;
-    const bool is_updated = is_updated_after(films_[slot].passes);
+    const FilmProgress& state = films_[slot];
+    // Where guiding does not pay, passes that learn are rare.
+    const bool is_updated = state.is_guided && (is_updated_after(state.passes) || !state.guiding.pays());
     if (is_updated) backend_->update_field(slot.method);
     ++field(slot.method).passes;
     field(slot.method).has_part = false;

@@ -9,6 +9,7 @@
 #include "core/kernel/inspect/views.h"
 #include "core/kernel/integrator/path.h"
 #include "core/scene/description.h"
+#include "core/session/guiding_choice.h"
 #include "core/session/methods.h"
 
 namespace pl {
@@ -25,6 +26,7 @@ struct RenderSettings {
     int max_depth = 64;
     bool next_event = false;
     RouletteRule roulette = RouletteRule::Spare;
+    GuidingRule guiding = GuidingRule::Paying;
     MixtureSettings mixture{};
     FieldSettings field{};
     FeatureSet forced_effects{};  ///< effects that kernels cover besides the needed ones; no picture changes by it

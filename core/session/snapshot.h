@@ -47,6 +47,14 @@ struct FieldStatus {
     double precomputed_share = 0.0;  ///< of the radiance map, in [0, 1]; 1 for methods that need none
 };
 
+/// The choice between guided passes and those of the baseline method, see GuidingChoice.
+struct GuidingStatus {
+    bool pays = true;            ///< the next passes are guided, as far as is known
+    std::optional<double> gain;  ///< predicted equal-time factor; empty before it is measured
+    std::uint32_t unguided_passes = 0;
+    std::uint64_t trial_paths = 0;  ///< of the baseline method, which are no part of the picture
+};
+
 struct Snapshot {
     FilmSlot slot;
     int width = 0;
@@ -60,6 +68,8 @@ struct Snapshot {
     bool is_closed = false;
     Clocks clocks;
     std::optional<FieldStatus> field;
+    std::optional<GuidingStatus>
+        guiding;   ///< empty for methods without a field, and if every pass is guided by setting
     int bins = 0;  ///< directions per volume; 0 before volumes are placed
     CameraDescription camera;
     std::string kernel;

@@ -7,16 +7,21 @@ namespace {
 
 /// Separate from the tracing kernels, which thereby need no double-precision arithmetic (slow on most devices), and
 /// so that neighboring threads write neighboring pixels.
-__global__ void __launch_bounds__(kThreadsPerBlock)
-    add_samples(FilmView film, Span<const Vec3f> samples, std::uint32_t first, std::uint32_t pass) {
+__global__ void __launch_bounds__(kThreadsPerBlock) add_samples(FilmView film, LaunchSamples samples) {
     const std::uint32_t i = thread_number();
-    if (i < samples.count) (void)accumulate(film, first + i, samples[i], pass);
+    VarianceSums sums;
+    if (i < samples.radiance.count)
+        (void)use_sample(film, samples.subset.pixel(samples.first + i), samples.radiance[i], samples.pass,
+                         samples.use, sums);
+    if (samples.use == SampleUse::Film) return;
+    VarianceSums& totals = samples.counters->variance;
+    add_up(totals.sum, sums.sum);
+    add_up(totals.samples, sums.samples);
 }
 
-__global__ void __launch_bounds__(kThreadsPerBlock)
-    set_samples(FilmView film, Span<const Vec3f> samples, std::uint32_t first, std::uint32_t pass) {
+__global__ void __launch_bounds__(kThreadsPerBlock) set_samples(FilmView film, LaunchSamples samples) {
     const std::uint32_t i = thread_number();
-    if (i < samples.count) (void)replace_sample(film, first + i, samples[i], pass);
+    if (i < samples.radiance.count) (void)replace_sample(film, samples.first + i, samples.radiance[i], samples.pass);
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Span<Vec3f> means, FilmTotals* totals) {

@@ -28,11 +28,12 @@ struct TraceSetup {
     PassCounters* counters = nullptr;  ///< incremented
 };
 
-/// Camera paths, one per pixel. Element 0 of `radiance` belongs to the first pixel of the launch.
+/// Camera paths, one per pixel of a subset. Element 0 of `radiance` belongs to the first pixel of the launch.
 struct PixelPaths {
     Camera camera;
     PixelGrid grid;
-    std::uint32_t first = 0;
+    std::uint32_t first = 0;  ///< number within the subset
+    PixelSubset subset{};
     Span<Vec3f> radiance;
 };
 
@@ -88,9 +89,17 @@ struct FilmTotals {
     std::uint64_t second_samples = 0;  ///< valid samples of the second half; set by kReadHalves
 };
 
-/// kAddSamples adds the samples of a launch to the film, kSetSamples replaces those of the film. One thread per
-/// sample; the first sample belongs to pixel `first`. `pass` is the number of the pass.
-using AddSamplesKernel = void (*)(FilmView film, Span<const Vec3f> samples, std::uint32_t first, std::uint32_t pass);
+/// The samples of a launch. Pixels that see a lamp are known by the launches before it in the stream.
+struct LaunchSamples {
+    Span<const Vec3f> radiance;
+    std::uint32_t first = 0;  ///< number of the first one within the subset
+    std::uint32_t pass = 0;
+    PixelSubset subset{};
+    SampleUse use = SampleUse::Film;
+    PassCounters* counters = nullptr;  ///< its variance is incremented
+};
+/// kAddSamples puts the samples of a launch to their use, kSetSamples replaces those of the film. One thread per sample.
+using AddSamplesKernel = void (*)(FilmView film, LaunchSamples samples);
 extern const AddSamplesKernel kAddSamples;
 extern const AddSamplesKernel kSetSamples;
 

@@ -12,8 +12,9 @@
 namespace pl::cuda {
 
 template <FeatureSet F, class M>
-__device__ inline PathState<F, M> begin(const PixelPaths& paths, const PathSettings& settings, std::uint32_t pixel) {
-    return begin_path<F, M>(paths.camera, settings, paths.grid, pixel);
+__device__ inline PathState<F, M> begin(const PixelPaths& paths, const PathSettings& settings, std::uint32_t number) {
+    const Vec4f start = pixel_start(settings, number, paths.grid.sample);
+    return begin_path<F, M>(paths.camera, paths.grid, paths.subset.pixel(number), start);
 }
 template <FeatureSet F, class M>
 __device__ inline PathState<F, M> begin(const ProbePaths& paths, const PathSettings& settings, std::uint32_t probe) {
@@ -22,7 +23,7 @@ __device__ inline PathState<F, M> begin(const ProbePaths& paths, const PathSetti
 
 template <FeatureSet F, class M>
 __device__ inline void finish(const PixelPaths& paths, const PathState<F, M>& state, MethodCounters&) {
-    paths.radiance[state.pixel - paths.first] = state.radiance;
+    paths.radiance[paths.subset.number(state.pixel) - paths.first] = state.radiance;
 }
 template <FeatureSet F>
 __device__ inline void finish(const ProbePaths& paths, const PathState<F, ProbeMethod>& state,

@@ -90,6 +90,23 @@ TEST_CASE("statistics tell how many volumes refinement added") {
     CHECK(field["added_volumes"] <= field["volumes"].get<int>() / 3);
 }
 
+TEST_CASE("statistics tell whether guiding pays, for methods that guide and may choose") {
+    CHECK(stats_of({})["guiding"].is_null());
+    CHECK(stats_of({"--method", "reinforcement"})["guiding"].is_null());
+    CHECK(stats_of({"--method", "reinforcement", "--nee", "on", "--guiding", "always"})["guiding"].is_null());
+    const ordered_json early = stats_of({"--method", "reinforcement", "--nee", "on", "--spp", "2"})["guiding"];
+    CHECK(keys_of(early) == std::vector<std::string>{"pays", "predicted_gain", "unguided_passes", "trial_paths"});
+    CHECK(early["pays"] == true);
+    CHECK(early["predicted_gain"].is_null());
+    CHECK(early["trial_paths"] == 0);
+    const ordered_json late = stats_of({"--method", "reinforcement", "--bsdf-fraction", "1", "--roulette", "albedo",
+                                        "--nee", "on", "--spp", "20"})["guiding"];
+    CHECK(late["pays"] == false);
+    CHECK(late["predicted_gain"] < 0.9);
+    CHECK(late["unguided_passes"] > 10);
+    CHECK(late["trial_paths"] > 0);
+}
+
 TEST_CASE("statistics of next-event estimation") {
     const ordered_json stats = stats_of({"--nee", "on"});
     CHECK(stats["nee"] == true);

@@ -37,6 +37,7 @@ inline const std::vector<std::string> kStatsKeys{"schema",
                                                  "diagnostics",
                                                  "mean_radiance",
                                                  "field",
+                                                 "guiding",
                                                  "effects_needed",
                                                  "effects_compiled",
                                                  "kernel"};

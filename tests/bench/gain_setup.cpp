@@ -87,6 +87,7 @@ RenderSettings settings_of(const GainSetup& setup, const SceneDescription& scene
     settings.field.learning = {.target = static_cast<LearningTarget>(setup.integer("target")),
                                .light = static_cast<LearnedLight>(setup.integer("light"))};
     settings.roulette = static_cast<RouletteRule>(setup.integer("roulette"));
+    settings.guiding = static_cast<GuidingRule>(setup.integer("guiding"));
     if (setup["precompute"] > 0.0) settings.field.precompute_samples = setup.integer("precompute");
     return settings;
 }

@@ -14,29 +14,14 @@ namespace pl::bench {
 struct GainSetup {
     /// Keys with numbers.
     std::map<std::string, double> numbers{
-        {"spp", 512},
-        {"short", 128},
-        {"seconds", 0.7},
-        {"seeds", 5},
-        {"side", 128},
-        {"width", 0},
-        {"height", 0},
-        {"nee", 2},
-        {"precomputed", 1},
-        {"reference", 1024},
-        {"threads", 2},
-        {"volumes", 0},
-        {"bins", 256},
-        {"fraction", 0},
-        {"floor", kUniformShare},
-        {"rate", 4},
-        {"precompute", 0},
-        {"megabytes", 16.0},
-        {"target", 0},
-        {"light", 1},
-        {"roulette", 0},
-        {"uniform", 0},
-        {"refine", kRefineByRecords},
+        {"spp", 512},        {"short", 128},    {"seconds", 0.7},
+        {"seeds", 5},        {"side", 128},     {"width", 0},
+        {"height", 0},       {"nee", 2},        {"precomputed", 1},
+        {"reference", 1024}, {"threads", 2},    {"volumes", 0},
+        {"bins", 256},       {"fraction", 0},   {"floor", kUniformShare},
+        {"rate", 4},         {"precompute", 0}, {"megabytes", 16.0},
+        {"target", 0},       {"light", 1},      {"roulette", 0},
+        {"guiding", 0},      {"uniform", 0},    {"refine", kRefineByRecords},
     };
     /// Keys with words: folders and a file.
     std::map<std::string, std::string> words{

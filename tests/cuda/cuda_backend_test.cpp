@@ -66,6 +66,26 @@ TEST_CASE("Every target, rate and rule of roulette gives the bits of the CPU bac
     }
 }
 
+TEST_CASE("A film that guiding is given up in has the bits of the CPU back end, launches of any size") {
+    constexpr std::uint32_t kPasses = 12;
+    const SceneDescription scene = shipped_scene("door");
+    for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
+        INFO(info_of(method).name);
+        const RenderSettings settings = settings_without_gain(scene, method);
+        Session expected = make_session(scene, settings);
+        render_passes(expected, kPasses);
+        REQUIRE(expected.guiding_status(slot_of(expected))->unguided_passes > 0);
+        for (const int threads : {1, 3}) {
+            shim::reset();
+            shim::set_threads(threads);
+            Session got = make_cuda_session(scene, settings);
+            render_passes(got, kPasses);
+            CHECK(same_state(state_of(got), state_of(expected)));
+            CHECK(got.guiding_status(slot_of(got))->gain == expected.guiding_status(slot_of(expected))->gain);
+        }
+    }
+}
+
 TEST_CASE("Every view gives the bits of the CPU back end") {
     shim::reset();
     for (const SceneDescription& scene : {shipped_scene("cornell"), every_effect()})

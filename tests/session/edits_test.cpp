@@ -106,6 +106,9 @@ std::vector<Case> all_cases(const SceneDescription& scene, const RenderSettings&
         {"depth", EditEstimator{10, false}, {.films = true, .tables = true}},
         {"light samples", EditEstimator{64, true}, {.films = true, .tables = true}},
         {"roulette", EditEstimator{64, false, RouletteRule::Albedo}, {.films = true, .tables = true}},
+        {"guiding",
+         EditEstimator{64, false, RouletteRule::Spare, GuidingRule::Always},
+         {.films = true, .tables = true}},
         {"mixture", EditMixture{{.learned = 0, .bsdf_fraction = 0.3f}}, {.films = true}},
         {"field", EditField{field}, {.films = true, .tables = true, .volumes = true}},
         {"scene",
@@ -139,6 +142,7 @@ RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
         settings.max_depth = estimator->max_depth;
         settings.next_event = estimator->next_event;
         settings.roulette = estimator->roulette;
+        settings.guiding = estimator->guiding;
     }
     if (const auto* mixture = std::get_if<EditMixture>(&edit)) settings.mixture = mixture->mixture;
     if (const auto* field = std::get_if<EditField>(&edit)) settings.field = field->field;

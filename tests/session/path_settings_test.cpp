@@ -19,7 +19,15 @@ TEST_CASE("Path settings: guided paths play roulette late and split, others play
     settings.roulette = RouletteRule::Albedo;
     CHECK(path_settings(settings, MethodId::Reinforcement).split_threshold == kInfinity);
     settings.roulette = RouletteRule::Field;
-    CHECK(path_settings(settings, MethodId::Reinforcement).roulette_threshold > guided.roulette_threshold);
+    CHECK(path_settings(settings, MethodId::Reinforcement).roulette_threshold < 1.0f);
+}
+
+TEST_CASE("Path settings: guided paths play roulette earlier with light samples") {
+    RenderSettings settings;
+    const float without = path_settings(settings, MethodId::Reinforcement).roulette_threshold;
+    settings.next_event = true;
+    CHECK(path_settings(settings, MethodId::Reinforcement).roulette_threshold > without);
+    CHECK(path_settings(settings, MethodId::Default).roulette_threshold == 1.0f);
 }
 
 TEST_CASE("Path settings: probes have random numbers of their own and the roulette of unguided paths") {

@@ -206,8 +206,9 @@ TEST_CASE("A field that is saved before, between or after the rounds goes on wit
 }
 
 TEST_CASE("Clearing the tables brings back the first placement") {
-    const std::vector<SessionEdit> edits{EditForget{}, EditEstimator{.max_depth = 64, .next_event = false},
-                                         EditSeed{1}, EditMaterial{0, door().materials[0]}};
+    const std::vector<SessionEdit> edits{
+        EditForget{}, EditEstimator{.max_depth = 64, .next_event = false, .guiding = GuidingRule::Always},
+        EditSeed{1}, EditMaterial{0, door().materials[0]}};
     Session fresh = make_session(door(), refining(), 2);
     render_passes(fresh, kFirst + 1);
     for (const SessionEdit& edit : edits) {

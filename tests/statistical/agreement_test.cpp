@@ -90,6 +90,23 @@ void check_variants(const std::string& name, double resolution) {
     }
 }
 
+/// With passes that are not guided wherever guiding does not pay.
+void check_paying(const std::string& name, double resolution, double noise) {
+    const SceneDescription scene = shipped_scene(name);
+    const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution, noise);
+    for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
+        const Estimator estimator{method, true};
+        INFO(name << ", while it pays, " << estimator);
+        RenderSettings settings = quick_learner(scene, estimator, kSide, kSeed);
+        settings.guiding = GuidingRule::Paying;
+        Session session = make_session(scene, settings);
+        Picture picture(kSide, kSide);
+        render_batches(session, picture, kBatches, passes_for(estimator, resolution / noise));
+        CHECK(session.guiding_status(slot_of(session))->unguided_passes > 0);
+        CHECK(same_picture(picture, expected, resolution));
+    }
+}
+
 /// Refined as often as may be: one long picture, and the beginnings of many, each with both moments of splitting.
 void check_refined(const std::string& name, int runs, double resolution) {
     constexpr std::uint32_t kPasses = 20;
@@ -126,6 +143,8 @@ TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") {
 TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.2); }
 TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.2); }
 TEST_CASE("All methods agree on the row before the lens") { check_agreement("lens", 0.16); }
+
+TEST_CASE("Pictures with passes that are not guided agree on the plates") { check_paying("plates", 0.2, 1.0); }
 
 TEST_CASE("Refining the placement agrees on the door ajar") { check_refined("door", 0, 0.08); }
 

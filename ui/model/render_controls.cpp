@@ -58,8 +58,14 @@ void RenderControls::set_roulette(RouletteRule rule) {
     submit_estimator();
 }
 
+void RenderControls::set_guiding(GuidingRule rule) {
+    if (rule == settings_.guiding) return;
+    settings_.guiding = rule;
+    submit_estimator();
+}
+
 void RenderControls::submit_estimator() {
-    worker_.submit(EditEstimator{settings_.max_depth, settings_.next_event, settings_.roulette});
+    worker_.submit(EditEstimator{settings_.max_depth, settings_.next_event, settings_.roulette, settings_.guiding});
 }
 
 void RenderControls::set_seed(std::uint64_t seed) {

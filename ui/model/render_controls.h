@@ -28,6 +28,7 @@ public:
     void set_next_event(bool on);
     void set_max_depth(int depth);
     void set_roulette(RouletteRule rule);
+    void set_guiding(GuidingRule rule);
     void set_seed(std::uint64_t seed);
     void set_mixture(MixtureSettings mixture);
     void set_field(const FieldSettings& field);

@@ -55,6 +55,16 @@ private:
     float right_;
 };
 
+/// Whether guiding pays in this picture, as its passes have measured.
+void add_guiding_badge(BadgeRow& row, const GuidingStatus& guiding) {
+    if (guiding.pays)
+        row.add(fmt::format("guiding pays: {:.2g}x", *guiding.gain), colors::kGood);
+    else
+        row.add(fmt::format("guiding does not pay: {:.2g}x, {} passes by Default", *guiding.gain,
+                            guiding.unguided_passes),
+                colors::kWarning);
+}
+
 void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
     const Snapshot& snapshot = frame.snapshot;
     const View view = snapshot.slot.view;
@@ -65,6 +75,7 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
                 colors::kText);
     else
         row.add(fmt::format("{}  {}  {} spp", info_of(view).label, back_end, snapshot.passes), colors::kText);
+    if (snapshot.guiding && snapshot.guiding->gain) add_guiding_badge(row, *snapshot.guiding);
     if (view == View::RadianceMap) row.add("radiance map: biased preview", colors::kWarning);
     if (info_of(view).needs_tables && !info_of(snapshot.slot.method).uses_field)
         row.add(fmt::format("field of {0}: {1} continues learning", info_of(learning_method()).label,

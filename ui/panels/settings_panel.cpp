@@ -92,6 +92,13 @@ void draw_sampling(ViewerModel& model) {
             "estimate keeps or splits them. Albedo: the throughput alone. Field: the contribution estimate alone.",
             &roulette, "Spare\0Albedo\0Field\0"))
         model.render().set_roulette(static_cast<RouletteRule>(roulette));
+    int guiding = static_cast<int>(model.render().settings().guiding);
+    if (choice_row("Guiding",
+                   "Guided methods with light samples. While it pays: where guiding takes more time than it saves, "
+                   "most passes are those of "
+                   "Default, and the field learns rarely. Always: every pass is guided, and learns.",
+                   &guiding, "While it pays\0Always\0"))
+        model.render().set_guiding(static_cast<GuidingRule>(guiding));
     int seed = static_cast<int>(model.render().settings().seed);
     if (int_row("Seed", "Same seed, scene and settings: same picture to the bit with any number of threads.", &seed,
                 1))

@@ -18,6 +18,7 @@ std::string details_of(const Session& session, FilmSlot slot) {
     const FeatureSet needed = session.needed_features(slot);
     if (!needed.covers(session.film_origin(slot).forced)) add("effects forced");
     if (!info_of(slot.method).uses_field) return text;
+    if (settings.guiding == GuidingRule::Always) add("always guided");
     FieldSettings field = settings.field;
     field.lookup = standard.field.lookup;  // both lookups find the same volumes
     if (field.volumes != standard.field.volumes) add(fmt::format("{} volumes", field.volumes));

@@ -9,14 +9,17 @@ namespace pl {
 /// Even and odd passes form the two halves of a film: independent estimates whose difference measures the noise.
 PL_HD inline bool in_second_half(std::uint32_t pass) { return (pass & 1u) != 0; }
 
-/// The emission that a pixel has seen last, and whether it varies within the pixel. Two objects: neighbors read the value while
-/// the pixel's own thread sets the flag.
+/// The emission that a pixel has seen last, and whether it varies within the pixel. Three objects: neighbors read the value
+/// while the pixel's own thread sets the flags.
 struct EmissionSeen {
-    std::uint16_t value = 0;   ///< 0: nothing; else the upper half of a float (luminance), plus 1
-    std::uint16_t varies = 0;  ///< 1: further camera rays are worth their time
+    std::uint16_t value = 0;     ///< 0: nothing; else the upper half of a float (luminance), plus 1
+    std::uint8_t varies = 0;     ///< 1: further camera rays are worth their time
+    std::uint8_t at_border = 0;  ///< 1: a neighbor has seen another emission
 
     static constexpr float kContrast = 0.1f;  ///< least relative difference of two values
 
+    /// Whether the pixel has seen a lamp.
+    PL_HD bool is_lit() const { return value > 1; }
     PL_HD float luminance() const { return std::bit_cast<float>(static_cast<std::uint32_t>(value - 1) << 16); }
     /// Whether the two have seen values that differ.
     PL_HD bool differs_from(const EmissionSeen& other) const {

@@ -88,6 +88,7 @@ PL_HD inline std::uint32_t look_for_emission(const EmissionContext& context, con
         return 1;
     }
     if (!is_power_of_two(count - 1) || !differs_from_neighbors(film, pixel)) return 0;
+    p.emission.at_border = 1;
     for (std::uint32_t i = 1; i <= kEmissionRays; ++i) {
         const EmissionSeen now = probe_emission<F>(context, scene, intersector, pixel, i);
         if (p.emission.differs_from(now)) p.emission.varies = 1;

@@ -6,6 +6,7 @@
 
 #include "core/kernel/base/features.h"
 #include "core/kernel/base/rng.h"
+#include "core/kernel/film/sample_variance.h"
 #include "core/kernel/integrator/branches.h"
 
 namespace pl {
@@ -98,9 +99,10 @@ struct PassCounters {
     std::uint64_t paths = 0;  ///< finished: pixels of a picture pass, probes of a precomputation
     std::uint64_t zero_contribution_paths = 0;
     std::uint64_t invalid_samples = 0;
+    VarianceSums variance;  ///< of the samples measured, see SampleUse
 };
 
-/// Calls add(total, count) for every counter: the one list of them.
+/// Calls add(total, count) for every counter of events: the one list of them.
 template <class Add>
 PL_HD inline void add_counters(PassCounters& totals, const PassCounters& counts, Add&& add) {
     add(totals.path.segments, counts.path.segments);
@@ -121,6 +123,7 @@ PL_HD inline void add_counters(PassCounters& totals, const PassCounters& counts,
 
 inline PassCounters& operator+=(PassCounters& totals, const PassCounters& counts) {
     add_counters(totals, counts, [](std::uint64_t& total, std::uint64_t count) { total += count; });
+    totals.variance += counts.variance;
     return totals;
 }
 

@@ -33,7 +33,8 @@ struct FieldTrainer : MethodHooks {
     }
 };
 
-/// Radiance (luminance) expected to be reflected at the path's first vertex with a location; 0 before it.
+/// Radiance (luminance) expected to be reflected at the path's first vertex with a location, light samples included; 0 before
+/// it.
 struct GuidedExpectation {
     float first = 0.0f;
 };
@@ -88,7 +89,8 @@ struct Guided : Target<F> {
                                       Expectation& expectation) const {
         if (!vertex.is_served()) return survival;
         const float expected = luminance(throughput * albedo) * field.value_at(vertex);
-        if (expectation.first == 0.0f) expectation.first = expected;
+        if (expectation.first == 0.0f)
+            expectation.first = expected + luminance(throughput * albedo) * field.direct_at(vertex);
         // Infinite or NaN if the first expectation is 0 or the ratio is beyond the range of float.
         const float estimate = expected / expectation.first;
         return estimate < kInfinity ? estimate : survival;

@@ -34,6 +34,7 @@ inline RenderSettings settings_for(const SceneDescription& scene, Estimator esti
     settings.width = width;
     settings.height = height;
     settings.camera = scene.camera;
+    settings.guiding = GuidingRule::Always;  // tests of guided paths are about these
     return settings;
 }
 

@@ -14,4 +14,14 @@ inline RenderSettings small_settings(const SceneDescription& scene, Estimator es
     return settings;
 }
 
+/// Settings by which guided paths are those of the baseline, at a higher cost, so that guiding is given up: all directions by
+/// the BSDF, roulette by the albedo.
+inline RenderSettings settings_without_gain(const SceneDescription& scene, MethodId method) {
+    RenderSettings settings = small_settings(scene, {method, true}, 40, 40);
+    settings.guiding = GuidingRule::Paying;
+    settings.mixture = {.learned = 0, .bsdf_fraction = 1.0f};
+    settings.roulette = RouletteRule::Albedo;
+    return settings;
+}
+
 }  // namespace pl::test

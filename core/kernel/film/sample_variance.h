@@ -1,0 +1,82 @@
+// The variance of the paths of a pass, summed while their samples come to the film: from it a session decides whether guiding
+// pays.
+#pragma once
+
+#include "core/kernel/film/film_view.h"
+
+namespace pl {
+
+/// Sum over pixels of the variance of one sample, relative to white or to the pixel if it is brighter: the integrand of an MSE
+/// in which lamps do not outweigh the rest. Signed fixed point in two's complement: the same for every order of the samples.
+struct VarianceSums {
+    std::uint64_t sum = 0;      ///< of variance / (m^2 + 1) for an estimate m of the pixel, in steps
+    std::uint64_t samples = 0;  ///< measured ones
+
+    /// Contributions of one sample are clamped here, so that a single path decides nothing.
+    static constexpr float kMost = 16.0f;
+    static constexpr double kSteps = 0x1p32;  ///< per unit
+
+    VarianceSums& operator+=(const VarianceSums& other) {
+        sum += other.sum;
+        samples += other.samples;
+        return *this;
+    }
+
+    /// Over the measured samples; 0 without any.
+    double mean() const {
+        if (samples == 0) return 0.0;
+        return static_cast<double>(static_cast<std::int64_t>(sum)) / (kSteps * static_cast<double>(samples));
+    }
+};
+
+/// Use of the samples of a pass.
+enum class SampleUse : std::uint32_t {
+    Film,      ///< added to the film
+    Measured,  ///< added, and their variance measured
+    Trial,     ///< measured alone: the film does not change
+};
+
+/// Pixels of a pass that leaves out some: one of every `step`, at a place within them that varies.
+struct PixelSubset {
+    std::uint32_t step = 1;
+
+    PL_HD std::uint32_t count(std::uint32_t pixels) const { return pixels / step; }
+    PL_HD std::uint32_t pixel(std::uint32_t number) const {
+        return number * step + ((number * 0x9e3779b9u) >> 16) % step;
+    }
+    PL_HD std::uint32_t number(std::uint32_t pixel) const { return pixel / step; }
+};
+
+/// Fewest earlier samples of a pixel that is measured: their mean is a part of the estimator, and until then lamps are looked
+/// for.
+inline constexpr std::uint32_t kFewestBeforeVariance = 3;
+
+/// Measures the variance of a sample that is about to come to a pixel. With the mean m of earlier samples, L (L - m) is an
+/// unbiased estimate of the variance of an independent sample L. The weight is by other earlier samples, those of the other half
+/// of the film, since it would be correlated with m. Pixels that see a lamp are left out: their variance is that of
+/// emission, which no sampling of directions changes, see camera_emission.h.
+PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, VarianceSums& sums) {
+    const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;
+    const bool has_both_halves = pixel.second_samples > 0 && pixel.samples > pixel.second_samples;
+    if (pixel.samples < kFewestBeforeVariance || !has_both_halves || sees_lamp || !is_valid_radiance(radiance))
+        return;
+    const float value = luminance(radiance);
+    const float mean = luminance(half_mean(pixel, true));
+    const float other_mean = luminance(half_mean(pixel, false));
+    const float variance = value * (value - mean) / (other_mean * other_mean + 1.0f);
+    // The largest one for the quotient of two infinities, too.
+    const float bounded =
+        variance < VarianceSums::kMost ? max_of(variance, -VarianceSums::kMost) : VarianceSums::kMost;
+    sums.sum +=
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(static_cast<double>(bounded) * VarianceSums::kSteps));
+    ++sums.samples;
+}
+
+/// Puts the sample of a pass to its use. Returns false if it is invalid.
+PL_HD inline bool use_sample(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass,
+                             SampleUse use, VarianceSums& sums) {
+    if (use != SampleUse::Film) measure_variance(film.pixels[pixel], radiance, sums);
+    return use == SampleUse::Trial ? is_valid_radiance(radiance) : accumulate(film, pixel, radiance, pass);
+}
+
+}  // namespace pl
