@@ -12,7 +12,8 @@ namespace pl {
 
 /// Progress of a method's learning. Exact: interrupted work continues where it stopped.
 struct FieldProgress {
-    std::uint64_t passes = 0;           ///< of the method; unguided ones train nothing
+    std::uint64_t passes = 0;           ///< of the method, unguided ones included: each has random numbers of its own
+    std::uint64_t unguided_passes = 0;  ///< of these, since the field was made or loaded; they train nothing
     std::uint64_t records = 0;          ///< training samples
     std::uint64_t clamped_records = 0;  ///< of them
     std::uint64_t lookup_misses = 0;

@@ -46,7 +46,7 @@ std::optional<FieldStatus> Session::field_status(MethodId method) const {
                        .bins = placement_.bins(),
                        .bytes =
                            volume_bytes(*placement_.volumes()) + placement_.count() * table_bytes(placement_.bins()),
-                       .passes = state.passes,
+                       .passes = state.passes - state.unguided_passes,
                        .records = state.records,
                        .clamped_records = state.clamped_records,
                        .lookup_misses = state.lookup_misses,

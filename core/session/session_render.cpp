@@ -173,8 +173,10 @@ void Session::finish_learning_pass(FilmSlot slot) {
     // Where guiding does not pay, passes that learn are rare.
     const bool is_updated = state.is_guided && (is_updated_after(state.passes) || !state.guiding.pays());
     if (is_updated) backend_->update_field(slot.method);
-    ++field(slot.method).passes;
-    field(slot.method).has_part = false;
+    FieldProgress& learned = field(slot.method);
+    ++learned.passes;
+    learned.unguided_passes += state.is_guided ? 0u : 1u;
+    learned.has_part = false;
     if (is_updated) refine_if_due(slot.method);
     films_[slot].learn_seconds += watch.seconds();
 }

@@ -40,7 +40,7 @@ struct FieldStatus {
     int added_volumes = 0;  ///< of these, by refining
     int bins = 0;
     std::size_t bytes = 0;
-    std::uint64_t passes = 0;  ///< updates
+    std::uint64_t passes = 0;  ///< that trained it
     std::uint64_t records = 0;
     std::uint64_t clamped_records = 0;
     std::uint64_t lookup_misses = 0;
