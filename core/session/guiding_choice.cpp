@@ -14,7 +14,10 @@ constexpr std::uint32_t kSecondTrial = kFirstTrial + 2;
 constexpr std::uint32_t kFirstDecision = kSecondTrial + 1;
 /// Weight of the guided passes before the newest one: variance_ratio fall while a field learns, and are noisy.
 constexpr double kKept = 0.8;
-/// Gain below which guiding is given up, and above which it is taken up again. Below 1 at first: fields still get better.
+/// Gain below which guiding is given up, early and later, and above which it is taken up again. Below 1 at first: fields still
+/// get better.
+constexpr double kLeastEarlyGain = 0.8;
+constexpr std::uint32_t kEarlyPasses = 16;
 constexpr double kLeastGain = 0.9;
 constexpr double kReturningGain = 1.0;
 
@@ -70,7 +73,8 @@ void GuidingChoice::measure_guided(std::uint32_t pass, const PassCounters& count
     const double loss = std::max(variance_ratio + cost_ratio - 2.0, 0.0);
     if (loss_per_pass_ == 0.0 && lost_ == 0.0) lost_ = loss * static_cast<double>(pass);
     loss_per_pass_ = loss;
-    pays_ = *gain_ >= (pays_ ? kLeastGain : kReturningGain);
+    const double least = pass < kEarlyPasses ? kLeastEarlyGain : kLeastGain;
+    pays_ = *gain_ >= (pays_ ? least : kReturningGain);
 }
 
 }  // namespace pl
