@@ -199,8 +199,11 @@ private:
         const auto end = steady_clock::now() + cost;
         while (steady_clock::now() < end && !(stop != nullptr && *stop))
             std::this_thread::sleep_for(microseconds(50));
-        control_->inside = control_->hold.load();
-        while (control_->hold && !(stop != nullptr && *stop)) std::this_thread::sleep_for(microseconds(50));
+        // Said within the loop: a pass that is held from now on must not be held unnoticed.
+        while (control_->hold && !(stop != nullptr && *stop)) {
+            control_->inside = true;
+            std::this_thread::sleep_for(microseconds(50));
+        }
         control_->inside = false;
     }
 
