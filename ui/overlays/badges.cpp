@@ -58,9 +58,9 @@ private:
 /// Whether guiding pays in this picture, as its passes have measured.
 void add_guiding_badge(BadgeRow& row, const GuidingStatus& guiding) {
     if (guiding.pays)
-        row.add(fmt::format("guiding pays: {:.2g}x", *guiding.gain), colors::kGood);
+        row.add(fmt::format("guiding pays: {:.2g}x predicted", *guiding.gain), colors::kGood);
     else
-        row.add(fmt::format("guiding does not pay: {:.2g}x, {} passes by Default", *guiding.gain,
+        row.add(fmt::format("guiding does not pay: {:.2g}x predicted, {} passes by Default", *guiding.gain,
                             guiding.unguided_passes),
                 colors::kWarning);
 }
