@@ -18,7 +18,8 @@ enum class GuidingRule : std::uint32_t {
     Always,  ///< every pass is guided
 };
 
-/// Time of the parts of a path, in any unit: only ratios count. Nanoseconds on one processor, see docs/learning.md.
+/// Time of the parts of a path, in any unit: only ratios count. Nanoseconds on one processor, rounded from
+/// docs/notebook/2026-11-23-guiding-choice.md.
 struct PathCosts {
     double segment = 0.0;      ///< of any path: tracing and shading
     double guidance = 0.0;     ///< of a guided path's segment, besides

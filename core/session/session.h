@@ -88,7 +88,7 @@ public:
     std::uint32_t passes(FilmSlot slot) const { return films_[slot].passes; }
     /// Empty for methods without a field, and before the volumes are placed.
     std::optional<FieldStatus> field_status(MethodId method) const;
-    /// Empty for films without guided paths, and if every pass is guided by setting.
+    /// Empty for films without guided paths, without light samples, and if every pass is guided by setting.
     std::optional<GuidingStatus> guiding_status(FilmSlot slot) const;
     /// Of the placement that all methods share.
     Refinement refinement() const { return placement_.refinement(); }

@@ -68,9 +68,8 @@ struct Snapshot {
     bool is_closed = false;
     Clocks clocks;
     std::optional<FieldStatus> field;
-    std::optional<GuidingStatus>
-        guiding;   ///< empty for methods without a field, and if every pass is guided by setting
-    int bins = 0;  ///< directions per volume; 0 before volumes are placed
+    std::optional<GuidingStatus> guiding;  ///< see Session::guiding_status()
+    int bins = 0;                          ///< directions per volume; 0 before volumes are placed
     CameraDescription camera;
     std::string kernel;
 };
