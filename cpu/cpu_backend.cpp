@@ -96,7 +96,7 @@ public:
                                                    .learning = request.learning,
                                                    .camera = request.camera,
                                                    .sample = request.sample,
-                                                   .film = films_.view(request.slot),
+                                                   .film = films_.view(request.slot, request.weights),
                                                    .use = request.use,
                                                    .subset = request.subset});
         if (request.use != SampleUse::Trial)
@@ -189,12 +189,14 @@ private:
     PassCounters refine_emission_of(const PassRequest& request, std::uint32_t paths) {
         if (scene_->lights.empty()) return {};
         const IndexRange pixels{request.first_pixel, request.first_pixel + paths};
-        const FilmView film = films_.view(request.slot);
+        const FilmView film = films_.view(request.slot, request.weights);
         return launch(
             kEmissionKernels, request.features,
-            EmissionPass{.setup = make_setup(request.path, pixels, nullptr),
-                         .context = {request.camera, request.path, {film.width, film.height, request.sample}},
-                         .film = film});
+            EmissionPass{
+                .setup = make_setup(request.path, pixels, nullptr),
+                .tracer = *tracer_,
+                .context = {request.camera, request.path, {film.width, film.height, request.sample}, request.passes},
+                .film = film});
     }
 
     PassCounters run_view(const PassSetup& setup, const PassRequest& request) {
@@ -204,7 +206,7 @@ private:
                                .shown = shown_field(request.slot),
                                .camera = request.camera,
                                .sample = request.sample,
-                               .film = films_.view(request.slot)});
+                               .film = films_.view(request.slot, request.weights)});
     }
 
     CpuSettings settings_;

@@ -9,6 +9,7 @@ namespace pl {
 /// Arguments of an emission kernel; it visits the pixels of setup.paths.
 struct EmissionPass {
     PassSetup setup;
+    const BatchTracer& tracer;
     EmissionContext context;
     FilmView film;
 };

@@ -38,7 +38,7 @@ std::vector<std::uint32_t> FilmStore::invalid_samples(FilmSlot slot) const {
 template <bool kHalves>
 FilmReading FilmStore::read(FilmSlot slot, int threads) const {
     const auto& film = films_.existing(slot);
-    FilmReading reading{.width = film.width, .height = film.height, .mean = {}, .samples = 0, .invalid = 0};
+    FilmReading reading{.width = film.width, .height = film.height, .mean = {}, .weight = 0, .invalid = 0};
     reading.mean.resize(film.pixels.size());
     std::vector<Vec3f>& first = reading.halves.mean[0];
     std::vector<Vec3f>& second = reading.halves.mean[1];
@@ -46,13 +46,13 @@ FilmReading FilmStore::read(FilmSlot slot, int threads) const {
         first.resize(film.pixels.size());
         second.resize(film.pixels.size());
     }
-    std::atomic<std::uint64_t> samples{0};
-    std::atomic<std::uint64_t> second_samples{0};
+    std::atomic<std::uint64_t> weight{0};
+    std::atomic<std::uint64_t> second_weight{0};
     std::atomic<std::uint64_t> invalid{0};
     ChunkQueue queue(0, static_cast<std::uint32_t>(film.pixels.size()), kPixelChunk);
     parallel_for(threads, queue, [&](IndexRange range) {
-        std::uint64_t chunk_samples = 0;
-        std::uint64_t chunk_second_samples = 0;
+        std::uint64_t chunk_weight = 0;
+        std::uint64_t chunk_second_weight = 0;
         std::uint64_t chunk_invalid = 0;
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
             const FilmPixel& pixel = film.pixels[i];
@@ -60,18 +60,18 @@ FilmReading FilmStore::read(FilmSlot slot, int threads) const {
             if constexpr (kHalves) {
                 first[i] = half_mean(pixel, false);
                 second[i] = half_mean(pixel, true);
-                chunk_second_samples += pixel.second_samples;
+                chunk_second_weight += pixel.second_weight;
             }
-            chunk_samples += pixel.samples;
+            chunk_weight += pixel.weight;
             chunk_invalid += pixel.invalid;
         }
-        samples += chunk_samples;
-        second_samples += chunk_second_samples;
+        weight += chunk_weight;
+        second_weight += chunk_second_weight;
         invalid += chunk_invalid;
     });
-    reading.samples = samples;
+    reading.weight = weight;
     reading.invalid = invalid;
-    if constexpr (kHalves) reading.halves.samples = {samples - second_samples, second_samples};
+    if constexpr (kHalves) reading.halves.weights = {weight - second_weight, second_weight};
     return reading;
 }
 

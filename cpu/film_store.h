@@ -11,7 +11,7 @@ public:
     void reset(FilmSlot slot, int width, int height, int threads);
 
     /// The following functions throw Error if the film was never reset.
-    FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
+    FilmView view(FilmSlot slot, PassWeights weights) { return films_.existing(slot).view(weights); }
     FilmReading read(FilmSlot slot, int threads) const;
     FilmReading read_halves(FilmSlot slot, int threads) const;
     std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const;

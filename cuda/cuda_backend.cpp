@@ -181,7 +181,7 @@ void CudaBackend::launch_view(const PassRequest& request, const ViewContext& con
 }
 
 PassCounters CudaBackend::run_pass(const PassRequest& request) {
-    const FilmView film = films_.view(request.slot);
+    const FilmView film = films_.view(request.slot, request.weights);
     const bool is_picture = request.slot.view == View::Beauty;
     const PixelGrid grid{film.width, film.height, request.sample};
     const ViewContext context{.view = request.slot.view,
@@ -215,7 +215,7 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
         if (refines)
             launch(kEmissionKernels[covering_set(request.features)], blocks_for(count), stream_, "refine_film",
                    EmissionSetup{.scene = existing_scene().view(),
-                                 .context = {request.camera, request.path, grid},
+                                 .context = {request.camera, request.path, grid, request.passes},
                                  .film = film,
                                  .range = range,
                                  .counters = counters_.data()});

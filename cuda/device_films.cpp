@@ -47,7 +47,7 @@ FilmReading DeviceFilms::read(FilmSlot slot, std::uint32_t halves, const Stream&
     launch(kReadFilm, blocks_for(pixels), stream, "read_film", film.view(), picture(0), totals_.data());
     if (halves > 0)
         launch(kReadHalves, blocks_for(pixels), stream, "read_halves", film.view(), picture(1), picture(2),
-               &totals_.data()->second_samples);
+               &totals_.data()->second_weight);
     auto* staged = static_cast<std::byte*>(staging_.data());
     copy_to_host(staged, means_.data(), bytes, stream);
     copy_to_host(staged + bytes, totals_.data(), sizeof(FilmTotals), stream);
@@ -59,13 +59,13 @@ FilmReading DeviceFilms::read(FilmSlot slot, std::uint32_t halves, const Stream&
     FilmReading reading{.width = film.width,
                         .height = film.height,
                         .mean = {means, means + pixels},
-                        .samples = totals.samples,
+                        .weight = totals.weight,
                         .invalid = totals.invalid};
     for (std::size_t half = 0; half < halves; ++half) {
         const auto* first = means + (half + 1) * pixels;
         reading.halves.mean[half].assign(first, first + pixels);
     }
-    if (halves > 0) reading.halves.samples = {totals.samples - totals.second_samples, totals.second_samples};
+    if (halves > 0) reading.halves.weights = {totals.weight - totals.second_weight, totals.second_weight};
     return reading;
 }
 

@@ -13,7 +13,7 @@ public:
     void reset(FilmSlot slot, int width, int height, const Stream& stream);
 
     /// The following functions throw Error if the film was never reset.
-    FilmView view(FilmSlot slot) { return films_.existing(slot).view(); }
+    FilmView view(FilmSlot slot, PassWeights weights) { return films_.existing(slot).view(weights); }
     FilmReading read(FilmSlot slot, const Stream& stream) const;
     FilmReading read_halves(FilmSlot slot, const Stream& stream) const;
     std::vector<std::uint32_t> invalid_samples(FilmSlot slot, const Stream& stream) const;

@@ -4,6 +4,7 @@
 #include "core/kernel/integrator/trace_path.h"
 #include "core/kernel/methods/default.h"
 #include "core/kernel/methods/targets/expected_sarsa.h"
+#include "core/session/path_settings.h"
 
 namespace pl {
 namespace {
@@ -47,7 +48,8 @@ PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std
         method.mixture = passes.mixture;
         method.learning = passes.learning;
         if (passes.repeats_training) method.clamped = &clamped;
-        PathDefects defects = trace_again(passes, passes.path, method, pixel, sample);
+        const PathSettings path = passes.has_moving_tables ? at_pass(passes.path, sample) : passes.path;
+        PathDefects defects = trace_again(passes, path, method, pixel, sample);
         defects.clamped_samples = clamped;
         return defects;
     });

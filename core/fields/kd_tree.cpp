@@ -1,6 +1,7 @@
 // Building the balanced tree that core/kernel/guiding/volume_lookup.h searches.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/fields/place_volumes.h"
 
@@ -44,6 +45,10 @@ std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites) {
     nodes.reserve(sites.count);
     for (std::uint32_t i = 0; i < sites.count; ++i)
         if (is_finite(sites[i].position)) nodes.push_back({sites[i].position, i, sites[i].geometric_normal, 0});
+    return build_kd_tree(std::move(nodes));
+}
+
+std::vector<KdNode> build_kd_tree(std::vector<KdNode> nodes) {
     arrange(nodes.begin(), nodes.end());
     return nodes;
 }

@@ -36,7 +36,8 @@ BoundingSphere bounding_sphere(const HostScene& scene) {
 
 /// Starts at a light with a cosine-distributed direction; at two-sided lights, from either side with probability 1/2.
 Ray leave_light(const HostScene& scene, const SceneView& view, Vec4f u, Vec4f v) {
-    SurfacePoint point = sample_on_light(view, choose_light(view, u.x), Vec3f{0.0f}, {u.y, u.z});
+    const std::uint32_t primitive = view.lights[choose_light(view, u.x)].primitive;
+    SurfacePoint point = light_surface(view, primitive, sample_weights({u.y, u.z}), Vec3f{0.0f});
     const Material& material = scene.materials[point.material];
     const bool want_front = material.two_sided_emission == 0 || v.x < 0.5f;
     if (point.front != want_front) point.geometric_normal = -point.geometric_normal;

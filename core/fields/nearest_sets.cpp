@@ -68,6 +68,7 @@ struct NearestSets::Gather {
 /// within d + 2 r of the center.
 NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) {
     candidates_.clear();
+    tree_ = trees_.tree_for(normal);
     Vec2d middle{0.0};
     int corners = 0;
     for (const Vec2d p : region.polygon) {
@@ -82,7 +83,7 @@ NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) 
     radius = (radius + region.thickness + glm::length(Vec3d{center} - exact)) * kWiden;
 
     nearest_ = {};
-    if (hint_ < tree_.nodes.count) nearest_.consider(tree_.nodes[hint_], center, normal);
+    if (hint_) nearest_.consider(*hint_, center, normal);
     Effort search{nearest_, effort_};
     search_kd_tree(tree_, center, normal, search);
     if (search.left <= 0) return Answer::GivenUp;
@@ -132,12 +133,12 @@ NearestSets::Answer NearestSets::find(const FlatRegion& region, Vec3f normal) {
     nodes_.clear();
     if (const Answer answer = gather(region, normal); answer != Answer::Few) return answer;
     drop_duplicates();
-    hint_ = candidates_.front().node;
+    hint_ = tree_.nodes[candidates_.front().node];
     for (const Candidate& candidate : candidates_)
-        if (can_be_nearest(candidate, region)) nodes_.push_back(candidate.node);
+        if (can_be_nearest(candidate, region)) nodes_.push_back(candidate.volume);
     if (nodes_.size() > kMostListed) return Answer::TooMany;
-    std::sort(nodes_.begin(), nodes_.end(),
-              [this](std::uint32_t a, std::uint32_t b) { return tree_.nodes[a].volume < tree_.nodes[b].volume; });
+    std::sort(nodes_.begin(), nodes_.end());
+    for (std::uint32_t& node : nodes_) node = trees_.node_of(node);
     return Answer::Few;
 }
 

@@ -2,8 +2,10 @@
 // them.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "core/fields/normal_trees.h"
 #include "core/fields/polygon.h"
 #include "core/kernel/guiding/volume_lookup.h"
 
@@ -33,7 +35,7 @@ public:
     /// Longest set that is stored as a list.
     static constexpr std::size_t kMostListed = 24;
 
-    explicit NearestSets(KdTreeView tree) : tree_(tree) {}
+    explicit NearestSets(NormalTrees& trees) : trees_(trees) {}
 
     /// The set of all volumes that the search from some point of the region, with this normal, can return. The
     /// polygon must not be empty. Sets are exact up to a margin of a few roundoffs of the distances.
@@ -41,12 +43,11 @@ public:
 
     /// Drops the hint of the last search, at the start of each chunk of work: the searches that reach the effort
     /// limit then do not depend on the distribution of chunks over threads.
-    void restart() { hint_ = 0; }
-    /// Most nodes that one search may visit. A search visits all of them where the volumes nearby have no agreeing
-    /// normal, as on the outside of a closed mesh.
+    void restart() { hint_ = {}; }
+    /// Most nodes that one search may visit.
     void set_effort(int nodes) { effort_ = nodes; }
 
-    /// Tree nodes of the last set, by ascending volume.
+    /// Nodes of the last set, as numbers of those of NormalTrees, by ascending volume.
     const std::vector<std::uint32_t>& nodes() const { return nodes_; }
 
 private:
@@ -65,9 +66,10 @@ private:
     void drop_duplicates();
     bool can_be_nearest(const Candidate& candidate, const FlatRegion& region) const;
 
-    KdTreeView tree_;
+    NormalTrees& trees_;
+    KdTreeView tree_;  ///< of the volumes that can agree with the normal
     Nearest nearest_;
-    std::uint32_t hint_ = 0;  ///< node that was nearest to the center of the last region
+    std::optional<KdNode> hint_;  ///< nearest to the center of the last region
     int effort_ = 0;
     double margin_ = 0.0;  ///< differences of squared distances up to this may be due to rounding
     std::vector<Candidate> candidates_;

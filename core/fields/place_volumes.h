@@ -23,5 +23,7 @@ void for_each_site(const HostScene& scene, const FieldSettings& settings, std::u
 
 /// Balanced tree over the sites in the layout of KdTreeView, without sites whose position is not finite.
 std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites);
+/// The same of nodes in any order, whose axes are set.
+std::vector<KdNode> build_kd_tree(std::vector<KdNode> nodes);
 
 }  // namespace pl

@@ -8,6 +8,7 @@
 #include "core/base/work_queue.h"
 #include "core/fields/grid_pieces.h"
 #include "core/fields/nearest_sets.h"
+#include "core/fields/normal_trees.h"
 #include "core/scene/triangle_planes.h"
 
 namespace pl {
@@ -29,7 +30,7 @@ static_assert(kGridBytesPerTriangle ==
               2 * (sizeof(VolumePlace) + sizeof(SideGrid) + kFreeCells * sizeof(VolumeCell) + kFreeEntries * 4));
 
 /// Most nodes that a search may visit, for sides without and with volumes of their own.
-constexpr int kEffort = 256;
+constexpr int kEffort = 1024;
 constexpr int kEffortWithVolumes = 4096;
 
 /// Points at which the distance between volumes is estimated.
@@ -107,9 +108,9 @@ private:
 class SideBuilder {
 public:
     /// `own`: number of volumes placed on each side.
-    SideBuilder(const HostScene& scene, const HostVolumes& volumes, Span<const std::uint32_t> own)
+    SideBuilder(const HostScene& scene, const HostVolumes& volumes, Span<const std::uint32_t> own, NormalTrees& trees)
         : scene_(scene.view()), tree_{view_of(volumes.kd_nodes)}, sites_(view_of(volumes.sites)), own_(own),
-          sets_(tree_) {}
+          sets_(trees) {}
 
     GridPieces build(IndexRange sides) {
         pieces_ = {};
@@ -248,9 +249,10 @@ HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volu
     const auto sides = static_cast<std::uint32_t>(own.size());
     const std::uint32_t chunk = std::clamp(sides / 1024u, 1u, 1024u);
     std::vector<GridPieces> pieces((sides + chunk - 1) / chunk);
+    NormalTrees trees(view_of(volumes.kd_nodes));
     ChunkQueue queue(0, sides, chunk);
     run_on_plain_threads(threads, [&](int) {
-        SideBuilder builder(scene, volumes, view_of(own));
+        SideBuilder builder(scene, volumes, view_of(own), trees);
         for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
             pieces[range.begin / chunk] = builder.build(range);
     });

@@ -119,8 +119,8 @@ bool Estimate::is_seen() const { return std::fabs(value) > 2.0 * error; }
 PictureHalves halves_of(const FilmHalves& halves) {
     return {.first = halves.mean[0],
             .second = halves.mean[1],
-            .first_weight = static_cast<double>(halves.samples[0]),
-            .second_weight = static_cast<double>(halves.samples[1])};
+            .first_weight = static_cast<double>(halves.weights[0]),
+            .second_weight = static_cast<double>(halves.weights[1])};
 }
 
 ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& reference, int width, int threads) {

@@ -54,7 +54,10 @@ struct PassRequest {
     Camera camera;
     MixtureSettings mixture{};
     LearningSettings learning{};
-    std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel; decides the half of the film
+    std::uint32_t sample =
+        0;  ///< number of the sample, the same for every pixel; decides the half of the film and the weight
+    std::uint32_t passes = 1;  ///< of the film, this one included
+    PassWeights weights{};
     std::uint32_t first_pixel = 0;
     std::uint32_t end_pixel = kToTheLast;
     SampleUse use = SampleUse::Film;
@@ -79,19 +82,19 @@ struct PrecomputeRequest {
 /// A film as two disjoint halves of its samples: those of passes of even and of odd number.
 struct FilmHalves {
     std::array<std::vector<Vec3f>, 2> mean;  ///< [row][column]; NaN where a half has no valid sample
-    std::array<std::uint64_t, 2> samples{};  ///< valid ones
+    std::array<std::uint64_t, 2> weights{};  ///< of valid samples
 
     /// Whether both halves have samples: not before the second pass, and never if passes replace one another.
-    bool are_both_there() const { return samples[0] > 0 && samples[1] > 0; }
+    bool are_both_there() const { return weights[0] > 0 && weights[1] > 0; }
 };
 
 struct FilmReading {
     int width = 0;
     int height = 0;
-    std::vector<Vec3f> mean;  ///< [row][column]; NaN where every sample was invalid
-    std::uint64_t samples = 0;
-    std::uint64_t invalid = 0;
-    FilmHalves halves{};  ///< only of read_halves()
+    std::vector<Vec3f> mean;    ///< [row][column]; NaN where every sample was invalid
+    std::uint64_t weight = 0;   ///< of valid samples
+    std::uint64_t invalid = 0;  ///< number of samples
+    FilmHalves halves{};        ///< only of read_halves()
 };
 
 /// A film as a window shows it; may be in transfer from a device while the next pass runs.

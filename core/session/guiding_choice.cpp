@@ -25,7 +25,7 @@ constexpr double kReturningGain = 1.0;
 
 PathCosts PathCosts::of(std::size_t triangles, FeatureSet features) {
     constexpr std::size_t kFewTriangles = 64;  // tested one by one
-    PathCosts costs{.segment = triangles <= kFewTriangles ? 70.0 : 250.0, .guidance = 50.0, .lookup_miss = 15000.0};
+    PathCosts costs{.segment = triangles <= kFewTriangles ? 70.0 : 250.0, .guidance = 50.0};
     if (features.has(Feature::NextEventEstimation)) {
         costs.segment += features.has(Feature::ManyLights) ? 310.0 : 110.0;
         costs.guidance += 45.0;
@@ -40,8 +40,7 @@ PathCosts PathCosts::of(std::size_t triangles, FeatureSet features) {
 double PathCosts::of_path(const PassCounters& counters) const {
     const PathCounters& path = counters.path;
     const bool is_guided = path.method.lookups > 0;
-    const double work = static_cast<double>(path.segments) * (segment + (is_guided ? guidance : 0.0)) +
-                        static_cast<double>(path.method.lookup_misses) * lookup_miss;
+    const double work = static_cast<double>(path.segments) * (segment + (is_guided ? guidance : 0.0));
     return work / static_cast<double>(std::max<std::uint64_t>(counters.paths, 1));
 }
 

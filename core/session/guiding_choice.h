@@ -21,9 +21,8 @@ enum class GuidingRule : std::uint32_t {
 /// Time of the parts of a path, in any unit: only ratios count. Nanoseconds on one processor, rounded from
 /// docs/notebook/2026-11-23-guiding-choice.md.
 struct PathCosts {
-    double segment = 0.0;      ///< of any path: tracing and shading
-    double guidance = 0.0;     ///< of a guided path's segment, besides
-    double lookup_miss = 0.0;  ///< of a lookup that finds no volume
+    double segment = 0.0;   ///< of any path: tracing and shading
+    double guidance = 0.0;  ///< of a guided path's segment, besides
 
     /// By the scene alone, so that every back end makes the same choice.
     static PathCosts of(std::size_t triangles, FeatureSet features);

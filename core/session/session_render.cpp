@@ -127,14 +127,17 @@ PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag
     std::uint32_t sample = learns_from(slot) ? static_cast<std::uint32_t>(field(slot.method).passes) : state.passes;
     // Passes of a heat map replace one another: they use the same points, so that borders do not flicker.
     if (is_heat_map(slot.view)) sample = 0;
+    const PathSettings path = path_settings(settings_, method);
     return {.slot = slot,
             .is_guided = method == slot.method,
             .features = needed_features(slot).with(settings_.forced_effects),
-            .path = path_settings(settings_, method),
+            .path = learns_from(slot) ? at_pass(path, sample) : path,
             .camera = make_camera(settings_.camera, settings_.width, settings_.height),
             .mixture = mixture_of(settings_, method),
             .learning = settings_.field.learning,
             .sample = sample,
+            .passes = state.passes + 1,
+            .weights = learns_from(slot) ? pass_weights(settings_, slot.method) : PassWeights{},
             .stop = stop};
 }
 
@@ -146,7 +149,7 @@ void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop
     PassRequest request = pass_request(slot, state.is_guided ? slot.method : baseline_method(), stop);
     request.first_pixel = state.next_pixel;
     request.end_pixel = end;
-    if (chooses_guiding(slot)) request.use = SampleUse::Measured;
+    if (chooses_guiding(slot) && state.passes >= kFewestBeforeVariance) request.use = SampleUse::Measured;
     const PassCounters counters = backend_->run_pass(request);
     state.render_seconds += watch.seconds();
     state.counters += counters;

@@ -30,23 +30,23 @@ __global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Spa
     if (i < film.pixels.count) {
         const FilmPixel& pixel = film.pixels[i];
         means[i] = mean_or_nan(pixel);
-        own = {pixel.samples, pixel.invalid};
+        own = {pixel.weight, pixel.invalid};
     }
-    add_up(totals->samples, own.samples);
+    add_up(totals->weight, own.weight);
     add_up(totals->invalid, own.invalid);
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock)
-    read_halves(FilmView film, Span<Vec3f> first, Span<Vec3f> second, std::uint64_t* second_samples) {
+    read_halves(FilmView film, Span<Vec3f> first, Span<Vec3f> second, std::uint64_t* second_weight) {
     const std::uint32_t i = thread_number();
     std::uint64_t own = 0;
     if (i < film.pixels.count) {
         const FilmPixel& pixel = film.pixels[i];
         first[i] = half_mean(pixel, false);
         second[i] = half_mean(pixel, true);
-        own = pixel.second_samples;
+        own = pixel.second_weight;
     }
-    add_up(*second_samples, own);
+    add_up(*second_weight, own);
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock)

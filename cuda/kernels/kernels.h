@@ -82,11 +82,11 @@ extern const KernelRow<EmissionKernel> kEmissionKernels;
 using VolumeValueKernel = void (*)(TableUpdateView field, View view, Span<float> values);
 extern const VolumeValueKernel kVolumeValues;
 
-/// Counts of valid and invalid samples of a film.
+/// Sums over the pixels of a film.
 struct FilmTotals {
-    std::uint64_t samples = 0;
-    std::uint64_t invalid = 0;
-    std::uint64_t second_samples = 0;  ///< valid samples of the second half; set by kReadHalves
+    std::uint64_t weight = 0;         ///< of valid samples
+    std::uint64_t invalid = 0;        ///< number of samples
+    std::uint64_t second_weight = 0;  ///< of the second half; set by kReadHalves
 };
 
 /// The samples of a launch. Pixels that see a lamp are known by the launches before it in the stream.
@@ -107,9 +107,8 @@ extern const AddSamplesKernel kSetSamples;
 using ReadFilmKernel = void (*)(FilmView film, Span<Vec3f> means, FilmTotals* totals);
 extern const ReadFilmKernel kReadFilm;
 
-/// Means of both halves (see half_mean), and the number of samples of the second. One thread per pixel.
-using ReadHalvesKernel = void (*)(FilmView film, Span<Vec3f> first, Span<Vec3f> second,
-                                  std::uint64_t* second_samples);
+/// Means of both halves (see half_mean), and the weight of the second. One thread per pixel.
+using ReadHalvesKernel = void (*)(FilmView film, Span<Vec3f> first, Span<Vec3f> second, std::uint64_t* second_weight);
 extern const ReadHalvesKernel kReadHalves;
 
 /// The frame for the window. One thread per pixel.

@@ -25,10 +25,11 @@ template <std::uint32_t kFeatureBits>
 __global__ void __launch_bounds__(kThreadsPerBlock) refine_film(EmissionSetup setup) {
     const BvhIntersector intersector{setup.scene};
     const std::uint32_t pixel = setup.range.first + thread_number();
+    SingleRays<FeatureSet{kFeatureBits}, BvhIntersector> rays{setup.scene, intersector};
     PassCounters counters;
     if (pixel < setup.range.end)
         counters.path.emission_rays =
-            refine_emission<FeatureSet{kFeatureBits}>(setup.context, setup.scene, intersector, setup.film, pixel);
+            refine_emission<FeatureSet{kFeatureBits}>(setup.context, setup.scene, rays, setup.film, pixel);
     add_up(*setup.counters, counters);
 }
 

@@ -86,8 +86,12 @@ public:
 private:
     PassCounters pass(const Tracer& tracer, std::uint32_t sample) {
         if (!tracer.backend) return loop_.run_pass(camera_, {}, sample);
-        return tracer.backend->run_pass(
-            {.slot = {}, .features = needed_effects(*scene_), .path = {}, .camera = camera_, .sample = sample});
+        return tracer.backend->run_pass({.slot = {},
+                                         .features = needed_effects(*scene_),
+                                         .path = {},
+                                         .camera = camera_,
+                                         .sample = sample,
+                                         .passes = sample + 1});
     }
 
     Camera camera_;

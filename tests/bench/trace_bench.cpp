@@ -95,8 +95,12 @@ private:
         });
     }
     PassCounters pass(RenderBackend& backend, FilmSlot slot, std::uint32_t sample) {
-        return backend.run_pass(
-            {.slot = slot, .features = features_, .path = settings_, .camera = camera_, .sample = sample});
+        return backend.run_pass({.slot = slot,
+                                 .features = features_,
+                                 .path = settings_,
+                                 .camera = camera_,
+                                 .sample = sample,
+                                 .passes = sample + 1});
     }
 
     std::shared_ptr<const HostScene> scene_;

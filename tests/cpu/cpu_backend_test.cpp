@@ -98,7 +98,7 @@ TEST_CASE("A pass of a heat map replaces the one before") {
         backend->upload_field(MethodId::Reinforcement, tables);
         backend->run_pass(pass_of(room, slot));
         const FilmReading film = backend->read_film(slot);
-        CHECK(film.samples == kWidth * kHeight);
+        CHECK(film.weight == kWidth * kHeight);
         const Vec3f expected{cells * static_cast<float>(visits)};
         CHECK(std::ranges::all_of(film.mean, [&](Vec3f value) { return value == expected; }));
     }
@@ -112,12 +112,13 @@ TEST_CASE("The halves of a film are its passes of even and of odd number") {
         for (const std::uint32_t sample : passes) {
             PassRequest request = pass_of(room, slot);
             request.sample = sample;
+            request.passes = sample + 1;
             backend->run_pass(request);
         }
         return backend->read_halves(slot);
     };
     const FilmReading all = render({0, 1, 2, 3, 4});
-    CHECK(all.halves.samples == std::array<std::uint64_t, 2>{3 * kWidth * kHeight, 2 * kWidth * kHeight});
+    CHECK(all.halves.weights == std::array<std::uint64_t, 2>{3 * kWidth * kHeight, 2 * kWidth * kHeight});
     CHECK(all.halves.are_both_there());
     const FilmReading even = render({0, 2, 4});
     const FilmReading odd = render({1, 3});
@@ -144,7 +145,7 @@ TEST_CASE("A stopped pass has done a prefix of the pixels, and can be resumed") 
         const StopFlag stop{true};
         request.stop = &stop;
         CHECK(parts->run_pass(request).paths == 0);
-        CHECK(parts->read_film(slot).samples == 0);
+        CHECK(parts->read_film(slot).weight == 0);
         request.stop = nullptr;
         request.first_pixel = 1000;
         CHECK(parts->run_pass(request).paths == kWidth * kHeight - 1000);
@@ -213,7 +214,7 @@ TEST_CASE("Invalid samples are counted, not painted over") {
     CHECK(counters.invalid_samples > 0);
     CHECK(film.invalid == counters.invalid_samples);
     CHECK(marked == counters.invalid_samples);
-    CHECK(film.samples + film.invalid == film.mean.size());
+    CHECK(film.weight + film.invalid == film.mean.size());
     CHECK(counters.paths == film.mean.size());
 }
 
@@ -224,13 +225,13 @@ TEST_CASE("Films are kept apart by method and view, and emptied when reset") {
     backend->reset_film(kBeauty, kWidth, kHeight);
     backend->reset_film(normal, kWidth, kHeight);
     backend->run_pass(pass_of(room, kBeauty));
-    CHECK(backend->read_film(kBeauty).samples == kWidth * kHeight);
-    CHECK(backend->read_film(normal).samples == 0);
+    CHECK(backend->read_film(kBeauty).weight == kWidth * kHeight);
+    CHECK(backend->read_film(normal).weight == 0);
     backend->reset_film(kBeauty, 3, 2);
     const FilmReading empty = backend->read_film(kBeauty);
     CHECK(empty.width == 3);
     CHECK(empty.height == 2);
-    CHECK(empty.samples == 0);
+    CHECK(empty.weight == 0);
     REQUIRE(empty.mean.size() == 6);
     CHECK(is_black(empty.mean[5]));
 }

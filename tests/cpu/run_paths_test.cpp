@@ -56,6 +56,8 @@ Outcome loop_over_paths(const Room& room) {
     const FilmView film{view_of(pixels), kWidth, kHeight};
     const SceneView scene = room.scene->view();
     const PathSettings settings = path_settings(F.has(Feature::NextEventEstimation));
+    const BvhIntersector intersector{scene};
+    SingleRays<F, BvhIntersector> rays{scene, intersector};
     M method;
     if constexpr (GuidedMethod<M>) method.field = field_view(room.shape, *room.volumes, outcome.tables);
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
@@ -65,7 +67,7 @@ Outcome loop_over_paths(const Room& room) {
                           outcome.counters.path);
             count_path(outcome.counters, state.radiance, accumulate(film, pixel, state.radiance, sample));
             outcome.counters.path.emission_rays += refine_emission<F>(
-                {room.camera, settings, {kWidth, kHeight, sample}}, scene, BvhIntersector{scene}, film, pixel);
+                {room.camera, settings, {kWidth, kHeight, sample}, sample + 1}, scene, rays, film, pixel);
         }
         if constexpr (std::is_same_v<M, ReinforcementMethod>)
             for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)
@@ -87,7 +89,8 @@ Outcome batches(const Room& room, MethodId method, bool next_event, const CpuSet
                                                .path = path_settings(next_event),
                                                .camera = room.camera,
                                                .mixture = {},
-                                               .sample = sample});
+                                               .sample = sample,
+                                               .passes = sample + 1});
         if (method == MethodId::Reinforcement) backend->update_field(method);
     }
     outcome.film = backend->read_film(slot).mean;

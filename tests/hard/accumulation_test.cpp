@@ -19,7 +19,7 @@ public:
     explicit LongPixel(float value) : value_(value) {}
 
     void add(std::uint64_t samples) {
-        samples = std::min<std::uint64_t>(samples, kMostSamples - pixel_.samples);
+        samples = std::min<std::uint64_t>(samples, kMostWeight - pixel_.weight);
         while (samples > 0) {
             add_once();
             --samples;
@@ -34,7 +34,7 @@ public:
             if (!(fitting >= 1.0)) continue;
             const auto jump = std::min(samples, static_cast<std::uint64_t>(fitting));
             pixel_.sum += Vec3d{step * static_cast<double>(jump)};
-            pixel_.samples += static_cast<std::uint32_t>(jump);
+            pixel_.weight += static_cast<std::uint32_t>(jump);
             samples -= jump;
         }
     }
@@ -60,7 +60,7 @@ TEST_CASE("A sum in leaps has the bits of a sum in single steps", "[hard]") {
         for (int i = 0; i < 2000000; ++i) steps.add_once();
         INFO(value);
         CHECK(leaps.pixel().sum.x == steps.pixel().sum.x);
-        CHECK(leaps.pixel().samples == steps.pixel().samples);
+        CHECK(leaps.pixel().weight == steps.pixel().weight);
     }
 }
 
@@ -80,14 +80,14 @@ TEST_CASE("From a million to 1e10 samples a converged pixel changes by less than
 TEST_CASE("A pixel whose counter is full stays as it is", "[hard]") {
     FilmPixel pixel;
     const FilmView film{{&pixel, 1}, 1, 1};
-    pixel.samples = kMostSamples - 1;
-    pixel.sum = Vec3d{2.0 * static_cast<double>(pixel.samples)};
+    pixel.weight = kMostWeight - 1;
+    pixel.sum = Vec3d{2.0 * static_cast<double>(pixel.weight)};
     for (int i = 0; i < 5; ++i) accumulate(film, 0, Vec3f{2.0f}, 1);
-    CHECK(pixel.samples == kMostSamples);
+    CHECK(pixel.weight == kMostWeight);
     CHECK(mean_radiance(pixel) == Vec3f{2.0f});
-    pixel.invalid = kMostSamples;
+    pixel.invalid = kMostWeight;
     accumulate(film, 0, Vec3f{kNan}, 1);
-    CHECK(pixel.invalid == kMostSamples);
+    CHECK(pixel.invalid == kMostWeight);
 }
 
 TEST_CASE("Beside a pixel of 1e8 others keep every bit", "[hard]") {

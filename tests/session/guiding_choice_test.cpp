@@ -7,7 +7,7 @@ using namespace pl;
 
 namespace {
 
-constexpr PathCosts kCosts{.segment = 100.0, .guidance = 50.0, .lookup_miss = 1000.0};
+constexpr PathCosts kCosts{.segment = 100.0, .guidance = 50.0};
 
 /// 100 paths of two segments each, with this mean variance.
 PassCounters counters_of(double variance, bool is_guided) {
@@ -38,12 +38,9 @@ std::vector<std::uint32_t> run(GuidingChoice& choice, std::uint32_t count, Varia
 
 }  // namespace
 
-TEST_CASE("Guiding choice: the cost of a path counts segments, guidance and misses") {
+TEST_CASE("Guiding choice: the cost of a path counts segments and guidance") {
     CHECK(kCosts.of_path(counters_of(1.0, false)) == Approx(200.0));
     CHECK(kCosts.of_path(counters_of(1.0, true)) == Approx(300.0));
-    PassCounters missing = counters_of(1.0, true);
-    missing.path.method.lookup_misses = 10;
-    CHECK(kCosts.of_path(missing) == Approx(400.0));
     CHECK(kCosts.of_path({}) == 0.0);
 }
 

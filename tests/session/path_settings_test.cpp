@@ -7,10 +7,9 @@ using namespace pl;
 TEST_CASE("Path settings: guided paths play roulette late and split, others play at every loss") {
     RenderSettings settings;
     settings.max_depth = 7;
-    settings.next_event = true;
     const PathSettings plain = path_settings(settings, MethodId::Default);
     CHECK(plain.max_depth == 7);
-    CHECK(plain.next_event == 1u);
+    CHECK(plain.next_event == 0u);
     CHECK(plain.roulette_threshold == 1.0f);
     CHECK(plain.split_threshold == kInfinity);
     const PathSettings guided = path_settings(settings, MethodId::Reinforcement);
@@ -20,6 +19,31 @@ TEST_CASE("Path settings: guided paths play roulette late and split, others play
     CHECK(path_settings(settings, MethodId::Reinforcement).split_threshold == kInfinity);
     settings.roulette = RouletteRule::Field;
     CHECK(path_settings(settings, MethodId::Reinforcement).roulette_threshold < 1.0f);
+}
+
+TEST_CASE("Path settings: with light samples only the rule that follows the field alone splits") {
+    RenderSettings settings;
+    settings.next_event = true;
+    CHECK(path_settings(settings, MethodId::Reinforcement).next_event == 1u);
+    CHECK(path_settings(settings, MethodId::Reinforcement).split_threshold == kInfinity);
+    settings.roulette = RouletteRule::Field;
+    CHECK(path_settings(settings, MethodId::Reinforcement).split_threshold == 2.0f);
+}
+
+TEST_CASE("Path settings: the first passes of a field split no paths") {
+    const PathSettings path = path_settings({}, MethodId::Reinforcement);
+    REQUIRE(path.split_threshold == 2.0f);
+    for (const std::uint64_t pass : {0u, 3u}) CHECK(at_pass(path, pass).split_threshold == kInfinity);
+    for (const std::uint64_t pass : {4u, 100u}) CHECK(at_pass(path, pass).split_threshold == 2.0f);
+    CHECK(at_pass(path, 0).roulette_threshold == path.roulette_threshold);
+}
+
+TEST_CASE("Path settings: only passes of methods that learn while they render have weights that grow") {
+    CHECK(pass_weights({}, MethodId::Default).ramp == 1u);
+    CHECK(pass_weights({}, MethodId::Precomputed).ramp == 1u);
+    const PassWeights weights = pass_weights({}, MethodId::Reinforcement);
+    CHECK(weights.of(0) == 1u);
+    CHECK(weights.of(weights.ramp) > 1u);
 }
 
 TEST_CASE("Path settings: guided paths play roulette earlier with light samples") {

@@ -103,7 +103,7 @@ public:
     /// All samples are equal, so the halves are equal, too.
     FilmReading read_halves(FilmSlot slot) const override {
         FilmReading reading = read_film(slot);
-        reading.halves = {.mean = {reading.mean, reading.mean}, .samples = {1, 1}};
+        reading.halves = {.mean = {reading.mean, reading.mean}, .weights = {1, 1}};
         return reading;
     }
 

@@ -3,6 +3,7 @@
 
 #include "core/kernel/base/math.h"
 #include "core/kernel/base/span.h"
+#include "core/kernel/film/pass_weights.h"
 
 namespace pl {
 
@@ -35,10 +36,10 @@ struct EmissionSeen {
 
 /// One cache line: a sample touches no other.
 struct alignas(64) FilmPixel {
-    Vec3d sum{0.0};             ///< of all valid samples: linear sRGB radiance
-    Vec3d second_sum{0.0};      ///< of the valid samples of the second half
-    std::uint32_t samples = 0;  ///< number of valid samples
-    std::uint32_t second_samples = 0;
+    Vec3d sum{0.0};            ///< weighted, of all valid samples: linear sRGB radiance
+    Vec3d second_sum{0.0};     ///< of the valid samples of the second half
+    std::uint32_t weight = 0;  ///< sum of the weights of valid samples
+    std::uint32_t second_weight = 0;
     std::uint32_t invalid = 0;  ///< number of dropped samples: NaN, infinite or negative
     EmissionSeen emission;      ///< by the camera, see camera_emission.h
 };
@@ -47,26 +48,33 @@ struct FilmView {
     Span<FilmPixel> pixels;  ///< [row][column], row 0 at the top
     std::uint32_t width = 0;
     std::uint32_t height = 0;
+    PassWeights weights{};
 };
 
-/// Counters saturate here; the mean has long converged to float precision.
-inline constexpr std::uint32_t kMostSamples = 0xffffffffu;
+/// Weights and counts saturate here; the mean has long converged to float precision.
+inline constexpr std::uint32_t kMostWeight = 0xffffffffu;
+
+/// Whether a pixel takes no further sample of this weight.
+PL_HD inline bool is_full(const FilmPixel& pixel, std::uint32_t weight) {
+    return pixel.weight > kMostWeight - weight;
+}
 
 /// Adds the sample of a pass; a pixel must have one writer at a time. Returns false if the sample is invalid. Samples
-/// beyond kMostSamples are ignored.
+/// beyond kMostWeight are ignored.
 PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass) {
     FilmPixel& p = film.pixels[pixel];
     if (!is_valid_radiance(radiance)) {
-        p.invalid += p.invalid < kMostSamples ? 1u : 0u;
+        p.invalid += p.invalid < kMostWeight ? 1u : 0u;
         return false;
     }
-    if (p.samples == kMostSamples) return true;
-    const Vec3d value{radiance};
+    const std::uint32_t weight = film.weights.of(pass);
+    if (is_full(p, weight)) return true;
+    const Vec3d value = static_cast<double>(weight) * Vec3d{radiance};
     p.sum += value;
-    ++p.samples;
+    p.weight += weight;
     if (in_second_half(pass)) {
         p.second_sum += value;
-        ++p.second_samples;
+        p.second_weight += weight;
     }
     return true;
 }
@@ -74,9 +82,11 @@ PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f ra
 /// Adds a correction of the sample of a pass that is in the film: the sample itself is not counted again.
 PL_HD inline void correct_sample(const FilmView& film, std::uint32_t pixel, Vec3f correction, std::uint32_t pass) {
     FilmPixel& p = film.pixels[pixel];
-    if (p.samples == kMostSamples) return;
-    p.sum += Vec3d{correction};
-    if (in_second_half(pass)) p.second_sum += Vec3d{correction};
+    const std::uint32_t weight = film.weights.of(pass);
+    if (is_full(p, weight)) return;
+    const Vec3d value = static_cast<double>(weight) * Vec3d{correction};
+    p.sum += value;
+    if (in_second_half(pass)) p.second_sum += value;
 }
 
 /// Replaces the contents of a pixel by one sample. Returns false if the sample is invalid.
@@ -87,22 +97,22 @@ PL_HD inline bool replace_sample(const FilmView& film, std::uint32_t pixel, Vec3
 
 /// Mean radiance of a pixel; 0 before the first sample.
 PL_HD inline Vec3f mean_radiance(const FilmPixel& pixel) {
-    if (pixel.samples == 0) return Vec3f{0.0f};
-    return Vec3f{pixel.sum * (1.0 / static_cast<double>(pixel.samples))};
+    if (pixel.weight == 0) return Vec3f{0.0f};
+    return Vec3f{pixel.sum * (1.0 / static_cast<double>(pixel.weight))};
 }
 
 /// Mean radiance, but NaN if all samples were invalid, so that the display marks the pixel.
 PL_HD inline Vec3f mean_or_nan(const FilmPixel& pixel) {
-    const bool all_invalid = pixel.samples == 0 && pixel.invalid > 0;
+    const bool all_invalid = pixel.weight == 0 && pixel.invalid > 0;
     return all_invalid ? Vec3f{kNan} : mean_radiance(pixel);
 }
 
 /// Mean of one half of a pixel's samples; NaN if it has none.
 PL_HD inline Vec3f half_mean(const FilmPixel& pixel, bool second) {
-    const std::uint32_t samples = second ? pixel.second_samples : pixel.samples - pixel.second_samples;
-    if (samples == 0) return Vec3f{kNan};
+    const std::uint32_t weight = second ? pixel.second_weight : pixel.weight - pixel.second_weight;
+    if (weight == 0) return Vec3f{kNan};
     const Vec3d sum = second ? pixel.second_sum : pixel.sum - pixel.second_sum;
-    return Vec3f{sum * (1.0 / static_cast<double>(samples))};
+    return Vec3f{sum * (1.0 / static_cast<double>(weight))};
 }
 
 }  // namespace pl

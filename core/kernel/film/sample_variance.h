@@ -47,8 +47,8 @@ struct PixelSubset {
     PL_HD std::uint32_t number(std::uint32_t pixel) const { return pixel / step; }
 };
 
-/// Fewest earlier samples of a pixel that is measured: their mean is a part of the estimator, and until then lamps are looked
-/// for.
+/// Fewest earlier passes of a film whose pixels are measured: their mean is a part of the estimator, and until then lamps are
+/// looked for.
 inline constexpr std::uint32_t kFewestBeforeVariance = 3;
 
 /// Measures the variance of a sample that is about to come to a pixel. With the mean m of earlier samples, L (L - m) is an
@@ -57,9 +57,8 @@ inline constexpr std::uint32_t kFewestBeforeVariance = 3;
 /// emission, which no sampling of directions changes, see camera_emission.h.
 PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, VarianceSums& sums) {
     const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;
-    const bool has_both_halves = pixel.second_samples > 0 && pixel.samples > pixel.second_samples;
-    if (pixel.samples < kFewestBeforeVariance || !has_both_halves || sees_lamp || !is_valid_radiance(radiance))
-        return;
+    const bool has_both_halves = pixel.second_weight > 0 && pixel.weight > pixel.second_weight;
+    if (!has_both_halves || sees_lamp || !is_valid_radiance(radiance)) return;
     const float value = luminance(radiance);
     const float mean = luminance(half_mean(pixel, true));
     const float other_mean = luminance(half_mean(pixel, false));

@@ -10,56 +10,80 @@ namespace pl {
 
 /// Sets of features that the kernels of camera emission are compiled for.
 inline constexpr KernelRange kEmissionRange = KernelRange::Sparse;
-/// Further camera rays of a sample in a pixel whose emission varies.
-inline constexpr std::uint32_t kEmissionRays = 16;
+/// Further camera rays of a sample in a pixel whose emission varies: with its own one they fill vectors of 16.
+inline constexpr std::uint32_t kEmissionRays = 63;
+/// Camera rays that decide whether the emission of a pixel varies.
+inline constexpr std::uint32_t kBorderRays = 16;
 
 /// The parameters common to all pixels of a pass.
 struct EmissionContext {
     Camera camera;
     PathSettings settings;
     PixelGrid grid;
+    std::uint32_t passes = 0;  ///< of the film, this one included
+};
+
+/// Finds the first solid surfaces along rays one by one. Drivers may offer the same for many at once.
+template <FeatureSet F, Intersector I>
+struct SingleRays {
+    const SceneView& scene;
+    const I& intersector;
+
+    /// Calls use(i, ray, hit) with the rays ray_of(i) for i from 0 to count - 1; count is at most kEmissionRays + 1.
+    template <class RayOf, class Use>
+    PL_HD void trace(std::uint32_t count, const RayOf& ray_of, const Use& use) const {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Ray ray = ray_of(i);
+            use(i, ray, closest_solid_hit<F>(scene, intersector, ray));
+        }
+    }
 };
 
 /// Radiance emitted by the first surface along a ray; 0 on a miss: the environment is no surface.
-template <FeatureSet F, Intersector I>
-PL_HD inline Vec3f first_emission(const SceneView& scene, const I& intersector, const Ray& ray) {
-    const Hit hit = closest_solid_hit<F>(scene, intersector, ray);
+template <FeatureSet F>
+PL_HD inline Vec3f first_emission(const SceneView& scene, const Ray& ray, const Hit& hit) {
     if (!hit.found()) return Vec3f{0.0f};
     const SurfacePoint surface = make_surface_point<F>(scene, hit, -ray.direction);
     return emitted_at<F>(scene, surface, hit_weights(hit));
 }
 
-/// Mean emission of kEmissionRays camera rays of a pixel for one sample. The rays of all samples of a half of the film continue one
-/// low-discrepancy sequence, which has a random start of its own.
-template <FeatureSet F, Intersector I>
-PL_HD inline Vec3f mean_emission(const EmissionContext& context, const SceneView& scene, const I& intersector,
-                                 std::uint32_t pixel, std::uint32_t sample) {
-    const Vec4f start = path_rng(context.settings, pixel, sequence_of(sample)).draw(0, Purpose::Emission);
-    Vec3f sum{0.0f};
-    for (std::uint32_t i = 0; i < kEmissionRays; ++i) {
-        const Vec4f u = sequence_point(start, sample / 2 * kEmissionRays + i);
-        sum += first_emission<F>(scene, intersector, camera_ray<F>(context.camera, context.grid, pixel, u));
-    }
-    return sum * (1.0f / kEmissionRays);
-}
-
-/// Replaces the first emission E_0 of the path of one sample in the film: L = mean(E) + (path - E_0).
-template <FeatureSet F, Intersector I>
-PL_HD inline void replace_emission(const EmissionContext& context, const SceneView& scene, const I& intersector,
+/// Replaces the first emission E_0 of the path of one sample in the film by the mean of kEmissionRays camera rays of its pixel:
+/// L = mean(E) + (path - E_0). The rays of all samples of a half of the film continue one low-discrepancy sequence, which has a
+/// random start of its own.
+template <FeatureSet F, class Rays>
+PL_HD inline void replace_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
                                    const FilmView& film, std::uint32_t pixel, std::uint32_t sample) {
-    const Vec4f start = pixel_start(context.settings, pixel, sample);
-    const Ray own = camera_ray<F>(context.camera, context.grid, pixel, pixel_sample(start, sample));
-    const Vec3f mean = mean_emission<F>(context, scene, intersector, pixel, sample);
-    correct_sample(film, pixel, mean - first_emission<F>(scene, intersector, own), sample);
+    const Vec4f start = path_rng(context.settings, pixel, sequence_of(sample)).draw(0, Purpose::Emission);
+    const Vec4f own_start = pixel_start(context.settings, pixel, sample);
+    Vec3f sum{0.0f};
+    Vec3f own{0.0f};
+    rays.trace(
+        kEmissionRays + 1,
+        [&](std::uint32_t i) {
+            const Vec4f u = i < kEmissionRays ? sequence_point(start, sample / 2 * kEmissionRays + i)
+                                              : pixel_sample(own_start, sample);
+            return camera_ray<F>(context.camera, context.grid, pixel, u);
+        },
+        [&](std::uint32_t i, const Ray& ray, const Hit& hit) {
+            const Vec3f emission = first_emission<F>(scene, ray, hit);
+            (i < kEmissionRays ? sum : own) += emission;
+        });
+    correct_sample(film, pixel, sum * (1.0f / kEmissionRays) - own, sample);
 }
 
-/// Emission towards the camera along one ray of a pixel that is independent of those of its samples. `number` from 1 on.
-template <FeatureSet F, Intersector I>
-PL_HD inline EmissionSeen probe_emission(const EmissionContext& context, const SceneView& scene, const I& intersector,
-                                         std::uint32_t pixel, std::uint32_t number) {
-    const Vec4f u = path_rng(context.settings, pixel, context.grid.sample).draw(number, Purpose::Emission);
-    const Ray ray = camera_ray<F>(context.camera, context.grid, pixel, u);
-    return EmissionSeen::of(luminance(first_emission<F>(scene, intersector, ray)));
+/// Corners of a pixel; every straight border that crosses it parts them.
+inline constexpr std::uint32_t kCorners = 4;
+
+/// A camera ray of a pixel that tells of its emission: through a corner for the first kCorners numbers, else through a point that is
+/// independent of those of its samples.
+template <FeatureSet F>
+PL_HD inline Ray probing_ray(const EmissionContext& context, std::uint32_t pixel, std::uint32_t number) {
+    Vec4f u = path_rng(context.settings, pixel, context.grid.sample).draw(number + 1, Purpose::Emission);
+    if (number < kCorners) {
+        u.x = static_cast<float>(number & 1u);
+        u.y = static_cast<float>(number >> 1);
+    }
+    return camera_ray<F>(context.camera, context.grid, pixel, u);
 }
 
 /// Whether one of the eight neighbors of a pixel has seen another emission.
@@ -73,46 +97,63 @@ PL_HD inline bool differs_from_neighbors(const FilmView& film, std::uint32_t pix
     return false;
 }
 
+/// Notes the emission along one ray of a pixel.
+template <FeatureSet F, class Rays>
+PL_HD inline void note_emission(const EmissionContext& context, const SceneView& scene, Rays& rays, FilmPixel& p,
+                                std::uint32_t pixel) {
+    rays.trace(
+        1, [&](std::uint32_t) { return probing_ray<F>(context, pixel, kCorners); },
+        [&](std::uint32_t, const Ray& ray, const Hit& hit) {
+            const EmissionSeen now = EmissionSeen::of(luminance(first_emission<F>(scene, ray, hit)));
+            p.emission.varies = p.emission.differs_from(now) ? 1 : 0;
+            p.emission.value = now.value;
+        });
+}
+
+/// Decides by further rays whether the emission of a pixel varies.
+template <FeatureSet F, class Rays>
+PL_HD inline void decide_border(const EmissionContext& context, const SceneView& scene, Rays& rays, FilmPixel& p,
+                                std::uint32_t pixel) {
+    p.emission.at_border = 1;
+    rays.trace(
+        kBorderRays, [&](std::uint32_t i) { return probing_ray<F>(context, pixel, i); },
+        [&](std::uint32_t, const Ray& ray, const Hit& hit) {
+            const EmissionSeen now = EmissionSeen::of(luminance(first_emission<F>(scene, ray, hit)));
+            if (p.emission.differs_from(now)) p.emission.varies = 1;
+        });
+}
+
 /// Looks for emission that varies within a pixel. In the passes 2, 4, 8, ... one ray notes a value; in the next ones, 3, 5, 9, ...,
 /// further rays decide about pixels whose neighbors have seen another value. Returns the number of rays.
-template <FeatureSet F, Intersector I>
-PL_HD inline std::uint32_t look_for_emission(const EmissionContext& context, const SceneView& scene,
-                                             const I& intersector, const FilmView& film, std::uint32_t pixel) {
-    FilmPixel& p = film.pixels[pixel];
-    const std::uint32_t count = p.samples + p.invalid;
+template <FeatureSet F, class Rays>
+PL_HD inline std::uint32_t look_for_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
+                                             const FilmView& film, std::uint32_t pixel) {
     const auto is_power_of_two = [](std::uint32_t n) { return n >= 2 && (n & (n - 1)) == 0; };
-    if (is_power_of_two(count)) {
-        const EmissionSeen now = probe_emission<F>(context, scene, intersector, pixel, 1);
-        p.emission.varies = p.emission.differs_from(now) ? 1 : 0;
-        p.emission.value = now.value;
+    if (is_power_of_two(context.passes)) {
+        note_emission<F>(context, scene, rays, film.pixels[pixel], pixel);
         return 1;
     }
-    if (!is_power_of_two(count - 1) || !differs_from_neighbors(film, pixel)) return 0;
-    p.emission.at_border = 1;
-    for (std::uint32_t i = 1; i <= kEmissionRays; ++i) {
-        const EmissionSeen now = probe_emission<F>(context, scene, intersector, pixel, i);
-        if (p.emission.differs_from(now)) p.emission.varies = 1;
-    }
-    return kEmissionRays;
+    if (!is_power_of_two(context.passes - 1) || !differs_from_neighbors(film, pixel)) return 0;
+    decide_border<F>(context, scene, rays, film.pixels[pixel], pixel);
+    return kBorderRays;
 }
 
 /// Refines the sample that a pass has added to a pixel, if the emission that the camera sees there varies; once it is found to vary,
 /// those of the passes before, too, which have the numbers before that of this one. Unbiased, because the rays that look for
-/// such pixels have random numbers of their own. Returns the number of rays traced.
-template <FeatureSet F, Intersector I>
-PL_HD inline std::uint32_t refine_emission(const EmissionContext& context, const SceneView& scene,
-                                           const I& intersector, const FilmView& film, std::uint32_t pixel) {
+/// such pixels are independent of the samples. Returns the number of rays traced.
+template <FeatureSet F, class Rays>
+PL_HD inline std::uint32_t refine_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
+                                           const FilmView& film, std::uint32_t pixel) {
     const FilmPixel& p = film.pixels[pixel];
     const std::uint32_t last = context.grid.sample;
     std::uint32_t refined = p.emission.varies;
-    std::uint32_t rays = 0;
+    std::uint32_t traced = 0;
     if (refined == 0) {
-        rays = look_for_emission<F>(context, scene, intersector, film, pixel);
-        if (p.emission.varies != 0) refined = min_of(p.samples + p.invalid, last + 1);
+        traced = look_for_emission<F>(context, scene, rays, film, pixel);
+        if (p.emission.varies != 0) refined = min_of(context.passes, last + 1);
     }
-    for (std::uint32_t i = 0; i < refined; ++i)
-        replace_emission<F>(context, scene, intersector, film, pixel, last - i);
-    return rays + refined * (kEmissionRays + 1);
+    for (std::uint32_t i = 0; i < refined; ++i) replace_emission<F>(context, scene, rays, film, pixel, last - i);
+    return traced + refined * (kEmissionRays + 1);
 }
 
 }  // namespace pl

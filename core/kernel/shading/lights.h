@@ -3,6 +3,7 @@
 
 #include "core/kernel/base/warp.h"
 #include "core/kernel/shading/bsdf.h"
+#include "core/kernel/shading/near_light.h"
 
 namespace pl {
 
@@ -19,6 +20,15 @@ PL_HD inline float per_steradian(float pdf_area, Vec3f from, const SurfacePoint&
     const Vec3f segment = on_light.position - from;
     if (cos_light == 0.0f) return 0.0f;
     return pdf_area * glm::dot(segment, segment) / cos_light;
+}
+
+/// Density per steradian at `from` of the samples on one light for the direction `wi` that hits it at `on_light`. `pdf_area` is
+/// the density per unit area of uniform samples on it, times the probability of the light.
+PL_HD inline float on_light_pdf_sa(const SceneView& scene, float pdf_area, Vec3f from, const SurfacePoint& on_light,
+                                   Vec3f wi) {
+    const SeenTriangle seen = see_triangle(scene, on_light.primitive, from);
+    const float solid_angle = near_solid_angle(seen);
+    return solid_angle > 0.0f ? pdf_area * seen.area / solid_angle : per_steradian(pdf_area, from, on_light, wi);
 }
 
 /// Samples a light by power; u in [0,1). Returns its index.
@@ -41,16 +51,24 @@ PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const Surfac
             const std::uint32_t light = light_of(scene, on_light.primitive);
             if (light >= scene.lights.count || scene.lights[light].primitive != on_light.primitive) return 0.0f;
             const float probability = light_probability(scene.light_tree, light, from);
-            return per_steradian(probability * scene.light_tree.of_light[light].pdf_area, from, on_light, wi);
+            return on_light_pdf_sa(scene, probability * scene.light_tree.of_light[light].pdf_area, from, on_light,
+                                   wi);
         }
     }
-    return per_steradian(light_pdf_area(scene, scene.materials[on_light.material]), from, on_light, wi);
+    return on_light_pdf_sa(scene, light_pdf_area(scene, scene.materials[on_light.material]), from, on_light, wi);
 }
 
-/// A sampled point on a light and its density per unit area.
+/// A sampled point on a light.
 struct LightPoint {
     SurfacePoint surface;
-    float pdf_area = 0.0f;
+    Vec3f weights{0.0f};              ///< barycentric
+    float area_per_steradian = 0.0f;  ///< of a light that is sampled by solid angle, else 0
+    float pdf_area = 0.0f;  ///< of uniform samples on the light: per unit area, times the probability of the light
+
+    /// Density per steradian at `from` in the direction `wi` of the point.
+    PL_HD float pdf_sa(Vec3f from, Vec3f wi) const {
+        return area_per_steradian > 0.0f ? pdf_area * area_per_steradian : per_steradian(pdf_area, from, surface, wi);
+    }
 };
 
 /// Barycentric weights of a uniform point of a triangle; u in [0,1)^2.
@@ -59,14 +77,28 @@ PL_HD inline Vec3f sample_weights(Vec2f u) {
     return {1.0f - b.x - b.y, b.x, b.y};
 }
 
-/// A uniform point on a light as seen from `from`; u in [0,1)^2.
-PL_HD inline SurfacePoint sample_on_light(const SceneView& scene, std::uint32_t light, Vec3f from, Vec2f u) {
-    SurfacePoint point =
-        make_surface_point<FeatureSet{}>(scene, scene.lights[light].primitive, sample_weights(u), Vec3f{0.0f});
+/// The point of an emissive triangle at these barycentric weights, as seen from `from`.
+PL_HD inline SurfacePoint light_surface(const SceneView& scene, std::uint32_t primitive, Vec3f weights, Vec3f from) {
+    SurfacePoint point = make_surface_point<FeatureSet{}>(scene, primitive, weights, Vec3f{0.0f});
     if (glm::dot(point.geometric_normal, from - point.position) < 0.0f) {
         point.geometric_normal = -point.geometric_normal;
         point.front = false;
     }
+    return point;
+}
+
+/// A point on a light as seen from `from`: uniform in solid angle if the light is near, else over its area; u in [0,1)^2. Its
+/// pdf_area is left to the caller.
+PL_HD inline LightPoint sample_on_light(const SceneView& scene, std::uint32_t light, Vec3f from, Vec2f u) {
+    const std::uint32_t primitive = scene.lights[light].primitive;
+    const SeenTriangle seen = see_triangle(scene, primitive, from);
+    const float solid_angle = near_solid_angle(seen);
+    LightPoint point{.surface = {}, .weights = sample_weights(u)};
+    if (solid_angle > 0.0f) {
+        point.weights = weights_towards(seen, square_to_spherical_triangle(seen.directions(), solid_angle, u));
+        point.area_per_steradian = seen.area / solid_angle;
+    }
+    point.surface = light_surface(scene, primitive, point.weights, from);
     return point;
 }
 
@@ -76,12 +108,14 @@ PL_HD inline LightPoint sample_light(const SceneView& scene, Vec3f from, Vec3f u
     if constexpr (F.has(Feature::ManyLights)) {
         if (!scene.light_tree.empty()) {
             const ChosenLight chosen = choose_light(scene.light_tree, from, u.x);
-            return {sample_on_light(scene, chosen.light, from, {u.y, u.z}),
-                    chosen.probability * scene.light_tree.of_light[chosen.light].pdf_area};
+            LightPoint point = sample_on_light(scene, chosen.light, from, {u.y, u.z});
+            point.pdf_area = chosen.probability * scene.light_tree.of_light[chosen.light].pdf_area;
+            return point;
         }
     }
-    const SurfacePoint point = sample_on_light(scene, choose_light(scene, u.x), from, {u.y, u.z});
-    return {point, light_pdf_area(scene, scene.materials[point.material])};
+    LightPoint point = sample_on_light(scene, choose_light(scene, u.x), from, {u.y, u.z});
+    point.pdf_area = light_pdf_area(scene, scene.materials[point.surface.material]);
+    return point;
 }
 
 /// A light sample at a surface point (next-event estimation), without visibility.
@@ -130,9 +164,8 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
     if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};
     sample.wi = segment * (1.0f / std::sqrt(distance2));
     sample.cos_i = bsdf.cosine(surface, sample.wi);
-    sample.emitted = light_emitted<F>(scene, sample.light, sample_weights({u.y, u.z}));
-    if (sample.cos_i > 0.0f && !is_black(sample.emitted))
-        sample.pdf_sa = per_steradian(chosen.pdf_area, surface.position, sample.light, sample.wi);
+    sample.emitted = light_emitted<F>(scene, sample.light, chosen.weights);
+    if (sample.cos_i > 0.0f && !is_black(sample.emitted)) sample.pdf_sa = chosen.pdf_sa(surface.position, sample.wi);
     return sample;
 }
 

@@ -39,7 +39,7 @@ inline bool same_film(const State& a, const State& b) {
     const FilmHalves& x = a.snapshot.halves;
     const FilmHalves& y = b.snapshot.halves;
     return a.snapshot.passes == b.snapshot.passes && same_bits(a.snapshot.pixels, b.snapshot.pixels) &&
-           x.samples == y.samples && same_bits(x.mean[0], y.mean[0]) && same_bits(x.mean[1], y.mean[1]);
+           x.weights == y.weights && same_bits(x.mean[0], y.mean[0]) && same_bits(x.mean[1], y.mean[1]);
 }
 inline bool same_state(const State& a, const State& b) {
     return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) && same_bits(a.tables, b.tables);

@@ -61,7 +61,8 @@ inline double summed_irradiance(const SceneView& scene, const SurfacePoint& surf
         for (int i = 0; i < kSide * kSide; ++i) {
             const Vec2f u = (Vec2f{static_cast<float>(i % kSide), static_cast<float>(i / kSide)} + 0.5f) *
                             (1.0f / static_cast<float>(kSide));
-            const SurfacePoint point = sample_on_light(scene, light, surface.position, u);
+            const SurfacePoint point =
+                light_surface(scene, scene.lights[light].primitive, sample_weights(u), surface.position);
             const Vec3f segment = point.position - surface.position;
             const float distance2 = glm::dot(segment, segment);
             const Vec3f wi = segment / std::sqrt(distance2);

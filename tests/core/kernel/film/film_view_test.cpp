@@ -1,6 +1,7 @@
 // Accumulation and display: invalid samples are counted and dropped, sums keep their digits, tone curves take every number.
 #include "core/kernel/film/film_view.h"
 
+#include <array>
 #include <vector>
 
 #include "core/kernel/film/tonemap.h"
@@ -41,7 +42,7 @@ TEST_CASE("Invalid samples are counted and dropped") {
         }
     CHECK(accumulate(film.view(), 0, {-0.0f, kSubnormal, 3e38f}, 1));
     const FilmPixel& pixel = film.pixels[0];
-    CHECK(pixel.samples == 2);
+    CHECK(pixel.weight == 2);
     CHECK(pixel.invalid == 15);
     CHECK(pixel.sum.x == 1.0);
     CHECK(pixel.sum.y == 2.0 + static_cast<double>(kSubnormal));
@@ -53,14 +54,14 @@ TEST_CASE("A replacing sample removes the earlier ones") {
     accumulate(film.view(), 1, {1, 2, 4}, 1);
     accumulate(film.view(), 1, Vec3f{kNan}, 1);
     CHECK(replace_sample(film.view(), 1, Vec3f{3.0f}, 0));
-    CHECK(film.pixels[1].samples == 1);
+    CHECK(film.pixels[1].weight == 1);
     CHECK(film.pixels[1].invalid == 0);
     CHECK(mean_radiance(film.pixels[1]) == Vec3f{3.0f});
-    CHECK(film.pixels[1].second_samples == 0);
+    CHECK(film.pixels[1].second_weight == 0);
     CHECK(is_black(Vec3f{film.pixels[1].second_sum}));
     CHECK_FALSE(replace_sample(film.view(), 1, Vec3f{kInfinity}, 0));
-    CHECK(film.pixels[1].samples == 0);
-    CHECK(film.pixels[0].samples == 0);
+    CHECK(film.pixels[1].weight == 0);
+    CHECK(film.pixels[0].weight == 0);
 }
 
 TEST_CASE("A pixel without samples is black") {
@@ -77,7 +78,7 @@ TEST_CASE("Ten million samples lose nothing") {
     for (int i = 0; i < kSamples; ++i)
         accumulate(film.view(), 0, {0.1f, 1.0f, i == 0 ? 1e6f : 1e-3f}, static_cast<std::uint32_t>(i));
     const FilmPixel& pixel = film.pixels[0];
-    CHECK(pixel.samples == kSamples);
+    CHECK(pixel.weight == kSamples);
     CHECK(mean_radiance(pixel).x == 0.1f);
     CHECK(mean_radiance(pixel).y == 1.0f);
     const double expected = (1e6 + (kSamples - 1) * static_cast<double>(1e-3f)) / kSamples;
@@ -102,9 +103,34 @@ TEST_CASE("The number of a pass decides the half, and both halves make the whole
     CHECK(half_mean(pixel, false) == Vec3f{8.0f});
     CHECK(half_mean(pixel, true) == Vec3f{2.0f});
     CHECK(mean_radiance(pixel) == Vec3f{4.0f});
-    CHECK(pixel.samples == 3);
-    CHECK(pixel.second_samples == 2);
+    CHECK(pixel.weight == 3);
+    CHECK(pixel.second_weight == 2);
     CHECK(pixel.invalid == 1);
+}
+
+TEST_CASE("Pass weights grow to the end of their ramp") {
+    const PassWeights weights{.ramp = 4};
+    for (const std::uint32_t pass : {0u, 1u, 2u, 3u}) CHECK(weights.of(pass) == pass + 1);
+    for (const std::uint32_t pass : {4u, 5u, 0xffffffffu}) CHECK(weights.of(pass) == 4u);
+    for (const std::uint32_t pass : {0u, 1u, 0xffffffffu}) CHECK(PassWeights{}.of(pass) == 1u);
+}
+
+TEST_CASE("The mean of a pixel, those of its halves and corrections take the weights of their passes") {
+    Film film(1);
+    FilmView view = film.view();
+    view.weights = {.ramp = 3};
+    const std::array<float, 4> values{12.0f, 6.0f, 4.0f, 5.0f};  // with the weights 1, 2, 3 and 3
+    for (std::uint32_t pass = 0; pass < values.size(); ++pass) accumulate(view, 0, Vec3f{values[pass]}, pass);
+    accumulate(view, 0, Vec3f{kNan}, 4);
+    const FilmPixel& pixel = film.pixels[0];
+    CHECK(pixel.weight == 9);
+    CHECK(pixel.second_weight == 5);
+    CHECK(mean_radiance(pixel) == Vec3f{static_cast<float>(51.0 * (1.0 / 9.0))});
+    CHECK(half_mean(pixel, false) == Vec3f{6.0f});
+    CHECK(half_mean(pixel, true) == Vec3f{static_cast<float>(27.0 * (1.0 / 5.0))});
+    correct_sample(view, 0, Vec3f{-2.0f}, 1);
+    CHECK(half_mean(pixel, false) == Vec3f{6.0f});
+    CHECK(half_mean(pixel, true) == Vec3f{static_cast<float>(23.0 * (1.0 / 5.0))});
 }
 
 TEST_CASE("Display bytes of extreme numbers") {

@@ -76,7 +76,7 @@ TEST_CASE("Frame: ranges end at finite, positive means only") {
     CHECK(range_value(pixel) == 0.0f);
     pixel.invalid = 1;
     CHECK(range_value(pixel) == 0.0f);  // NaN
-    pixel.samples = 2;
+    pixel.weight = 2;
     pixel.sum = Vec3d{6.0, 100.0, 100.0};
     CHECK(range_value(pixel) == 3.0f);
     pixel.sum = Vec3d{1.0e300};

@@ -46,24 +46,26 @@ TEST_CASE("Sample variance: trials leave the film as it is, measured samples com
     for (std::uint32_t pass = 0; pass < 3; ++pass) accumulate(film, 0, Vec3f{1.0f}, pass);
     VarianceSums sums;
     CHECK(use_sample(film, 0, Vec3f{3.0f}, 3, SampleUse::Trial, sums));
-    CHECK(pixels[0].samples == 3);
+    CHECK(pixels[0].weight == 3);
     CHECK(pixels[0].sum.x == 3.0);
     CHECK_FALSE(use_sample(film, 0, Vec3f{kNan}, 3, SampleUse::Trial, sums));
     CHECK(pixels[0].invalid == 0);
     CHECK(sums.mean() == Approx(3.0 * 2.0 / 2.0));
     CHECK(use_sample(film, 0, Vec3f{3.0f}, 3, SampleUse::Measured, sums));
-    CHECK(pixels[0].samples == 4);
+    CHECK(pixels[0].weight == 4);
     CHECK(sums.samples == 2);
     CHECK(use_sample(film, 0, Vec3f{3.0f}, 4, SampleUse::Film, sums));
     CHECK(sums.samples == 2);
 }
 
-TEST_CASE("Sample variance: too few earlier samples, lamps and invalid samples are not measured") {
+TEST_CASE("Sample variance: pixels with samples in one half alone, lamps and invalid samples are not measured") {
     std::vector<FilmPixel> pixels(1);
     const FilmView film = view_of_film(pixels);
     VarianceSums sums;
-    for (std::uint32_t pass = 0; pass < kFewestBeforeVariance; ++pass)
-        use_sample(film, 0, Vec3f{1.0f}, pass, SampleUse::Measured, sums);
+    for (const std::uint32_t pass : {0u, 2u}) use_sample(film, 0, Vec3f{1.0f}, pass, SampleUse::Measured, sums);
+    measure_variance(pixels[0], Vec3f{2.0f}, sums);
+    CHECK(sums.samples == 0);
+    accumulate(film, 0, Vec3f{1.0f}, 1);
     measure_variance(pixels[0], Vec3f{kInfinity}, sums);
     pixels[0].emission = EmissionSeen::of(5.0f);
     measure_variance(pixels[0], Vec3f{2.0f}, sums);

@@ -1,0 +1,39 @@
+// Search trees by normal. On curved surfaces most volumes near a point have normals that do not agree with its own, and a search
+// among all visits them in vain.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "core/kernel/guiding/volume_lookup.h"
+
+namespace pl {
+
+/// For each cell of a cube map of normals a tree of the volumes that can agree with one of its normals, built when it is first
+/// asked for. For several threads at once.
+class NormalTrees {
+public:
+    /// The nodes must stay alive.
+    explicit NormalTrees(Span<const KdNode> nodes);
+
+    /// A tree of all nodes whose normals agree with this unit normal, and of some others. Stays alive and the same.
+    KdTreeView tree_for(Vec3f normal);
+    /// The node of a volume among those of the constructor.
+    std::uint32_t node_of(std::uint32_t volume) const { return node_of_volume_[volume]; }
+
+private:
+    static constexpr int kSide = 6;  ///< cells along the edge of a face
+
+    struct Tree {
+        std::once_flag is_built;
+        std::vector<KdNode> nodes;
+    };
+
+    Span<const KdNode> nodes_;
+    std::vector<std::uint32_t> node_of_volume_;
+    std::array<Tree, 6 * kSide * kSide> trees_;  ///< [face][row][column]
+};
+
+}  // namespace pl
