@@ -10,10 +10,8 @@ struct SineCosine {
     float sine, cosine;
 };
 
-/// Sine and cosine of an angle in turns, |turns| <= 1e6. Absolute error below 1e-6 for |turns| < 1.
-PL_HD inline SineCosine sine_cosine_of_turns(float turns) {
-    const float quarters = 4.0f * turns;
-    const float nearest = std::floor(quarters + 0.5f);
+/// Sine and cosine of an angle in quarters of a turn, of which `nearest` is the nearest whole number.
+PL_HD inline SineCosine sine_cosine_of_quarters(float quarters, float nearest) {
     const float x = (quarters - nearest) * (2.0f * kPiOver4);
     const float sine = sin_quarter<One>(x);
     const float cosine = cos_quarter<One>(x);
@@ -23,6 +21,16 @@ PL_HD inline SineCosine sine_cosine_of_turns(float turns) {
     case 2: return {-sine, -cosine};
     default: return {-cosine, sine};
     }
+}
+
+/// Sine and cosine of an angle in turns, |turns| <= 1e6. Absolute error below 1e-6 for |turns| < 1.
+PL_HD inline SineCosine sine_cosine_of_turns(float turns) {
+    return sine_cosine_of_quarters(4.0f * turns, std::floor(4.0f * turns + 0.5f));
+}
+
+/// The same of an angle that is not negative: a rounding down is dearer than a truncation.
+PL_HD inline SineCosine sine_cosine_of_positive_turns(float turns) {
+    return sine_cosine_of_quarters(4.0f * turns, static_cast<float>(static_cast<int>(4.0f * turns + 0.5f)));
 }
 
 /// atan2(y, x) in turns, in [-1/2, 1/2]; 0 at the origin. Absolute error below 1e-7 turns.

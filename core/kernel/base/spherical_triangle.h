@@ -43,7 +43,7 @@ PL_HD inline Vec3f square_to_spherical_triangle(const SphericalTriangle& triangl
     const float cos_a = glm::dot(normal_ab, normal_ac);
     const float sin_a = glm::length(glm::cross(normal_ab, normal_ac));
     // phi: the angles of the part at b and on ac together, pi + area of the part - angle at a.
-    const SineCosine part = sine_cosine_of_turns(u.x * solid_angle * (0.5f * kInvPi));
+    const SineCosine part = sine_cosine_of_positive_turns(u.x * solid_angle * (0.5f * kInvPi));
     const float sin_phi = part.cosine * sin_a - part.sine * cos_a;
     const float cos_phi = -part.cosine * cos_a - part.sine * sin_a;
     const float p = cos_phi + cos_a;

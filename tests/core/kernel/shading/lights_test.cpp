@@ -57,7 +57,7 @@ TEST_CASE("Points on lights are chosen by area and luminance and uniformly in ea
     for (int i = 0; i < 2000000; ++i) {
         const Vec3f u{random.next(), random.next(), random.next()};
         const std::uint32_t light = choose_light(scene, u.x);
-        const SurfacePoint point = sample_light(scene, Vec3f{0.0f}, u).surface;
+        const SurfacePoint point = sample_light(scene, {}, u).surface;
         REQUIRE(point.primitive == scene.lights[light].primitive);
         const Vec2f b = 4.0f * square_to_triangle({u.y, u.z});
         const int column = min_of(static_cast<int>(b.x), 3);
