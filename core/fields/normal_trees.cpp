@@ -39,8 +39,8 @@ struct CubeCell {
         v[(axis + 2) % 3] = at(column);
         return glm::normalize(v);
     }
-    /// Radians within which the directions of the cell are from its middle: half of the diagonal on the face, where it is seen from
-    /// nearest by.
+    /// Bound of the angle between a direction of the cell and its middle, in radians: half of the diagonal of a cell that is seen from
+    /// the distance 1, the least distance of the face.
     double radius() const { return std::sqrt(2.0) / side * 1.001; }
 };
 

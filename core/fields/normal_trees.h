@@ -1,5 +1,5 @@
-// Search trees by normal. On curved surfaces most volumes near a point have normals that do not agree with its own, and a search
-// among all visits them in vain.
+// Search trees by normal. On curved surfaces most volumes near a point have normals that do not agree with its own: a search of all
+// volumes visits them in vain.
 #pragma once
 
 #include <array>

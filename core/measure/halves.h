@@ -15,14 +15,14 @@ namespace pl {
 struct PictureHalves {
     Pixels first;
     Pixels second;
-    double first_weight = 1.0;  ///< samples in the first half, in any unit; both weights are positive
+    double first_weight = 1.0;  ///< of the samples in the first half, in any unit; both weights are positive
     double second_weight = 1.0;
 };
 
 /// The halves of a film reading, which must both have samples.
 PictureHalves halves_of(const FilmHalves& halves);
 
-/// Share of the samples in each half.
+/// Share of each half in the weight of all samples.
 struct HalfShares {
     double first;
     double second;
@@ -31,7 +31,7 @@ struct HalfShares {
         : first(halves.first_weight / (halves.first_weight + halves.second_weight)), second(1.0 - first) {}
     /// Value of a pixel from those of its halves.
     Vec3d mean(const Vec3d& a, const Vec3d& b) const { return first * a + second * b; }
-    /// Unbiased estimate of the variance of mean(): (a-b)^2 / 4 for equal halves.
+    /// Estimate of the variance of mean(), unbiased if those of the halves are as 1 / weight: (a-b)^2 / 4 for equal halves.
     Vec3d variance(const Vec3d& a, const Vec3d& b) const { return first * second * (a - b) * (a - b); }
 };
 

@@ -6,13 +6,13 @@
 namespace pl {
 namespace {
 
-/// Passes before which the two trials run. The estimator of variance_ratio needs earlier ones.
+/// Passes before which the two trials run. The estimator of the variance needs earlier ones.
 constexpr std::uint32_t kFirstTrial = kFewestBeforeVariance;
 constexpr std::uint32_t kSecondTrial = kFirstTrial + 2;
 /// First pass after which guiding may be given up: the field has learned a little, and a few passes are measured. Two passes
 /// earlier saves 1 % of 128 passes, but gives up fields that would have paid (docs/notebook/2026-11-23-guiding-choice.md).
 constexpr std::uint32_t kFirstDecision = kSecondTrial + 1;
-/// Weight of the guided passes before the newest one: variance_ratio fall while a field learns, and are noisy.
+/// Weight of the guided passes before the newest one: their variances fall while a field learns, and are noisy.
 constexpr double kKept = 0.8;
 /// Gain below which guiding is given up, early and later, and above which it is taken up again. Below 1 at first: fields still
 /// get better.

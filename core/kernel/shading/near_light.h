@@ -7,8 +7,8 @@
 
 namespace pl {
 
-/// A triangle is near if the square of the distance to its centroid is below its area times this; those beyond it fill less than
-/// 1/kNearDistance steradians, in which area sampling is even enough and costs less.
+/// A triangle is near if the square of the distance to its centroid is below its area times this. Compact ones beyond it fill less than
+/// 1/kNearDistance steradians, in which area sampling is even enough and costs less; slivers are left to it, too.
 inline constexpr float kNearDistance = 2.0f;
 /// Solid angles that are sampled: directions within a smaller one, or one that fills a hemisphere, are not exact enough.
 inline constexpr float kLeastSolidAngle = 1e-2f;
