@@ -21,13 +21,17 @@ void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers
     draw_groups(key, counters, numbers, groups);
 }
 
+void draw_vertices(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups) {
+    draw_vertex_groups(key, counters, numbers, groups);
+}
+
 void sample_rows(const TableSampler& tables, const GuidedGroup& paths, SampledGroup& sampled) {
     sample_rows_of_group(tables, paths, sampled);
 }
 
-void sample_guided(const TableSampler& tables, const DrawKey& jitter_key, const GuidedGroup* paths,
-                   SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
-    sample_guided_groups(tables, jitter_key, paths, sampled, directions, groups);
+void sample_guided(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
+                   DirectionGroup* directions, std::uint32_t groups) {
+    sample_guided_groups(tables, paths, sampled, directions, groups);
 }
 
 void weigh_guided(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
@@ -40,8 +44,8 @@ bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return an
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name,          find_closest, find_occluded, draw,        sample_rows,
-            sample_guided, weigh_guided, has_samples,   update_table};
+    return {name,        find_closest,  find_occluded, draw,        draw_vertices,
+            sample_rows, sample_guided, weigh_guided,  has_samples, update_table};
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ public:
 
 private:
     void draw_rows(const DrawKey& key, std::vector<NumberGroup>& rows, std::uint32_t count) const {
-        kernels_.draw(key, counters_.data(), rows.data(), group_count(count));
+        kernels_.draw_vertices(key, counters_.data(), rows.data(), group_count(count));
     }
 
     LaneKernels kernels_ = best_lane_kernels();

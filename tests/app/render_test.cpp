@@ -56,7 +56,7 @@ TEST_CASE("every method renders every view") {
         for (const std::string& view : kViews) {
             if (method == "default" && kLearnedViews.contains(view)) continue;
             const ProgramResult result =
-                run_program({"render", "cornell", "-o", folder / "x.png", "--size", "8x8", "--spp", "2", "--method",
+                run_program({"render", "cornell", "-o", folder / "x.png", "--size", "8x8", "--spp", "4", "--method",
                              method, "--view", view, "--volumes", "50"});
             CAPTURE(method, view, result.err);
             CHECK(result.code == 0);

@@ -10,14 +10,13 @@ namespace pl {
 
 /// Purpose of a draw. Every effect has its own, so enabling one never shifts the random numbers of another.
 enum class Purpose : std::uint32_t {
-    Pixel = 0,       ///< start of the film and lens sequences, see pixel_sample()
-    Scatter = 1,     ///< one-sample MIS strategy, direction (2), Russian roulette
-    CellJitter = 2,  ///< position inside a direction cell
-    Light = 3,       ///< choice of a light, point on it
-    Probe = 4,       ///< first direction of a probe
-    Placement = 5,   ///< placement of radiance volumes
-    Lobe = 6,        ///< choice among the lobes of a surface
-    Emission = 7,    ///< further camera rays for emission alone, see camera_emission.h
+    Pixel = 0,      ///< start of the film and lens sequences, see pixel_sample()
+    Scatter = 1,    ///< one-sample MIS strategy, direction (2), Russian roulette
+    Light = 3,      ///< choice of a light, point on it
+    Probe = 4,      ///< first direction of a probe
+    Placement = 5,  ///< placement of radiance volumes
+    Lobe = 6,       ///< choice among the lobes of a surface
+    Emission = 7,   ///< further camera rays for emission alone, see camera_emission.h
 };
 
 /// Independent families of random numbers: camera paths, probes, placement and trials never share one.
@@ -62,6 +61,11 @@ PL_HD inline Philox philox4x32(Philox counter, std::uint32_t key0, std::uint32_t
 /// Uniform in [0, 1): the top 24 bits, so that 1.0 can never appear.
 PL_HD inline float to_unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
+PL_HD inline Vec4f to_unit_floats(const Philox& block) {
+    return {to_unit_float(block.v[0]), to_unit_float(block.v[1]), to_unit_float(block.v[2]),
+            to_unit_float(block.v[3])};
+}
+
 /// Random numbers of one path: a pure function of (seed, stream, pixel, sample, vertex, purpose).
 struct Rng {
     std::uint64_t seed = 0;
@@ -69,16 +73,16 @@ struct Rng {
     std::uint32_t pixel = 0;  ///< or the index of the probe
     std::uint32_t sample = 0;
 
-    /// A uniform point of [0, 1)^4 for this vertex and purpose.
-    PL_HD Vec4f draw(std::uint32_t vertex, Purpose purpose) const {
+    /// Random bits for this vertex and purpose.
+    PL_HD Philox bits(std::uint32_t vertex, Purpose purpose) const {
         PL_ASSERT(vertex < (1u << 24));
         const Philox counter{{pixel, sample, vertex | (static_cast<std::uint32_t>(purpose) << 24),
                               static_cast<std::uint32_t>(stream)}};
-        const Philox block =
-            philox4x32(counter, static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
-        return {to_unit_float(block.v[0]), to_unit_float(block.v[1]), to_unit_float(block.v[2]),
-                to_unit_float(block.v[3])};
+        return philox4x32(counter, static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
     }
+
+    /// A uniform point of [0, 1)^4 for this vertex and purpose.
+    PL_HD Vec4f draw(std::uint32_t vertex, Purpose purpose) const { return to_unit_floats(bits(vertex, purpose)); }
 };
 
 }  // namespace pl

@@ -9,7 +9,10 @@ namespace pl {
 
 /// Sample index of the random start of the sequence of a pass. Each half of the passes has its own, so that the
 /// halves stay independent and their difference measures the noise.
-PL_HD inline std::uint32_t sequence_of(std::uint32_t pass) { return in_second_half(pass) ? 1u : 0u; }
+template <class Word>
+PL_INLINE Word sequence_of(Word pass) {
+    return pass & 1u;  // of in_second_half()
+}
 
 /// (start + steps * step * 2^-32) mod 1, for a start in [0,1) that is a multiple of 2^-24.
 PL_HD inline float moved_by_steps(float start, std::uint32_t step, std::uint32_t steps) {

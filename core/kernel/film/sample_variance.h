@@ -52,16 +52,16 @@ struct PixelSubset {
 inline constexpr std::uint32_t kFewestBeforeVariance = 3;
 
 /// Measures the variance of a sample that is about to come to a pixel. With the mean m of earlier samples, L (L - m) is an
-/// unbiased estimate of the variance of an independent sample L. The weight is by other earlier samples, those of the other half
-/// of the film, since it would be correlated with m. Pixels that see a lamp are left out: their variance is that of
+/// unbiased estimate of the variance of an independent sample L: m is of the half of the film that the pass does not belong to, since
+/// samples of one half are spread evenly. The weight is by those of the other half, since it would be correlated with m. Pixels that see a lamp are left out: their variance is that of
 /// emission, which no sampling of directions changes, see camera_emission.h.
-PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, VarianceSums& sums) {
+PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, std::uint32_t pass, VarianceSums& sums) {
     const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;
     const bool has_both_halves = pixel.second_weight > 0 && pixel.weight > pixel.second_weight;
     if (!has_both_halves || sees_lamp || !is_valid_radiance(radiance)) return;
     const float value = luminance(radiance);
-    const float mean = luminance(half_mean(pixel, true));
-    const float other_mean = luminance(half_mean(pixel, false));
+    const float mean = luminance(half_mean(pixel, !in_second_half(pass)));
+    const float other_mean = luminance(half_mean(pixel, in_second_half(pass)));
     const float variance = value * (value - mean) / (other_mean * other_mean + 1.0f);
     // The largest one for the quotient of two infinities, too.
     const float bounded =
@@ -74,7 +74,7 @@ PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, Varia
 /// Puts the sample of a pass to its use. Returns false if it is invalid.
 PL_HD inline bool use_sample(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass,
                              SampleUse use, VarianceSums& sums) {
-    if (use != SampleUse::Film) measure_variance(film.pixels[pixel], radiance, sums);
+    if (use != SampleUse::Film) measure_variance(film.pixels[pixel], radiance, pass, sums);
     return use == SampleUse::Trial ? is_valid_radiance(radiance) : accumulate(film, pixel, radiance, pass);
 }
 

@@ -5,7 +5,7 @@
 // directions, and evaluate densities towards lights, for many paths at once.
 #pragma once
 
-#include "core/kernel/film/pixel_sequence.h"
+#include "core/kernel/film/vertex_sequence.h"
 #include "core/kernel/integrator/environment.h"
 #include "core/kernel/integrator/roulette.h"
 #include "core/kernel/integrator/scatter.h"
@@ -28,9 +28,9 @@ struct VertexNumbers {
 template <FeatureSet F, class M>
 PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, const PathState<F, M>& state) {
     const Rng rng = path_rng(settings, state.pixel, state.sample);
-    VertexNumbers numbers{.scatter = rng.draw(state.draw_index() + 1, Purpose::Scatter)};
+    VertexNumbers numbers{.scatter = vertex_numbers(rng, state.draw_index() + 1, Purpose::Scatter)};
     if constexpr (F.has(Feature::NextEventEstimation)) {
-        if (settings.next_event != 0) numbers.light = rng.draw(state.draw_index() + 1, Purpose::Light);
+        if (settings.next_event != 0) numbers.light = vertex_numbers(rng, state.draw_index() + 1, Purpose::Light);
     }
     return numbers;
 }

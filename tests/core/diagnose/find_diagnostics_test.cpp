@@ -33,23 +33,24 @@ Session session_after(const SceneDescription& scene, const RenderSettings& setti
 }  // namespace
 
 TEST_CASE("Find diagnostics: invalid samples are located where the film counts them, by every method") {
+    constexpr std::uint32_t kPasses = 2;
     const SceneDescription scene = overflowing_room();
     for (const MethodId method : {MethodId::Default, MethodId::Precomputed, MethodId::Reinforcement}) {
         RenderSettings settings = small_settings(scene, {method, false});
         settings.max_depth = 2;
-        Session session = session_after(scene, settings, 3);
+        Session session = session_after(scene, settings, kPasses);
         const Snapshot snapshot = session.snapshot(slot_of(session.settings()));
         const std::uint64_t invalid = snapshot.counters.invalid_samples;
         INFO(info_of(method).name << ", " << invalid);
-        REQUIRE(invalid > 100);
+        REQUIRE(invalid > 60);
         REQUIRE(invalid < snapshot.counters.paths / 2);
         const DiagnosticsMap map = find_diagnostics(diagnostics_input(session, slot_of(session.settings())), 2);
         CHECK(map.is_complete);
         CHECK(map.count(DiagnosticKind::InvalidSample) == invalid);
         std::size_t nothing_else = 0;
         for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-            CHECK(map.pixels[i][0] <= 3u);
-            if (map.pixels[i][0] == 3u) {
+            CHECK(map.pixels[i][0] <= kPasses);
+            if (map.pixels[i][0] == kPasses) {
                 ++nothing_else;
                 CHECK(snapshot.pixels[i].x != snapshot.pixels[i].x);
             }

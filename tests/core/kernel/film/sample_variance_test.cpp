@@ -40,6 +40,27 @@ TEST_CASE("Sample variance: unbiased whatever the number of earlier samples") {
     CHECK(sums.mean() == Approx(expected / film.pixels.count).epsilon(0.02));
 }
 
+// Samples of one half take turns between two values: the last one is that which the half lacks. Measured by their own half, the
+// variance would be 0.08.
+TEST_CASE("Sample variance: unbiased though the samples of a half are spread evenly") {
+    std::mt19937 random(6);
+    for (const std::uint32_t pass : {2u, 3u}) {
+        std::vector<FilmPixel> pixels(200000);
+        const FilmView film = view_of_film(pixels);
+        VarianceSums sums;
+        for (std::uint32_t i = 0; i < film.pixels.count; ++i) {
+            const Vec3f first = either(random);
+            accumulate(film, i, first, pass - 2);
+            accumulate(film, i, either(random), pass - 1);
+            use_sample(film, i, Vec3f{0.8f} - first, pass, SampleUse::Trial, sums);
+        }
+        // The weight knows the first sample, whose value is as often 0.2 as 0.6.
+        const double expected = 0.5 * (0.6 * (0.6 - 0.4) / (0.04 + 1.0) + 0.2 * (0.2 - 0.4) / (0.36 + 1.0));
+        INFO("pass " << pass);
+        CHECK(sums.mean() == Approx(expected).epsilon(0.02));
+    }
+}
+
 TEST_CASE("Sample variance: trials leave the film as it is, measured samples come to it") {
     std::vector<FilmPixel> pixels(1);
     const FilmView film = view_of_film(pixels);
@@ -63,19 +84,19 @@ TEST_CASE("Sample variance: pixels with samples in one half alone, lamps and inv
     const FilmView film = view_of_film(pixels);
     VarianceSums sums;
     for (const std::uint32_t pass : {0u, 2u}) use_sample(film, 0, Vec3f{1.0f}, pass, SampleUse::Measured, sums);
-    measure_variance(pixels[0], Vec3f{2.0f}, sums);
+    measure_variance(pixels[0], Vec3f{2.0f}, 3, sums);
     CHECK(sums.samples == 0);
     accumulate(film, 0, Vec3f{1.0f}, 1);
-    measure_variance(pixels[0], Vec3f{kInfinity}, sums);
+    measure_variance(pixels[0], Vec3f{kInfinity}, 3, sums);
     pixels[0].emission = EmissionSeen::of(5.0f);
-    measure_variance(pixels[0], Vec3f{2.0f}, sums);
+    measure_variance(pixels[0], Vec3f{2.0f}, 3, sums);
     pixels[0].emission = EmissionSeen::of(0.0f);
     pixels[0].emission.at_border = 1;
-    measure_variance(pixels[0], Vec3f{2.0f}, sums);
+    measure_variance(pixels[0], Vec3f{2.0f}, 3, sums);
     CHECK(sums.samples == 0);
     CHECK(sums.mean() == 0.0);
     pixels[0].emission.at_border = 0;
-    measure_variance(pixels[0], Vec3f{2.0f}, sums);
+    measure_variance(pixels[0], Vec3f{2.0f}, 3, sums);
     CHECK(sums.samples == 1);
 }
 
@@ -87,7 +108,7 @@ TEST_CASE("Sample variance: one path of any radiance adds a bounded share") {
         for (std::uint32_t pass = 0; pass < 3; ++pass) accumulate(film, 0, Vec3f{earlier}, pass);
         for (const float radiance : {0.0f, 1e-30f, 5.0f, 1e10f, 3e38f}) {
             VarianceSums sums;
-            measure_variance(pixels[0], Vec3f{radiance}, sums);
+            measure_variance(pixels[0], Vec3f{radiance}, 3, sums);
             INFO(earlier << ", " << radiance << ": " << sums.mean());
             CHECK(sums.samples == 1);
             CHECK(std::fabs(sums.mean()) <= VarianceSums::kMost);

@@ -1,0 +1,46 @@
+// Low-discrepancy numbers of a path's first vertex over the passes: its direction and its light sample are spread evenly, as the
+// film positions of pixel_sequence.h are. Later vertices lie elsewhere in every pass, and draw independent numbers.
+#pragma once
+
+#include "core/kernel/base/sobol.h"
+#include "core/kernel/film/pixel_sequence.h"
+
+namespace pl {
+
+/// Whether the numbers of a vertex are spread over the passes: only camera paths have passes.
+inline constexpr std::uint32_t kSpreadVertex = 1;
+
+/// Seed of the scrambling of a pixel's sequence.
+template <class Word>
+PL_INLINE Word sequence_seed(std::uint64_t seed, Word pixel, Word sequence, Purpose purpose) {
+    const auto low = static_cast<std::uint32_t>(seed);
+    const auto high = static_cast<std::uint32_t>(seed >> 32);
+    const Word which = sequence + (2u * static_cast<std::uint32_t>(purpose) + mixed_bits(high));
+    return mixed_bits(pixel + mixed_bits(which + low));
+}
+
+/// Member number `steps` of a sequence, as random bits. Members x, and y and z together, are Owen-scrambled Sobol points in an order
+/// shuffled for each of the two, so that x does not depend on y and z [Burley 2020, "Practical Hash-based Owen Scrambling"]; w is
+/// left as it is. `shift` is uniform and independent of `seed`: it makes every member exactly uniform.
+template <class Word>
+PL_INLINE PhiloxWords<Word> spread_bits(const PhiloxWords<Word>& shift, Word seed, Word steps) {
+    const Word other = mixed_bits(seed + 0x9e3779b9u);
+    const Word reversed = reversed_bits(steps);
+    const Word index_x = reversed_bits(scramble_reversed(reversed, seed));
+    const Word index_yz = reversed_bits(scramble_reversed(reversed, other));
+    const Word scramble = mixed_bits(other + 0x9e3779b9u);
+    const Word scramble_z = scramble * 0x2c1b3c6du + 0x297a2d39u;
+    return {{shift.v[0] ^ reversed_bits(scramble_reversed(index_x, scramble)),
+             shift.v[1] ^ reversed_bits(scramble_reversed(index_yz, scramble)),
+             shift.v[2] ^ reversed_bits(scramble_reversed(sobol_second_reversed(index_yz), scramble_z)), shift.v[3]}};
+}
+
+/// The numbers of a path for a vertex and purpose: Rng::draw(), or a member of a sequence.
+PL_HD inline Vec4f vertex_numbers(const Rng& rng, std::uint32_t vertex, Purpose purpose) {
+    if (vertex != kSpreadVertex || rng.stream != Stream::Picture) return rng.draw(vertex, purpose);
+    const std::uint32_t sequence = sequence_of(rng.sample);
+    const Philox shift = Rng{rng.seed, rng.stream, rng.pixel, sequence}.bits(vertex, purpose);
+    return to_unit_floats(spread_bits(shift, sequence_seed(rng.seed, rng.pixel, sequence, purpose), rng.sample / 2));
+}
+
+}  // namespace pl

@@ -1,0 +1,138 @@
+// Numbers of a path's first vertex: each is uniform, together they are spread evenly over the passes, and the halves of a film, the
+// purposes and the pixels are independent.
+#include "core/kernel/film/vertex_sequence.h"
+
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "tests/support/catch.hpp"
+#include "tests/support/statistics/rules.h"
+
+using namespace pl;
+
+namespace {
+
+Vec4f numbers_of(std::uint32_t pixel, std::uint32_t pass, Purpose purpose = Purpose::Scatter) {
+    return vertex_numbers(Rng{1, Stream::Picture, pixel, pass}, kSpreadVertex, purpose);
+}
+
+/// Mean of an integrand over the even or odd passes of a pixel, less its true mean.
+template <class Integrand>
+double deviation(std::uint32_t pixel, std::uint32_t half, std::uint32_t passes, Purpose purpose,
+                 const Integrand& integrand) {
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < passes; ++i) sum += integrand(numbers_of(pixel, 2 * i + half, purpose));
+    return sum / passes;
+}
+
+/// Whether y and z lie in the quarter disk, less the probability.
+double in_disk(Vec4f u) { return (u.y * u.y + u.z * u.z < 1.0f ? 1.0 : 0.0) - 0.25 * static_cast<double>(kPi); }
+
+/// Square root of the mean square of the deviations of 2000 pixels.
+template <class Integrand>
+double spread_of(const Integrand& integrand) {
+    double square = 0.0;
+    for (std::uint32_t pixel = 0; pixel < 2000; ++pixel) {
+        const double off = deviation(pixel, 0, 64, Purpose::Scatter, integrand);
+        square += off * off / 2000.0;
+    }
+    return std::sqrt(square);
+}
+
+/// Whether two deviations of 20 000 pixels are independent; a correlation of 0.06 would be missed once in a thousand times.
+template <class Pair>
+void check_independent(const Pair& pair) {
+    test::Moments product, square;
+    for (std::uint32_t pixel = 0; pixel < 20000; ++pixel) {
+        const std::array<double, 2> off = pair(pixel);
+        product.add(off[0] * off[1]);
+        square.add(off[0] * off[0]);
+    }
+    CHECK(std::fabs(product.mean()) < test::kZAlpha * product.standard_error());
+    CHECK(product.standard_error() < test::resolving_error(0.06 * square.mean()));
+}
+
+}  // namespace
+
+TEST_CASE("Only first vertices of camera paths have numbers of a sequence") {
+    for (const Stream stream : {Stream::Picture, Stream::Precompute, Stream::Placement, Stream::Trial})
+        for (std::uint32_t vertex = 0; vertex < 4; ++vertex) {
+            const Rng rng{3, stream, 17, 9};
+            const bool spread = stream == Stream::Picture && vertex == kSpreadVertex;
+            CHECK((vertex_numbers(rng, vertex, Purpose::Light) == rng.draw(vertex, Purpose::Light)) != spread);
+        }
+}
+
+// Seed 1, each pass over 20 000 pixels: mean 1/2 to 4 %, variance 1/12 to 6 % (rule S1).
+TEST_CASE("Every pass alone has numbers that are uniform over the pixels") {
+    for (const std::uint32_t pass : {0u, 1u, 2u, 127u, 1000000u, 0xfffffffeu})
+        for (int i = 0; i < 4; ++i) {
+            test::Moments mean, variance;
+            for (std::uint32_t pixel = 0; pixel < 20000; ++pixel) {
+                const auto u = static_cast<double>(numbers_of(pixel, pass)[i]);
+                REQUIRE(u >= 0.0);
+                REQUIRE(u < 1.0);
+                mean.add(u);
+                variance.add((u - 0.5) * (u - 0.5));
+            }
+            INFO("pass " << pass << ", number " << i);
+            CHECK(test::mean_equals(mean, {0.5}, 0.04));
+            CHECK(test::mean_equals(variance, {1.0 / 12.0}, 0.06));
+        }
+}
+
+TEST_CASE("The passes of a half form nets: 64 numbers in 64 intervals") {
+    for (std::uint32_t pixel = 0; pixel < 200; ++pixel)
+        for (const std::uint32_t half : {0u, 1u})
+            for (std::uint32_t a = 0; a <= 6; ++a) {
+                std::set<int> intervals, of_choice;
+                for (std::uint32_t i = 0; i < 64; ++i) {
+                    const Vec4f u = numbers_of(pixel, 2 * i + half);
+                    intervals.insert(static_cast<int>(std::ldexp(u.y, static_cast<int>(a))) * 64 +
+                                     static_cast<int>(std::ldexp(u.z, static_cast<int>(6 - a))));
+                    of_choice.insert(static_cast<int>(64.0f * u.x));
+                }
+                REQUIRE(intervals.size() == 64);
+                REQUIRE(of_choice.size() == 64);
+            }
+}
+
+// Independent numbers would be off by sqrt(p (1-p) / 64): 0.051 for the disk, 0.063 for the choice and the disk together.
+TEST_CASE("Means over the passes have a fraction of the deviation of independent numbers") {
+    CHECK(spread_of(in_disk) < 0.051 / 3.0);
+    CHECK(spread_of([](Vec4f u) { return static_cast<double>(u.x) - 0.5; }) < 0.036 / 10.0);
+    const double p = 0.125 * static_cast<double>(kPi);
+    CHECK(spread_of([=](Vec4f u) { return (u.x < 0.5f && u.y * u.y + u.z * u.z < 1.0f ? 1.0 : 0.0) - p; }) < 0.061);
+}
+
+// Seed 1. Noise is estimated from the difference of a film's halves.
+TEST_CASE("Halves of a film, purposes and neighbors have independent deviations") {
+    check_independent([](std::uint32_t pixel) {
+        return std::array<double, 2>{deviation(pixel, 0, 16, Purpose::Scatter, in_disk),
+                                     deviation(pixel, 1, 16, Purpose::Scatter, in_disk)};
+    });
+    check_independent([](std::uint32_t pixel) {
+        return std::array<double, 2>{deviation(pixel, 0, 16, Purpose::Scatter, in_disk),
+                                     deviation(pixel, 0, 16, Purpose::Light, in_disk)};
+    });
+    check_independent([](std::uint32_t pixel) {
+        return std::array<double, 2>{deviation(2 * pixel, 0, 16, Purpose::Scatter, in_disk),
+                                     deviation(2 * pixel + 1, 0, 16, Purpose::Scatter, in_disk)};
+    });
+}
+
+// The number of a light sample must not depend on that of the direction of the same pass. Seed 1.
+TEST_CASE("Numbers of one pass are independent of each other") {
+    using Numbers = double (*)(std::uint32_t);
+    const Numbers pairs[][2] = {
+        {[](std::uint32_t p) { return static_cast<double>(numbers_of(p, 6).x) - 0.5; },
+         [](std::uint32_t p) { return static_cast<double>(numbers_of(p, 6).y) - 0.5; }},
+        {[](std::uint32_t p) { return static_cast<double>(numbers_of(p, 6).y) - 0.5; },
+         [](std::uint32_t p) { return static_cast<double>(numbers_of(p, 6).z) - 0.5; }},
+        {[](std::uint32_t p) { return static_cast<double>(numbers_of(p, 6).x) - 0.5; },
+         [](std::uint32_t p) { return static_cast<double>(numbers_of(p, 6, Purpose::Light).x) - 0.5; }},
+    };
+    for (const auto& pair : pairs)
+        check_independent([&](std::uint32_t pixel) { return std::array<double, 2>{pair[0](pixel), pair[1](pixel)}; });
+}
