@@ -30,15 +30,27 @@ private:
 template <FeatureSet F>
 PassCounters run_emission_pass(const EmissionPass& pass) {
     const BvhIntersector intersector{pass.setup.scene};
-    ChunkQueue queue = pass.setup.chunks(pass.film.pixels.count);
+    const SceneView& scene = pass.setup.scene;
     std::atomic<std::uint64_t> rays{0};
-    run_on_threads(pass.setup.threads, [&](int) {
-        BatchedRays<F> tracer(pass.setup.scene, pass.tracer, intersector);
-        std::uint64_t traced = 0;
-        for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
-            for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel)
-                traced += refine_emission<F>(pass.context, pass.setup.scene, tracer, pass.film, pixel);
-        rays.fetch_add(traced, std::memory_order_relaxed);
+    const auto trace_all = [&](ChunkQueue& queue, const auto& trace) {
+        run_on_threads(pass.setup.threads, [&](int) {
+            BatchedRays<F> tracer(scene, pass.tracer, intersector);
+            std::uint64_t traced = 0;
+            for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
+                for (std::uint32_t i = range.begin; i < range.end; ++i) traced += trace(tracer, i);
+            rays.fetch_add(traced, std::memory_order_relaxed);
+        });
+    };
+    if (pass.context.passes == kMarkingPass && pass.setup.paths.begin == 0 && pass.setup.paths.end > 0) {
+        constexpr std::uint32_t kLightsPerClaim = 16;
+        ChunkQueue lights(0, scene.lights.count, kLightsPerClaim);
+        trace_all(lights, [&](BatchedRays<F>& tracer, std::uint32_t light) {
+            return mark_lamp_borders<F>(pass.context, scene, tracer, pass.film, light);
+        });
+    }
+    ChunkQueue pixels = pass.setup.chunks(pass.film.pixels.count);
+    trace_all(pixels, [&](BatchedRays<F>& tracer, std::uint32_t pixel) {
+        return refine_emission<F>(pass.context, scene, tracer, pass.film, pixel);
     });
     PassCounters counters;
     counters.path.emission_rays = rays;

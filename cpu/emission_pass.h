@@ -1,7 +1,7 @@
 // Further camera rays for the emission of lamps whose border crosses a pixel, after a pass has added its samples.
 #pragma once
 
-#include "core/kernel/integrator/camera_emission.h"
+#include "core/kernel/integrator/lamp_borders.h"
 #include "cpu/launchers.h"
 
 namespace pl {

@@ -109,6 +109,7 @@ private:
                       const M& method, const Paths& paths);
     void launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels);
     void launch_view(const PassRequest& request, const ViewContext& context, const PixelPaths& pixels);
+    void refine_launch(const PassRequest& request, PathRange range, const FilmView& film);
 
     CudaDevice device_;
     int processors_ = 1;
@@ -212,14 +213,23 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
                              .subset = request.subset,
                              .use = request.use,
                              .counters = counters_.data()});
-        if (refines)
-            launch(kEmissionKernels[covering_set(request.features)], blocks_for(count), stream_, "refine_film",
-                   EmissionSetup{.scene = existing_scene().view(),
-                                 .context = {request.camera, request.path, grid, request.passes},
-                                 .film = film,
-                                 .range = range,
-                                 .counters = counters_.data()});
+        if (refines) refine_launch(request, range, film);
     });
+}
+
+/// Refines the emission in the samples that a launch has added.
+void CudaBackend::refine_launch(const PassRequest& request, PathRange range, const FilmView& film) {
+    const SceneView scene = existing_scene().view();
+    const EmissionSetup setup{
+        .scene = scene,
+        .context = {request.camera, request.path, {film.width, film.height, request.sample}, request.passes},
+        .film = film,
+        .range = range,
+        .counters = counters_.data()};
+    const std::size_t features = covering_set(request.features);
+    if (request.passes == kMarkingPass && range.first == 0)
+        launch(kBorderKernels[features], blocks_for(scene.lights.count), stream_, "mark_borders", setup);
+    launch(kEmissionKernels[features], blocks_for(range.end - range.first), stream_, "refine_film", setup);
 }
 
 PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {

@@ -7,7 +7,7 @@
 #include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/inspect/heat_map.h"
-#include "core/kernel/integrator/camera_emission.h"
+#include "core/kernel/integrator/lamp_borders.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/method_list.h"
 
@@ -67,7 +67,8 @@ const PictureKernels<kEntry>& picture_kernels();
 extern const KernelRow<ProbeKernel> kProbeKernels;
 extern const KernelRow<ViewKernel> kViewKernels;
 
-/// Refines the samples of a launch that are in the film, see refine_emission(). One thread per pixel.
+/// For refine_emission() of the samples of a launch that are in the film, one thread per pixel; and for mark_lamp_borders(), one
+/// thread per light.
 struct EmissionSetup {
     SceneView scene;
     EmissionContext context;
@@ -77,6 +78,7 @@ struct EmissionSetup {
 };
 using EmissionKernel = void (*)(EmissionSetup);
 extern const KernelRow<EmissionKernel> kEmissionKernels;
+extern const KernelRow<EmissionKernel> kBorderKernels;
 
 /// Evaluates volume_value(). One thread per volume.
 using VolumeValueKernel = void (*)(TableUpdateView field, View view, Span<float> values);

@@ -33,6 +33,18 @@ __global__ void __launch_bounds__(kThreadsPerBlock) refine_film(EmissionSetup se
     add_up(*setup.counters, counters);
 }
 
+template <std::uint32_t kFeatureBits>
+__global__ void __launch_bounds__(kThreadsPerBlock) mark_borders(EmissionSetup setup) {
+    const BvhIntersector intersector{setup.scene};
+    const std::uint32_t light = thread_number();
+    SingleRays<FeatureSet{kFeatureBits}, BvhIntersector> rays{setup.scene, intersector};
+    PassCounters counters;
+    if (light < setup.scene.lights.count)
+        counters.path.emission_rays =
+            mark_lamp_borders<FeatureSet{kFeatureBits}>(setup.context, setup.scene, rays, setup.film, light);
+    add_up(*setup.counters, counters);
+}
+
 __global__ void __launch_bounds__(kThreadsPerBlock)
     volume_values(TableUpdateView field, View view, Span<float> values) {
     const std::uint32_t volume = thread_number();
@@ -45,6 +57,8 @@ constinit const KernelRow<ViewKernel> kViewKernels =
     make_kernel_row<ViewKernel, kViewRange>([]<FeatureSet F>() { return show_view<F.bits>; });
 constinit const KernelRow<EmissionKernel> kEmissionKernels =
     make_kernel_row<EmissionKernel, kEmissionRange>([]<FeatureSet F>() { return refine_film<F.bits>; });
+constinit const KernelRow<EmissionKernel> kBorderKernels =
+    make_kernel_row<EmissionKernel, kEmissionRange>([]<FeatureSet F>() { return mark_borders<F.bits>; });
 constinit const VolumeValueKernel kVolumeValues = volume_values;
 
 }  // namespace pl::cuda

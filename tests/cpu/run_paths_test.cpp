@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "core/kernel/guiding/update_volume.h"
-#include "core/kernel/integrator/camera_emission.h"
+#include "core/kernel/integrator/lamp_borders.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/integrator/trace_path.h"
 #include "tests/cpu/small_room.h"
@@ -61,13 +61,15 @@ Outcome loop_over_paths(const Room& room) {
     M method;
     if constexpr (GuidedMethod<M>) method.field = field_view(room.shape, *room.volumes, outcome.tables);
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
+        const EmissionContext emission{room.camera, settings, {kWidth, kHeight, sample}, sample + 1};
+        for (std::uint32_t light = 0; sample + 1 == kMarkingPass && light < scene.lights.count; ++light)
+            outcome.counters.path.emission_rays += mark_lamp_borders<F>(emission, scene, rays, film, light);
         for (std::uint32_t pixel = 0; pixel < pixels.size(); ++pixel) {
             auto state = begin_path<F, M>(room.camera, settings, {kWidth, kHeight, sample}, pixel);
             trace_path<F>(PathContext<M>{scene, method, settings}, BvhIntersector{scene}, state,
                           outcome.counters.path);
             count_path(outcome.counters, state.radiance, accumulate(film, pixel, state.radiance, sample));
-            outcome.counters.path.emission_rays += refine_emission<F>(
-                {room.camera, settings, {kWidth, kHeight, sample}, sample + 1}, scene, rays, film, pixel);
+            outcome.counters.path.emission_rays += refine_emission<F>(emission, scene, rays, film, pixel);
         }
         if constexpr (std::is_same_v<M, ReinforcementMethod>)
             for (std::uint32_t volume = 0; volume < room.volumes->normals.size(); ++volume)

@@ -117,7 +117,7 @@ registers() {
     awk -v file="$1" '
         function part(names) { return match($0, names) ? substr($0, RSTART, RLENGTH) : "-" }
         /Compiling entry function/ {
-            name = part("trace_paths|show_view|refine_film|volume_values|add_samples|set_samples|read_film|read_halves|show_film|largest_value|run_step")
+            name = part("trace_paths|show_view|refine_film|mark_borders|volume_values|add_samples|set_samples|read_film|read_halves|show_film|largest_value|run_step")
             set = part("ILj[0-9]+E")
             gsub(/[^0-9-]/, "", set)
             if (name == "run_step") set = part("absorb_samples|update_means|weigh_row|build_row_choice|absorb_light_samples|move_mixture|move_reach|build_row")

@@ -40,6 +40,16 @@ PL_HD inline void atomic_add(std::uint32_t& target, std::uint32_t value, [[maybe
 #endif
 }
 
+/// Stores a value where 0 is; every thread that stores to the same place must store the same value.
+PL_HD inline void store_if_zero(std::uint8_t& target, std::uint8_t value) {
+#ifdef __CUDA_ARCH__
+    if (target == 0) target = value;
+#else
+    std::uint8_t zero = 0;
+    std::atomic_ref<std::uint8_t>(target).compare_exchange_strong(zero, value, std::memory_order_relaxed);
+#endif
+}
+
 /// Adds a value to a sum and 1 to its count. On the device the threads of a warp with the same target reduce their
 /// values first: neighboring paths meet the same volume and are guided into the same few cells, so contention is
 /// high.

@@ -13,10 +13,12 @@ PL_HD inline bool in_second_half(std::uint32_t pass) { return (pass & 1u) != 0; 
 /// The emission that a pixel has seen last, and whether it varies within the pixel. Three objects: neighbors read the value
 /// while the pixel's own thread sets the flags.
 struct EmissionSeen {
-    std::uint16_t value = 0;     ///< 0: nothing; else the upper half of a float (luminance), plus 1
-    std::uint8_t varies = 0;     ///< 1: further camera rays are worth their time
+    std::uint16_t value = 0;  ///< 0: nothing; else the upper half of a float (luminance), plus 1
+    std::uint8_t varies =
+        0;  ///< 1: further camera rays are worth their time; kBorderMarked: likewise, but not traced yet
     std::uint8_t at_border = 0;  ///< 1: a neighbor has seen another emission
 
+    static constexpr std::uint8_t kBorderMarked = 2;
     static constexpr float kContrast = 0.1f;  ///< least relative difference of two values
 
     /// Whether the pixel has seen a lamp.

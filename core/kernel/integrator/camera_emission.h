@@ -146,12 +146,12 @@ PL_HD inline std::uint32_t refine_emission(const EmissionContext& context, const
                                            const FilmView& film, std::uint32_t pixel) {
     const FilmPixel& p = film.pixels[pixel];
     const std::uint32_t last = context.grid.sample;
-    std::uint32_t refined = p.emission.varies;
+    const bool was_refined = p.emission.varies == 1;
     std::uint32_t traced = 0;
-    if (refined == 0) {
-        traced = look_for_emission<F>(context, scene, rays, film, pixel);
-        if (p.emission.varies != 0) refined = min_of(context.passes, last + 1);
-    }
+    if (p.emission.varies == 0) traced = look_for_emission<F>(context, scene, rays, film, pixel);
+    if (p.emission.varies == 0) return traced;
+    const std::uint32_t refined = was_refined ? 1u : min_of(context.passes, last + 1);
+    film.pixels[pixel].emission.varies = 1;
     for (std::uint32_t i = 0; i < refined; ++i) replace_emission<F>(context, scene, rays, film, pixel, last - i);
     return traced + refined * (kEmissionRays + 1);
 }

@@ -24,6 +24,20 @@ PL_HD inline Ray generate_ray(const Camera& camera, Vec2f film, Vec2f resolution
     return {.origin = camera.eye, .direction = glm::normalize(camera.forward + x * camera.right + y * camera.up)};
 }
 
+/// A point of the scene on the film of a pinhole, in pixels from the top left corner; inverse of generate_ray().
+struct FilmPosition {
+    Vec2f film{0.0f};
+    float depth = 0.0f;  ///< along `forward`; not positive: the point is not before the camera, and has no position
+};
+PL_HD inline FilmPosition film_position(const Camera& camera, Vec3f point, Vec2f resolution) {
+    const Vec3f away = point - camera.eye;
+    const float depth = glm::dot(away, camera.forward) / glm::dot(camera.forward, camera.forward);
+    if (!(depth > 0.0f)) return {};
+    const float x = glm::dot(away, camera.right) / (glm::dot(camera.right, camera.right) * depth);
+    const float y = glm::dot(away, camera.up) / (glm::dot(camera.up, camera.up) * depth);
+    return {{0.5f * (1.0f + x) * resolution.x, 0.5f * (1.0f - y) * resolution.y}, depth};
+}
+
 /// Thin-lens ray: from a uniform point of the aperture, u in [0,1)^2, to the point where `center`, the ray through
 /// the center of the lens, meets the plane of focus.   [Kolb, Mitchell, Hanrahan 1995, "A Realistic Camera Model for
 /// Computer Graphics", section 3.1]

@@ -53,3 +53,20 @@ TEST_CASE("A closed lens gives the rays of a pinhole") {
     CHECK(ray.origin == center.origin);
     CHECK(glm::length(ray.direction - center.direction) < 1e-6f);
 }
+
+TEST_CASE("Points of a camera ray have its film position, and points behind the camera none") {
+    const Camera camera = lens(0.0f);
+    const Vec2f resolution{200, 100};
+    Uniforms random(3);
+    for (int i = 0; i < 10000; ++i) {
+        const Vec2f film = random.square() * resolution;
+        const Ray ray = generate_ray(camera, film, resolution);
+        const float t = random.between(0.1f, 100.0f);
+        const FilmPosition position = film_position(camera, ray.origin + t * ray.direction, resolution);
+        REQUIRE(position.depth > 0.0f);
+        REQUIRE(glm::length(position.film - film) < 1e-3f);
+        REQUIRE(std::fabs(position.depth - t * glm::dot(ray.direction, camera.forward)) < 1e-4f * t);
+        REQUIRE(film_position(camera, ray.origin - t * ray.direction, resolution).depth <= 0.0f);
+    }
+    CHECK(film_position(camera, camera.eye, resolution).depth <= 0.0f);
+}
