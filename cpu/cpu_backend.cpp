@@ -187,7 +187,7 @@ private:
 
     /// Refines the emission in the `paths` samples that a pass has added from its first pixel on.
     PassCounters refine_emission_of(const PassRequest& request, std::uint32_t paths) {
-        if (scene_->lights.empty()) return {};
+        if (!has_visible_emission(scene_->view())) return {};
         const IndexRange pixels{request.first_pixel, request.first_pixel + paths};
         const FilmView film = films_.view(request.slot, request.weights);
         return launch(

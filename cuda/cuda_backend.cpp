@@ -193,7 +193,8 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
     const AddSamplesKernel add = is_heat_map(request.slot.view) ? kSetSamples : kAddSamples;
     LaunchSize& size = picture_sizes_[static_cast<std::size_t>(request.slot.index())];
     const std::uint32_t end = std::min(request.end_pixel, request.subset.count(film.pixels.count));
-    const bool refines = is_picture && request.use != SampleUse::Trial && existing_scene().lights.size() > 0;
+    const bool refines =
+        is_picture && request.use != SampleUse::Trial && has_visible_emission(existing_scene().view());
     return run_launches(size, request.first_pixel, end, request.stop, [&](PathRange range) {
         const std::uint32_t count = range.end - range.first;
         if (samples_.size() < count) samples_ = DeviceArray<Vec3f>(count);
@@ -227,7 +228,7 @@ void CudaBackend::refine_launch(const PassRequest& request, PathRange range, con
         .range = range,
         .counters = counters_.data()};
     const std::size_t features = covering_set(request.features);
-    if (request.passes == kMarkingPass && range.first == 0)
+    if (request.passes == kMarkingPass && range.first == 0 && !scene.lights.empty())
         launch(kBorderKernels[features], blocks_for(scene.lights.count), stream_, "mark_borders", setup);
     launch(kEmissionKernels[features], blocks_for(range.end - range.first), stream_, "refine_film", setup);
 }

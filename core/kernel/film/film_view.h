@@ -13,23 +13,32 @@ PL_HD inline bool in_second_half(std::uint32_t pass) { return (pass & 1u) != 0; 
 /// The emission that a pixel has seen last, and whether it varies within the pixel. Three objects: neighbors read the value
 /// while the pixel's own thread sets the flags.
 struct EmissionSeen {
-    std::uint16_t value = 0;  ///< 0: nothing; else the upper half of a float (luminance), plus 1
+    std::uint16_t value = 0;  ///< 0: nothing; kSky; else the upper half of a float (luminance), plus 1
     std::uint8_t varies =
-        0;  ///< 1: further camera rays are worth their time; kBorderMarked: likewise, but not traced yet
+        0;  ///< kLampBorder, kSkyBorder: further camera rays are traced; kBorderMarked: they will be
     std::uint8_t at_border = 0;  ///< 1: a neighbor has seen another emission
 
-    static constexpr std::uint8_t kBorderMarked = 2;
-    static constexpr float kContrast = 0.1f;  ///< least relative difference of two values
+    static constexpr std::uint8_t kLampBorder = 1;
+    static constexpr std::uint8_t kBorderMarked = 2;  ///< of a lamp
+    static constexpr std::uint8_t kSkyBorder = 3;
+    static constexpr std::uint16_t kSky = 0xffff;  ///< bright parts of the environment, whatever their luminance
+    static constexpr float kContrast = 0.1f;       ///< least relative difference of two values
 
-    /// Whether the pixel has seen a lamp.
+    /// Whether the pixel has seen a lamp, or a bright sky.
     PL_HD bool is_lit() const { return value > 1; }
     PL_HD float luminance() const { return std::bit_cast<float>(static_cast<std::uint32_t>(value - 1) << 16); }
     /// Whether the two have seen values that differ.
     PL_HD bool differs_from(const EmissionSeen& other) const {
-        if (value == 0 || other.value == 0) return false;
+        if (value == 0 || other.value == 0 || value == other.value) return false;
+        if (value == kSky || other.value == kSky) return true;
         const float a = luminance();
         const float b = other.luminance();
         return std::fabs(a - b) > kContrast * max_of(a, b);
+    }
+    /// Kind of the border between two such places: a value of `varies`.
+    PL_HD std::uint8_t border_with(const EmissionSeen& other) const {
+        if (!differs_from(other)) return 0;
+        return value == kSky || other.value == kSky ? kSkyBorder : kLampBorder;
     }
     PL_HD static EmissionSeen of(float luminance) {
         return {static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(luminance) >> 16) + 1u)};

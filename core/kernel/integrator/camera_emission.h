@@ -1,5 +1,5 @@
-// Emission that the camera sees, apart from the light that surfaces reflect. A pixel that the border of a lamp crosses has a
-// variance that no sampling of directions reduces; there, further camera rays estimate the emission alone.
+// Emission that the camera sees, apart from the light that surfaces reflect. A pixel that the border of a lamp or of a bright sky
+// crosses has a variance that no sampling of directions reduces; there, further camera rays estimate the emission alone.
 #pragma once
 
 #include "core/kernel/film/film_view.h"
@@ -10,10 +10,21 @@ namespace pl {
 
 /// Sets of features that the kernels of camera emission are compiled for.
 inline constexpr KernelRange kEmissionRange = KernelRange::Sparse;
-/// Further camera rays of a sample in a pixel whose emission varies: with its own one they fill vectors of 16.
+/// Further camera rays of a sample in a pixel whose emission varies, at most; at the border of a sky, which is less bright than
+/// lamps and may be long, fewer. With its own one they fill vectors of 16.
 inline constexpr std::uint32_t kEmissionRays = 63;
+inline constexpr std::uint32_t kSkyRays = 15;
 /// Camera rays that decide whether the emission of a pixel varies.
 inline constexpr std::uint32_t kBorderRays = 16;
+
+/// Luminance of the environment above which its borders count: at those of a dimmer one the samples of a pixel have less noise from
+/// the border than further rays are worth.
+inline constexpr float kBrightSky = 2.0f;
+
+/// Whether the camera may see emission with borders.
+PL_HD inline bool has_visible_emission(const SceneView& scene) {
+    return !scene.lights.empty() || !scene.far_lights.empty() || luminance(scene.environment) > kBrightSky;
+}
 
 /// The parameters common to all pixels of a pass.
 struct EmissionContext {
@@ -39,36 +50,47 @@ struct SingleRays {
     }
 };
 
-/// Radiance emitted by the first surface along a ray; 0 on a miss: the environment is no surface.
+/// Radiance emitted by the first surface along a ray, or by the environment.
 template <FeatureSet F>
 PL_HD inline Vec3f first_emission(const SceneView& scene, const Ray& ray, const Hit& hit) {
-    if (!hit.found()) return Vec3f{0.0f};
+    if (!hit.found()) return environment_radiance<F>(scene, ray.direction);
     const SurfacePoint surface = make_surface_point<F>(scene, hit, -ray.direction);
     return emitted_at<F>(scene, surface, hit_weights(hit));
 }
 
-/// Replaces the first emission E_0 of the path of one sample in the film by the mean of kEmissionRays camera rays of its pixel:
+/// What a camera ray tells of the emission of its pixel. A bright sky is one value: its own pattern is no border.
+template <FeatureSet F>
+PL_HD inline EmissionSeen seen_emission(const SceneView& scene, const Ray& ray, const Hit& hit) {
+    const float emitted = luminance(first_emission<F>(scene, ray, hit));
+    if (hit.found()) return EmissionSeen::of(emitted);
+    return emitted > kBrightSky ? EmissionSeen{EmissionSeen::kSky} : EmissionSeen::of(0.0f);
+}
+
+/// Replaces the first emission E_0 of the path of one sample in the film by the mean of further camera rays of its pixel:
 /// L = mean(E) + (path - E_0). The rays of all samples of a half of the film continue one low-discrepancy sequence, which has a
-/// random start of its own.
+/// random start of its own. Returns the number of rays traced.
 template <FeatureSet F, class Rays>
-PL_HD inline void replace_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
-                                   const FilmView& film, std::uint32_t pixel, std::uint32_t sample) {
+PL_HD inline std::uint32_t replace_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
+                                            const FilmView& film, std::uint32_t pixel, std::uint32_t sample) {
+    const bool is_sky = film.pixels[pixel].emission.varies == EmissionSeen::kSkyBorder;
+    const std::uint32_t count = is_sky ? kSkyRays : kEmissionRays;
     const Vec4f start = path_rng(context.settings, pixel, sequence_of(sample)).draw(0, Purpose::Emission);
     const Vec4f own_start = pixel_start(context.settings, pixel, sample);
     Vec3f sum{0.0f};
     Vec3f own{0.0f};
     rays.trace(
-        kEmissionRays + 1,
+        count + 1,
         [&](std::uint32_t i) {
-            const Vec4f u = i < kEmissionRays ? sequence_point(start, sample / 2 * kEmissionRays + i)
-                                              : pixel_sample(own_start, sample);
+            const Vec4f u =
+                i < count ? sequence_point(start, sample / 2 * count + i) : pixel_sample(own_start, sample);
             return camera_ray<F>(context.camera, context.grid, pixel, u);
         },
         [&](std::uint32_t i, const Ray& ray, const Hit& hit) {
             const Vec3f emission = first_emission<F>(scene, ray, hit);
-            (i < kEmissionRays ? sum : own) += emission;
+            (i < count ? sum : own) += emission;
         });
-    correct_sample(film, pixel, sum * (1.0f / kEmissionRays) - own, sample);
+    correct_sample(film, pixel, sum * (1.0f / static_cast<float>(count)) - own, sample);
+    return count + 1;
 }
 
 /// Corners of a pixel; every straight border that crosses it parts them.
@@ -104,8 +126,8 @@ PL_HD inline void note_emission(const EmissionContext& context, const SceneView&
     rays.trace(
         1, [&](std::uint32_t) { return probing_ray<F>(context, pixel, kCorners); },
         [&](std::uint32_t, const Ray& ray, const Hit& hit) {
-            const EmissionSeen now = EmissionSeen::of(luminance(first_emission<F>(scene, ray, hit)));
-            p.emission.varies = p.emission.differs_from(now) ? 1 : 0;
+            const EmissionSeen now = seen_emission<F>(scene, ray, hit);
+            p.emission.varies = p.emission.border_with(now);
             p.emission.value = now.value;
         });
 }
@@ -118,8 +140,8 @@ PL_HD inline void decide_border(const EmissionContext& context, const SceneView&
     rays.trace(
         kBorderRays, [&](std::uint32_t i) { return probing_ray<F>(context, pixel, i); },
         [&](std::uint32_t, const Ray& ray, const Hit& hit) {
-            const EmissionSeen now = EmissionSeen::of(luminance(first_emission<F>(scene, ray, hit)));
-            if (p.emission.differs_from(now)) p.emission.varies = 1;
+            const EmissionSeen now = seen_emission<F>(scene, ray, hit);
+            if (p.emission.varies == 0) p.emission.varies = p.emission.border_with(now);
         });
 }
 
@@ -144,16 +166,17 @@ PL_HD inline std::uint32_t look_for_emission(const EmissionContext& context, con
 template <FeatureSet F, class Rays>
 PL_HD inline std::uint32_t refine_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
                                            const FilmView& film, std::uint32_t pixel) {
-    const FilmPixel& p = film.pixels[pixel];
-    const std::uint32_t last = context.grid.sample;
-    const bool was_refined = p.emission.varies == 1;
+    EmissionSeen& seen = film.pixels[pixel].emission;
+    const bool is_refined = seen.varies == EmissionSeen::kLampBorder || seen.varies == EmissionSeen::kSkyBorder;
     std::uint32_t traced = 0;
-    if (p.emission.varies == 0) traced = look_for_emission<F>(context, scene, rays, film, pixel);
-    if (p.emission.varies == 0) return traced;
-    const std::uint32_t refined = was_refined ? 1u : min_of(context.passes, last + 1);
-    film.pixels[pixel].emission.varies = 1;
-    for (std::uint32_t i = 0; i < refined; ++i) replace_emission<F>(context, scene, rays, film, pixel, last - i);
-    return traced + refined * (kEmissionRays + 1);
+    if (seen.varies == 0) traced = look_for_emission<F>(context, scene, rays, film, pixel);
+    if (seen.varies == 0) return traced;
+    if (seen.varies == EmissionSeen::kBorderMarked) seen.varies = EmissionSeen::kLampBorder;
+    const std::uint32_t last = context.grid.sample;
+    const std::uint32_t samples = is_refined ? 1u : min_of(context.passes, last + 1);
+    for (std::uint32_t i = 0; i < samples; ++i)
+        traced += replace_emission<F>(context, scene, rays, film, pixel, last - i);
+    return traced;
 }
 
 }  // namespace pl

@@ -25,6 +25,17 @@ PL_HD inline float direction_weight([[maybe_unused]] const PathSettings& setting
     return 1.0f;
 }
 
+/// Radiance of the environment in a direction.
+template <FeatureSet F>
+PL_HD inline Vec3f environment_radiance(const SceneView& scene, [[maybe_unused]] Vec3f direction) {
+    Vec3f radiance{0.0f};
+    if constexpr (F.has(Feature::Environment)) radiance = scene.environment;
+    if constexpr (F.has(Feature::EnvironmentMap)) {
+        if (!scene.far_lights.empty()) radiance += far_radiance(scene.far_lights, direction);
+    }
+    return radiance;
+}
+
 /// Adds the radiance of the environment to the path's estimator, weighted where the last vertex sampled far lights.
 template <FeatureSet F, class M>
 PL_HD inline FarRadiance add_environment(const SceneView& scene, [[maybe_unused]] const PathSettings& settings,

@@ -29,9 +29,7 @@ PL_HD inline bool is_seen_border(const EmissionContext& context, const SceneView
             const Vec3f aim = point + (i == 0 ? share : -share) * to_center;
             return Ray{.origin = context.camera.eye, .direction = glm::normalize(aim - context.camera.eye)};
         },
-        [&](std::uint32_t i, const Ray& ray, const Hit& hit) {
-            sides[i] = EmissionSeen::of(luminance(first_emission<F>(scene, ray, hit)));
-        });
+        [&](std::uint32_t i, const Ray& ray, const Hit& hit) { sides[i] = seen_emission<F>(scene, ray, hit); });
     return sides[0].differs_from(sides[1]);
 }
 
