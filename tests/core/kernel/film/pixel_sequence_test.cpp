@@ -6,7 +6,7 @@
 
 #include "core/kernel/base/rng.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/statistics/rules.h"
+#include "tests/support/statistics/sequences.h"
 
 using namespace pl;
 
@@ -43,20 +43,9 @@ TEST_CASE("Samples of a pixel are exact steps modulo 1, and below 1") {
     }
 }
 
-// Seed 1, each pass over 20 000 pixels: mean 1/2 to 4 %, variance 1/12 to 6 % (rule S1).
+// Seed 1.
 TEST_CASE("Every pass alone has samples that are uniform over the pixels") {
-    for (const std::uint32_t pass : {0u, 1u, 2u, 127u, 1000000u, 0xfffffffeu})
-        for (int i = 0; i < 4; ++i) {
-            test::Moments mean, variance;
-            for (std::uint32_t pixel = 0; pixel < 20000; ++pixel) {
-                const auto u = static_cast<double>(sample_of(pixel, pass)[i]);
-                mean.add(u);
-                variance.add((u - 0.5) * (u - 0.5));
-            }
-            INFO("pass " << pass << ", number " << i);
-            CHECK(test::mean_equals(mean, {0.5}, 0.04));
-            CHECK(test::mean_equals(variance, {1.0 / 12.0}, 0.06));
-        }
+    test::check_passes_are_uniform(sample_of);
 }
 
 // The share of a pixel that lies on one side of a line through its center, from 128 samples: independent ones would be off by
@@ -78,20 +67,15 @@ TEST_CASE("Samples stay even over a million passes") {
     for (std::uint32_t pixel = 0; pixel < 4; ++pixel) CHECK(std::fabs(covered(pixel, 1u << 20, 0.3) - 0.5) < 1e-4);
 }
 
-// Noise is estimated from the difference of a film's halves: their errors must be independent. Seed 1, 20 000 pixels:
-// a correlation of 0.06 would be missed once in a thousand times.
+// Noise is estimated from the difference of a film's halves: their errors must be independent. Seed 1.
 TEST_CASE("The two halves of a film have errors that are independent") {
     constexpr std::uint32_t kPasses = 32;
-    test::Moments product, square;
-    for (std::uint32_t pixel = 0; pixel < 20000; ++pixel) {
+    test::check_independent([](std::uint32_t pixel) {
         std::array<double, 2> off{};
         for (std::uint32_t pass = 0; pass < kPasses; ++pass) {
             const Vec4f u = sample_of(pixel, pass);
             off[pass % 2] += (u.y < u.x ? 1.0 : 0.0) - 0.5;
         }
-        product.add(off[0] * off[1]);
-        square.add(off[0] * off[0]);
-    }
-    CHECK(std::fabs(product.mean()) < test::kZAlpha * product.standard_error());
-    CHECK(product.standard_error() < test::resolving_error(0.06 * square.mean()));
+        return off;
+    });
 }

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "tests/support/catch.hpp"
-#include "tests/support/statistics/rules.h"
+#include "tests/support/statistics/sequences.h"
 
 using namespace pl;
 
@@ -40,19 +40,6 @@ double spread_of(const Integrand& integrand) {
     return std::sqrt(square);
 }
 
-/// Whether two deviations of 20 000 pixels are independent; a correlation of 0.06 would be missed once in a thousand times.
-template <class Pair>
-void check_independent(const Pair& pair) {
-    test::Moments product, square;
-    for (std::uint32_t pixel = 0; pixel < 20000; ++pixel) {
-        const std::array<double, 2> off = pair(pixel);
-        product.add(off[0] * off[1]);
-        square.add(off[0] * off[0]);
-    }
-    CHECK(std::fabs(product.mean()) < test::kZAlpha * product.standard_error());
-    CHECK(product.standard_error() < test::resolving_error(0.06 * square.mean()));
-}
-
 }  // namespace
 
 TEST_CASE("Only first vertices of camera paths have numbers of a sequence") {
@@ -64,22 +51,9 @@ TEST_CASE("Only first vertices of camera paths have numbers of a sequence") {
         }
 }
 
-// Seed 1, each pass over 20 000 pixels: mean 1/2 to 4 %, variance 1/12 to 6 % (rule S1).
+// Seed 1.
 TEST_CASE("Every pass alone has numbers that are uniform over the pixels") {
-    for (const std::uint32_t pass : {0u, 1u, 2u, 127u, 1000000u, 0xfffffffeu})
-        for (int i = 0; i < 4; ++i) {
-            test::Moments mean, variance;
-            for (std::uint32_t pixel = 0; pixel < 20000; ++pixel) {
-                const auto u = static_cast<double>(numbers_of(pixel, pass)[i]);
-                REQUIRE(u >= 0.0);
-                REQUIRE(u < 1.0);
-                mean.add(u);
-                variance.add((u - 0.5) * (u - 0.5));
-            }
-            INFO("pass " << pass << ", number " << i);
-            CHECK(test::mean_equals(mean, {0.5}, 0.04));
-            CHECK(test::mean_equals(variance, {1.0 / 12.0}, 0.06));
-        }
+    test::check_passes_are_uniform([](std::uint32_t pixel, std::uint32_t pass) { return numbers_of(pixel, pass); });
 }
 
 TEST_CASE("The passes of a half form nets: 64 numbers in 64 intervals") {
@@ -108,15 +82,15 @@ TEST_CASE("Means over the passes have a fraction of the deviation of independent
 
 // Seed 1. Noise is estimated from the difference of a film's halves.
 TEST_CASE("Halves of a film, purposes and neighbors have independent deviations") {
-    check_independent([](std::uint32_t pixel) {
+    test::check_independent([](std::uint32_t pixel) {
         return std::array<double, 2>{deviation(pixel, 0, 16, Purpose::Scatter, in_disk),
                                      deviation(pixel, 1, 16, Purpose::Scatter, in_disk)};
     });
-    check_independent([](std::uint32_t pixel) {
+    test::check_independent([](std::uint32_t pixel) {
         return std::array<double, 2>{deviation(pixel, 0, 16, Purpose::Scatter, in_disk),
                                      deviation(pixel, 0, 16, Purpose::Light, in_disk)};
     });
-    check_independent([](std::uint32_t pixel) {
+    test::check_independent([](std::uint32_t pixel) {
         return std::array<double, 2>{deviation(2 * pixel, 0, 16, Purpose::Scatter, in_disk),
                                      deviation(2 * pixel + 1, 0, 16, Purpose::Scatter, in_disk)};
     });
@@ -134,5 +108,7 @@ TEST_CASE("Numbers of one pass are independent of each other") {
          [](std::uint32_t p) { return static_cast<double>(numbers_of(p, 6, Purpose::Light).x) - 0.5; }},
     };
     for (const auto& pair : pairs)
-        check_independent([&](std::uint32_t pixel) { return std::array<double, 2>{pair[0](pixel), pair[1](pixel)}; });
+        test::check_independent([&](std::uint32_t pixel) {
+            return std::array<double, 2>{pair[0](pixel), pair[1](pixel)};
+        });
 }
