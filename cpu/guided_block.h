@@ -89,14 +89,14 @@ public:
 template <FeatureSet F, TableGuided M>
 class ScatterBlock {
 public:
-    ScatterBlock(const M& method, const PathSettings& settings) : method_(method), settings_(settings) {}
+    explicit ScatterBlock(const M& method) : method_(method) {}
 
     std::uint32_t count() const { return count_; }
     void clear() { count_ = 0; }
 
     /// Storage for the vertex of the next path; add() appends it.
     ScatterPoint<F, M>& next() { return points_[count_]; }
-    void add(std::uint32_t path, const PathState<F, M>& state, Vec4f u) {
+    void add(std::uint32_t path, Vec4f u) {
         const ScatterPoint<F, M>& from = points_[count_];
         GuidedGroup& group = groups_[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
@@ -104,17 +104,13 @@ public:
         group.choice[lane] = u.x;
         group.u_x[lane] = u.y;
         group.u_y[lane] = u.z;
-        group.counters.pixel[lane] = state.pixel;
-        group.counters.sample[lane] = state.sample;
-        group.counters.vertex[lane] = state.draw_index();
         paths_[count_++] = path;
         if (lane + 1 == kGroupSize) sample_rows();
     }
 
     void sample_directions() {
         if (count_ % kGroupSize != 0) sample_rows();
-        kernels_.sample_guided(sampler_of(method_.field), {settings_.seed, settings_.stream, Purpose::CellJitter},
-                               groups_, sampled_, directions_, group_count(count_));
+        kernels_.sample_guided(sampler_of(method_.field), groups_, sampled_, directions_, group_count(count_));
     }
 
     std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
@@ -128,7 +124,6 @@ private:
         kernels_.sample_rows(sampler_of(method_.field), groups_[group], sampled_[group]);
     }
     const M& method_;
-    const PathSettings& settings_;
     LaneKernels kernels_ = best_lane_kernels();
     std::uint32_t count_ = 0;
     std::uint32_t paths_[kGuidedBlock];
@@ -153,7 +148,7 @@ struct SharedByThreads<M> {
 /// Per-thread state for extending blocks of paths.
 template <FeatureSet F, class M>
 struct BlockMemory {
-    BlockMemory(const M&, const PathSettings&, SharedByThreads<M>&) {}
+    BlockMemory(const M&, SharedByThreads<M>&) {}
 };
 template <FeatureSet F, TableGuided M>
 struct BlockMemory<F, M> {
@@ -163,8 +158,8 @@ struct BlockMemory<F, M> {
     TrainingQueue<M, QueuedSample<M>> training;
     TrainingQueue<M, QueuedLight<M>> lights;
 
-    BlockMemory(const M& method, const PathSettings& settings, SharedByThreads<M>& shared)
-        : scattered(method, settings), lit(method), training(method, shared.locks), lights(method, shared.locks) {}
+    BlockMemory(const M& method, SharedByThreads<M>& shared)
+        : scattered(method), lit(method), training(method, shared.locks), lights(method, shared.locks) {}
 };
 
 }  // namespace pl

@@ -30,8 +30,8 @@ public:
             Lanes::prefetch(tables_.column_cdf, tables.first_of_row(table_row) + column);
     }
 
-    PL_INLINE void sample_direction(const DrawKey& jitter_key, SampledGroup& sampled) const {
-        const Real3<Lanes> wi = mixture_direction(jitter_key, load_lanes<LaneInt>(sampled.row + first_));
+    PL_INLINE void sample_direction(SampledGroup& sampled) const {
+        const Real3<Lanes> wi = mixture_direction(load_lanes<LaneInt>(sampled.row + first_));
         store(wi.x, sampled.direction.x);
         store(wi.y, sampled.direction.y);
         store(wi.z, sampled.direction.z);
@@ -84,14 +84,11 @@ private:
     PL_INLINE DirectionTables<Lanes> tables_of(const LaneInt& wanted) const {
         return tables_.tables_of<Lanes>(select(wanted, point_.served.volume, LaneInt{}));
     }
-    PL_INLINE Real3<Lanes> mixture_direction(const DrawKey& jitter_key, const LaneInt& table_row) const {
+    PL_INLINE Real3<Lanes> mixture_direction(const LaneInt& table_row) const {
         const LaneInt guided = is_guided();
         const Real2<Lanes> u{row(paths_.u_x), row(paths_.u_y)};
         Real2<Lanes> square = u;
-        if (Lanes::any(guided)) {
-            const PhiloxWords<LaneFloat> jitter = draw_lanes(jitter_key, paths_.counters, first_);
-            square = select(guided, sample_square(tables_of(guided), table_row, u, {jitter.v[0], jitter.v[1]}), u);
-        }
+        if (Lanes::any(guided)) square = select(guided, sample_square(tables_of(guided), table_row, u), u);
         const FrameOf<Lanes> frame = make_frame(select(guided, point_.served.normal, point_.shading_normal));
         const Real3<Lanes> direction = frame.to_world(square_to_cosine_hemisphere(square));
         return select(guided, TableSampler::parallax_of(point_.served).to_point(direction), direction);
@@ -124,11 +121,11 @@ PL_INLINE void weigh_guided_groups(const TableSampler& tables, const GuidedGroup
             GuidedLanes(tables, paths[group], first).weigh(sampled[group], directions[group]);
 }
 
-PL_INLINE void sample_guided_groups(const TableSampler& tables, const DrawKey& jitter_key, const GuidedGroup* paths,
-                                    SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
+PL_INLINE void sample_guided_groups(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
+                                    DirectionGroup* directions, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            GuidedLanes(tables, paths[group], first).sample_direction(jitter_key, sampled[group]);
+            GuidedLanes(tables, paths[group], first).sample_direction(sampled[group]);
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
             GuidedLanes(tables, paths[group], first).weigh(sampled[group], directions[group]);

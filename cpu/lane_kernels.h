@@ -68,7 +68,6 @@ struct alignas(64) GuidedGroup {
     float inverse_reach[kGroupSize] = {}, bsdf_fraction[kGroupSize] = {};
     VectorGroup position, shading_normal;
     float choice[kGroupSize] = {}, u_x[kGroupSize] = {}, u_y[kGroupSize] = {};  ///< x, y, z of ScatterNumbers::u
-    CounterGroup counters;  ///< of the random numbers for the position within a cell
 
     GuidedGroup() { std::fill_n(volume, kGroupSize, kNoVolume); }
 
@@ -111,9 +110,9 @@ struct LaneKernels {
                           std::uint32_t groups);
     /// Samples table rows for sample_guided() and prefetches the columns it reads.
     void (*sample_rows)(const TableSampler& tables, const GuidedGroup& paths, SampledGroup& sampled);
-    /// Guided::sample_direction() of every path, at Lambert reflectors. `jitter_key` has Purpose::CellJitter.
-    void (*sample_guided)(const TableSampler& tables, const DrawKey& jitter_key, const GuidedGroup* paths,
-                          SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups);
+    /// Guided::sample_direction() of every path, at Lambert reflectors.
+    void (*sample_guided)(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
+                          DirectionGroup* directions, std::uint32_t groups);
     /// Guided::pdf_sa() of the directions in `sampled`, at Lambert reflectors.
     void (*weigh_guided)(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
                          DirectionGroup* directions, std::uint32_t groups);

@@ -29,9 +29,9 @@ void sample_rows(const TableSampler& tables, const GuidedGroup& paths, SampledGr
     sample_rows_of_group(tables, paths, sampled);
 }
 
-void sample_guided(const TableSampler& tables, const DrawKey& jitter_key, const GuidedGroup* paths,
-                   SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
-    sample_guided_groups(tables, jitter_key, paths, sampled, directions, groups);
+void sample_guided(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
+                   DirectionGroup* directions, std::uint32_t groups) {
+    sample_guided_groups(tables, paths, sampled, directions, groups);
 }
 
 void weigh_guided(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,

@@ -29,13 +29,6 @@ PL_INLINE PhiloxWords<LaneUint> bits_lanes(const DrawKey& key, const CounterGrou
                       [](std::uint32_t factor, LaneUint words) { return multiply_lanes(factor, words); });
 }
 
-/// Evaluates Rng::draw.
-PL_INLINE PhiloxWords<LaneFloat> draw_lanes(const DrawKey& key, const CounterGroup& counters, std::uint32_t first) {
-    const auto sample = load_lanes<LaneUint>(counters.sample + first);
-    const PhiloxWords<LaneUint> bits = bits_lanes(key, counters, first, sample);
-    return {{to_unit_lanes(bits.v[0]), to_unit_lanes(bits.v[1]), to_unit_lanes(bits.v[2]), to_unit_lanes(bits.v[3])}};
-}
-
 PL_INLINE void store_numbers(const PhiloxWords<LaneUint>& bits, NumberGroup& numbers, std::uint32_t first) {
     for (int i = 0; i < 4; ++i) store_lanes(to_unit_lanes(bits.v[i]), numbers.rows[i] + first);
 }

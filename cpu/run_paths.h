@@ -55,7 +55,7 @@ public:
           statuses_(setup.batch_paths), numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0),
           rays_(setup.batch_paths), shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())),
-          solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method_, setup.path, shared) {}
+          solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method_, shared) {}
 
     /// The main loop: traces paths until the source is empty and the last path has ended.
     PassCounters run(PathSource& source) {
@@ -205,7 +205,7 @@ private:
                 return;
             }
         }
-        block_.scattered.add(i, states_[i], u);
+        block_.scattered.add(i, u);
     }
 
     void push(const ShadowRequest<M>& shadow, std::uint32_t path) {

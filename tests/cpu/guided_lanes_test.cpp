@@ -30,8 +30,6 @@ float any_number(Uniforms& random) {
 void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, const std::vector<Vec3f>& normals,
                  Uniforms& random) {
     constexpr std::uint32_t kGroups = 3;
-    const DrawKey jitter_key{(std::uint64_t{random.bits()} << 32) | random.bits(), Stream::Picture,
-                             Purpose::CellJitter};
     GuidedGroup groups[kGroups];
     SampledGroup sampled[kGroups];
     DirectionGroup directions[kGroups];
@@ -50,24 +48,18 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
         group.choice[lane] = any_number(random);
         group.u_x[lane] = any_number(random);
         group.u_y[lane] = any_number(random);
-        group.counters.pixel[lane] = random.bits();
-        group.counters.sample[lane] = random.bits();
-        group.counters.vertex[lane] = random.below(64);
     }
     for (std::uint32_t i = 0; i < kGroups; ++i) kernels.sample_rows(method.field.sampler(), groups[i], sampled[i]);
-    kernels.sample_guided(method.field.sampler(), jitter_key, groups, sampled, directions, kGroups);
+    kernels.sample_guided(method.field.sampler(), groups, sampled, directions, kGroups);
     for (std::uint32_t i = 0; i < kGroups * kGroupSize; ++i) {
         const GuidedGroup& group = groups[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
         SurfacePoint surface;
         surface.position = group.position.get(lane);
         surface.shading_normal = group.shading_normal.get(lane);
-        const Rng rng{jitter_key.seed, jitter_key.stream, group.counters.pixel[lane], group.counters.sample[lane]};
         const DirectionSample alone =
             method.sample_direction({group.volume[lane]}, surface,
-                                    {.rng = rng,
-                                     .index = group.counters.vertex[lane],
-                                     .u = {group.choice[lane], group.u_x[lane], group.u_y[lane], 0.0f}});
+                                    {.rng = {}, .u = {group.choice[lane], group.u_x[lane], group.u_y[lane], 0.0f}});
         REQUIRE(same_bits(directions[i / kGroupSize].get(lane), alone));
     }
 }
@@ -99,10 +91,9 @@ TEST_CASE("Every instruction set chooses the guided directions of one path alone
 
 TEST_CASE("Without volumes a block of paths scatters by the BSDF") {
     PrecomputedMethod method;
-    const PathSettings settings;
-    ScatterBlock<FeatureSet{}, PrecomputedMethod> block(method, settings);
+    ScatterBlock<FeatureSet{}, PrecomputedMethod> block(method);
     block.next() = {.surface = SurfacePoint{}, .bsdf = {Vec3f{0.5f}}};
-    block.add(7, PathState<FeatureSet{}, PrecomputedMethod>{}, {0.25f, 0.75f, 0.125f, 0.0f});
+    block.add(7, {0.25f, 0.75f, 0.125f, 0.0f});
     block.sample_directions();
     REQUIRE(block.count() == 1);
     CHECK(block.path(0) == 7);

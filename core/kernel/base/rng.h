@@ -10,14 +10,13 @@ namespace pl {
 
 /// Purpose of a draw. Every effect has its own, so enabling one never shifts the random numbers of another.
 enum class Purpose : std::uint32_t {
-    Pixel = 0,       ///< start of the film and lens sequences, see pixel_sample()
-    Scatter = 1,     ///< one-sample MIS strategy, direction (2), Russian roulette
-    CellJitter = 2,  ///< position inside a direction cell
-    Light = 3,       ///< choice of a light, point on it
-    Probe = 4,       ///< first direction of a probe
-    Placement = 5,   ///< placement of radiance volumes
-    Lobe = 6,        ///< choice among the lobes of a surface
-    Emission = 7,    ///< further camera rays for emission alone, see camera_emission.h
+    Pixel = 0,      ///< start of the film and lens sequences, see pixel_sample()
+    Scatter = 1,    ///< one-sample MIS strategy, direction (2), Russian roulette
+    Light = 3,      ///< choice of a light, point on it
+    Probe = 4,      ///< first direction of a probe
+    Placement = 5,  ///< placement of radiance volumes
+    Lobe = 6,       ///< choice among the lobes of a surface
+    Emission = 7,   ///< further camera rays for emission alone, see camera_emission.h
 };
 
 /// Independent families of random numbers: camera paths, probes, placement and trials never share one.

@@ -1,4 +1,4 @@
-// Sampling a volume's table of directions: a row, a column of it, then a tent-shaped jitter; and the density of the result.
+// Sampling a volume's table of directions: a row, a column of it, then a tent around its center; and the density of the result.
 #pragma once
 
 #include "core/kernel/guiding/direction_cells.h"
@@ -49,11 +49,27 @@ struct DirectionTables {
     /// Index of the first cumulative probability of a row.
     PL_INLINE Int first_of_row(Int row) const { return (volume * cells.side + row) * cells.side; }
 
+    /// Where a number lies between the cumulative probabilities that enclose it, those of a row or a column: again uniform in
+    /// [0, 1], with log2 of their difference fewer bits. One number so serves twice, and evenly spread numbers stay so.
+    PL_INLINE Real position_in_row(Int row, Real u) const {
+        return position_in(row_cdf, volume * cells.side, row, u);
+    }
+    PL_INLINE Real position_in_column(Int row, Int column, Real u) const {
+        return position_in(column_cdf, first_of_row(row), column, u);
+    }
+
 private:
-    /// Probability of one entry of the distribution that starts at `first`.
-    static PL_INLINE Real share_of(const float* cdf, Int first, Int entry) {
+    /// Sum of the probabilities before one entry of the distribution that starts at `first`.
+    static PL_INLINE Real start_of(const float* cdf, Int first, Int entry) {
         const auto start = N::load(cdf, first + select(entry > 0, entry - 1, entry));
-        return N::load(cdf, first + entry) - select(entry > 0, start, N::constant(0.0f));
+        return select(entry > 0, start, N::constant(0.0f));
+    }
+    static PL_INLINE Real share_of(const float* cdf, Int first, Int entry) {
+        return N::load(cdf, first + entry) - start_of(cdf, first, entry);
+    }
+    static PL_INLINE Real position_in(const float* cdf, Int first, Int entry, Real u) {
+        const Real start = start_of(cdf, first, entry);
+        return (u - start) / (N::load(cdf, first + entry) - start);
     }
     struct Shares {
         Real first, second;
@@ -91,15 +107,14 @@ PL_INLINE CellNumber<N> sample_cell(const DirectionTables<N>& table, typename N:
     return {N::count_not_above(table.column_cdf, table.first_of_row(row), table.cells.side, u), row};
 }
 
-/// Samples a point of the unit square: a cell by its probability, jittered by a tent that reaches into the neighbors.
-/// Density over the square: square_density(). u, jitter in [0,1)^2; `row` is sample_row() of u.y.
+/// Samples a point of the unit square: a cell by its probability, and a tent around its center that reaches into the neighbors.
+/// Density over the square: square_density(). u in [0,1)^2; `row` is sample_row() of u.y.
 template <class N>
-PL_INLINE Real2<N> sample_square(const DirectionTables<N>& table, typename N::Int row, const Real2<N>& u,
-                                 const Real2<N>& jitter) {
+PL_INLINE Real2<N> sample_square(const DirectionTables<N>& table, typename N::Int row, const Real2<N>& u) {
     const CellNumber<N> cell = sample_cell(table, row, u.x);
     const auto side = static_cast<float>(table.cells.side);
-    const auto x = N::to_real(cell.column) + 0.5f + sample_tent<N>(jitter.x);
-    const auto y = N::to_real(cell.row) + 0.5f + sample_tent<N>(jitter.y);
+    const auto x = N::to_real(cell.column) + 0.5f + sample_tent<N>(table.position_in_column(row, cell.column, u.x));
+    const auto y = N::to_real(row) + 0.5f + sample_tent<N>(table.position_in_row(row, u.y));
     return {reflect_into<N>(x, side) / side, reflect_into<N>(y, side) / side};
 }
 

@@ -33,11 +33,10 @@ struct TableField : TableView {
         return {found.volume, found.node};
     }
     PL_HD Vec3f sample(const Location& location, const SurfacePoint& surface, const ScatterNumbers& numbers) const {
-        const Vec4f jitter = numbers.rng.draw(numbers.index, Purpose::CellJitter);
         const Real2<One> u{numbers.u.y, numbers.u.z};
         const TableSampler tables = sampler();
         const std::int32_t row = sample_row(tables.tables_of<One>(location.volume), u.y);
-        return pack(tables.sample<One>(served_point(location, surface), row, u, {jitter.x, jitter.y}));
+        return pack(tables.sample<One>(served_point(location, surface), row, u));
     }
     PL_HD FieldDensity density(const Location& location, const SurfacePoint& surface, Vec3f wi) const {
         const TableSampler tables = sampler();

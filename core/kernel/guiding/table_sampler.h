@@ -41,11 +41,10 @@ struct TableSampler {
     const float* row_cdf = nullptr;     ///< [volume][row]
     const float* column_cdf = nullptr;  ///< [volume][row][column]
 
-    /// Samples a direction; u, jitter in [0,1)^2, `row` is sample_row() of u.y.
+    /// Samples a direction; u in [0,1)^2, `row` is sample_row() of u.y.
     template <class N>
-    PL_INLINE Real3<N> sample(const ServedPoint<N>& point, typename N::Int row, const Real2<N>& u,
-                              const Real2<N>& jitter) const {
-        return direction_of(point, sample_square(tables_of<N>(point.volume), row, u, jitter));
+    PL_INLINE Real3<N> sample(const ServedPoint<N>& point, typename N::Int row, const Real2<N>& u) const {
+        return direction_of(point, sample_square(tables_of<N>(point.volume), row, u));
     }
     /// A direction in coordinates of the volume's table.
     template <class N>

@@ -12,7 +12,7 @@ namespace pl {
 inline constexpr KernelRange kEmissionRange = KernelRange::Sparse;
 /// Further camera rays of a sample in a pixel whose emission varies, at most; at the border of a sky, which is less bright than
 /// lamps and may be long, fewer. With its own one they fill vectors of 16.
-inline constexpr std::uint32_t kEmissionRays = 63;
+inline constexpr std::uint32_t kEmissionRays = 127;
 inline constexpr std::uint32_t kSkyRays = 15;
 /// Camera rays that decide whether the emission of a pixel varies.
 inline constexpr std::uint32_t kBorderRays = 16;

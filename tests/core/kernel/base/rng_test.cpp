@@ -93,9 +93,7 @@ TEST_CASE("Neighbouring streams are uncorrelated") {
     const auto next_vertex = [](std::uint32_t i) {
         return Rng{1, Stream::Picture, i, 0}.draw(1, Purpose::Scatter).x;
     };
-    const auto other_purpose = [](std::uint32_t i) {
-        return Rng{1, Stream::Picture, i, 0}.draw(0, Purpose::CellJitter).x;
-    };
+    const auto other_purpose = [](std::uint32_t i) { return Rng{1, Stream::Picture, i, 0}.draw(0, Purpose::Lobe).x; };
     CHECK(std::abs(correlation(kPairs, by_pixel, next_pixel)) < kLimit);
     CHECK(std::abs(correlation(kPairs, by_pixel, next_sample)) < kLimit);
     CHECK(std::abs(correlation(kPairs, by_pixel, next_vertex)) < kLimit);

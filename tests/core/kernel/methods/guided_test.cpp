@@ -52,7 +52,7 @@ std::vector<double> integrate_bins(Pdf&& pdf) {
     return bins;
 }
 
-/// Draws as the integrator does: four numbers for the choice, more from the purpose of the jitter.
+/// Draws as the integrator does.
 struct Draws {
     std::uint32_t next = 0;
 
