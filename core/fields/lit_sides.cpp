@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "core/fields/surfaces.h"
+#include "core/fields/walk.h"
 #include "core/kernel/base/rng.h"
 #include "core/kernel/integrator/holes.h"
 #include "core/kernel/shading/lights.h"
@@ -14,9 +15,6 @@ constexpr std::uint32_t kMaxVertices = 16;
 /// A side counts as lit if it receives more than one in this many arrivals at its surface; fewer are strays through
 /// open edges.
 constexpr std::uint32_t kStrayRatio = 50;
-/// Placement is a property of the scene: it does not change with the picture's seed.
-constexpr std::uint64_t kSeed = 0x706c6163656d656e;
-
 struct Arrivals {
     std::uint32_t front = 0;
     std::uint32_t back = 0;
@@ -71,7 +69,7 @@ public:
         const bool lights = !scene_.lights.empty();
         if (!sky && !lights) return arrivals_;
         for (std::uint32_t i = 0; i < kWalks; ++i) {
-            const Rng rng{kSeed, Stream::Placement, i, 0};
+            const Rng rng{kPlacementSeed, Stream::Placement, i, kLightWalk};
             const Vec4f u = rng.draw(0, Purpose::Placement);
             const Vec4f v = rng.draw(1, Purpose::Placement);
             const bool from_sky = sky && (!lights || i % 2 == 0);
@@ -90,13 +88,8 @@ private:
             const LayeredBsdf bsdf = make_bsdf<kLobeFeatures>(view_, point, hit_weights(hit), -ray.direction);
             if (!bsdf.scatters()) return;
             if (surface != kNoSurface) ++(point.front ? arrivals_[surface].front : arrivals_[surface].back);
-            ray = spawn_ray(point, leave(point, bsdf, rng.draw(vertex + 2, Purpose::Placement)));
+            ray = spawn_ray(point, leave_surface(point, bsdf, rng.draw(vertex + 2, Purpose::Placement)));
         }
-    }
-
-    static Vec3f leave(const SurfacePoint& point, const LayeredBsdf& bsdf, Vec4f u) {
-        if (u.z < bsdf.delta_probability()) return bsdf.sample_delta(point, u.w).wi;
-        return bsdf.sample(point, {u.x, u.y}, u.w);
     }
 
     const HostScene& scene_;

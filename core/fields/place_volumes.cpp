@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/fields/camera_walk.h"
+#include "core/fields/radical_inverse.h"
 #include "core/fields/surfaces.h"
 
 namespace pl {
@@ -56,13 +58,6 @@ void share_out(std::vector<Side>& sides, std::uint32_t volumes) {
     }
 }
 
-/// Bits of `index` mirrored behind the binary point, in [0, 1).   [van der Corput 1935]
-float radical_inverse(std::uint32_t index) {
-    std::uint32_t mirrored = 0;
-    for (int bit = 0; bit < 32; ++bit) mirrored |= ((index >> bit) & 1u) << (31 - bit);
-    return static_cast<float>(mirrored >> 8) * 0x1p-24f;
-}
-
 /// A Hammersley set of `count` points over the cumulative area of one side.
 void for_each_point(const SceneView& scene, const Surface& surface, const Side& side, std::uint32_t count,
                     const std::function<void(const SurfacePoint&)>& visit) {
@@ -87,18 +82,23 @@ void for_each_point(const SceneView& scene, const Surface& surface, const Side& 
 
 }  // namespace
 
-void for_each_site(const HostScene& scene, const FieldSettings& settings, std::uint32_t density,
+void for_each_site(const HostScene& scene, const FieldSettings& settings, const Camera* camera, std::uint32_t density,
                    const std::function<void(const SurfacePoint&)>& visit) {
     const Surfaces surfaces = find_surfaces(scene);
     std::vector<Side> sides = lit_sides_of(scene, surfaces);
-    share_out(sides, static_cast<std::uint32_t>(volume_count(settings)));
+    const auto volumes = static_cast<std::uint32_t>(volume_count(settings));
+    const std::uint32_t by_paths = camera != nullptr && sides.size() > volumes ? volumes / 2 : 0;
+    share_out(sides, volumes - by_paths);
     for (const Side& side : sides)
         for_each_point(scene.view(), surfaces.list[side.surface], side, density * side.volumes, visit);
+    if (by_paths == 0) return;
+    const std::vector<SurfacePoint> sites = choose_sites(walk_from_camera(scene, *camera), density * by_paths);
+    std::ranges::for_each(sites, visit);
 }
 
-HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings) {
+HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings, const Camera* camera) {
     HostVolumes volumes;
-    for_each_site(scene, settings, 1, [&](const SurfacePoint& site) {
+    for_each_site(scene, settings, camera, 1, [&](const SurfacePoint& site) {
         volumes.sites.push_back(site);
         volumes.normals.push_back(site.geometric_normal);
     });

@@ -6,19 +6,21 @@
 #include <vector>
 
 #include "core/fields/field_settings.h"
+#include "core/kernel/scene/camera.h"
 #include "core/scene/scene_storage.h"
 
 namespace pl {
 
 /// Places volumes on reflecting surfaces by systematic sampling of cumulative area with a Hammersley set, on every
 /// side of a surface that light reaches. A surface is a connected set of triangles with (nearly) the same normal;
-/// each side gets at least one volume unless there are more sides than volumes. Deterministic in the scene and the
-/// settings; scaling the scene by a power of two scales the result.
-HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings);
+/// each side gets at least one volume. Where there are more sides than volumes, area would leave out most of them: there half
+/// of the volumes are placed where paths from the camera arrive, see choose_sites(); all by area without a camera.
+/// Deterministic in the scene, the settings and the camera; scaling the scene by a power of two scales the result.
+HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings, const Camera* camera = nullptr);
 
-/// Visits points on the sides that carry volumes, one side after the other, placed as place_volumes() does, but with
-/// `density` times as many per side.
-void for_each_site(const HostScene& scene, const FieldSettings& settings, std::uint32_t density,
+/// Visits points on the sides that carry volumes, placed as place_volumes() does, but with `density` times as many per side,
+/// and of those by paths as many more as paths have arrived at.
+void for_each_site(const HostScene& scene, const FieldSettings& settings, const Camera* camera, std::uint32_t density,
                    const std::function<void(const SurfacePoint&)>& visit);
 
 /// Balanced tree over the sites in the layout of KdTreeView, without sites whose position is not finite.

@@ -17,14 +17,14 @@ constexpr std::size_t kMostTried = 64;
 
 constexpr std::uint32_t kNotSplit = 0xffffffffu;
 
-/// Points of the Voronoi cell of each of `split`, uniform by area.
+/// Points of the Voronoi cell of each of `split`: uniform by area, or by area and by paths, as the volumes are.
 std::vector<std::vector<SurfacePoint>> cells_of(const HostScene& scene, const FieldSettings& settings,
-                                                const PlacementView& placement,
+                                                const Camera* camera, const PlacementView& placement,
                                                 std::span<const std::uint32_t> split) {
     std::vector<std::uint32_t> entry(placement.sites.count, kNotSplit);
     for (std::uint32_t i = 0; i < split.size(); ++i) entry[split[i]] = i;
     std::vector<std::vector<SurfacePoint>> cells(split.size());
-    for_each_site(scene, settings, kPointsPerVolume, [&](const SurfacePoint& point) {
+    for_each_site(scene, settings, camera, kPointsPerVolume, [&](const SurfacePoint& point) {
         const std::int32_t volume = placement.volume_at(point);
         if (volume == kNoVolume) return;
         const std::uint32_t i = entry[static_cast<std::uint32_t>(volume)];
@@ -56,9 +56,9 @@ std::optional<SurfacePoint> second_center(const std::vector<SurfacePoint>& cell,
 
 }  // namespace
 
-RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings,
+RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const Camera* camera,
                                   const PlacementView& placement, std::span<const std::uint32_t> split) {
-    const std::vector<std::vector<SurfacePoint>> cells = cells_of(scene, settings, placement, split);
+    const std::vector<std::vector<SurfacePoint>> cells = cells_of(scene, settings, camera, placement, split);
     RefinedPlacement result;
     HostVolumes& volumes = result.volumes;
     volumes.sites.assign(placement.sites.begin(), placement.sites.end());

@@ -27,8 +27,8 @@ struct RefinedPlacement {
 /// second center of a least-squares quantizer of the volume's Voronoi cell, among the points of a denser placement,
 /// so that it is a position place_volumes() can choose. Volumes whose cell has no point that reduces the error are
 /// not split. Deterministic; scaling the scene by a power of two scales the result.   [Lloyd 1982]
-/// `settings` are those of the placement.
-RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings,
+/// `settings` are those of the placement; `camera` is the present one, or null for a placement without a camera.
+RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const Camera* camera,
                                   const PlacementView& placement, std::span<const std::uint32_t> split);
 
 /// Up to `most` volumes to split, by the criterion of the field's representation.

@@ -12,7 +12,7 @@ bool same_images(const MaterialImages& a, const MaterialImages& b) {
     return a.albedo == b.albedo && a.roughness == b.roughness && a.emission == b.emission && a.opacity == b.opacity;
 }
 
-/// The properties of a material that the light walk of find_lit_sides() reads.
+/// The properties of a material that the walks of a placement read.
 struct Looks {
     const Material& material;
     const SurfaceLobes& lobes;
@@ -22,7 +22,7 @@ struct Looks {
         : material(scene.materials[index]), lobes(scene.lobes.empty() ? kDiffuse : scene.lobes[index]),
           images(scene.material_images.empty() ? kNoImages : scene.material_images[index]) {}
 
-    /// Diffuse without images: the directions of the light walk depend on neither color nor brightness, unless the
+    /// Diffuse without images: the directions of a walk depend on neither color nor brightness, unless the
     /// albedo is 0.
     bool is_plain() const { return lobes.kind == SurfaceKind::Diffuse && same_images(images, kNoImages); }
 };

@@ -16,11 +16,12 @@ std::shared_ptr<const HostVolumes> with_lookup(const RenderBackend& backend, con
 
 }  // namespace
 
-void Placement::ensure(RenderBackend& backend, const HostScene& scene, const FieldSettings& settings) {
+void Placement::ensure(RenderBackend& backend, const HostScene& scene, const FieldSettings& settings,
+                       const Camera& camera) {
     if (volumes_) return;
     const Stopwatch watch;
     shape_ = make_field_shape(scene, settings);
-    volumes_ = with_lookup(backend, scene, place_volumes(scene, settings), shape_.lookup);
+    volumes_ = with_lookup(backend, scene, place_volumes(scene, settings, &camera), shape_.lookup);
     backend.upload_volumes(volumes_, shape_);
     seconds_ = watch.seconds();
 }

@@ -112,6 +112,8 @@ ShownFilm Session::show_film(FilmSlot slot, const DisplaySettings& display) {
     return {backend_->show_film(slot, frame_style(slot.view, display, range)), range};
 }
 
+Camera Session::view_camera() const { return make_camera(settings_.camera, settings_.width, settings_.height); }
+
 std::int32_t Session::find_volume_at(Vec3f position, Vec3f normal) {
     ensure_volumes();
     return find_volume({.nodes = view_of(placement_.volumes()->kd_nodes)}, position, normal);
@@ -119,7 +121,7 @@ std::int32_t Session::find_volume_at(Vec3f position, Vec3f normal) {
 
 std::optional<PickedPoint> Session::pick(Vec2f film_point) {
     const SceneView scene = scene_.packed()->view();
-    const Camera camera = make_camera(settings_.camera, settings_.width, settings_.height);
+    const Camera camera = view_camera();
     const Ray ray =
         generate_ray(camera, film_point, {static_cast<float>(settings_.width), static_cast<float>(settings_.height)});
     const Hit hit = closest_solid_hit<kEveryFeature>(scene, BvhIntersector{scene}, ray);

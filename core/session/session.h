@@ -110,7 +110,8 @@ private:
     void clear_films();
     void clear_tables();
 
-    void ensure_volumes() { placement_.ensure(*backend_, *scene_.packed(), settings_.field); }
+    Camera view_camera() const;
+    void ensure_volumes() { placement_.ensure(*backend_, *scene_.packed(), settings_.field, view_camera()); }
     void ensure_tables(MethodId method);
     void ensure_film(FilmSlot slot);
     void begin_film(FilmSlot slot);

@@ -27,7 +27,7 @@ PassReplay Session::pass_replay(FilmSlot slot) const {
                       .next_pixel = state.next_pixel,
                       .scene = scene_.packed(),
                       .path = path_settings(settings_, slot.method),
-                      .camera = make_camera(settings_.camera, settings_.width, settings_.height),
+                      .camera = view_camera(),
                       .is_closed = scene_.is_closed()};
     if (state.counters.invalid_samples > 0) source.invalid = backend_->invalid_samples(slot);
     if (!method.uses_field) return source;

@@ -21,7 +21,8 @@ void Session::split_volumes(MethodId method, std::size_t most) {
     const HostVolumes& volumes = *placement_.volumes();
     const std::vector<std::uint32_t> split =
         volumes_to_split(field_view(shape, volumes, learned), most, backend_->info().threads);
-    RefinedPlacement refined = refine_placement(*scene_.packed(), settings_.field,
+    const Camera camera = view_camera();
+    RefinedPlacement refined = refine_placement(*scene_.packed(), settings_.field, &camera,
                                                 placement_view(volumes, shape.lookup, shape.extent), split);
     if (!refined.parents.empty()) replace_volumes(method, std::move(refined), std::move(learned));
 }

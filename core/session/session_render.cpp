@@ -132,7 +132,7 @@ PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag
             .is_guided = method == slot.method,
             .features = needed_features(slot).with(settings_.forced_effects),
             .path = learns_from(slot) ? at_pass(path, sample) : path,
-            .camera = make_camera(settings_.camera, settings_.width, settings_.height),
+            .camera = view_camera(),
             .mixture = mixture_of(settings_, method),
             .learning = settings_.field.learning,
             .sample = sample,

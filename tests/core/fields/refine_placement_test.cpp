@@ -50,7 +50,7 @@ struct Learned {
 
     RefinedPlacement refine(std::size_t most, int threads = 2) {
         const TableField field = view();
-        return refine_placement(scene, settings, field, volumes_to_split(field, most, threads));
+        return refine_placement(scene, settings, nullptr, field, volumes_to_split(field, most, threads));
     }
     void take(RefinedPlacement refined) {
         tables = split_field(shape, std::move(tables), refined.parents);
@@ -147,7 +147,7 @@ TEST_CASE("A child stands well away from its parent, and takes about half of its
     REQUIRE(parents.size() > 20);
     field.take(std::move(refined));
     std::vector<int> served(field.count(), 0);
-    for_each_site(field.scene, field.settings, 200, [&](const SurfacePoint& point) {
+    for_each_site(field.scene, field.settings, nullptr, 200, [&](const SurfacePoint& point) {
         ++served[static_cast<std::size_t>(field.view().volume_at(point))];
     });
     double share = 0.0;
@@ -198,7 +198,7 @@ TEST_CASE("All lookups find the same volumes of a refined placement") {
     tree.lookup = Lookup::KdTree;
     grid.lookup = Lookup::Grid;
     std::size_t points = 0;
-    for_each_site(field.scene, field.settings, 20, [&](const SurfacePoint& point) {
+    for_each_site(field.scene, field.settings, nullptr, 20, [&](const SurfacePoint& point) {
         const std::int32_t expected = find_volume(all, point.position, point.geometric_normal);
         REQUIRE(expected != kNoVolume);
         REQUIRE(find_volume(tree, point.position, point.geometric_normal) == expected);

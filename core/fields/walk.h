@@ -1,0 +1,21 @@
+// What the walks of a placement share: paths that sample the BSDF, independent of the picture's seed.
+#pragma once
+
+#include "core/kernel/shading/bsdf.h"
+
+namespace pl {
+
+/// Placement is a property of the scene: it does not change with the picture's seed.
+inline constexpr std::uint64_t kPlacementSeed = 0x706c6163656d656e;
+
+/// Sample indices of the random numbers of the walks.
+inline constexpr std::uint32_t kLightWalk = 0;
+inline constexpr std::uint32_t kCameraWalk = 1;
+
+/// The direction in which a walk leaves a surface; black if it ends there. u in [0,1)^4.
+inline Vec3f leave_surface(const SurfacePoint& point, const LayeredBsdf& bsdf, Vec4f u) {
+    if (u.z < bsdf.delta_probability()) return bsdf.sample_delta(point, u.w).wi;
+    return bsdf.sample(point, {u.x, u.y}, u.w);
+}
+
+}  // namespace pl
