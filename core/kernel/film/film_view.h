@@ -13,16 +13,15 @@ PL_HD inline bool in_second_half(std::uint32_t pass) { return (pass & 1u) != 0; 
 /// The emission that a pixel has seen last, and whether it varies within the pixel. Three objects: neighbors read the value
 /// while the pixel's own thread sets the flags.
 struct EmissionSeen {
-    std::uint16_t value = 0;  ///< 0: nothing; kSky; else the upper half of a float (luminance), plus 1
-    std::uint8_t varies =
-        0;  ///< kLampBorder, kSkyBorder: further camera rays are traced; kBorderMarked: they will be
+    std::uint16_t value = 0;     ///< 0: nothing; kSky; else the upper half of a float (luminance), plus 1
+    std::uint8_t varies = 0;     ///< 0 or the kind of the border, below
     std::uint8_t at_border = 0;  ///< 1: a neighbor has seen another emission
 
-    static constexpr std::uint8_t kLampBorder = 1;
-    static constexpr std::uint8_t kBorderMarked = 2;  ///< of a lamp
-    static constexpr std::uint8_t kSkyBorder = 3;
-    static constexpr std::uint16_t kSky = 0xffff;  ///< bright parts of the environment, whatever their luminance
-    static constexpr float kContrast = 0.1f;       ///< least relative difference of two values
+    static constexpr std::uint8_t kLampBorder = 1;    ///< further camera rays are traced
+    static constexpr std::uint8_t kBorderMarked = 2;  ///< of a lamp: they will be
+    static constexpr std::uint8_t kSkyBorder = 3;     ///< some are traced
+    static constexpr std::uint16_t kSky = 0xffff;     ///< bright parts of the environment, whatever their luminance
+    static constexpr float kContrast = 0.1f;          ///< least relative difference of two values
 
     /// Whether the pixel has seen a lamp, or a bright sky.
     PL_HD bool is_lit() const { return value > 1; }

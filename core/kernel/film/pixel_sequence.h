@@ -7,11 +7,11 @@
 
 namespace pl {
 
-/// Sample index of the random start of the sequence of a pass. Each half of the passes has its own, so that the
-/// halves stay independent and their difference measures the noise.
+/// Sample index of the random start of the sequence of a pass, a number or a vector of them. Each half of the passes,
+/// see in_second_half(), has its own, so that the halves stay independent and their difference measures the noise.
 template <class Word>
 PL_INLINE Word sequence_of(Word pass) {
-    return pass & 1u;  // of in_second_half()
+    return pass & 1u;
 }
 
 /// (start + steps * step * 2^-32) mod 1, for a start in [0,1) that is a multiple of 2^-24.

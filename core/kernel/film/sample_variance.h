@@ -52,9 +52,10 @@ struct PixelSubset {
 inline constexpr std::uint32_t kFewestBeforeVariance = 3;
 
 /// Measures the variance of a sample that is about to come to a pixel. With the mean m of earlier samples, L (L - m) is an
-/// unbiased estimate of the variance of an independent sample L: m is of the half of the film that the pass does not belong to, since
-/// samples of one half are spread evenly. The weight is by those of the other half, since it would be correlated with m. Pixels that see a lamp are left out: their variance is that of
-/// emission, which no sampling of directions changes, see camera_emission.h.
+/// unbiased estimate of the variance of an independent sample L. Samples of one half of the film are spread evenly, and so
+/// depend on one another: m is the mean of the half that the pass does not belong to, and the weight, which must not depend on
+/// m, is by the mean of the other. Pixels that see a lamp are left out: their variance is that of emission, which no sampling
+/// of directions changes, see camera_emission.h.
 PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, std::uint32_t pass, VarianceSums& sums) {
     const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;
     const bool has_both_halves = pixel.second_weight > 0 && pixel.weight > pixel.second_weight;

@@ -7,7 +7,7 @@
 
 namespace pl {
 
-/// Whether the numbers of a vertex are spread over the passes: only camera paths have passes.
+/// The vertex whose numbers are spread over the passes, on camera paths: others have no passes.
 inline constexpr std::uint32_t kSpreadVertex = 1;
 
 /// Seed of the scrambling of a pixel's sequence.

@@ -11,8 +11,9 @@
 
 namespace pl {
 
-/// Conductors at least this rough are guided: their lobes are wider than a cell of a 16 x 16 table.
-inline constexpr float kMinGuidedRoughness = 0.3f;
+/// Conductors at least this rough are guided: lobes less wide than a few cells of a 16 x 16 table are sampled as well without it
+/// (docs/notebook/2026-11-23-paths-and-lobes.md).
+inline constexpr float kMinGuidedRoughness = 0.35f;
 
 /// Sample of a delta lobe.
 struct DeltaDirection {
