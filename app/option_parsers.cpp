@@ -208,6 +208,10 @@ void parse_target_error(Options& options, const std::string& text) {
 
 void parse_window(Options& options, const std::string& text) { options.window = parse_size(text); }
 
+void parse_ui_scale(Options& options, const std::string& text) {
+    options.ui_scale = static_cast<float>(parse_real(text, 0.75, 2.0));
+}
+
 void parse_picture_size(Options& options, const std::string& text) {
     const glm::ivec2 size = parse_size(text);
     options.width = size.x;

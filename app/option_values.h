@@ -91,6 +91,7 @@ struct Options {
     std::string ui_trace;   ///< viewer: file of frame times
     bool software = false;  ///< viewer: no graphics card
     std::optional<glm::ivec2> window;
+    float ui_scale = 0.0f;  ///< viewer: of text and controls; 0: by the screen
 
     /// Limit of samples per pixel: 64 unless another limit ends the rendering.
     std::uint32_t spp_limit() const {

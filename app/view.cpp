@@ -81,10 +81,8 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
     viewer.load_seconds = loaded.load_seconds;
     viewer.camera_from_scene = false;  // resolved already
     viewer.size_from_window = !has_size(line);
-    if (options.window) {
-        viewer.width = options.window->x;
-        viewer.height = options.window->y;
-    }
+    if (options.window) viewer.window = {.width = options.window->x, .height = options.window->y};
+    viewer.window.ui_scale = options.ui_scale;
     viewer.software = options.software;
     viewer.font = find_assets_dir() / "fonts" / "roboto-medium-latin.ttf";
     if (!options.script.empty()) viewer.script = options.script;

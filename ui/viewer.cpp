@@ -73,9 +73,11 @@ private:
 };
 
 Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene, double load_seconds)
-    : options_(options), display_("pathlight", options.width, options.height, options.software),
-      gui_(display_, options.font, 1.0f), image_layer_(display_.renderer()), compare_layer_(display_.renderer()),
-      input_(display_.window()), model_(options, scene, first_settings(*scene), load_seconds) {
+    : options_(options), display_("pathlight", options.window, options.software),
+      gui_(display_, options.font, display_.ui_scale()), image_layer_(display_.renderer()),
+      compare_layer_(display_.renderer()), input_(display_.window()),
+      model_(options, scene, first_settings(*scene), load_seconds) {
+    model_.window().ui_scale = display_.ui_scale();
     if (options.script) script_.emplace(load_script(*options.script), display_.window());
     if (options.ui_trace) trace_.emplace(*options.ui_trace);
     model_.messages().note(MessageLevel::Info, "window drawn by " + display_.renderer_name());
@@ -98,8 +100,8 @@ RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
         int width = 0;
         int height = 0;
         SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
-        const Layout layout =
-            make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels, true, true);
+        const Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height),
+                                          kFontPixels * display_.ui_scale(), true, true);
         const ImageSize size = fit_image(layout.view, settings.width, settings.height);
         settings.width = size.width;
         settings.height = size.height;

@@ -17,6 +17,7 @@
 #include "core/session/learned_field.h"
 #include "core/session/settings.h"
 #include "core/session/snapshot.h"
+#include "ui/window/window_plan.h"
 
 namespace pl {
 
@@ -90,8 +91,7 @@ struct ViewerOptions {
     bool camera_from_scene = true;              ///< start from the scene's camera instead of settings.camera
     bool size_from_window = true;  ///< settings.width : height is a shape only; the window decides the size
 
-    int width = 1440;  ///< of the window
-    int height = 900;
+    WindowOptions window{};
     bool software = false;       ///< do not look for an accelerated renderer
     std::filesystem::path font;  ///< .ttf; the built-in font if it is missing
     std::filesystem::path screenshot_dir = ".";

@@ -21,8 +21,11 @@ constexpr auto kProgramOptions = std::to_array<OptionSpec>({
     {.name = "headless", .flags = "--headless,--no-gui", .value = "", .group = kHidden, .help = "",
      .commands = kHeadless, .parse = [](Options&, Text) {}},
 
-    {.name = "window", .flags = "--window", .value = "WxH", .group = kViewer, .help = "Window size (default 1440x900)",
+    {.name = "window", .flags = "--window", .value = "WxH", .group = kViewer, .help = "Window size (default: what fits the screen, at most 1440x900 times the scale)",
      .commands = CommandSet(Command::View), .parse = parse_window},
+    {.name = "ui-scale", .flags = "--ui-scale", .value = "N", .group = kViewer,
+     .help = "Size of text and controls, 0.75 to 2 (default: by the screen)",
+     .commands = CommandSet(Command::View), .parse = parse_ui_scale},
     {.name = "software", .flags = "--software", .value = "", .group = kViewer,
      .help = "Draw the window without a graphics card",
      .commands = CommandSet(Command::View), .parse = parse_flag<&Options::software>},

@@ -32,6 +32,17 @@ std::string opengl_device() {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
 }
 
+/// The first screen, on which windows open. Drivers that show nothing have none.
+Screen first_screen() {
+    const char* driver = SDL_GetCurrentVideoDriver();
+    SDL_Rect usable{};
+    if (shows_nothing(driver) || SDL_GetDisplayUsableBounds(0, &usable) != 0) return {};
+    Screen screen{.width = usable.w, .height = usable.h};
+    // Wayland and macOS enlarge the window themselves, X11 never does.
+    if (std::strcmp(driver, "x11") == 0) SDL_GetDisplayDPI(0, nullptr, &screen.dots_per_inch, nullptr);
+    return screen;
+}
+
 }  // namespace
 
 VideoSubsystem::VideoSubsystem() {
@@ -51,23 +62,24 @@ VideoSubsystem::VideoSubsystem() {
 
 VideoSubsystem::~VideoSubsystem() { SDL_QuitSubSystem(SDL_INIT_VIDEO); }
 
-Display::Display(const std::string& title, int width, int height, bool software) {
+Display::Display(const std::string& title, const WindowOptions& options, bool software)
+    : plan_(plan_window(options, first_screen())) {
     // A driver or renderer named in the environment has priority.
     const bool probe = !software && !is_set("SDL_RENDER_DRIVER") && !is_set("SDL_FRAMEBUFFER_ACCELERATION") &&
                        !shows_nothing(SDL_GetCurrentVideoDriver());
     bool opened = false;
     if (probe || (!software && is_set("SDL_RENDER_DRIVER"))) {
-        opened = open(title, width, height, false);
+        opened = open(title, false);
         if (opened && probe && !runs_on_hardware()) opened = false;
     }
     if (!opened) {
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-        opened = open(title, width, height, true);
+        opened = open(title, true);
     }
     if (!opened) {
         // Wayland has no window surface of plain pixels.
         SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "1");
-        opened = open(title, width, height, true);
+        opened = open(title, true);
     }
     if (!opened) throw Error(ErrorKind::Unavailable, fmt::format("cannot open a window: {}", SDL_GetError()));
     SDL_SetWindowMinimumSize(window_, 640, 400);
@@ -76,10 +88,10 @@ Display::Display(const std::string& title, int width, int height, bool software)
 
 Display::~Display() { close(); }
 
-bool Display::open(const std::string& title, int width, int height, bool software) {
+bool Display::open(const std::string& title, bool software) {
     close();
     constexpr int kAnywhere = static_cast<int>(SDL_WINDOWPOS_CENTERED_MASK);
-    window_ = SDL_CreateWindow(title.c_str(), kAnywhere, kAnywhere, width, height, SDL_WINDOW_RESIZABLE);
+    window_ = SDL_CreateWindow(title.c_str(), kAnywhere, kAnywhere, plan_.width, plan_.height, SDL_WINDOW_RESIZABLE);
     if (window_ == nullptr) return false;
     const auto flags =
         static_cast<Uint32>(software ? SDL_RENDERER_SOFTWARE : SDL_RENDERER_ACCELERATED | SDL_RENDERER_PRESENTVSYNC);

@@ -26,7 +26,7 @@ public:
 class Display {
 public:
     /// Throws Error(Unavailable).
-    Display(const std::string& title, int width, int height, bool software);
+    Display(const std::string& title, const WindowOptions& options, bool software);
     ~Display();
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
@@ -36,6 +36,8 @@ public:
     /// "opengl (NVIDIA ...)", "software".
     const std::string& renderer_name() const { return name_; }
     bool is_software() const { return software_; }
+    /// Of text and controls, for this screen or as asked for.
+    float ui_scale() const { return plan_.ui_scale; }
 
     void set_title(const std::string& title);
     void toggle_full_screen();
@@ -43,11 +45,12 @@ public:
     ScreenPixels read_pixels() const;
 
 private:
-    bool open(const std::string& title, int width, int height, bool software);
+    bool open(const std::string& title, bool software);
     bool runs_on_hardware();
     void close();
 
     VideoSubsystem video_;
+    WindowPlan plan_;
     SDL_Window* window_ = nullptr;
     SDL_Renderer* renderer_ = nullptr;
     std::string name_;
