@@ -18,7 +18,7 @@ struct Placed {
 
     Placed() {
         backend->upload_scene(std::make_shared<const HostScene>(scene));
-        placement.ensure(*backend, scene, settings);
+        placement.ensure(*backend, scene, settings, Camera{});
     }
 };
 
@@ -33,7 +33,7 @@ TEST_CASE("Placement: volumes are placed once, and anew after they were cleared"
     CHECK(placed.placement.bins() == 16);
     CHECK(placed.placement.seconds() > 0.0);
     const auto volumes = placed.placement.volumes();
-    placed.placement.ensure(*placed.backend, placed.scene, placed.settings);
+    placed.placement.ensure(*placed.backend, placed.scene, placed.settings, Camera{});
     CHECK(placed.placement.volumes() == volumes);
     placed.placement.clear();
     CHECK_FALSE(placed.placement.is_placed());

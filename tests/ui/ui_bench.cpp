@@ -90,8 +90,7 @@ void run(const std::string& scene_name, const MethodInfo& method, const std::str
     options.settings.height = kHeight;
     options.settings.field.volumes = 1000;
     options.size_from_window = false;
-    options.width = kWidth;
-    options.height = kHeight;
+    options.window = {.width = kWidth, .height = kHeight};
     options.font = find_assets_dir() / "fonts" / "roboto-medium-latin.ttf";
     options.script = bench_folder() / (script + ".script");
     options.ui_trace = bench_folder() / fmt::format("{}-{}.jsonl", script, method.name);

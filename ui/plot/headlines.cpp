@@ -113,6 +113,14 @@ Headline headline_of(RunList runs, const LiveRun& run) {
     return result;
 }
 
+/// The headline while no method with a field has been measured.
+std::string nothing_learned_text(RunList runs, std::uint64_t picture) {
+    if (std::ranges::none_of(runs, [&](const auto& run) { return run->label.picture == picture; }))
+        return "Nothing measured yet: the plot begins after a few passes";
+    return fmt::format("Only {} so far: {} render with a learned field", info_of(baseline_method()).name,
+                       method_keys(&MethodInfo::uses_field));
+}
+
 }  // namespace
 
 std::vector<Headline> make_headlines(RunList runs, std::uint64_t picture) {
@@ -127,10 +135,7 @@ std::vector<Headline> make_headlines(RunList runs, std::uint64_t picture) {
     }
     std::vector<Headline> headlines;
     for (const LiveRun* run : newest) headlines.push_back(headline_of(runs, *run));
-    if (headlines.empty())
-        headlines.push_back({0, 0xff969ca6u,
-                             fmt::format("Only {} so far: {} render with a learned field",
-                                         info_of(baseline_method()).name, method_keys(&MethodInfo::uses_field))});
+    if (headlines.empty()) headlines.push_back({0, 0xff969ca6u, nothing_learned_text(runs, picture)});
     return headlines;
 }
 

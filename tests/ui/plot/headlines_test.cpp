@@ -63,8 +63,9 @@ TEST_CASE("Headline: as plain when learning loses, and without a reference") {
 }
 
 TEST_CASE("Headline: says what to do while there is nothing to compare") {
-    CHECK_THAT(make_headlines({}, kThisPicture)[0].text, contains("2, 3 render"));
-    CHECK_THAT(make_headlines(Runs{make_run({})}, kThisPicture)[0].text, contains("Only default"));
+    CHECK_THAT(make_headlines({}, kThisPicture)[0].text, contains("Nothing measured yet"));
+    CHECK_THAT(make_headlines(Runs{make_run({})}, kThisPicture + 1)[0].text, contains("Nothing measured yet"));
+    CHECK_THAT(make_headlines(Runs{make_run({})}, kThisPicture)[0].text, contains("Only default so far: 2, 3 render"));
     const Runs alone{make_run({.method = MethodId::Reinforcement})};
     CHECK_THAT(make_headlines(alone, kThisPicture)[0].text, contains("nothing to be compared with yet"));
     // A run that has just begun is listed, but does not replace one that was measured.
