@@ -17,7 +17,6 @@
 #include "core/session/learned_field.h"
 #include "core/session/settings.h"
 #include "core/session/snapshot.h"
-#include "ui/window/window_plan.h"
 
 namespace pl {
 
@@ -79,6 +78,13 @@ struct ScreenPixels {
     std::vector<std::uint8_t> rgb;
 };
 
+/// Window and scale of its text as the user asked for them; 0: by the screen.
+struct WindowOptions {
+    int width = 0;
+    int height = 0;
+    float ui_scale = 0.0f;
+};
+
 struct ViewerOptions {
     RenderSettings settings;
     DisplaySettings display;
@@ -91,7 +97,7 @@ struct ViewerOptions {
     bool camera_from_scene = true;              ///< start from the scene's camera instead of settings.camera
     bool size_from_window = true;  ///< settings.width : height is a shape only; the window decides the size
 
-    WindowOptions window{};
+    WindowOptions window;
     bool software = false;       ///< do not look for an accelerated renderer
     std::filesystem::path font;  ///< .ttf; the built-in font if it is missing
     std::filesystem::path screenshot_dir = ".";

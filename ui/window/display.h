@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ui/viewer.h"
+#include "ui/window/window_plan.h"
 
 struct SDL_Window;
 struct SDL_Renderer;

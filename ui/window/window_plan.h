@@ -1,6 +1,8 @@
 // Size of the window and scale of its text on a screen.
 #pragma once
 
+#include "ui/viewer.h"
+
 namespace pl {
 
 /// The part of a screen that windows may cover.
@@ -8,13 +10,6 @@ struct Screen {
     int width = 0;  ///< in pixels; 0: unknown
     int height = 0;
     float dots_per_inch = 0.0f;  ///< 0: unknown, or the desktop enlarges windows itself
-};
-
-/// What the user asked for; 0: by the screen.
-struct WindowOptions {
-    int width = 0;
-    int height = 0;
-    float ui_scale = 0.0f;
 };
 
 struct WindowPlan {
