@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/fields/extent.h"
 #include "core/fields/radical_inverse.h"
 #include "core/fields/walk.h"
 #include "core/kernel/base/rng.h"
@@ -11,7 +12,6 @@
 namespace pl {
 namespace {
 
-/// Paths: two to ten arrivals for each of a thousand volumes, in a hundredth of a second.
 constexpr std::uint32_t kCameraPaths = 8192;
 constexpr std::uint32_t kMostArrivals = 5;  ///< of a path; later ones carry little light to the camera
 
@@ -30,23 +30,6 @@ void walk_path(const SceneView& scene, Ray ray, const Rng& rng, std::vector<Surf
     }
 }
 
-/// Extent along each axis.
-template <class VectorOf>
-Vec3f extent_of(std::span<const SurfacePoint> points, const VectorOf& vector_of) {
-    Vec3f low{kInfinity};
-    Vec3f high{-kInfinity};
-    for (const SurfacePoint& point : points) {
-        low = glm::min(low, vector_of(point));
-        high = glm::max(high, vector_of(point));
-    }
-    return high - low;
-}
-
-int longest_axis(Vec3f extent) {
-    if (extent.x >= extent.y && extent.x >= extent.z) return 0;
-    return extent.y >= extent.z ? 1 : 2;
-}
-
 SurfacePoint nearest_to_mean(std::span<const SurfacePoint> points) {
     Vec3f sum{0.0f};
     for (const SurfacePoint& point : points) sum += point.position;
@@ -59,16 +42,12 @@ SurfacePoint nearest_to_mean(std::span<const SurfacePoint> points) {
 void choose_among(std::span<SurfacePoint> points, std::size_t count, std::vector<SurfacePoint>& sites) {
     if (count == 0) return;
     if (count == 1) return sites.push_back(nearest_to_mean(points));
-    const auto normal_of = [](const SurfacePoint& point) { return point.geometric_normal; };
-    const auto position_of = [](const SurfacePoint& point) { return point.position; };
-    const Vec3f normals = extent_of(points, normal_of);
+    const Vec3f normals = extent_of(points, &SurfacePoint::geometric_normal);
     // The squared chord of an angle is 2 (1 - cos): within it any of the points may be the site of all.
     const bool by_normal = glm::dot(normals, normals) > 2.0f * (1.0f - kMinNormalCosine);
-    const int axis = longest_axis(by_normal ? normals : extent_of(points, position_of));
-    const auto key = [&](const SurfacePoint& point) {
-        return (by_normal ? normal_of(point) : position_of(point))[axis];
-    };
-    std::ranges::stable_sort(points, {}, key);
+    const auto vector = by_normal ? &SurfacePoint::geometric_normal : &SurfacePoint::position;
+    const int axis = longest_axis(by_normal ? normals : extent_of(points, vector));
+    std::ranges::stable_sort(points, {}, [=](const SurfacePoint& point) { return (point.*vector)[axis]; });
     const std::size_t half = count / 2;
     const std::size_t middle = points.size() * half / count;
     choose_among(points.first(middle), half, sites);

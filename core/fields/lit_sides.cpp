@@ -15,6 +15,7 @@ constexpr std::uint32_t kMaxVertices = 16;
 /// A side counts as lit if it receives more than one in this many arrivals at its surface; fewer are strays through
 /// open edges.
 constexpr std::uint32_t kStrayRatio = 50;
+
 struct Arrivals {
     std::uint32_t front = 0;
     std::uint32_t back = 0;

@@ -5,7 +5,7 @@
 
 namespace pl {
 
-/// Placement is a property of the scene: it does not change with the picture's seed.
+/// Placement depends on the scene and the camera, not on the picture's seed.
 inline constexpr std::uint64_t kPlacementSeed = 0x706c6163656d656e;
 
 /// Sample indices of the random numbers of the walks.
