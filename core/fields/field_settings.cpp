@@ -15,8 +15,9 @@ constexpr double kBytesPerMegabyte = 1.0e6;
 int side_of(int bins) { return static_cast<int>(std::lround(std::sqrt(static_cast<double>(bins)))); }
 
 /// Number of volumes within the budget.
-double affordable(const FieldSettings& settings) {
-    return settings.budget_megabytes * kBytesPerMegabyte / static_cast<double>(bytes_per_volume(settings.bins));
+double affordable(const FieldSettings& settings, std::size_t light_clusters) {
+    return settings.budget_megabytes * kBytesPerMegabyte /
+           static_cast<double>(bytes_per_volume(settings.bins, light_clusters));
 }
 
 /// Smallest power of two not below `value`, kept where neither dividing by it nor kMaxRecordedUnits times it can
@@ -32,21 +33,23 @@ float power_of_two_above(float value) {
 
 }  // namespace
 
-std::size_t bytes_per_volume(int bins) {
-    return sizeof(SurfacePoint) + sizeof(Vec3f) + sizeof(KdNode) + kGridBytesPerVolume + table_bytes(bins);
+std::size_t bytes_per_volume(int bins, std::size_t light_clusters) {
+    return sizeof(SurfacePoint) + sizeof(Vec3f) + sizeof(KdNode) + kGridBytesPerVolume +
+           table_bytes(bins, light_clusters);
 }
 
-int volume_count(const FieldSettings& settings) {
+int volume_count(const FieldSettings& settings, std::size_t light_clusters) {
     if (settings.volumes > 0) return settings.volumes;
-    return std::max(1, static_cast<int>(std::min(affordable(settings), static_cast<double>(kDefaultVolumes))));
+    return std::max(
+        1, static_cast<int>(std::min(affordable(settings, light_clusters), static_cast<double>(kDefaultVolumes))));
 }
 
-std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t placed) {
+std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t placed, std::size_t light_clusters) {
     const bool is_budgeted = settings.volumes == 0;
     double share = settings.refine_share;
     if (settings.refine_share == kRefineByRecords) share = is_budgeted ? 1.0 : 0.0;
     double most = std::floor((1.0 + share) * static_cast<double>(placed));
-    if (is_budgeted) most = std::min(most, std::floor(affordable(settings)));
+    if (is_budgeted) most = std::min(most, std::floor(affordable(settings, light_clusters)));
     return std::max(placed, static_cast<std::size_t>(most));
 }
 
@@ -62,6 +65,7 @@ FieldShape make_field_shape(const HostScene& scene, const FieldSettings& setting
         brightest = std::max(brightest, luminance(material.emission));
     }
     return {.cells = {side_of(settings.bins)},
+            .light_clusters = static_cast<std::uint32_t>(scene.light_clusters.size()),
             .radiance_unit = power_of_two_above(brightest),
             .extent = bounds_of(scene).diagonal(),
             .rate = settings.rate,

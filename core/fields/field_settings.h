@@ -33,15 +33,15 @@ struct FieldSettings {
 inline constexpr int kDefaultVolumes = 1000;
 
 /// Most bytes of one volume: placement, tree, grid and tables. Includes the grid for every lookup, so that the number
-/// of volumes does not depend on the lookup.
-std::size_t bytes_per_volume(int bins);
+/// of volumes does not depend on the lookup. `light_clusters`, here and below: of the scene's light tree.
+std::size_t bytes_per_volume(int bins, std::size_t light_clusters = 0);
 
 /// Number of volumes of the settings, before surfaces too small for their share are given one volume each.
-int volume_count(const FieldSettings& settings);
+int volume_count(const FieldSettings& settings, std::size_t light_clusters = 0);
 
 /// Most volumes after refinement of `placed` volumes: refine_share more, within the budget if that decides their
 /// number.
-std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t placed);
+std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t placed, std::size_t light_clusters = 0);
 
 /// The radiance unit is the smallest power of two not below the brightest emission.
 FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings);

@@ -9,8 +9,9 @@ namespace pl {
 
 struct FieldShape {
     DirectionCells cells;
-    float radiance_unit = 1.0f;  ///< of fixed-point sums: a power of two not below the brightest emission
-    float extent = 0.0f;         ///< diagonal of the scene's bounds
+    std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
+    float radiance_unit = 1.0f;        ///< of fixed-point sums: a power of two not below the brightest emission
+    float extent = 0.0f;               ///< diagonal of the scene's bounds
     LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = kUniformShare;
     Lookup lookup = Lookup::Grid;

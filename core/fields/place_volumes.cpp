@@ -86,7 +86,7 @@ void for_each_site(const HostScene& scene, const FieldSettings& settings, const 
                    const std::function<void(const SurfacePoint&)>& visit) {
     const Surfaces surfaces = find_surfaces(scene);
     std::vector<Side> sides = lit_sides_of(scene, surfaces);
-    const auto volumes = static_cast<std::uint32_t>(volume_count(settings));
+    const auto volumes = static_cast<std::uint32_t>(volume_count(settings, scene.light_clusters.size()));
     const std::uint32_t by_paths = camera != nullptr && sides.size() > volumes ? volumes / 2 : 0;
     share_out(sides, volumes - by_paths);
     for (const Side& side : sides)

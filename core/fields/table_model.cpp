@@ -59,8 +59,9 @@ bool fits(const FieldShape& shape, const HostTables& tables, std::size_t volumes
     return all;
 }
 
-std::size_t table_bytes(int bins) {
-    const FieldShape shape{.cells = {static_cast<int>(rounded_root(bins))}};
+std::size_t table_bytes(int bins, std::size_t light_clusters) {
+    const FieldShape shape{.cells = {static_cast<int>(rounded_root(bins))},
+                           .light_clusters = static_cast<std::uint32_t>(light_clusters)};
     std::size_t bytes = 0;
     const HostTables tables;
     for_each_table_array(

@@ -20,7 +20,7 @@ using TableStorage = TableArrays<Array, Array>;
 using HostTables = TableStorage<LargeArray>;
 
 /// Number of values of an array.
-enum class ArrayExtent { Cell, Row, Volume };
+enum class ArrayExtent { Cell, Row, Volume, LightCluster };
 
 /// Values of the new volume when one is split in two.
 enum class OnSplit {
@@ -38,6 +38,7 @@ enum class ValidRange {
     NotNegative,   ///< at least 0
     BsdfFraction,  ///< kMinBsdfFraction to kMaxBsdfFraction
     Cumulative,    ///< each row rises from at least 0 to exactly 1
+    Choice,        ///< likewise, or all 0
 };
 
 /// Description of one array of TableArrays.
@@ -84,6 +85,9 @@ inline constexpr std::tuple kAll{
     ArraySpec{"counts of light samples", "count of light samples", Volume, Clear, Any, kZero, [](auto& t) -> auto& { return t.pending_direct_count; }},
     ArraySpec{"direct light", "direct light", Volume, Copy, Amount, kZero, [](auto& t) -> auto& { return t.direct; }},
     ArraySpec{"light samples", "light samples", Volume, Divide, Any, kZero, [](auto& t) -> auto& { return t.direct_count; }},
+    ArraySpec{"sums of light by clusters", "sum of light by a cluster", LightCluster, Clear, Any, kZero, [](auto& t) -> auto& { return t.pending_cluster; }},
+    ArraySpec{"light by clusters", "light by a cluster", LightCluster, Copy, Amount, kZero, [](auto& t) -> auto& { return t.cluster_light; }},
+    ArraySpec{"choices of lights", "choice of lights", LightCluster, Copy, Choice, kZero, [](auto& t) -> auto& { return t.light_cdf; }},
     ArraySpec{"changes", "change", Volume, Copy, Amount, kZero, [](auto& t) -> auto& { return t.change; }},
     ArraySpec{"slopes of the mixture", "slope of the mixture", Volume, Clear, Any, kZero, [](auto& t) -> auto& { return t.pending_slope; }},
     ArraySpec{"curvatures of the mixture", "curvature of the mixture", Volume, Clear, NotNegative, kZero, [](auto& t) -> auto& { return t.pending_curvature; }},
@@ -110,6 +114,7 @@ constexpr void for_each_table_array(Fn&& fn) {
 inline std::size_t extent_of(ArrayExtent extent, const FieldShape& shape, std::size_t volumes) {
     const auto side = static_cast<std::size_t>(shape.cells.side);
     if (extent == ArrayExtent::Cell) return volumes * side * side;
+    if (extent == ArrayExtent::LightCluster) return volumes * shape.light_clusters;
     return extent == ArrayExtent::Row ? volumes * side : volumes;
 }
 
@@ -125,8 +130,8 @@ HostTables make_tables(const FieldShape& shape, std::size_t volumes);
 /// Whether all arrays have the length that follows from the shape and the number of volumes.
 bool fits(const FieldShape& shape, const HostTables& tables, std::size_t volumes);
 
-/// Bytes of all arrays per volume.
-std::size_t table_bytes(int bins);
+/// Bytes of all arrays per volume. `light_clusters`: of the scene's light tree.
+std::size_t table_bytes(int bins, std::size_t light_clusters = 0);
 std::size_t field_bytes(const HostTables& tables);
 
 inline std::size_t volume_count(const HostTables& tables) { return tables.mean_radiance.size(); }
@@ -145,6 +150,7 @@ TableField field_view(const FieldShape& shape, const VolumeStorage<Array>& volum
     TableField field;
     static_cast<PlacementView&>(field) = placement_view(volumes, shape.lookup, shape.extent);
     field.cells = shape.cells;
+    field.light_clusters = shape.light_clusters;
     field.radiance_unit = shape.radiance_unit;
     for_each_table_array([&](const auto& spec) { spec.get(field) = view_of(spec.get(tables)); });
     return field;
@@ -154,6 +160,7 @@ template <template <class> class Array>
 TableUpdateView update_view(const FieldShape& shape, TableStorage<Array>& tables) {
     TableUpdateView view;
     view.cells = shape.cells;
+    view.light_clusters = shape.light_clusters;
     view.radiance_unit = shape.radiance_unit;
     view.extent = shape.extent;
     view.rate = shape.rate;

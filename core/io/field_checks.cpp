@@ -82,6 +82,8 @@ private:
         int exponent = 0;
         require(unit > 0.0f && std::isfinite(unit) && std::frexp(unit, &exponent) == 0.5f, "radiance unit",
                 "a power of two", unit);
+        require(shape.light_clusters <= kMostLightClusters, "clusters of lights",
+                fmt::format("at most {}", kMostLightClusters), shape.light_clusters);
         require(is_amount(shape.extent), "extent", "0 or more", shape.extent);
         require(shape.rate == s.rate && shape.uniform_floor == s.uniform_floor && shape.lookup == s.lookup,
                 "learning rate, uniform share and lookup of the tables", "those of the settings", "others");
@@ -90,7 +92,7 @@ private:
     /// All arrays have the length that follows from the number of volumes.
     void sizes() const {
         const std::size_t volumes = volumes_.normals.size();
-        const auto side = static_cast<std::size_t>(field_.shape.cells.side);
+        const std::size_t side = cells_to_a_side();
         constexpr auto kMostCells = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
         const std::size_t most = kMostCells / (side * side);
         require(volumes <= most, "volumes", fmt::format("at most {}", most), volumes);
@@ -180,7 +182,8 @@ private:
             all(fmt::format("{} to {}", kMinBsdfFraction, kMaxBsdfFraction),
                 [](auto x) { return is_bsdf_fraction(static_cast<float>(x)); });
             break;
-        case ValidRange::Cumulative: distributions(spec.name, values); break;
+        case ValidRange::Cumulative: distributions(spec.name, values, cells_to_a_side(), false); break;
+        case ValidRange::Choice: distributions(spec.name, values, field_.shape.light_clusters, true); break;
         }
     }
 
@@ -202,18 +205,19 @@ private:
         }
     }
 
-    /// Each row of cumulative probabilities rises from at least 0 to exactly 1.
+    /// Each row of cumulative probabilities rises from at least 0 to exactly 1, or is all 0 if it `may_be_unknown`.
     template <class Array>
-    void distributions(const char* what, const Array& cdf) const {
-        const auto side = static_cast<std::size_t>(field_.shape.cells.side);
+    void distributions(const char* what, const Array& cdf, std::size_t length, bool may_be_unknown) const {
         for (std::size_t i = 0; i < cdf.size(); ++i) {
-            const auto before = i % side == 0 ? typename Array::value_type{} : cdf[i - 1];
-            const bool last = i % side == side - 1;
-            if (!(cdf[i] >= before && cdf[i] <= 1) || (last && cdf[i] != 1))
+            const auto before = i % length == 0 ? typename Array::value_type{} : cdf[i - 1];
+            const bool last = i % length == length - 1;
+            if (!(cdf[i] >= before && cdf[i] <= 1) || (last && cdf[i] != 1 && !(may_be_unknown && cdf[i] == 0)))
                 fail(fmt::format("entry {} of the {}", i, what),
                      last ? "1" : fmt::format("a probability from {} to 1", before), cdf[i]);
         }
     }
+
+    std::size_t cells_to_a_side() const { return static_cast<std::size_t>(field_.shape.cells.side); }
 
     const LearnedField& field_;
     const HostVolumes& volumes_;

@@ -19,7 +19,7 @@ namespace pl {
 namespace {
 
 constexpr std::string_view kMagic = "PLFIELD\n";
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 constexpr std::size_t kPrefixBytes = kMagic.size() + sizeof kVersion + sizeof(std::uint64_t);
 
@@ -155,7 +155,8 @@ void transfer_header(Stream& stream, Field& field) {
         settings.learning.light, settings.uniform_floor, settings.precompute_samples, settings.lookup,
         settings.refine_share);
     auto& shape = field.shape;
-    all(shape.cells.side, shape.radiance_unit, shape.extent, shape.rate, shape.uniform_floor, shape.lookup);
+    all(shape.cells.side, shape.light_clusters, shape.radiance_unit, shape.extent, shape.rate, shape.uniform_floor,
+        shape.lookup);
     all(field.refinement.rounds, field.refinement.added);
     auto& progress = field.progress;
     all(progress.passes, progress.records, progress.clamped_records, progress.lookup_misses,

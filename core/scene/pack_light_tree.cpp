@@ -220,6 +220,35 @@ LightItem item_of(const HostScene& packed, std::uint32_t light) {
     return item;
 }
 
+/// Roots of the clusters: from the tree's root on, the node with the largest power times radius is replaced by its children.
+std::vector<std::uint32_t> cluster_roots(const std::vector<LightNode>& nodes) {
+    const auto spread = [&](std::uint32_t node) {
+        return nodes[node].is_leaf != 0 ? -1.0f : nodes[node].power * nodes[node].radius;
+    };
+    std::vector<std::uint32_t> roots{0};
+    while (roots.size() < kMostLightClusters) {
+        const auto widest = std::ranges::max_element(roots, {}, spread);
+        if (nodes[*widest].is_leaf != 0) break;
+        const std::uint32_t first_child = *widest + 1;
+        roots.push_back(nodes[*widest].next);
+        *std::ranges::find(roots, first_child - 1) = first_child;
+    }
+    std::ranges::sort(roots);
+    return roots;
+}
+
+/// Numbers the clusters along the nodes, whose order is depth first.
+void mark_clusters(HostScene& packed) {
+    std::vector<LightNode>& nodes = packed.light_nodes;
+    packed.light_clusters = cluster_roots(nodes);
+    std::uint32_t cluster = 0;
+    for (std::uint32_t node = 0; node < nodes.size(); ++node) {
+        if (cluster < packed.light_clusters.size() && packed.light_clusters[cluster] == node)
+            nodes[node].cluster = cluster++;
+        if (nodes[node].is_leaf != 0) packed.light_places[nodes[node].next].cluster = cluster - 1;
+    }
+}
+
 }  // namespace
 
 void pack_light_tree(HostScene& packed) {
@@ -237,6 +266,7 @@ void pack_light_tree(HostScene& packed) {
         packed.light_places.push_back({.pdf_area = static_cast<float>(share / item.area)});
     }
     TreeBuilder(std::move(items), packed).build();
+    mark_clusters(packed);
 }
 
 }  // namespace pl

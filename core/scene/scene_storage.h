@@ -24,6 +24,7 @@ struct SceneStorage {
     Array<Light> lights;
     Array<LightNode> light_nodes;
     Array<LightPlace> light_places;
+    Array<std::uint32_t> light_clusters;
     Array<Vec3f> map_texels;
     Array<float> map_row_cdf;
     Array<float> map_column_cdf;
@@ -55,7 +56,9 @@ struct SceneStorage {
                              .of_material = view_of(material_images),
                              .has_holes = has_holes},
                 .lights = view_of(lights),
-                .light_tree = {.nodes = view_of(light_nodes), .of_light = view_of(light_places)},
+                .light_tree = {.nodes = view_of(light_nodes),
+                               .of_light = view_of(light_places),
+                               .clusters = view_of(light_clusters)},
                 .bvh = {.nodes = view_of(bvh_nodes), .primitives = view_of(bvh_primitives)},
                 .light_power = light_power,
                 .environment = environment,
@@ -85,6 +88,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.lights, to.lights);
     fn(from.light_nodes, to.light_nodes);
     fn(from.light_places, to.light_places);
+    fn(from.light_clusters, to.light_clusters);
     fn(from.map_texels, to.map_texels);
     fn(from.map_row_cdf, to.map_row_cdf);
     fn(from.map_column_cdf, to.map_column_cdf);

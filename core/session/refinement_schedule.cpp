@@ -40,11 +40,12 @@ std::size_t most_by_samples(const FieldSettings& settings, std::uint32_t round, 
 }  // namespace
 
 std::optional<std::size_t> volumes_to_add(const FieldSettings& settings, std::size_t volumes,
-                                          const Refinement& so_far, const FieldProgress& progress) {
+                                          const Refinement& so_far, const FieldProgress& progress,
+                                          std::size_t light_clusters) {
     if (so_far.rounds >= most_rounds(settings)) return std::nullopt;
     if (progress.passes < passes_before_round(so_far.rounds)) return std::nullopt;
     const std::size_t placed = volumes - so_far.added;
-    const std::size_t most = most_refined_volumes(settings, placed) - placed;
+    const std::size_t most = most_refined_volumes(settings, placed, light_clusters) - placed;
     const std::size_t parts = std::min(so_far.rounds + 1, kRounds);
     const std::size_t due =
         std::min(placed + most * parts / kRounds, most_by_samples(settings, so_far.rounds, progress.records));

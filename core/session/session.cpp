@@ -45,7 +45,8 @@ std::optional<FieldStatus> Session::field_status(MethodId method) const {
                        .added_volumes = static_cast<int>(placement_.refinement().added),
                        .bins = placement_.bins(),
                        .bytes =
-                           volume_bytes(*placement_.volumes()) + placement_.count() * table_bytes(placement_.bins()),
+                           volume_bytes(*placement_.volumes()) +
+                           placement_.count() * table_bytes(placement_.bins(), placement_.shape().light_clusters),
                        .passes = state.passes - state.unguided_passes,
                        .records = state.records,
                        .clamped_records = state.clamped_records,

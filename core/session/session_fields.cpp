@@ -6,9 +6,10 @@
 namespace pl {
 namespace {
 
-/// Whether the lengths of all arrays agree.
-bool fits_together(const LearnedField& field) {
+/// Whether the lengths of all arrays agree with each other and with the scene.
+bool fits_together(const LearnedField& field, const HostScene& scene) {
     if (field.volumes == nullptr || field.shape.cells.side < 1) return false;
+    if (field.shape.light_clusters != scene.light_clusters.size()) return false;
     const std::size_t volumes = field.volumes->normals.size();
     return field.volumes->sites.size() == volumes && field.volumes->kd_nodes.size() <= volumes &&
            field.refinement.added <= volumes && fits(field.shape, field.field, volumes);
@@ -57,7 +58,7 @@ LearnedField Session::export_field(MethodId method) const {
 
 void Session::import_field(LearnedField learned) {
     require_learned_in(scene(), learned);
-    if (!info_of(learned.method).uses_field || !fits_together(learned))
+    if (!info_of(learned.method).uses_field || !fits_together(learned, *scene_.packed()))
         throw Error(ErrorKind::Input, "the field's volumes and tables do not fit together");
     Placement adopted = placement_;
     adopted.adopt(*backend_, *scene_.packed(), *learned.volumes, learned.shape, learned.refinement);

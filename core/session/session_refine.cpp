@@ -8,7 +8,8 @@ namespace pl {
 
 /// At most one round per update.
 void Session::refine_if_due(MethodId method) {
-    const auto added = volumes_to_add(settings_.field, placement_.count(), placement_.refinement(), field(method));
+    const auto added = volumes_to_add(settings_.field, placement_.count(), placement_.refinement(), field(method),
+                                      placement_.shape().light_clusters);
     if (!added) return;
     if (*added > 0) split_volumes(method, *added);
     placement_.count_round();

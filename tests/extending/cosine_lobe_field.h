@@ -74,9 +74,10 @@ struct CosineLobeField : PlacementView {
         const auto volume = static_cast<std::uint32_t>(sample.entry.volume);
         atomic_add(pending_irradiance[volume], steps(sample.target * sample.bsdf_ratio), Writers::Many);
     }
-    PL_HD void record_light(const Location& location, float irradiance) const {
-        const auto volume = static_cast<std::uint32_t>(location.volume);
-        atomic_add(pending_direct[volume], steps(min_of(irradiance, kMostTarget)), Writers::Many);
+    PL_HD LearnedLights lights_at(const Location&) const { return {}; }
+    PL_HD void record_light(const LightSample<CosineLobeField>& light) const {
+        const auto volume = static_cast<std::uint32_t>(light.location.volume);
+        atomic_add(pending_direct[volume], steps(min_of(light.irradiance, kMostTarget)), Writers::Many);
         atomic_add(pending_light_count[volume], 1u, Writers::Many);
     }
     PL_HD bool is_clamped(float target) const { return target > kMostTarget; }

@@ -30,6 +30,7 @@ constexpr Check kChecks[] = {
     {"probed-cells", check_probed_cells},
     {"furnace-cells", check_furnace_cells},
     {"furnace-lights", check_furnace_lights},
+    {"furnace-many-lights", check_furnace_many_lights},
     {"mixture-density", check_mixture_density},
     {"floor", check_floor},
     {"facets", check_facets},

@@ -47,6 +47,8 @@ HostTables tables_with_samples(const FieldShape& shape, std::size_t volumes) {
         if (u.x < 0.2f) continue;
         tables.pending_direct_count[i] = 1 + static_cast<std::uint32_t>(100.0f * u.y);
         tables.pending_direct[i] = to_fixed_point(50.0f * shape.radiance_unit * u.z, shape.radiance_unit);
+        for (std::uint32_t k = i * shape.light_clusters; k < (i + 1) * shape.light_clusters; ++k)
+            tables.pending_cluster[k] = tables.pending_direct[i] / shape.light_clusters;
         tables.pending_light[i] = steps(1.0e4f * u.x, kReachStepsPerUnit);
         tables.pending_distance[i] = steps(1.0e4f * u.x * u.y, kReachStepsPerUnit);
         tables.pending_curvature[i] = steps(100.0f * u.z, kMixtureStepsPerUnit);

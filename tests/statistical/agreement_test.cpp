@@ -107,6 +107,15 @@ void check_paying(const std::string& name, double resolution, double noise) {
     }
 }
 
+/// Lights chosen by what was learned, once many were sampled.
+void check_learned_lights(const std::string& name, double resolution, double noise) {
+    const SceneDescription scene = shipped_scene(name);
+    const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution, noise);
+    const Estimator estimator{MethodId::Reinforcement, true};
+    INFO(name << ", " << estimator);
+    CHECK(same_picture(one_run(scene, estimator, kSeed, resolution, noise), expected, resolution));
+}
+
 /// Refined as often as may be: one long picture, and the beginnings of many, each with both moments of splitting.
 void check_refined(const std::string& name, int runs, double resolution) {
     constexpr std::uint32_t kPasses = 20;
@@ -146,6 +155,8 @@ TEST_CASE("All methods agree on the row before the lens") { check_agreement("len
 
 TEST_CASE("Pictures with passes that are not guided agree on the plates") { check_paying("plates", 0.2, 1.0); }
 
+TEST_CASE("A learned choice of lights agrees on the boxed lights") { check_learned_lights("boxed-lights", 0.2, 1.5); }
+
 TEST_CASE("Refining the placement agrees on the door ajar") { check_refined("door", 0, 0.08); }
 
 // The same with 36 times the samples and more, and the cases that the short ones leave out.
@@ -170,6 +181,9 @@ TEST_CASE("All targets agree on coats and rough metals", "[merge]") { check_vari
 // Sky and sun through a lattice, textures: without light samples few paths find the sun, which has most of the light.
 TEST_CASE("All methods agree on the textured room", "[merge]") { check_agreement("textured-room", 0.1, 2.0); }
 TEST_CASE("All methods agree on the row before the lens within 8 %", "[merge]") { check_agreement("lens", 0.08); }
+TEST_CASE("A learned choice of lights agrees on the gallery within 4 %", "[merge]") {
+    check_learned_lights("gallery", 0.04, 1.5);
+}
 TEST_CASE("Refining the placement agrees on the Cornell box", "[merge]") { check_refined("cornell", 0, 0.04); }
 TEST_CASE("The first passes of refining the placement agree on the door ajar", "[merge]") {
     check_refined("door", 64, 0.06);

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/kernel/guiding/direction_sample.h"
+#include "core/kernel/shading/light_tree.h"
 
 namespace pl {
 
@@ -28,7 +29,8 @@ template <class Field>
 struct LightSample {
     typename Field::Location location{};
     float irradiance =
-        0.0f;  ///< irradiance / pi (luminance) with the sample's MIS weight, if nothing occludes the light
+        0.0f;  ///< irradiance / pi (luminance) with the sample's MIS weight; 0 if the light is occluded
+    std::uint32_t cluster = kNoCluster;  ///< of the light, see LightTree
 };
 
 /// The operations of a field that kernels call while paths are traced. All but record(), add() and
@@ -41,17 +43,18 @@ struct LightSample {
 ///   bsdf_fraction_at(l)        learned fraction a of BSDF samples in the mixture, in (0, 1]
 ///   value_at(l)                expected irradiance / pi (luminance): the value function V of reinforcement learning
 ///   direct_at(l)               the same by light samples alone, with their MIS weights; 0 before the first one
+///   lights_at(l)               learned choice among the clusters of the scene's light tree; empty: nothing is learned
 ///   entry_of(l, direction)     the entry that a sampled direction trains
 ///   record(sample, fraction)   adds a training sample to the pending sums; `fraction`: also to those of the BSDF fraction
 ///   add(sample, fraction)      adds radiance to the target of a training sample that was recorded before
-///   record_light(l, e)         adds a light sample of irradiance / pi e, 0 if it is occluded
+///   record_light(light)        adds a light sample
 ///   is_clamped(target)         whether the sums will hold less than this target
 template <class Field>
 concept GuidingField = std::is_trivially_copyable_v<Field> && std::default_initializable<typename Field::Location> &&
     std::default_initializable<typename Field::Entry> &&
     requires(const Field& field, const typename Field::Location& location, const typename Field::Entry& entry,
              const SurfacePoint& surface, const ScatterNumbers& numbers, const DirectionSample& direction,
-             const TrainingSample<Field>& sample) {
+             const TrainingSample<Field>& sample, const LightSample<Field>& light) {
     { field.locate(surface) } -> std::same_as<typename Field::Location>;
     { location.is_served() } -> std::same_as<bool>;
     { field.sample(location, surface, numbers) } -> std::same_as<Vec3f>;
@@ -63,7 +66,8 @@ concept GuidingField = std::is_trivially_copyable_v<Field> && std::default_initi
     { entry.is_trained() } -> std::same_as<bool>;
     field.record(sample, bool{});
     field.add(sample, bool{});
-    field.record_light(location, float{});
+    { field.lights_at(location) } -> std::same_as<LearnedLights>;
+    field.record_light(light);
     { field.is_clamped(float{}) } -> std::same_as<bool>;
 };
 

@@ -26,7 +26,11 @@ struct TableArrays {
     Pending<std::uint32_t> pending_direct_count;  ///< of light samples, occluded ones included. [volume]
     Learned<float> direct;                        ///< mean irradiance / pi by light samples. [volume]
     Learned<std::uint32_t> direct_count;          ///< light samples so far. [volume]
-    Learned<float> change;  ///< mean |new - old| of the cells that the last update moved. [volume]
+    /// By the light samples of one cluster of the scene's light tree; empty without a tree. [volume][cluster]
+    Pending<std::int64_t> pending_cluster;  ///< of irradiance / pi, fixed point
+    Learned<float> cluster_light;           ///< mean irradiance / pi
+    Learned<float> light_cdf;  ///< inclusive cumulative probabilities ending in 1; all 0 before enough light samples
+    Learned<float> change;     ///< mean |new - old| of the cells that the last update moved. [volume]
 
     Pending<std::int64_t> pending_slope;      ///< see record_mixture(). [volume]
     Pending<std::int64_t> pending_curvature;  ///< [volume]

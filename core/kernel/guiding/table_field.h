@@ -72,10 +72,17 @@ struct TableField : TableView {
         atomic_add(pending_sum[index], to_fixed_point(sample.target, radiance_unit), writers);
         record_light(sample, learns_fraction);
     }
-    PL_HD void record_light(const Location& location, float irradiance) const {
-        const auto index = static_cast<std::uint32_t>(location.volume);
-        atomic_add_counted(pending_direct[index], to_fixed_point(irradiance, radiance_unit),
-                           pending_direct_count[index], writers);
+    PL_HD LearnedLights lights_at(const Location& location) const {
+        if (light_clusters == 0) return {};
+        const float* cdf = light_cdf.data + static_cast<std::uint32_t>(location.volume) * light_clusters;
+        return cdf[light_clusters - 1] > 0.0f ? LearnedLights{cdf} : LearnedLights{};
+    }
+    PL_HD void record_light(const LightSample<TableField>& light) const {
+        const auto index = static_cast<std::uint32_t>(light.location.volume);
+        const std::int64_t steps = to_fixed_point(light.irradiance, radiance_unit);
+        atomic_add_counted(pending_direct[index], steps, pending_direct_count[index], writers);
+        if (light.cluster < light_clusters && steps != 0)
+            atomic_add(pending_cluster[index * light_clusters + light.cluster], steps, writers);
     }
     PL_HD bool is_clamped(float target) const { return pl::is_clamped(target, radiance_unit); }
 

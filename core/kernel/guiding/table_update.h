@@ -9,6 +9,7 @@ namespace pl {
 /// All arrays of a table, to be written.
 struct TableUpdateView : TableArrays<Span, Span> {
     DirectionCells cells;
+    std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
     float radiance_unit = 1.0f;
     float extent = 0.0f;
     LearningRate rate = LearningRate::Forgetful;

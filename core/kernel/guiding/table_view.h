@@ -24,8 +24,9 @@ struct ConstSpan : Span<const T> {
 
 struct TableView : PlacementView, TableArrays<ConstSpan, Span> {
     DirectionCells cells;
-    float radiance_unit = 1.0f;       ///< of the fixed-point sums: a power of two not below the brightest emission
-    Writers writers = Writers::Many;  ///< threads that add to the pending sums
+    std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
+    float radiance_unit = 1.0f;        ///< of the fixed-point sums: a power of two not below the brightest emission
+    Writers writers = Writers::Many;   ///< threads that add to the pending sums
 
     PL_HD std::uint32_t cell_index(std::int32_t volume, int cell) const {
         return static_cast<std::uint32_t>(volume) * static_cast<std::uint32_t>(cells.count()) +

@@ -67,7 +67,7 @@ PL_HD inline Vec3f direct_radiance(const SceneView& scene, const I& intersector,
     const Vec3f emitted = emitted_at<F>(scene, surface.point, surface.weights);
     const Vec4f u = rng.draw(0, Purpose::Light);
     const Bsdf<F> bsdf = make_bsdf<F>(scene, surface.point, surface.weights, surface.wo);
-    const DirectLight sample = sample_direct_light<F>(scene, surface.point, bsdf, {u.x, u.y, u.z}, u.w);
+    const DirectLight sample = sample_direct_light<F>(scene, surface.point, bsdf, u);
     if (!(sample.pdf_sa > 0.0f) || is_blocked<F>(scene, intersector, shadow_ray_to<F>(surface.point, sample)))
         return emitted;
     return emitted + bsdf.eval(surface.point, sample.wi, sample.cos_i) * sample.emitted * (1.0f / sample.pdf_sa);

@@ -8,6 +8,7 @@
 #include "core/kernel/base/rng.h"
 #include "core/kernel/film/sample_variance.h"
 #include "core/kernel/integrator/branches.h"
+#include "core/kernel/shading/light_tree.h"
 
 namespace pl {
 
@@ -49,6 +50,23 @@ struct SpecularChain {
     bool is_open = false;  ///< the chain has at least one vertex
 };
 
+/// Whether paths of this method choose lights by what was learned, in scenes with a light tree.
+template <FeatureSet F, class M>
+inline constexpr bool learns_lights = F.has(Feature::ManyLights) && M::kLearnsLights;
+
+/// The learned choice of lights at a vertex.
+struct LightChoice {
+    LearnedLights lights{};
+
+    PL_HD LearnedLights learned() const { return lights; }
+};
+/// Lights are chosen without learning.
+struct NoLightChoice {
+    PL_HD LearnedLights learned() const { return {}; }
+};
+template <FeatureSet F, class M>
+using LightChoiceOf = std::conditional_t<learns_lights<F, M>, LightChoice, NoLightChoice>;
+
 template <FeatureSet F, class M>
 struct PathState {
     Ray ray;                        ///< the segment to trace next
@@ -60,6 +78,7 @@ struct PathState {
     std::uint32_t sample = 0;
     std::uint32_t vertices = 0;  ///< surface vertices so far
     [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), SpecularChain, Nothing> chain{};
+    [[no_unique_address]] LightChoiceOf<F, M> lights{};  ///< at the vertex of direction_pdf_sa
     [[no_unique_address]] typename M::Memory memory{};
     [[no_unique_address]] typename M::Expectation expectation{};
     [[no_unique_address]] BranchesOf<M> branches;

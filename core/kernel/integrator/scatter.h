@@ -22,6 +22,16 @@ struct StepOutput {
     PathCounters& counters;
 };
 
+/// The choice of lights that was learned for a vertex.
+template <FeatureSet F, Method M>
+PL_HD inline LightChoiceOf<F, M> learned_lights([[maybe_unused]] const M& method,
+                                                [[maybe_unused]] const typename M::Vertex& vertex) {
+    if constexpr (learns_lights<F, M>)
+        return {method.learned_lights(vertex)};
+    else
+        return {};
+}
+
 /// Density, per steradian, of scattering into wi by the lobes other than delta lobes, times their share of samples.
 template <FeatureSet F, Method M>
 PL_HD inline float scatter_pdf_sa(const M& method, const ScatterPoint<F, M>& from, Vec3f wi) {
@@ -96,6 +106,7 @@ PL_HD inline PathStatus scatter_lambert(const M& method, const ScatterPoint<F, M
     if (!(direction.pdf_sa > 0.0f) || cos_i == 0.0f) return terminate_black(method, state, out);
     const Vec3f weight = from.bsdf.eval(from.surface, direction.wi, cos_i) * (1.0f / direction.pdf_sa);
     state.direction_pdf_sa = direction.pdf_sa;
+    state.lights = learned_lights<F>(method, from.vertex);
     return send_path(method, from, direction, weight, state, out.counters);
 }
 
@@ -119,6 +130,7 @@ PL_HD inline PathStatus scatter_layered(const M& method, const ScatterPoint<F, M
     const Vec3f weight = from.bsdf.eval(from.surface, direction.wi, cos_i) * (1.0f / pdf_sa);
     if (is_black(weight)) return terminate_black(method, state, out);
     state.direction_pdf_sa = pdf_sa;
+    state.lights = learned_lights<F>(method, from.vertex);
     return send_path(method, from, direction, weight, state, out.counters);
 }
 

@@ -86,30 +86,34 @@ PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PathSettings
 template <FeatureSet F, class M>
 PL_HD inline float add_emission(const SceneView& scene, const PathSettings& settings, const SurfacePoint& surface,
                                 Vec3f emitted, PathState<F, M>& state) {
-    const float weight = direction_weight(
-        settings, state, [&] { return light_pdf_sa<F>(scene, state.ray.origin, surface, state.ray.direction); });
+    const float weight = direction_weight(settings, state, [&] {
+        return light_pdf_sa<F>(scene, state.ray.origin, surface, state.ray.direction, state.lights.learned());
+    });
     state.radiance += weight * (state.throughput * emitted);
     return weight;
 }
 
 /// A light sample that contributes if nothing occludes the light, before its MIS weight is known.
 struct UnweightedLight {
-    Ray ray;                   ///< the shadow ray
-    Vec3f wi{0.0f};            ///< unit, towards the light
-    float pdf_sa = 0.0f;       ///< of light sampling; 0: the sample cannot contribute
-    Vec3f contribution{0.0f};  ///< times pdf_sa, without the weight; so are the next two
-    Vec3f reflected{0.0f};     ///< LightEstimate::reflected
-    float irradiance = 0.0f;   ///< LightEstimate::irradiance
+    Ray ray;                             ///< the shadow ray
+    Vec3f wi{0.0f};                      ///< unit, towards the light
+    float pdf_sa = 0.0f;                 ///< of light sampling; 0: the sample cannot contribute
+    Vec3f contribution{0.0f};            ///< times pdf_sa, without the weight; so are the next two
+    Vec3f reflected{0.0f};               ///< LightEstimate::reflected
+    float irradiance = 0.0f;             ///< LightEstimate::irradiance
+    std::uint32_t cluster = kNoCluster;  ///< LightEstimate::cluster
 };
 
 /// Samples a light at a vertex, by the numbers `u`.
 template <FeatureSet F, Method M>
 PL_HD inline UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
                                           const PathState<F, M>& state) {
-    const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, {u.x, u.y, u.z}, u.w);
+    const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, u,
+                                                      learned_lights<F>(context.method, from.vertex).learned());
     if (!(sample.pdf_sa > 0.0f)) return {};
     const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
     UnweightedLight light{.ray = shadow_ray_to<F>(from.surface, sample), .wi = sample.wi, .pdf_sa = sample.pdf_sa};
+    light.cluster = sample.cluster;
     light.contribution = state.throughput * reflectance * sample.emitted;
     light.reflected = reflectance * sample.emitted;
     light.irradiance = luminance(sample.emitted) * (kInvPi * sample.cos_i);
@@ -131,7 +135,7 @@ PL_HD inline void weigh_light(const M& method, const typename M::Vertex& vertex,
         shadow.ray = light.ray;
         shadow.contribution = light.contribution * weight;
         shadow.wanted = true;
-        estimate = {light.reflected * weight, light.irradiance * weight};
+        estimate = {light.reflected * weight, light.irradiance * weight, light.cluster};
     }
     shadow.light = method.light_sampled(state.memory, vertex, estimate);
 }

@@ -101,6 +101,11 @@ struct Guided : Target<F> {
         return mixture.learned != 0 ? field.bsdf_fraction_at(vertex) : mixture.bsdf_fraction;
     }
 
+    /// Learned choice of lights at a vertex.
+    PL_HD LearnedLights learned_lights(const Vertex& vertex) const {
+        return vertex.is_served() ? field.lights_at(vertex) : LearnedLights{};
+    }
+
 private:
     PL_HD bool samples_field(const Vertex& vertex, const ScatterNumbers& numbers) const {
         return numbers.u.x >= bsdf_fraction(vertex);

@@ -35,8 +35,9 @@ struct Observation {
 
 /// A light sample at a vertex, with its MIS weight, if nothing occludes the light.
 struct LightEstimate {
-    Vec3f reflected{0.0f};    ///< radiance reflected there towards the path's last vertex with a location
-    float irradiance = 0.0f;  ///< irradiance / pi, luminance
+    Vec3f reflected{0.0f};               ///< radiance reflected there towards the path's last vertex with a location
+    float irradiance = 0.0f;             ///< irradiance / pi, luminance
+    std::uint32_t cluster = kNoCluster;  ///< of the light, see LightTree; none if the estimate is 0
 };
 
 /// The scattering of a path at a vertex.
@@ -78,7 +79,8 @@ struct MethodHooks {
     struct Light {};        ///< a light sample made by light_sampled(), added by record_light() before the pass ends
     struct Expectation {};  ///< part of the path's state: the contribution expected at its first vertex
 
-    static constexpr bool kSplitsPaths = false;  ///< whether estimate_contribution() is good enough to split by
+    static constexpr bool kSplitsPaths = false;   ///< whether estimate_contribution() is good enough to split by
+    static constexpr bool kLearnsLights = false;  ///< whether learned_lights() chooses among many lights
     static constexpr KernelRange kKernelRange = KernelRange::Full;  ///< sets of features it is compiled for
 
     /// Whether the integrator serves these settings of its method.

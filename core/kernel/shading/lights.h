@@ -43,14 +43,15 @@ PL_HD inline std::uint32_t light_of(const SceneView& scene, std::uint32_t primit
                       [&](std::uint32_t light) { return scene.lights[light].primitive >= primitive; });
 }
 
-/// Density per steradian of light sampling at `from` for the direction `wi` that hits `on_light`.
+/// Density per steradian of light sampling at `from` for the direction `wi` that hits `on_light`. `learned`: of the point `from`.
 template <FeatureSet F = FeatureSet{}>
-PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const SurfacePoint& on_light, Vec3f wi) {
+PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const SurfacePoint& on_light, Vec3f wi,
+                                [[maybe_unused]] LearnedLights learned = {}) {
     if constexpr (F.has(Feature::ManyLights)) {
         if (!scene.light_tree.empty()) {
             const std::uint32_t light = light_of(scene, on_light.primitive);
             if (light >= scene.lights.count || scene.lights[light].primitive != on_light.primitive) return 0.0f;
-            const float probability = light_probability(scene.light_tree, light, from);
+            const float probability = light_probability(scene.light_tree, light, from, learned);
             return on_light_pdf_sa(scene, probability * scene.light_tree.of_light[light].pdf_area, from, on_light,
                                    wi);
         }
@@ -76,6 +77,7 @@ struct LightPoint {
     Vec3f from{0.0f};                 ///< the point that it is seen from
     float area_per_steradian = 0.0f;  ///< of a light that is sampled by solid angle, else 0
     float pdf_area = 0.0f;  ///< of uniform samples on the light: per unit area, times the probability of the light
+    std::uint32_t cluster = 0;  ///< of the light, in a scene with a light tree
 
     /// Density per steradian in the direction `wi` of the point.
     PL_HD float pdf_sa(Vec3f wi) const {
@@ -118,12 +120,15 @@ PL_HD inline LightPoint sample_on_light(const SceneView& scene, std::uint32_t li
 
 /// Samples a light and a point on it; u in [0,1)^3. The scene must have lights.
 template <FeatureSet F = FeatureSet{}>
-PL_HD inline LightPoint sample_light(const SceneView& scene, const Receiver& receiver, Vec3f u) {
+PL_HD inline LightPoint sample_light(const SceneView& scene, const Receiver& receiver, Vec3f u,
+                                     [[maybe_unused]] LearnedLights learned = {}) {
     if constexpr (F.has(Feature::ManyLights)) {
         if (!scene.light_tree.empty()) {
-            const ChosenLight chosen = choose_light(scene.light_tree, receiver.position, u.x);
+            const ChosenLight chosen = choose_light(scene.light_tree, receiver.position, u.x, learned);
+            const LightPlace& place = scene.light_tree.of_light[chosen.light];
             LightPoint point = sample_on_light(scene, chosen.light, receiver, {u.y, u.z});
-            point.pdf_area = chosen.probability * scene.light_tree.of_light[chosen.light].pdf_area;
+            point.pdf_area = chosen.probability * place.pdf_area;
+            point.cluster = place.cluster;
             return point;
         }
     }
@@ -138,7 +143,8 @@ struct DirectLight {
     Vec3f wi{0.0f};       ///< unit, from the surface to the light
     Vec3f emitted{0.0f};  ///< radiance of the light towards the surface
     float cos_i = 0.0f;
-    float pdf_sa = 0.0f;  ///< per steradian; 0: no contribution, even if visible
+    float pdf_sa = 0.0f;                 ///< per steradian; 0: no contribution, even if visible
+    std::uint32_t cluster = kNoCluster;  ///< of the light; none without a light tree, and of far lights
 };
 
 /// Emitted radiance of a point on a light with barycentric weights `b`; 0 in a hole.
@@ -162,17 +168,20 @@ PL_HD inline DirectLight sample_far_light(const SceneView& scene, const SurfaceP
     return sample;
 }
 
-/// Light sample for a surface point; u in [0,1)^3, `choice` in [0, 1) selects far lights or emissive triangles. The
-/// caller traces the shadow ray.
+/// Light sample for a surface point; u.x, u.y, u.z in [0,1), u.w in [0, 1) selects far lights or emissive triangles. `learned`: of
+/// the point. The caller traces the shadow ray.
 template <FeatureSet F = FeatureSet{}, class B>
 PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
-                                             Vec3f u, [[maybe_unused]] float choice = 0.0f) {
+                                             Vec4f u, LearnedLights learned = {}) {
     if constexpr (F.has(Feature::EnvironmentMap)) {
-        if (choice < scene.far_probability) return sample_far_light(scene, surface, bsdf, u);
+        if (u.w < scene.far_probability) return sample_far_light(scene, surface, bsdf, Vec3f{u});
     }
     if (scene.lights.empty()) return {};
-    const LightPoint chosen = sample_light<F>(scene, Receiver::of(surface), u);
+    const LightPoint chosen = sample_light<F>(scene, Receiver::of(surface), Vec3f{u}, learned);
     DirectLight sample{.light = chosen.surface};
+    if constexpr (F.has(Feature::ManyLights)) {
+        if (!scene.light_tree.empty()) sample.cluster = chosen.cluster;
+    }
     const Vec3f segment = sample.light.position - chosen.from;
     const float distance2 = glm::dot(segment, segment);
     if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};

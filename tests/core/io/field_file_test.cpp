@@ -175,6 +175,20 @@ TEST_CASE("Bytes that are missing or too many inside a sealed field file are ref
     }
 }
 
+TEST_CASE("A learned choice of lights rises to one or is missing") {
+    const TemporaryFolder folder;
+    const auto told = [&](std::vector<float> choice) {
+        LearnedField field = small_field();
+        std::get<HostTables>(field.field).light_cdf.assign(choice.begin(), choice.end());
+        written(folder, field);
+        return input_error([&] { read_field(folder.path() / "field"); });
+    };
+    CHECK_THAT(told({0.5f, 0.75f, 0, 0, 0, 0}),
+               contains("entry 1 of the choices of lights") && contains("expected 1"));
+    CHECK_THAT(told({0.5f, 1, 0.5f, 0, 0, 0}), contains("entry 3 of the choices of lights"));
+    CHECK_THAT(told({0.5f, 1, 0, 0, -0.5f, 1}), contains("entry 4 of the choices of lights"));
+}
+
 TEST_CASE("Other files and other versions are no damaged fields") {
     const TemporaryFolder folder;
     const std::string bytes = written(folder, small_field());
@@ -185,8 +199,8 @@ TEST_CASE("Other files and other versions are no damaged fields") {
     CHECK_THAT(told(""), contains("f: not a learned field: expected a file that begins with PLFIELD"));
     CHECK_THAT(told("v 0 0 0\n"), contains("not a learned field") && contains("got 76 20 30"));
     std::string newer = bytes;
-    newer[8] = 7;
-    CHECK_THAT(told(newer), contains("another version: expected 6, got 7"));
+    newer[8] = 8;
+    CHECK_THAT(told(newer), contains("another version: expected 7, got 8"));
     CHECK_THAT(input_error([&] { read_field(folder.path() / "gone"); }), contains("gone: cannot be read"));
     CHECK_THAT(input_error([&] { read_field(folder.path()); }), contains("it is a directory"));
 }

@@ -48,6 +48,9 @@ inline void add_any_samples(HostTables& tables, std::size_t volume, std::uint32_
     tables.pending_light[volume] = static_cast<std::int64_t>(random.bits());
     tables.pending_direct_count[volume] = max_of(any_count(random), 1u);
     tables.pending_direct[volume] = any_sum(random);
+    const std::size_t clusters = tables.pending_cluster.size() / volume_count(tables);
+    for (std::size_t i = volume * clusters; i < (volume + 1) * clusters; ++i)
+        if (random.below(3) != 0) tables.pending_cluster[i] = any_sum(random);
 }
 
 /// Learned values of a volume, none in some cells; `wild`: with any_radiance().

@@ -41,6 +41,7 @@ inline LearnedField small_field() {
                                     .lookup = Lookup::Linear,
                                     .refine_share = 0.75f},
                        .shape = {.cells = {2},
+                                 .light_clusters = 2,
                                  .radiance_unit = 0.125f,
                                  .extent = 3.0f,
                                  .rate = LearningRate::SampleMean,
@@ -69,6 +70,9 @@ inline LearnedField small_field() {
     for (std::int64_t& light : tables.pending_light) light = static_cast<std::int64_t>(random());
     for (LargeArray<float>* cdf : {&tables.row_cdf, &tables.column_cdf})
         for (std::size_t i = 0; i < cdf->size(); i += 2) (*cdf)[i] = uniform();
+    // The last volume has learned nothing of lights.
+    tables.cluster_light = {0.25f, 0.75f, 3.0f, 1.0f, 0.0f, 0.0f};
+    tables.light_cdf = {0.25f, 1.0f, 0.75f, 1.0f, 0.0f, 0.0f};
     field.field = std::move(tables);
     return field;
 }

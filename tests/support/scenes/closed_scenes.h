@@ -40,6 +40,23 @@ inline SceneDescription furnace_scene(float emission, float albedo) {
     return box_scene(look, {-1.0f, -0.75f, -1.5f}, {1.0f, 0.75f, 1.5f});
 }
 
+/// The same surfaces with four triangles for each one.
+inline SceneDescription with_quartered_triangles(SceneDescription scene) {
+    const std::vector<TriangleDescription> triangles = std::move(scene.triangles);
+    scene.triangles.clear();
+    for (const TriangleDescription& triangle : triangles) {
+        const glm::vec3 a = scene.positions[triangle.vertex[0]];
+        const glm::vec3 b = scene.positions[triangle.vertex[1]];
+        const glm::vec3 c = scene.positions[triangle.vertex[2]];
+        const glm::vec3 ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
+        add_triangle(scene, a, ab, ca, triangle.material);
+        add_triangle(scene, ab, b, bc, triangle.material);
+        add_triangle(scene, ca, bc, c, triangle.material);
+        add_triangle(scene, ab, bc, ca, triangle.material);
+    }
+    return scene;
+}
+
 /// The same geometry and albedos with emission 1 - albedo on both sides of everything: in a closed scene the
 /// radiance is then 1 at every point in every direction and channel, whatever the albedos are.
 inline SceneDescription in_equilibrium(SceneDescription scene) {

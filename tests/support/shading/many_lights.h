@@ -44,7 +44,7 @@ inline Moments irradiance(const SceneView& scene, const SurfacePoint& surface, i
     Moments moments;
     for (int i = 0; i < samples; ++i) {
         const Vec3f u{random.next(), random.next(), random.next()};
-        const DirectLight light = sample_direct_light<F>(scene, surface, LambertBsdf{}, u);
+        const DirectLight light = sample_direct_light<F>(scene, surface, LambertBsdf{}, Vec4f{u, 0.0f});
         moments.add(light.pdf_sa > 0.0f ? static_cast<double>(light.emitted.x * light.cos_i / light.pdf_sa) : 0.0);
     }
     return moments;

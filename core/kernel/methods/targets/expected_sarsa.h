@@ -22,6 +22,8 @@ struct ExpectedSarsa : FieldTrainer<F> {
     using Sample = TrainingSample<F>;
     using Light = LightSample<F>;
 
+    static constexpr bool kLearnsLights = true;
+
     LearningSettings learning{};
 
     static constexpr bool serves(const LearningSettings& learning, bool) {
@@ -48,11 +50,12 @@ struct ExpectedSarsa : FieldTrainer<F> {
     PL_HD void record(const Sample& sample) const { this->train(sample, sample.target); }
 
     PL_HD Light light_sampled(Memory&, const Vertex& vertex, const LightEstimate& estimate) const {
-        return {vertex, estimate.irradiance};
+        return {vertex, estimate.irradiance, estimate.cluster};
     }
-    PL_HD void record_light(const Light& light, bool is_visible) const {
+    PL_HD void record_light(Light light, bool is_visible) const {
         if (learning.light != LearnedLight::Indirect || !light.location.is_served()) return;
-        this->field.record_light(light.location, is_visible ? light.irradiance : 0.0f);
+        if (!is_visible) light.irradiance = 0.0f;
+        this->field.record_light(light);
     }
 };
 

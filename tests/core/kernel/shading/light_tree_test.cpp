@@ -41,7 +41,73 @@ double sum_of_probabilities(const LightTree& tree, Vec3f from) {
     return sum;
 }
 
+/// Cumulative probabilities of a tree's clusters: cluster i weighs `weight(i)`.
+template <class Weight>
+std::vector<float> choice_of(const LightTree& tree, Weight weight) {
+    std::vector<float> cdf;
+    for (std::uint32_t i = 0; i < tree.clusters.count; ++i)
+        cdf.push_back((cdf.empty() ? 0.0f : cdf.back()) + weight(i));
+    for (float& value : cdf) value /= cdf.back();
+    return cdf;
+}
+
 }  // namespace
+
+TEST_CASE("Every light is in one cluster, below the root of that cluster") {
+    for (const std::uint32_t lights : {33u, 40u, 200u}) {
+        SceneDescription scene = scattered_lights();
+        scene.triangles.resize(lights);
+        const HostScene packed = pack_scene(scene);
+        const LightTree tree = packed.view().light_tree;
+        REQUIRE(tree.clusters.count == kMostLightClusters);
+        std::vector<int> found(lights);
+        for (std::uint32_t cluster = 0; cluster < tree.clusters.count; ++cluster) {
+            CHECK(tree.nodes[tree.clusters[cluster]].cluster == cluster);
+            const auto visit = [&](const auto& self, std::uint32_t node) -> void {
+                if (tree.nodes[node].is_leaf != 0) {
+                    ++found[tree.nodes[node].next];
+                    CHECK(tree.of_light[tree.nodes[node].next].cluster == cluster);
+                    return;
+                }
+                self(self, node + 1);
+                self(self, tree.nodes[node].next);
+            };
+            visit(visit, tree.clusters[cluster]);
+        }
+        CHECK(found == std::vector<int>(lights, 1));
+    }
+}
+
+// S3: N = 1e6 each: probabilities off by 2 % are found.
+TEST_CASE("Lights are chosen as often as the mixture of a learned choice and the tree says") {
+    const HostScene packed = pack_scene(scattered_lights());
+    const LightTree tree = packed.view().light_tree;
+    const std::vector<float> one = choice_of(tree, [](std::uint32_t i) { return i == 17 ? 1.0f : 0.0f; });
+    const std::vector<float> many =
+        choice_of(tree, [](std::uint32_t i) { return i % 3 == 0 ? 0.0f : 1.0f * static_cast<float>(i); });
+    for (const std::vector<float>& cdf : {one, many})
+        for (const Vec3f from : {Vec3f{0.0f}, Vec3f{-50, 3, 3}}) {
+            const LearnedLights learned{cdf.data()};
+            std::vector<double> expected;
+            double sum = 0.0;
+            for (std::uint32_t light = 0; light < kLights; ++light) {
+                expected.push_back(static_cast<double>(light_probability(tree, light, from, learned)));
+                sum += expected.back();
+                CHECK(expected.back() >=
+                      0.999 * static_cast<double>(kTreeShare * light_probability(tree, light, from)));
+            }
+            CHECK(sum == Approx(1.0).epsilon(1e-5));
+            std::vector<std::uint64_t> counts(kLights);
+            Uniforms random(1);
+            for (int i = 0; i < 1000000; ++i) {
+                const ChosenLight chosen = choose_light(tree, from, random.next(), learned);
+                ++counts[chosen.light];
+                if (chosen.probability != light_probability(tree, chosen.light, from, learned))
+                    FAIL("light " << chosen.light);
+            }
+            CHECK(sampler_matches(counts, expected, 0.02));
+        }
+}
 
 // S3: 200 lights seen from four points inside and outside; N = 1e6 each: probabilities off by 2 % are found.
 TEST_CASE("Lights of a tree are chosen as often as their probabilities say") {

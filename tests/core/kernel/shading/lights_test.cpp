@@ -103,7 +103,7 @@ TEST_CASE("Light samples that cannot contribute have no density") {
     add_triangle(description, Vec3f{-1, -1, 2}, Vec3f{0, 1, 2}, Vec3f{1, -1, 2});  // its front looks down
     const auto sample = [&](const SurfacePoint& surface) {
         const HostScene scene = pack_scene(description);
-        return sample_direct_light(scene.view(), surface, LambertBsdf{}, {0.3f, 0.4f, 0.5f});
+        return sample_direct_light(scene.view(), surface, LambertBsdf{}, {0.3f, 0.4f, 0.5f, 0.0f});
     };
     CHECK(sample(receiver()).pdf_sa > 0.0f);
     CHECK(sample(receiver()).light.front);
@@ -136,7 +136,7 @@ TEST_CASE("A light sample weighed by its density gives the light of a distant pa
     Uniforms random(3);
     for (int i = 0; i < 1000; ++i) {
         const Vec3f u{random.next(), random.next(), random.next()};
-        const DirectLight light = sample_direct_light(scene.view(), receiver(), LambertBsdf{}, u);
+        const DirectLight light = sample_direct_light(scene.view(), receiver(), LambertBsdf{}, Vec4f{u, 0.0f});
         const double estimate = static_cast<double>(light.emitted.x * light.cos_i / light.pdf_sa);
         const double area = 0.5 * static_cast<double>(s) * static_cast<double>(s);
         REQUIRE(std::fabs(estimate / (3.0 * area * 0.5 / 2.0) - 1.0) < 4e-3);  // the patch spans 1e-3 of the distance

@@ -57,7 +57,7 @@ TEST_CASE("Near lights: a sampled point has the density that a hit there has") {
     Uniforms random(5);
     for (int i = 0; i < 100000; ++i) {
         const Vec3f u{random.next(), random.next(), random.next()};
-        const DirectLight sample = sample_direct_light(scene, floor_at_origin(), LambertBsdf{}, u);
+        const DirectLight sample = sample_direct_light(scene, floor_at_origin(), LambertBsdf{}, Vec4f{u, 0.0f});
         if (sample.pdf_sa == 0.0f) continue;
         REQUIRE(light_pdf_sa(scene, Vec3f{0.0f}, sample.light, sample.wi) == Approx(sample.pdf_sa).epsilon(1e-5));
     }
@@ -76,7 +76,8 @@ TEST_CASE("Near lights: light samples next to a lamp give its irradiance with li
     Moments moments;
     for (int i = 0; i < 100000; ++i) {
         const Vec3f u{random.next(), random.next(), random.next()};
-        const DirectLight sample = sample_direct_light(scene.view(), floor_at_origin(), LambertBsdf{}, u);
+        const DirectLight sample =
+            sample_direct_light(scene.view(), floor_at_origin(), LambertBsdf{}, Vec4f{u, 0.0f});
         const bool is_seen = sample.pdf_sa > 0.0f;
         moments.add(is_seen ? static_cast<double>(sample.emitted.x * sample.cos_i / sample.pdf_sa) : 0.0);
     }
