@@ -3,6 +3,7 @@
 
 #include "app/closest_surface.h"
 #include "app/commands.h"
+#include "app/draw_truth.h"
 #include "app/field_files.h"
 #include "app/inspection_file.h"
 #include "app/interrupt.h"
@@ -12,9 +13,11 @@
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
+#include "core/base/timer.h"
 #include "core/io/files.h"
 #include "core/io/picture_file.h"
 #include "core/scene/scene_hash.h"
+#include "core/session/path_settings.h"
 
 namespace pl {
 namespace {
@@ -69,6 +72,26 @@ bool is_trained(const Options& options) {
            !options.time_limit_seconds;
 }
 
+/// The light that reaches the volume; empty if it was interrupted before it had figures.
+std::optional<LightReport> trace_light(const Session& session, const VolumeInspection& volume, const Options& options,
+                                       const InterruptGuard& interrupt) {
+    const RenderSettings& settings = options.render;
+    LightGatherer gatherer(session.packed_scene(), LightReceiver::of(volume, settings.camera.eye),
+                           path_settings(settings, baseline_method()));
+    for (std::uint32_t i = 0; i < options.truth_samples && gatherer.advance(interrupt.flag()); ++i) {
+    }
+    if (!gatherer.light().has_all_groups()) return std::nullopt;
+    return report_light(gatherer.light(), volume, target_light(session.settings(), settings.method));
+}
+
+void report_truth(const LightReport& truth, double seconds, Console& console) {
+    for (const std::string& line : truth_lines(truth)) console.remark(line + "\n");
+    console.event("truth", {{"paths_per_cell", truth.paths_per_cell},
+                            {"seconds", seconds},
+                            {"table_divergence", truth.figures.table.value},
+                            {"mixture_divergence", truth.figures.mixture.value}});
+}
+
 void report(const VolumeInspection& volume, const Options& options, bool interrupted, Console& console) {
     console.remark(fmt::format("{}: volume {} at {}, normal {}, mean radiance {}{}\n", options.output, volume.volume,
                                print_vector(volume.position), print_vector(volume.normal),
@@ -84,7 +107,7 @@ void report(const VolumeInspection& volume, const Options& options, bool interru
 int run_inspect(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
     require_outputs(line.options);
-    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_inside(options);
@@ -100,19 +123,28 @@ int run_inspect(const CommandLine& line, Console& console) {
         is_trained(options) ? RunOutcome{} : run_passes(session, options, interrupt, console, Until::Learned);
     const FilmSlot slot = slot_of(options.render);
     const VolumeInspection volume = session.inspect_volume(slot.method, index);
+    std::optional<LightReport> truth;
+    if (options.truth) {
+        const Stopwatch watch;
+        truth = trace_light(session, volume, options, interrupt);
+        if (truth) report_truth(*truth, watch.seconds(), console);
+    }
+    const bool interrupted = outcome.interrupted() || interrupt.raised();
     save_inspection(options.output, volume,
                     {.scene = options.scene,
                      .scene_hash = scene_hash(*loaded.scene),
                      .method = std::string(info_of(options.render.method).name),
                      .spp = session.passes(slot),
                      .seed = options.render.seed,
-                     .partial = outcome.interrupted()});
+                     .partial = interrupted,
+                     .camera = options.render.camera,
+                     .truth = std::move(truth)});
     if (!options.stats_file.empty())
         write_text_file_atomic(options.stats_file,
                                stats_json(session, session.snapshot(slot), options, outcome).dump(2) + "\n");
     fields.save(session, options, console);
-    report(volume, options, outcome.interrupted(), console);
-    return outcome.interrupted() ? kExitInterrupted : 0;
+    report(volume, options, interrupted, console);
+    return interrupted ? kExitInterrupted : 0;
 }
 
 }  // namespace pl

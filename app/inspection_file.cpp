@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/draw_hemisphere.h"
+#include "app/draw_truth.h"
 #include "app/parse_values.h"
 #include "core/base/error.h"
 #include "core/io/files.h"
@@ -30,6 +31,31 @@ ImageMetadata metadata_of(const VolumeInspection& volume, const InspectionSource
     return metadata;
 }
 
+Json interval_json(const Interval& interval) {
+    return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
+}
+
+Json truth_json(const LightReport& truth) {
+    const GuidingFigures& figures = truth.figures;
+    return {{"paths_per_cell", truth.paths_per_cell},
+            {"invalid_paths", truth.invalid_paths},
+            {"target_light", name_of(truth.target)},
+            {"table_divergence", interval_json(figures.table)},
+            {"mixture_divergence", interval_json(figures.mixture)},
+            {"variance_factor", figures.variance_factor ? interval_json(*figures.variance_factor) : Json()},
+            {"radiance", truth.light.radiance},
+            {"radiance_error", truth.light.radiance_error},
+            {"target", truth.light.target},
+            {"product", truth.product_shares},
+            {"mixture", truth.mixture_shares}};
+}
+
+ByteImage draw_inspection(const VolumeInspection& volume, const InspectionSource& source) {
+    const std::string title = fmt::format("{}, {}, {} spp", source.scene, source.method, source.spp);
+    return source.truth ? draw_truth(volume, *source.truth, source.camera, title)
+                        : draw_hemisphere(volume, source.camera, title);
+}
+
 }  // namespace
 
 InspectionKind inspection_kind(const std::filesystem::path& path) {
@@ -45,33 +71,44 @@ InspectionKind inspection_kind(const std::filesystem::path& path) {
 Json inspection_json(const VolumeInspection& volume, const InspectionSource& source) {
     Json directions = Json::array();
     for (const Vec3f& direction : world_directions(volume)) directions.push_back(vector_json(direction));
-    return {{"schema", "pathlight.inspection/1"},
-            {"scene", source.scene},
-            {"scene_hash", source.scene_hash},
-            {"method", source.method},
-            {"spp", source.spp},
-            {"seed", source.seed},
-            {"partial", source.partial},
-            {"volume", volume.volume},
-            {"position", vector_json(volume.position)},
-            {"normal", vector_json(volume.normal)},
-            {"bins", volume.side * volume.side},
-            {"side", volume.side},
-            {"mean_radiance", volume.mean_radiance},
-            {"direction", directions},
-            {"radiance", volume.radiance},
-            {"probability", volume.probability},
-            {"visits", volume.visits}};
+    Json json{{"schema", "pathlight.inspection/1"},
+              {"scene", source.scene},
+              {"scene_hash", source.scene_hash},
+              {"method", source.method},
+              {"spp", source.spp},
+              {"seed", source.seed},
+              {"partial", source.partial},
+              {"volume", volume.volume},
+              {"position", vector_json(volume.position)},
+              {"normal", vector_json(volume.normal)},
+              {"bins", volume.side * volume.side},
+              {"side", volume.side},
+              {"mean_radiance", volume.mean_radiance},
+              {"bsdf_fraction", volume.bsdf_fraction},
+              {"direction", directions},
+              {"radiance", volume.radiance},
+              {"probability", volume.probability},
+              {"visits", volume.visits}};
+    if (source.truth) json["truth"] = truth_json(*source.truth);
+    return json;
 }
 
-std::string inspection_csv(const VolumeInspection& volume) {
+std::string inspection_csv(const VolumeInspection& volume, const std::optional<LightReport>& truth) {
     const std::vector<Vec3f> directions = world_directions(volume);
-    std::string text = "cell,row,column,dx,dy,dz,radiance,probability,visits\n";
+    std::string text = "cell,row,column,dx,dy,dz,radiance,probability,visits";
+    text += truth ? ",true_radiance,true_error,true_target,true_product,mixture\n" : "\n";
     const auto side = static_cast<std::size_t>(volume.side);
-    for (std::size_t cell = 0; cell < directions.size(); ++cell)
-        text += fmt::format("{},{},{},{},{},{},{}\n", cell, cell / side, cell % side, print_vector(directions[cell]),
+    for (std::size_t cell = 0; cell < directions.size(); ++cell) {
+        text += fmt::format("{},{},{},{},{},{},{}", cell, cell / side, cell % side, print_vector(directions[cell]),
                             print_float(volume.radiance[cell]), print_float(volume.probability[cell]),
                             volume.visits[cell]);
+        if (truth)
+            for (const std::vector<float>* column :
+                 {&truth->light.radiance, &truth->light.radiance_error, &truth->light.target, &truth->product_shares,
+                  &truth->mixture_shares})
+                text += fmt::format(",{}", print_float((*column)[cell]));
+        text += "\n";
+    }
     return text;
 }
 
@@ -79,11 +116,9 @@ void save_inspection(const std::filesystem::path& path, const VolumeInspection& 
                      const InspectionSource& source) {
     switch (inspection_kind(path)) {
     case InspectionKind::AsJson: write_text_file_atomic(path, json_line(inspection_json(volume, source))); return;
-    case InspectionKind::AsCsv: write_text_file_atomic(path, inspection_csv(volume)); return;
+    case InspectionKind::AsCsv: write_text_file_atomic(path, inspection_csv(volume, source.truth)); return;
     case InspectionKind::AsPng:
-        write_png8(path,
-                   draw_hemisphere(volume, fmt::format("{}, {}, {} spp", source.scene, source.method, source.spp)),
-                   metadata_of(volume, source));
+        write_png8(path, draw_inspection(volume, source), metadata_of(volume, source));
         return;
     }
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/events.h"
+#include "core/inspect/guiding_figures.h"
 #include "core/io/image.h"
 #include "core/session/snapshot.h"
 
@@ -22,15 +23,19 @@ struct InspectionSource {
     std::string method;
     std::uint32_t spp = 0;
     std::uint64_t seed = 0;
-    bool partial = false;  ///< training was interrupted
+    bool partial = false;        ///< training was interrupted
+    CameraDescription camera{};  ///< decides how discs are turned
+    std::optional<LightReport> truth{};
 };
 
-/// Members position, normal, volume, bins, side, mean_radiance, and per cell direction, radiance, probability, visits.
+/// Members position, normal, volume, bins, side, mean_radiance, bsdf_fraction, and per cell direction, radiance, probability,
+/// visits. With a truth also member truth: paths_per_cell, invalid_paths, target_light, table_divergence and mixture_divergence
+/// (value, low, high; nats), variance_factor (the same, or null), and per cell radiance, radiance_error, target, product, mixture.
 Json inspection_json(const VolumeInspection& volume, const InspectionSource& source);
 
 /// Header "cell,row,column,dx,dy,dz,radiance,probability,visits", then one row per cell; (dx, dy, dz) is the world
-/// direction through the cell's middle.
-std::string inspection_csv(const VolumeInspection& volume);
+/// direction through the cell's middle. With a truth also "true_radiance,true_error,true_target,true_product,mixture".
+std::string inspection_csv(const VolumeInspection& volume, const std::optional<LightReport>& truth);
 
 /// Writes the file whole or not at all. Throws Error: Usage for another suffix, Runtime.
 void save_inspection(const std::filesystem::path& path, const VolumeInspection& volume,

@@ -5,6 +5,7 @@
 
 #include "core/kernel/base/frame.h"
 #include "core/kernel/base/warp.h"
+#include "core/kernel/film/heat_color.h"
 
 namespace pl {
 namespace {
@@ -12,36 +13,6 @@ namespace {
 /// Corners and edge midpoints of the unit square, counter-clockwise.
 constexpr float kBorder[kCellBorderPoints][2] = {{0.0f, 0.0f}, {0.5f, 0.0f}, {1.0f, 0.0f}, {1.0f, 0.5f},
                                                  {1.0f, 1.0f}, {0.5f, 1.0f}, {0.0f, 1.0f}, {0.0f, 0.5f}};
-
-/// Lowest value of a logarithmic scale, relative to the largest.
-constexpr float kLogRange = 1.0e-3f;
-
-struct Rgb {
-    float r, g, b;
-};
-constexpr Rgb kViridis[] = {{68, 1, 84},    {72, 40, 120},  {62, 74, 137},  {49, 104, 142}, {38, 130, 142},
-                            {31, 158, 137}, {53, 183, 121}, {109, 205, 89}, {180, 222, 44}, {253, 231, 37}};
-constexpr int kViridisCount = static_cast<int>(sizeof(kViridis) / sizeof(kViridis[0]));
-
-float value_of(const VolumeInspection& volume, CellQuantity quantity, std::size_t cell) {
-    switch (quantity) {
-    case CellQuantity::Radiance: return volume.radiance[cell];
-    case CellQuantity::Probability: return volume.probability[cell];
-    case CellQuantity::Visits: return static_cast<float>(volume.visits[cell]);
-    }
-    return 0.0f;
-}
-
-float position_of(float value, const CellValues& range, ColorScale scale) {
-    if (scale == ColorScale::Linear) return std::clamp(value / range.high, 0.0f, 1.0f);
-    if (!(value > range.low)) return 0.0f;
-    return std::clamp(std::log(value / range.low) / std::log(range.high / range.low), 0.0f, 1.0f);
-}
-
-std::uint32_t pack_abgr(Rgb c, std::uint8_t alpha) {
-    const auto code = [](float x) { return static_cast<std::uint32_t>(std::lround(std::clamp(x, 0.0f, 255.0f))); };
-    return static_cast<std::uint32_t>(alpha) << 24 | code(c.b) << 16 | code(c.g) << 8 | code(c.r);
-}
 
 }  // namespace
 
@@ -62,31 +33,32 @@ std::vector<CellFan> make_cell_fans(int side) {
     return fans;
 }
 
-CellValues cell_values(const VolumeInspection& volume, CellQuantity quantity, ColorScale scale) {
-    CellValues result;
-    const auto count = static_cast<std::size_t>(volume.side) * static_cast<std::size_t>(volume.side);
-    result.values.reserve(count);
-    for (std::size_t cell = 0; cell < count; ++cell) result.values.push_back(value_of(volume, quantity, cell));
-    const float largest = count > 0 ? *std::max_element(result.values.begin(), result.values.end()) : 0.0f;
-    result.high = largest > 0.0f ? largest : 1.0f;
-    result.low = scale == ColorScale::Linear ? 0.0f : result.high * kLogRange;
-    result.positions.reserve(count);
-    for (const float value : result.values) result.positions.push_back(position_of(value, result, scale));
-    return result;
+std::vector<float> cell_values(const VolumeInspection& volume, CellQuantity quantity) {
+    switch (quantity) {
+    case CellQuantity::Radiance: return volume.radiance;
+    case CellQuantity::Probability: return volume.probability;
+    case CellQuantity::Density: return relative_to_cosine(cell_shares(volume.side, volume.density));
+    case CellQuantity::Visits: return {volume.visits.begin(), volume.visits.end()};
+    }
+    return {};
 }
 
-float value_at(const CellValues& values, ColorScale scale, float position) {
-    if (scale == ColorScale::Linear) return values.low + position * (values.high - values.low);
-    return values.low * std::pow(values.high / values.low, position);
+std::vector<float> relative_to_cosine(std::vector<float> shares) {
+    const auto cells = static_cast<float>(shares.size());
+    for (float& share : shares) share *= cells;
+    return shares;
+}
+
+std::vector<float> positions_in(const ValueRange& range, std::span<const float> values) {
+    std::vector<float> positions(values.size());
+    std::ranges::transform(values, positions.begin(), [&](float value) { return range.position(value); });
+    return positions;
 }
 
 std::uint32_t map_color(float position, std::uint8_t alpha) {
-    const float x = std::clamp(position, 0.0f, 1.0f) * static_cast<float>(kViridisCount - 1);
-    const int i = std::min(static_cast<int>(x), kViridisCount - 2);
-    const float f = x - static_cast<float>(i);
-    const Rgb a = kViridis[i];
-    const Rgb b = kViridis[i + 1];
-    return pack_abgr({a.r + f * (b.r - a.r), a.g + f * (b.g - a.g), a.b + f * (b.b - a.b)}, alpha);
+    const ByteColor color = heat_color(position);
+    return static_cast<std::uint32_t>(alpha) << 24 | static_cast<std::uint32_t>(color.b) << 16 |
+           static_cast<std::uint32_t>(color.g) << 8 | color.r;
 }
 
 TableSummary summarize(const VolumeInspection& volume) {
@@ -106,8 +78,8 @@ TableSummary summarize(const VolumeInspection& volume) {
 }
 
 void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::vector<CellFan>& fans,
-                    const CellValues& values, const HemisphereStyle& style) {
-    if (fans.size() != values.positions.size()) return;
+                    std::span<const float> positions, const HemisphereStyle& style) {
+    if (fans.size() != positions.size()) return;
     const Frame frame = make_frame(volume.normal);
     std::array<Vec3f, std::tuple_size_v<CellFan>> points;
     const auto lift = [&](const CellFan& fan, float scale) {
@@ -116,7 +88,7 @@ void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::v
     };
     for (std::size_t cell = 0; cell < fans.size(); ++cell) {
         lift(fans[cell], 1.0f);
-        list.add_fan(points, map_color(values.positions[cell], style.alpha));
+        list.add_fan(points, map_color(positions[cell], style.alpha));
     }
     if (style.highlighted < 0 || static_cast<std::size_t>(style.highlighted) >= fans.size()) return;
     // Slightly outside, so that it is drawn after the cell itself.
@@ -124,12 +96,6 @@ void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::v
     for (int i = 0; i < kCellBorderPoints; ++i)
         list.add_line(points[static_cast<std::size_t>(1 + i)],
                       points[static_cast<std::size_t>(1 + (i + 1) % kCellBorderPoints)], 0xffffffffu, 2.0f);
-}
-
-std::optional<Vec2f> disk_point_of(const VolumeInspection& volume, Vec3f direction) {
-    const Vec3f local = make_frame(volume.normal).to_local(direction);
-    if (local.z <= 0.0f) return std::nullopt;
-    return Vec2f{local.x, local.y};
 }
 
 Vec3f direction_of(const VolumeInspection& volume, Vec2f disk) {

@@ -1,11 +1,14 @@
-// The cells of a volume's hemisphere as polygons: on the unit disk, on which all have the same area, and on the
-// hemisphere; their values and colors.
+// The cells of a volume's hemisphere as polygons: on the unit disk of their own frame, on which all have the same area, and on
+// the hemisphere; their values and colors.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/fields/disc_frame.h"
+#include "core/plot/value_scale.h"
 #include "core/session/snapshot.h"
 #include "ui/draw/draw_list.h"
 
@@ -18,27 +21,18 @@ using CellFan = std::array<Vec2f, 1 + kCellBorderPoints>;
 /// One fan per cell, in the order of DirectionCells.
 std::vector<CellFan> make_cell_fans(int side);
 
-/// Unit direction above a point of the unit disk.
-inline Vec3f lift_to_hemisphere(Vec2f disk) {
-    return {disk.x, disk.y, safe_sqrt(1.0f - disk.x * disk.x - disk.y * disk.y)};
-}
+enum class CellQuantity { Radiance, Probability, Density, Visits };
 
-enum class CellQuantity { Radiance, Probability, Visits };
-enum class ColorScale { Linear, Logarithmic };
+/// One value per cell: what was learned. Density: of sampling the field, relative to cosine sampling.
+std::vector<float> cell_values(const VolumeInspection& volume, CellQuantity quantity);
 
-/// Values of all cells, and their positions between the two ends of the legend.
-struct CellValues {
-    std::vector<float> values;
-    std::vector<float> positions;  ///< in [0, 1]; zero values of a logarithmic scale are at 0
-    float low = 0.0f;              ///< value at position 0
-    float high = 1.0f;             ///< value at position 1
-};
-CellValues cell_values(const VolumeInspection& volume, CellQuantity quantity, ColorScale scale);
+/// Probabilities of cells as densities relative to cosine sampling, which gives all cells the same.
+std::vector<float> relative_to_cosine(std::vector<float> shares);
 
-/// The value at a position of the legend.
-float value_at(const CellValues& values, ColorScale scale, float position);
+/// Positions of values in a range, in [0, 1].
+std::vector<float> positions_in(const ValueRange& range, std::span<const float> values);
 
-/// Color of a position in [0, 1]: dark blue over green to yellow (the viridis map of matplotlib, CC0). 0xAABBGGRR.
+/// heat_color() of a position in [0, 1], as 0xAABBGGRR.
 std::uint32_t map_color(float position, std::uint8_t alpha = 255);
 
 /// Statistics of a volume's sampling probabilities.
@@ -56,13 +50,11 @@ struct HemisphereStyle {
     std::uint8_t alpha = 255;
     int highlighted = -1;  ///< cell, or -1
 };
-/// The hemisphere as shapes around its volume.
+/// The hemisphere as shapes around its volume, cells colored by their positions in the map.
 void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::vector<CellFan>& fans,
-                    const CellValues& values, const HemisphereStyle& style);
+                    std::span<const float> positions, const HemisphereStyle& style);
 
-/// Point of the unit disk for a direction in scene space; empty below the horizon of the volume.
-std::optional<Vec2f> disk_point_of(const VolumeInspection& volume, Vec3f direction);
-/// Direction in scene space above a point of the unit disk.
+/// Direction in scene space above a point of the cells' disk.
 Vec3f direction_of(const VolumeInspection& volume, Vec2f disk);
 
 }  // namespace pl

@@ -3,116 +3,76 @@
 
 #include <fmt/format.h>
 
-#include "core/kernel/guiding/direction_cells.h"
 #include "ui/draw/method_keys.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/volume_discs.h"
 
 namespace pl {
 namespace {
 
-constexpr float kLegendEm = 5.8f;
-
-/// The unit disk in the window: x to the right, y up.
-struct DiskPlace {
-    ImVec2 center;
-    float radius;
-
-    ImVec2 operator()(Vec2f disk) const { return {center.x + radius * disk.x, center.y - radius * disk.y}; }
-    Vec2f inverse(ImVec2 window) const { return {(window.x - center.x) / radius, (center.y - window.y) / radius}; }
-};
-
 void draw_choices(CellDisplay& display) {
     int quantity = static_cast<int>(display.quantity);
-    ImGui::SetNextItemWidth(em(8.5f));
-    if (ImGui::Combo("##quantity", &quantity, "radiance Q\0probability P\0visits\0"))
+    ImGui::SetNextItemWidth(em(8.0f));
+    if (ImGui::Combo("##quantity", &quantity, "radiance Q\0probability P\0density\0visits\0"))
         display.quantity = static_cast<CellQuantity>(quantity);
-    tooltip("Q: learned incident radiance of a cell. P: probability to sample it. Visits: its training samples.");
+    tooltip("Q: incident radiance of a cell. P: its probability in the table. Density: that paths are sampled with, "
+            "relative to cosine sampling. Visits: training samples.");
     ImGui::SameLine();
-    bool logarithmic = display.scale == ColorScale::Logarithmic;
-    if (ImGui::Checkbox("logarithmic", &logarithmic))
-        display.scale = logarithmic ? ColorScale::Logarithmic : ColorScale::Linear;
-    tooltip("Logarithmic colors over three decades below the largest value.");
+    bool logarithmic = display.range.scale == ColorScale::Logarithmic;
+    if (ImGui::Checkbox("log", &logarithmic))
+        display.range.scale = logarithmic ? ColorScale::Logarithmic : ColorScale::Linear;
+    tooltip("Logarithmic colors, over at most three decades.");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1.0f);
+    ImGui::DragFloatRange2("##range", &display.range.low_percent, &display.range.high_percent, 0.2f, 0.0f, 100.0f,
+                           "%.0f %%", "%.0f %%", ImGuiSliderFlags_AlwaysClamp);
+    tooltip(
+        "Colors run from one percentile of the cells to the other. Drag the ends; Ctrl+click to type; right click "
+        "for all values.");
+    if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) display.range = {.scale = display.range.scale};
 }
 
-void draw_legend(ImDrawList& list, const DiskPlace& place, const CellValues& values, ColorScale scale) {
-    constexpr int kSteps = 48;
-    const float x = std::round(place.center.x + place.radius + em(1.0f));
-    const float top = place.center.y - place.radius;
-    const float height = 2.0f * place.radius;
-    const float width = em(0.9f);
-    for (int i = 0; i < kSteps; ++i) {
-        const float t = (static_cast<float>(i) + 0.5f) / kSteps;
-        const float y1 = std::round(top + height * (1.0f - static_cast<float>(i) / kSteps));
-        const float y0 = std::round(top + height * (1.0f - static_cast<float>(i + 1) / kSteps));
-        list.AddRectFilled({x, y0}, {x + width, y1}, map_color(t));
+std::string interval_text(const Interval& interval) {
+    return fmt::format("{:.3g} ({:.3g} to {:.3g})", interval.value, interval.low, interval.high);
+}
+
+void draw_figures(const LightReport& report) {
+    const GuidingFigures& figures = report.figures;
+    text_row("KL of table", interval_text(figures.table),
+             "Kullback-Leibler divergence of the learned probabilities from those of the true light, in nats; 95 % "
+             "interval.");
+    text_row(
+        "KL of paths", interval_text(figures.mixture),
+        "The same of the mixture of BSDF and field that guided paths sample, from the true light times the BSDF.");
+    text_row("Variance", figures.variance_factor ? interval_text(*figures.variance_factor) : "none by the BSDF",
+             "Of one direction sampled by that mixture, over the variance of BSDF sampling. Below 1, guiding helps "
+             "here. The light within a cell counts as its mean.");
+    if (report.invalid_paths > 0)
+        text_row("Invalid", fmt::format("{} paths", report.invalid_paths), "Counted as black.", colors::kWarning);
+}
+
+void draw_truth(const Selection& selection, const GuidingStatus* guiding) {
+    const LightTracing& light = selection.light();
+    if (!light.failure().empty()) {
+        text_line(light.failure().c_str(), colors::kError);
+        return;
     }
-    for (int tick = 0; tick <= 4; ++tick) {
-        const float t = static_cast<float>(tick) / 4.0f;
-        const float y = top + height * (1.0f - t);
-        list.AddLine({x + width, y}, {x + width + em(0.25f), y}, colors::kFaint);
-        const std::string text = short_value(value_at(values, scale, t));
-        const float text_y = std::clamp(y - 0.5f * ImGui::GetFontSize(), top, top + height - ImGui::GetFontSize());
-        list.AddText({x + width + em(0.4f), text_y}, colors::kText, text.c_str());
+    if (light.report() == nullptr) {
+        text_row("True light", "tracing its first paths");
+        return;
     }
-}
-
-void draw_cell_tooltip(const VolumeInspection& volume, int cell, Vec2f disk) {
-    const auto index = static_cast<std::size_t>(cell);
-    const float cells = static_cast<float>(volume.probability.size());
-    const Vec3f direction = lift_to_hemisphere(disk);
-    constexpr float kToDeg = 180.0f / kPi;
-    ImGui::BeginTooltip();
-    ImGui::Text("cell %d (column %d, row %d)", cell, cell % volume.side, cell / volume.side);
-    ImGui::Text("%.0f\xc2\xb0 from the normal, %.0f\xc2\xb0 around it", std::acos(direction.z) * kToDeg,
-                std::atan2(direction.y, direction.x) * kToDeg);
-    ImGui::Separator();
-    text_row("radiance Q", fmt::format("{:.4g}", volume.radiance[index]));
-    text_row("probability P", fmt::format("{:.4g}", volume.probability[index]));
-    text_row("P / uniform", fmt::format("{:.3f}", volume.probability[index] * cells));
-    text_row("visits", fmt::format("{}", volume.visits[index]));
-    ImGui::EndTooltip();
-}
-
-/// Marks the direction towards the camera with a ring, and the frame's x axis with a tick.
-void draw_marks(ImDrawList& list, const DiskPlace& place, const VolumeInspection& volume, Vec3f eye) {
-    list.AddCircle(place.center, place.radius, colors::kFaint, 96, 1.0f);
-    list.AddLine(place({1.0f, 0.0f}), place({1.05f, 0.0f}), colors::kText, 2.0f);
-    list.AddText({place({1.05f, 0.0f}).x - em(0.1f), place.center.y - em(1.3f)}, colors::kFaint, "x");
-    const std::optional<Vec2f> camera = disk_point_of(volume, glm::normalize(eye - volume.position));
-    if (!camera) return;
-    list.AddCircle(place(*camera), em(0.45f), IM_COL32(0, 0, 0, 255), 24, 3.0f);
-    list.AddCircle(place(*camera), em(0.45f), IM_COL32(255, 255, 255, 255), 24, 1.5f);
-}
-
-void draw_disk(ViewerModel& model, const VolumeInspection& volume) {
-    const CellDisplay& display = model.window().cell_display;
-    const float available = ImGui::GetContentRegionAvail().x;
-    const float side = std::min(available - em(kLegendEm), em(19.0f));
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const DiskPlace place{{corner.x + 0.5f * side + em(0.2f), corner.y + 0.5f * side + em(0.4f)}, 0.5f * side};
-    ImGui::InvisibleButton("disk", {available, side + em(0.8f)});
-
-    const CellValues values = cell_values(volume, display.quantity, display.scale);
-    const std::vector<CellFan> fans = make_cell_fans(volume.side);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    std::vector<ImVec2> points(std::tuple_size_v<CellFan>);
-    const auto place_fan = [&](const CellFan& fan) { std::transform(fan.begin(), fan.end(), points.begin(), place); };
-    for (std::size_t cell = 0; cell < fans.size(); ++cell) {
-        place_fan(fans[cell]);
-        fill_fan(list, points, map_color(values.positions[cell]));
-    }
-    if (model.frame() != nullptr) draw_marks(list, place, volume, model.frame()->snapshot.camera.eye);
-    draw_legend(list, place, values, display.scale);
-
-    model.selection().hover_cell(-1);
-    const Vec2f disk = place.inverse(ImGui::GetMousePos());
-    if (!ImGui::IsItemHovered() || glm::dot(disk, disk) >= 1.0f) return;
-    const int cell = DirectionCells{volume.side}.cell_of(disk_to_square(disk));
-    model.selection().hover_cell(cell);
-    place_fan(fans[static_cast<std::size_t>(cell)]);
-    list.AddPolyline(points.data() + 1, kCellBorderPoints, IM_COL32(255, 255, 255, 255), ImDrawFlags_Closed, 2.0f);
-    draw_cell_tooltip(volume, cell, disk);
+    const LightReport& report = *light.report();
+    text_row("True light",
+             fmt::format("{} paths per cell, {}", report.paths_per_cell, short_seconds(light.seconds())),
+             "By paths of default from the volume, on a thread of low priority. Its time is on no other clock.");
+    text_row("Part", report.target == TargetLight::All ? "all incident light" : "left by light samples",
+             "The light that the method learns. With next-event estimation and learn-from indirect, light that light "
+             "samples find is left to them by multiple importance sampling, as the densities now are.");
+    draw_figures(report);
+    if (guiding != nullptr && !guiding->pays)
+        text_row("Passes", "mostly unguided",
+                 "Guiding does not pay in this picture: most of its paths sample the BSDF.");
 }
 
 void draw_summary(const VolumeInspection& volume) {
@@ -145,6 +105,9 @@ void draw_volume_tab(ViewerModel& model) {
         model.selection().deselect();
         return;
     }
+    ImGui::SameLine();
+    ImGui::Checkbox("true light", &model.window().cell_display.truth);
+    tooltip("The light that reaches the volume, beside the learned one.");
     const VolumeInspection* volume = model.selection().inspection();
     if (volume == nullptr) {
         model.selection().hover_cell(-1);
@@ -156,9 +119,15 @@ void draw_volume_tab(ViewerModel& model) {
                              .c_str());
         return;
     }
-    draw_choices(model.window().cell_display);
-    draw_disk(model, *volume);
-    ImGui::Separator();
+    CellDisplay& display = model.window().cell_display;
+    draw_choices(display);
+    if (display.truth) model.selection().light().show();
+    draw_volume_discs(model, *volume);
+    if (display.truth) {
+        const auto& guiding = model.frame()->snapshot.guiding;
+        draw_truth(model.selection(), guiding ? &*guiding : nullptr);
+        ImGui::Separator();
+    }
     draw_summary(*volume);
 }
 

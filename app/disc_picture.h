@@ -1,0 +1,54 @@
+// Discs of a hemisphere drawn into a picture, in the frame and the colors of the window.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "app/canvas.h"
+#include "core/fields/disc_frame.h"
+#include "core/fields/inspect_field.h"
+#include "core/plot/value_scale.h"
+
+namespace pl {
+
+/// Upper left corner and diameter, in pixels. Caption and legend are outside.
+struct DiscSpot {
+    int x;
+    int y;
+    int diameter;
+};
+
+class DiscPicture {
+public:
+    static constexpr Rgb kBackground{24, 24, 28};
+    static constexpr Rgb kInk{230, 230, 230};
+    static constexpr int kMargin = 24;  ///< around discs and text, pixels
+    static constexpr int kTextScale = 2;
+    static constexpr int kLine = Canvas::kLineHeight * kTextScale;  ///< height of a line of text, pixels
+    static constexpr int kLegendHeight = 12 + 3 * kLine;            ///< of draw_legend(), pixels
+
+    DiscPicture(int width, int height, const VolumeInspection& volume, const CameraDescription& camera);
+
+    const DiscFrame& frame() const { return frame_; }
+    const ByteImage& image() const { return canvas_.image(); }
+
+    void text(int x, int y, const std::string& words) { canvas_.text(x, y, words, kInk, kTextScale); }
+    /// One value per cell in the colors of `range`; a cross at the normal, a ring at the camera, an arrow up.
+    void draw_disc(const DiscSpot& spot, const std::string& caption, std::span<const float> values,
+                   const ValueRange& range);
+    /// The colors below a disc, with the values at both ends and in the middle.
+    void draw_legend(const DiscSpot& spot, const ValueRange& range);
+
+private:
+    void draw_marks(const DiscSpot& spot);
+
+    Canvas canvas_;
+    int side_;
+    DiscFrame frame_;
+    Vec3f to_camera_;
+};
+
+/// Color of a position in a range, see heat_color().
+Rgb map_color_of(float position);
+
+}  // namespace pl

@@ -1,0 +1,73 @@
+// The light that reaches a radiance volume, cell by cell, estimated by paths of `default` that start there: the truth beside the
+// learned radiance. Independent of everything learned.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/inspect/site_bsdf.h"
+#include "core/session/backend.h"
+
+namespace pl {
+
+/// Paths are dealt to this many groups in turn. Groups are independent of each other and alike, so their spread gives intervals,
+/// and those of even and of odd number are two independent halves.
+inline constexpr int kLightGroups = 32;
+
+/// Light from a source that light sampling finds, too: its weight in a target depends on densities, so it is kept apart.
+struct SampledEmission {
+    std::uint32_t cell = 0;
+    std::uint32_t group = 0;
+    std::uint32_t fine_cell = 0;  ///< of VolumeInspection::density
+    float light_pdf = 0.0f;       ///< density of light sampling, relative to that of cosine sampling
+    float bsdf_pdf = 0.0f;        ///< the same of BSDF sampling
+    float radiance = 0.0f;        ///< luminance
+    float reflected = 0.0f;       ///< pi f L, luminance: the part reflected towards wo
+};
+
+/// The paths so far. Arrays are [group][cell]; sums over paths of luminances.
+struct IncidentLight {
+    int side = 0;
+    std::array<std::uint32_t, kLightGroups> paths{};  ///< per cell
+    std::vector<double> radiance{};                   ///< without the sampled emission
+    std::vector<double> reflected{};                  ///< pi f L, without it
+    std::vector<SampledEmission> emission{};
+    std::vector<float> bsdf_share{};  ///< probability that BSDF sampling takes the cell, delta lobes left out. [cell]
+    float guided_share = 1.0f;        ///< of samples that are not of a delta lobe
+    std::uint64_t invalid_paths = 0;  ///< NaN, infinite or negative: counted as black
+
+    std::size_t cells() const { return static_cast<std::size_t>(side) * static_cast<std::size_t>(side); }
+    /// Of all groups together, per cell.
+    std::uint64_t paths_per_cell() const;
+    /// Whether every group has a path, before which there are no figures.
+    bool has_all_groups() const { return paths.back() > 0; }
+};
+
+/// Adds paths to an IncidentLight. Lights are sampled at every vertex but the volume itself, whose directions are spread evenly
+/// over each cell. The same seed gives the same bits, in slices of any size.
+class LightGatherer {
+public:
+    /// `path`: path_settings() of the baseline method; its stream and light sampling are set here.
+    LightGatherer(std::shared_ptr<const HostScene> scene, const LightReceiver& receiver, PathSettings path);
+
+    /// One more path through every cell. Returns false if `stop` was raised; the next call resumes there.
+    bool advance(const StopFlag* stop = nullptr);
+
+    const LightReceiver& receiver() const { return bsdf_.receiver(); }
+    const IncidentLight& light() const { return light_; }
+
+private:
+    Vec2f point_in_cell(std::uint32_t cell, std::uint32_t round) const;
+    void trace(std::uint32_t cell, std::uint32_t round);
+
+    std::shared_ptr<const HostScene> scene_;
+    SiteBsdf bsdf_;
+    PathSettings path_;
+    IncidentLight light_;
+    std::uint32_t round_ = 0;
+    std::uint32_t next_cell_ = 0;
+};
+
+}  // namespace pl
