@@ -6,6 +6,7 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/parse_values.h"
+#include "core/scene/default_light.h"
 #include "core/scene/effect_reasons.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
@@ -54,6 +55,7 @@ std::string report_text(const SceneReport& report) {
     for (const MaterialDescription& material : scene.materials)
         text += fmt::format("           {}: reflects {}, emits {}{}\n", material.name, print_vector(material.albedo),
                             print_vector(material.emission), material.two_sided_emission ? " on both sides" : "");
+    text += fmt::format("light      {}\n", light_text(scene));
     text += fmt::format("memory     {} bytes, {:.0f} per triangle\n", bytes_of(report.packed),
                         bytes_per_triangle(report.packed));
     text += fmt::format("knobs      {}\n", scene.knobs.empty() ? "none" : "");
@@ -94,6 +96,7 @@ Json json_of(const SceneReport& report) {
             {"scene_hash", scene_hash(scene)},
             {"triangles", scene.triangles.size()},
             {"lights", report.packed.lights.size()},
+            {"light", name_of(light_of(scene))},
             {"materials", materials},
             {"bytes", bytes_of(report.packed)},
             {"bytes_per_triangle", bytes_per_triangle(report.packed)},
@@ -114,7 +117,7 @@ Json json_of(const SceneReport& report) {
 }  // namespace
 
 int run_info(const CommandLine& line, Console& console) {
-    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     const Options options = resolve_options(line, *loaded.scene);
     const HostScene packed = pack_scene(*loaded.scene);
     const FeatureSet needed = needed_features(packed, options.render);

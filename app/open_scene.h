@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/console.h"
+#include "core/io/load_settings.h"
 #include "core/scene/description.h"
 
 namespace pl {
@@ -14,8 +15,8 @@ struct LoadedScene {
     double load_seconds = 0.0;
 };
 
-/// A scene by name or path, with its knobs set; its warnings go to the log. Throws Error(Input), and Error(Usage) for
+/// A scene by name or path, opened by load_scene(); its warnings go to the log. Throws Error(Input), and Error(Usage) for
 /// unknown knobs or values.
-LoadedScene open_scene(const std::string& name_or_path, const KnobValues& knobs, Console& console);
+LoadedScene open_scene(const std::string& name_or_path, const LoadSettings& asked, Console& console);
 
 }  // namespace pl

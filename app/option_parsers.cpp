@@ -259,8 +259,13 @@ void parse_knobs(Options& options, const std::string& text) {
     for (const std::string& item : split_at_commas(text)) {
         const std::size_t equals = item.find('=');
         if (equals == 0 || equals == std::string::npos) fail_value("NAME=VALUE, such as opening=5", item);
-        options.knobs.emplace_back(item.substr(0, equals), parse_float(item.substr(equals + 1)));
+        options.load.knobs.emplace_back(item.substr(0, equals), parse_float(item.substr(equals + 1)));
     }
+}
+
+void parse_up_axis(Options& options, const std::string& text) {
+    options.load.up_axis = up_axis_named(text);
+    if (!options.load.up_axis) fail_choice(names_in(kUpAxisNames, [](std::string_view name) { return name; }), text);
 }
 
 void parse_at(Options& options, const std::string& text) {
@@ -292,9 +297,19 @@ std::string field_method_choices() {
 
 std::string print_knobs(const Options& options) {
     std::string text;
-    for (const auto& [name, value] : options.knobs)
+    for (const auto& [name, value] : options.load.knobs)
         text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, print_float(value));
     return text;
+}
+
+std::string print_default_light(const Options& options) {
+    if (!options.load.default_light) return "";
+    return *options.load.default_light ? "on" : "off";
+}
+
+std::string print_up_axis(const Options& options) {
+    if (!options.load.up_axis) return "";
+    return std::string(kUpAxisNames[static_cast<std::size_t>(*options.load.up_axis)]);
 }
 
 std::string_view tone_curve_name(ToneCurve curve) { return name_in(kCurves, curve); }

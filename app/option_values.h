@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/io/load_settings.h"
 #include "core/scene/description.h"
 #include "core/session/settings.h"
 
@@ -46,7 +47,7 @@ struct ScenePoint {
 struct Options {
     std::string scene;                ///< name or path; empty if none was given
     std::vector<std::string> inputs;  ///< positional arguments of subcommands that do not take one scene
-    KnobValues knobs;                 ///< of the scene, in the order given
+    LoadSettings load;                ///< choices for opening the scene; knobs in the order given
     std::string output;
 
     RenderSettings render;  ///< final only after resolve_options(): camera and size depend on the scene
@@ -78,6 +79,8 @@ struct Options {
 
     std::optional<ScenePoint> at;
     std::optional<glm::ivec2> pixel;
+    bool truth = false;                 ///< inspect: also the light that reaches the volume
+    std::uint32_t truth_samples = 256;  ///< paths per cell for it
 
     std::string stats_file;
     std::string diagnostics_file;  ///< render: picture of the places of diagnostics

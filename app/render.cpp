@@ -70,8 +70,8 @@ ImageMetadata metadata_of(const Session& session, const Snapshot& snapshot, cons
     if (snapshot.slot.view == View::Beauty)
         metadata.emplace_back(kPictureHashKey, picture_hash(session.scene(), session.settings()));
     if (interrupted) metadata.emplace_back("partial", "true");
-    for (const char* key : {"scene", "scene_hash", "method", "view", "backend", "width", "height", "spp", "seed",
-                            "max_depth", "nee", "kernel"}) {
+    for (const char* key : {"scene", "scene_hash", "light", "method", "view", "backend", "width", "height", "spp",
+                            "seed", "max_depth", "nee", "kernel"}) {
         const Json& value = stats.at(key);
         metadata.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
     }
@@ -140,7 +140,7 @@ void report(const Snapshot& snapshot, const Options& options, const Json& stats,
 int run_render(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
     require_outputs(line.options);
-    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_paths(options);

@@ -4,6 +4,7 @@
 
 #include "app/diagnostics_file.h"
 #include "core/bench/clocks_json.h"
+#include "core/scene/default_light.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/scene_hash.h"
 
@@ -72,6 +73,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
                {"version", PL_VERSION},
                {"scene", options.scene},
                {"scene_hash", scene_hash(session.scene())},
+               {"light", name_of(light_of(session.scene()))},
                {"method", info_of(settings.method).name},
                {"view", info_of(settings.view).name},
                {"backend", backend.name},

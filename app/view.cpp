@@ -43,9 +43,10 @@ int viewer_threads(int asked) {
     return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 
-/// Knobs of the command line belong to the scene that it names, not to scenes opened later.
-KnobValues knobs_of(const std::string& scene, const Options& opened) {
-    return scene == opened.scene ? opened.knobs : KnobValues{};
+/// Knobs and vertical axis of the command line belong to the scene that it names, not to scenes opened later.
+LoadSettings load_settings_of(const std::string& scene, const Options& opened) {
+    if (scene == opened.scene) return opened.load;
+    return {.default_light = opened.load.default_light};
 }
 
 /// `first_backend` is the back end that the options' choice selected.
@@ -53,7 +54,7 @@ std::string command_of(const ViewerPicture& picture, const SceneDescription& sce
                        const std::string& first_backend) {
     const Options defaults = scene_defaults(picture.scene, scene);
     Options shown = defaults;
-    shown.knobs = knobs_of(picture.scene, opened);
+    shown.load = load_settings_of(picture.scene, opened);
     shown.output = scene.source.stem().string() + ".png";
     shown.render = picture.settings;
     shown.display = picture.display;
@@ -123,7 +124,7 @@ void add_functions(ViewerOptions& viewer, ViewerBackends& backends, OpenedScenes
                    Console& console) {
     viewer.make_backend = [&](const std::string& name) { return backends.make(name); };
     viewer.load_scene = [&](const std::string& name) {
-        const auto scene = open_scene(name, knobs_of(name, options), console).scene;
+        const auto scene = open_scene(name, load_settings_of(name, options), console).scene;
         scenes.add(name, scene);
         return scene;
     };
@@ -135,7 +136,7 @@ void add_functions(ViewerOptions& viewer, ViewerBackends& backends, OpenedScenes
 }  // namespace
 
 int run_view(const CommandLine& line, Console& console) {
-    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     OpenedScenes scenes;

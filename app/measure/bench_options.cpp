@@ -23,7 +23,7 @@ Json options_json(const Options& options) {
 BenchScene open_bench_scene(const CommandLine& given, const std::string& input, Console& console) {
     CommandLine line = given;
     line.options.scene = input;
-    const LoadedScene loaded = open_scene(input, given.options.knobs, console);
+    const LoadedScene loaded = open_scene(input, given.options.load, console);
     const Options options = resolve_options(line, *loaded.scene);
     return {.name = loaded.scene->source.stem().string(),
             .source = options.scene,

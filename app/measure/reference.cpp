@@ -12,7 +12,7 @@ namespace pl {
 
 int run_reference(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
-    const LoadedScene loaded = open_scene(line.options.scene, line.options.knobs, console);
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     const Options options = resolve_options(line, *loaded.scene);
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds);

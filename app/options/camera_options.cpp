@@ -12,6 +12,10 @@ constexpr auto kCameraOptions = std::to_array<OptionSpec>({
              "\"aperture_radius\": r, \"focus_distance\": d}; overrides the scene's camera, and the options "
              "below override both",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
+    {.name = "up-axis", .flags = "--up-axis", .value = "NAME", .group = kCamera,
+     .help = "Vertical axis of scenes without a camera, and of the default light: auto (default; y or z, guessed from "
+             "the geometry), x, y, z",
+     .commands = kWithScene, .in_scene_files = true, .parse = parse_up_axis, .print = print_up_axis},
     {.name = "eye", .flags = "--eye", .value = "X,Y,Z", .group = kCamera, .help = "Position of the camera",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.eye = parse_vector(text); },
      .print = [](const Options& o) { return print_vector(o.render.camera.eye); }},

@@ -1,5 +1,7 @@
 #include "app/options/groups.h"
 
+#include "core/inspect/incident_light.h"
+
 namespace pl {
 namespace {
 
@@ -12,6 +14,14 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
     {.name = "pixel", .flags = "--pixel", .value = "X,Y", .group = kPlace,
      .help = "The volume that serves the surface seen there; 0,0 is the top left pixel",
      .commands = CommandSet(Command::Inspect), .parse = parse_pixel},
+    {.name = "truth", .flags = "--truth", .value = "", .group = kPlace,
+     .help = "Also the light that reaches the volume, by paths of default from there: beside the learned radiance, with "
+             "the divergence of the learned densities from it",
+     .commands = CommandSet(Command::Inspect), .parse = parse_flag<&Options::truth>},
+    {.name = "truth-samples", .flags = "--truth-samples", .value = "N", .group = kPlace,
+     .help = "Paths through every cell for --truth, at least 32 (default 256)",
+     .commands = CommandSet(Command::Inspect),
+     .parse = [](Options& o, Text text) { o.truth_samples = static_cast<std::uint32_t>(parse_whole(text, kLightGroups, 1000000)); }},
 
     {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,
      .help = "Sampling of directions: default, precomputed, reinforcement (see --list-methods)",

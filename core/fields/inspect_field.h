@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <span>
 #include <vector>
 
 #include "core/fields/field_model.h"
@@ -17,6 +18,9 @@ concept FieldInspector = requires(const Inspector& inspector, std::int32_t volum
     { inspector.probability(volume, cell) } -> std::same_as<float>;      ///< of sampling a direction of the cell
     { inspector.samples(volume, cell) } -> std::same_as<std::uint32_t>;  ///< training samples
     { inspector.mean_radiance(volume) } -> std::same_as<float>;          ///< irradiance / pi, luminance
+    /// Density of sampling the direction of a point of the unit square, relative to that of cosine sampling.
+    { inspector.density(volume, Vec2f{}) } -> std::same_as<float>;
+    { inspector.bsdf_fraction(volume) } -> std::same_as<float>;  ///< learned
 };
 
 struct TableInspector {
@@ -32,21 +36,48 @@ struct TableInspector {
         return field.visits[field.cell_index(volume, cell)];
     }
     float mean_radiance(std::int32_t volume) const { return field.mean_radiance[static_cast<std::uint32_t>(volume)]; }
+    float density(std::int32_t volume, Vec2f square) const {
+        return square_density<One>(DirectionTable(field, volume), unpack(square));
+    }
+    float bsdf_fraction(std::int32_t volume) const { return field.bsdf_fraction[static_cast<std::uint32_t>(volume)]; }
 };
 static_assert(FieldInspector<TableInspector>);
 
 inline TableInspector inspector_of(const TableField& field) { return {field}; }
+
+/// Points per side of a cell at which densities are taken.
+inline constexpr int kFinePoints = 4;
+
+/// Calls visit(point) for the fine points of the unit square, row by row: the middles of kFinePoints x kFinePoints parts of every
+/// cell.
+template <class Visit>
+void for_each_fine_point(int side, Visit&& visit) {
+    const int points = side * kFinePoints;
+    for (int row = 0; row < points; ++row)
+        for (int column = 0; column < points; ++column)
+            visit((Vec2f{column, row} + 0.5f) / static_cast<float>(points));
+}
+
+/// Index of the fine point nearest to a point of the unit square.
+std::uint32_t fine_cell_of(int side, Vec2f square);
+
+/// Probabilities of the cells, from the density relative to cosine sampling at the fine points.
+std::vector<float> cell_shares(int side, std::span<const float> fine_density);
 
 /// The learned hemisphere of one volume. Arrays: [cell] of side x side DirectionCells.
 struct VolumeInspection {
     std::int32_t volume = kNoVolume;
     Vec3f position{0.0f};
     Vec3f normal{0.0f, 0.0f, 1.0f};
+    SurfacePoint site{};
     int side = 0;
     std::vector<float> radiance;     ///< learned incident radiance Q, luminance
     std::vector<float> probability;  ///< of sampling the cell
     std::vector<std::uint32_t> visits;
+    std::vector<float>
+        density;  ///< of sampling the field, relative to cosine sampling. [row][column] of the fine points
     float mean_radiance = 0.0f;  ///< irradiance / pi
+    float bsdf_fraction = 0.0f;  ///< of the mixture that guided paths use
 };
 
 /// `volume` exists in the field.

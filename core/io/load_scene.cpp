@@ -14,6 +14,8 @@
 #include "core/io/obj.h"
 #include "core/io/scene_json.h"
 #include "core/io/scene_knobs.h"
+#include "core/scene/default_light.h"
+#include "core/scene/up_axis.h"
 #include "core/scene/validate.h"
 
 namespace pl {
@@ -36,14 +38,29 @@ bool has_scenes(const fs::path& dir) {
     return fs::is_directory(dir / "scenes", ignored);
 }
 
-SceneDescription load_file(const fs::path& path, const KnobValues& knobs) {
+SceneDescription load_file(const fs::path& path, const LoadSettings& asked) {
     if (suffix_of(path) == ".json") {
-        return load_scene_json(path, knobs);
+        return load_scene_json(path, asked);
     }
     SceneDescription scene = load_obj(path);
     scene.name = path.stem().string();
+    scene.up = up_direction(asked.up_axis.value_or(UpAxis::Auto), scene);
     scene.camera = frame_camera(scene);
     return scene;
+}
+
+/// Lights a scene that has no light, or says that it stays black.
+void see_to_light(const LoadSettings& asked, SceneDescription& scene) {
+    if (light_of(scene) != SceneLight::None) {
+        return;
+    }
+    const bool is_on = asked.default_light.value_or(scene.setting("default-light") != "off");
+    if (is_on) {
+        add_default_light(scene);
+    }
+    scene.warnings.push_back(fmt::format("{}: no light in this scene{}", scene.source.string(),
+                                         is_on ? "; by " + light_text(scene) + " (--default-light off: without)"
+                                               : ": the picture is black (--default-light on: a sky with a sun)"));
 }
 
 /// Without texture coordinates a triangle shows a single point of the image.
@@ -74,7 +91,7 @@ void warn_of_missing_uvs(SceneDescription& scene) {
 
 }  // namespace
 
-SceneDescription load_scene(const std::string& name_or_path, const fs::path& assets_dir, const KnobValues& knobs) {
+SceneDescription load_scene(const std::string& name_or_path, const fs::path& assets_dir, const LoadSettings& asked) {
     const std::string extension = suffix_of(name_or_path);
     const bool is_path = extension == ".obj" || extension == ".json";
     const bool is_name = !is_path && !name_or_path.empty() && name_or_path.find('/') == std::string::npos;
@@ -82,8 +99,8 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     if (!is_path && !(is_name && is_file(path))) {
         fail_unknown(name_or_path, assets_dir);
     }
-    SceneDescription scene = load_file(path, knobs);
-    require_known_knobs(scene, knobs);
+    SceneDescription scene = load_file(path, asked);
+    require_known_knobs(scene, asked.knobs);
     validate_scene(scene);
     warn_of_missing_uvs(scene);
     const glm::vec3 up = usable_up(scene.camera);
@@ -92,6 +109,7 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
         scene.warnings.push_back(fmt::format("{}: the camera's up vector is along its view, replaced by {} {} {}",
                                              scene.source.string(), up.x, up.y, up.z));
     }
+    see_to_light(asked, scene);
     return scene;
 }
 

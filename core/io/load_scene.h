@@ -5,17 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "core/io/load_settings.h"
 #include "core/scene/description.h"
 
 namespace pl {
 
 /// Opens an .obj file, a scene .json file, or a scene of assets_dir/scenes by its name; the result passes
 /// validate_scene(). A scene NAME is the file scenes/NAME/NAME.json. An .obj alone gets the camera of frame_camera();
-/// an up vector parallel to the viewing direction is replaced, with a warning. `knobs` are applied by read_knobs().
+/// an up vector parallel to the viewing direction is replaced, with a warning. Knobs are applied by read_knobs(). A
+/// scene without light gets that of add_default_light(), unless `asked` or its setting default-light say off; a
+/// warning tells of either.
 /// Throws Error(Input) if there is no such file or scene (the message names the nearest known one) or its content is
 /// invalid, and Error(Usage) for an unknown knob or a value out of its range.
 SceneDescription load_scene(const std::string& name_or_path, const std::filesystem::path& assets_dir,
-                            const KnobValues& knobs = {});
+                            const LoadSettings& asked = {});
 
 /// The folder that contains `scenes/`: the environment variable PATHLIGHT_ASSETS if it is set, else `assets` in the
 /// program's folder or one of its parents, else that of the source tree. Throws Error(Input) if there is none.

@@ -26,11 +26,25 @@ const std::vector<std::string> kSettings = {
     "method",     "view",         "backend", "threads", "spp",           "time-limit",    "target-error",
     "width",      "height",       "size",    "seed",    "nee",           "max-depth",     "exposure",
     "tonemap",    "field-budget", "volumes", "bins",    "bsdf-fraction", "learning-rate", "learn-target",
-    "learn-from", "roulette",     "refine",  "guiding"};
+    "learn-from", "roulette",     "refine",  "guiding", "default-light", "up-axis"};
 
-void read_camera(const JsonDocument& file, SceneDescription& scene) {
+/// The vertical axis: of the choice, else of the settings, else of the camera, else guessed. Expects scene.settings.
+void read_up(const JsonDocument& file, const LoadSettings& asked, SceneDescription& scene) {
+    const std::optional<UpAxis> preset = up_axis_named(scene.setting("up-axis"));
+    const UpAxis axis = asked.up_axis.value_or(preset.value_or(UpAxis::Auto));
+    const std::optional<glm::vec3> up = file.vector("/camera/up");
+    const bool places_camera = file.vector("/camera/eye") || file.vector("/camera/target");
+    if (axis == UpAxis::Auto && up && *up != glm::vec3(0.0f)) {
+        scene.up = nearest_axis(*up);
+    } else if (axis != UpAxis::Auto || !places_camera) {
+        scene.up = up_direction(axis, scene);
+    }
+}
+
+void read_camera(const JsonDocument& file, const LoadSettings& asked, SceneDescription& scene) {
     const bool given =
         file.object("/camera", {"eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance"});
+    read_up(file, asked, scene);
     if (!given) {
         scene.camera = frame_camera(scene);
         return;
@@ -78,7 +92,7 @@ void read_settings(const JsonDocument& file, SceneDescription& scene) {
 
 }  // namespace
 
-SceneDescription load_scene_json(const std::filesystem::path& path, const KnobValues& knobs) {
+SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSettings& asked) {
     const JsonDocument file(read_text_file(path), path);
     file.object("", {"schema", "name", "obj", "camera", "environment", "materials", "knobs", "settings"});
     const std::optional<std::string> schema = file.text("/schema");
@@ -95,10 +109,10 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const KnobVa
     scene.source = path;
     scene.name = file.text("/name").value_or(path.stem().string());
     read_materials(file, scene);
-    read_knobs(file, scene, groups, knobs);
+    read_knobs(file, scene, groups, asked.knobs);
     read_environment(file, scene);
-    read_camera(file, scene);
     read_settings(file, scene);
+    read_camera(file, asked, scene);
     return scene;
 }
 

@@ -3,19 +3,22 @@
 
 #include <filesystem>
 
+#include "core/io/load_settings.h"
 #include "core/scene/description.h"
 
 namespace pl {
 
 /// Reads a scene file and the OBJ file it names, relative to the scene file. Only `schema` and `obj` are required.
 ///   name         shown to people; default: the file's name
-///   camera       eye, target, up, fov_deg (vertical); defaults frame the scene. With aperture_radius > 0 a thin lens
-///                focused at focus_distance, by default the distance of the target
+///   camera       eye, target, up, fov_deg (vertical); defaults frame the scene, level by the vertical axis. With
+///                aperture_radius > 0 a thin lens focused at focus_distance, by default the distance of the target
 ///   environment  see read_environment()
 ///   materials    name of an MTL entry -> overrides, see read_materials()
 ///   knobs        see read_knobs()
 ///   settings     option name -> value, kept as text for the command line (true and false become on and off)
+/// The vertical axis SceneDescription::up is that of `asked` or of the setting up-axis; else the one nearest to the
+/// camera's up; else +y for a camera with eye or target, else guess_up(). The caller sees to the default light.
 /// Throws Error(Input) with file and line; for an unknown key the message names the nearest known one.
-SceneDescription load_scene_json(const std::filesystem::path& path, const KnobValues& knobs = {});
+SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSettings& asked = {});
 
 }  // namespace pl

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -132,12 +133,21 @@ struct SceneDescription {
     std::vector<MaterialDescription> materials;
     std::vector<TextureDescription> textures;
     CameraDescription camera;
-    glm::vec3 environment{0.0f};                ///< constant radiance of escaped rays
+    glm::vec3 up{0.0f, 1.0f, 0.0f};  ///< vertical axis, of default camera and default light: x, y or z, +-1
+    glm::vec3 environment{0.0f};     ///< constant radiance of escaped rays
     EnvironmentMapDescription environment_map;  ///< added to `environment`; no map without texels
     SunDescription sun;                         ///< added to both
+    bool default_light = false;                 ///< the map is that of add_default_light()
     std::vector<KnobDescription> knobs;
     std::vector<std::pair<std::string, std::string>> settings;  ///< presets: option name and value
     std::vector<std::string> warnings;                          ///< of the loaders, for the caller to report
+
+    /// Value of a preset; empty if there is none.
+    std::string_view setting(std::string_view option) const {
+        for (const auto& [key, value] : settings)
+            if (key == option) return value;
+        return {};
+    }
 };
 
 }  // namespace pl

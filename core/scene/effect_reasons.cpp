@@ -27,7 +27,9 @@ std::string materials_that(const SceneDescription& scene, Pick pick) {
 std::string far_lights_of(const SceneDescription& scene) {
     const EnvironmentMapDescription& map = scene.environment_map;
     std::vector<std::string> parts;
-    if (!map.texels.empty())
+    if (scene.default_light)
+        parts.push_back("the scene has no light of its own: the default light shines");
+    else if (!map.texels.empty())
         parts.push_back(fmt::format("the environment is an image of {}x{}", map.width, map.height));
     if (scene.sun.radiance != glm::vec3(0.0f))
         parts.push_back(fmt::format("a sun of {} degrees shines", scene.sun.angle_deg));

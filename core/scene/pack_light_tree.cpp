@@ -229,9 +229,9 @@ std::vector<std::uint32_t> cluster_roots(const std::vector<LightNode>& nodes) {
     while (roots.size() < kMostLightClusters) {
         const auto widest = std::ranges::max_element(roots, {}, spread);
         if (nodes[*widest].is_leaf != 0) break;
-        const std::uint32_t first_child = *widest + 1;
-        roots.push_back(nodes[*widest].next);
-        *std::ranges::find(roots, first_child - 1) = first_child;
+        const std::uint32_t node = *widest;
+        *widest = node + 1;
+        roots.push_back(nodes[node].next);
     }
     std::ranges::sort(roots);
     return roots;

@@ -1,6 +1,7 @@
 // The part of Session that exports and imports learned fields.
 #include "core/base/error.h"
 #include "core/scene/scene_hash.h"
+#include "core/session/path_settings.h"
 #include "core/session/session.h"
 
 namespace pl {
@@ -40,7 +41,11 @@ VolumeInspection Session::inspect_volume(MethodId method, std::int32_t volume) c
                                           " does not exist: expected 0 to " + std::to_string(placement_.count()) +
                                           " (exclusive)");
     HostField field = backend_->download_field(owner);
-    return pl::inspect_volume(field_view(placement_.shape(), *placement_.volumes(), field), volume);
+    VolumeInspection inspection =
+        pl::inspect_volume(field_view(placement_.shape(), *placement_.volumes(), field), volume);
+    const MixtureSettings mixture = mixture_of(settings_, owner);
+    if (mixture.learned == 0) inspection.bsdf_fraction = mixture.bsdf_fraction;
+    return inspection;
 }
 
 LearnedField Session::export_field(MethodId method) const {

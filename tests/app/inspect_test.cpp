@@ -114,6 +114,31 @@ TEST_CASE("the picture of a hemisphere has a legend with its place") {
                     std::pair<std::string, std::string>("method", "reinforcement")) != metadata.end());
 }
 
+TEST_CASE("the light that reaches the volume comes with it on request") {
+    const Arguments place{"--pixel", "16,28", "--truth", "--truth-samples", "64"};
+    const json volume = inspected(place);
+    const json truth = volume["truth"];
+    CHECK(truth["paths_per_cell"] == 64);
+    CHECK(truth["invalid_paths"] == 0);
+    CHECK(truth["target_light"] == "all");
+    for (const char* key : {"radiance", "radiance_error", "target", "product", "mixture"})
+        CHECK(truth[key].size() == 64);
+    for (const char* key : {"table_divergence", "mixture_divergence"})
+        CHECK(truth[key]["low"].get<double>() <= truth[key]["high"].get<double>());
+    CHECK(inspected(place)["truth"] == truth);
+    CHECK(inspected({"--pixel", "16,28"}).count("truth") == 0);
+
+    const TempDir folder;
+    Arguments more = place;
+    REQUIRE(run_program(inspect(folder / "x.csv", more)).code == 0);
+    const std::vector<std::string> lines = lines_of(read_all(folder / "x.csv"));
+    REQUIRE(lines.size() == 65);
+    CHECK(std::count(lines[0].begin(), lines[0].end(), ',') == 13);
+    CHECK(std::count(lines[1].begin(), lines[1].end(), ',') == 13);
+    REQUIRE(run_program(inspect(folder / "x.png", more)).code == 0);
+    CHECK(read_png8(folder / "x.png").height >= 800);
+}
+
 TEST_CASE("a place without a volume is told before any training") {
     const TempDir folder;
     const auto refused = [&](const Arguments& place, const std::string& message) {

@@ -65,6 +65,8 @@ Options any_options(std::mt19937& random) {
     o.display.curve = static_cast<ToneCurve>(whole(0, 2));
     if (whole(0, 1) == 1) o.spp = static_cast<std::uint32_t>(whole(1, 1000000000));
     if (whole(0, 1) == 1) o.time_limit_seconds = real(0.001f, 1.0e9f);
+    if (whole(0, 1) == 1) o.load.default_light = whole(0, 1) == 1;
+    if (whole(0, 1) == 1) o.load.up_axis = static_cast<UpAxis>(whole(0, 3));
     o.threads = whole(0, 1024);
     o.backend = whole(0, 1) == 1 ? "cpu" : "auto";
     return o;
@@ -92,6 +94,8 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE(a.display.curve == b.display.curve);
     REQUIRE(a.spp == b.spp);
     REQUIRE(a.time_limit_seconds == b.time_limit_seconds);
+    REQUIRE(a.load.default_light == b.load.default_light);
+    REQUIRE(a.load.up_axis == b.load.up_axis);
     REQUIRE(a.threads == b.threads);
     REQUIRE(a.backend == b.backend);
 }

@@ -128,11 +128,16 @@ TEST_CASE("the scene's hash follows the light, not the file's name or camera") {
         return ordered_json::parse(lines_of(result.out).back())["scene_hash"].get<std::string>();
     };
     const std::string triangle = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
-    const std::string hash = hash_of("a", triangle, "");
-    CHECK(hash_of("b", triangle, "") == hash);
-    CHECK(hash_of("a", triangle, ", \"camera\": {\"eye\": [0, 0, 9], \"target\": [0, 0, 0]}") == hash);
-    CHECK(hash_of("a", "v -1 -1 0\nv 1 -1 0\nv 0 1.0000001 0\nf 1 2 3\n", "") != hash);
+    const std::string sky = ", \"environment\": {\"radiance\": [2, 2, 2]}";
+    const std::string elsewhere = ", \"camera\": {\"eye\": [0, 5, 9], \"target\": [0, 0, 0]}";
+    const std::string hash = hash_of("a", triangle, sky);
+    CHECK(hash_of("b", triangle, sky) == hash);
+    CHECK(hash_of("a", triangle, sky + elsewhere) == hash);
+    CHECK(hash_of("a", "v -1 -1 0\nv 1 -1 0\nv 0 1.0000001 0\nf 1 2 3\n", sky) != hash);
     CHECK(hash_of("a", triangle, ", \"environment\": {\"radiance\": [1, 1, 1]}") != hash);
+    // The default light stands by the camera.
+    CHECK(hash_of("a", triangle, "") != hash);
+    CHECK(hash_of("a", triangle, elsewhere) != hash_of("a", triangle, ""));
 }
 
 }  // namespace pl::test

@@ -1,4 +1,6 @@
 // `pathlight view` from a shell, driven by a script on SDL's dummy driver: options, files and commands of the window.
+#include <algorithm>
+
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/program/run_program.h"
@@ -61,6 +63,25 @@ TEST_CASE("the window opens with the settings of the command line") {
         {"--method", "precomputed", "--nee", "on", "--exposure", "-1", "--eye", "278,273,-700", "--volumes", "50"});
     CAPTURE(result.err);
     CHECK(result.code == 0);
+}
+
+TEST_CASE("the window shows a scene without light by the default light, or black on request") {
+    const TempDir folder;
+    write_all(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const std::string choice : {"on", "off"}) {
+        const std::string light = choice == "on" ? "default" : "none";
+        const ProgramResult result = run_script(folder,
+                                                "1 wait state == done\n2 expect shown_light == " + light +
+                                                    "\n3 tap s ctrl\n4 wait message ~ saved\n5 quit\n",
+                                                {"--scene", "a.obj", "--default-light", choice});
+        CAPTURE(choice, result.err);
+        REQUIRE(result.code == 0);
+        const std::filesystem::path shown = only_file(folder, ".png");
+        const std::vector<std::uint8_t> bytes = read_png8(shown).rgb;
+        CHECK(std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t b) { return b == 0; }) == (choice == "off"));
+        CHECK_THAT(command_in(shown), contains("--default-light " + choice));
+        std::filesystem::remove(shown);
+    }
 }
 
 TEST_CASE("a back end that is not there is told before a window opens") {

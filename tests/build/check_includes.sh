@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # check_includes.sh ROOT: does every file keep to the arrows of the architecture? Prints each breach, exits 1 if any.
-#   app -> ui -> core/bench, core/selftest, core/diagnose -> core/session -> core/scene, core/fields -> core/kernel;
+#   app -> ui -> core/bench, core/selftest, core/diagnose, core/inspect -> core/session -> core/scene, core/fields -> core/kernel;
 #   core/io -> core/scene, and the records of a session that it writes;
 # and the order of the folders inside app, ui, core and core/kernel. Also checks what core/kernel may not contain, since
 # it is compiled for devices too.
@@ -22,7 +22,7 @@ kernel_data="core/kernel/base core/kernel/geometry $shading_data"
 kernel_scene="$kernel_data core/kernel/scene core/kernel/geometry/intersector.h core/kernel/shading"
 below_session='core/scene core/fields core/base core/kernel/'
 backend="core/session/backend.h core/session/film_slots.h $below_session"
-tools="core/bench core/selftest core/diagnose core/plot core/io core/measure core/session $below_session"
+tools="core/bench core/selftest core/diagnose core/inspect core/plot core/io core/measure core/session $below_session"
 below_ui="ui/viewer.h $tools"
 worker="ui/worker"
 below_app='core/ cpu/ cuda/ ui/'
@@ -51,6 +51,7 @@ core/measure: core/session $below_session
 core/plot:    core/base
 core/io:      core/session/learned_field.h core/session/settings.h core/session/snapshot.h core/session/shown_range.h core/scene core/fields core/base core/kernel/
 core/diagnose: core/session $below_session
+core/inspect: core/measure core/session $below_session
 core/selftest: core/session $below_session
 core/bench:   core/measure core/io core/session $below_session
 

@@ -150,7 +150,7 @@ inline Decision check_furnace_lights() {
         field_of_furnace<kWithNextEvent>(pack_scene(furnace_scene(0.5f, 0.5f)), {.seed = 1, .next_event = 1}));
 }
 
-/// The same where lights are chosen by what was learned, and the radiance of paths there, by rule S1. Seed 1, 64 passes of
+/// The same where lights are chosen by the learned irradiance of clusters, and the radiance of paths there, by rule S1. Seed 1, 64 passes of
 /// 1000 paths and 2e5 more, resolves 1 %.
 inline Decision check_furnace_many_lights() {
     constexpr FeatureSet kManyLights = kWithNextEvent.with(Feature::ManyLights);

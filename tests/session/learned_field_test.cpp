@@ -137,9 +137,12 @@ TEST_CASE("A field that does not belong to the session is refused and changes no
     default_method.method = MethodId::Default;
     LearnedField no_volumes = good;
     no_volumes.volumes.reset();
+    LearnedField other_clusters = good;  // its arrays agree with its shape, but not with the scene's light tree
+    other_clusters.shape.light_clusters = 2;
+    other_clusters.field = make_field(other_clusters.shape, good.volumes->normals.size());
     CHECK_THAT(input_error([&] { session.import_field(other_scene); }),
                contains("another scene: expected scene hash " + good.scene_hash + ", got 0000000000000000"));
-    for (const LearnedField& field : {short_table, default_method, no_volumes})
+    for (const LearnedField& field : {short_table, default_method, no_volumes, other_clusters})
         CHECK_THAT(input_error([&] { session.import_field(field); }), contains("do not fit together"));
     CHECK(same_state(before, state_of(session)));
     CHECK((session.settings().field == settings.field));

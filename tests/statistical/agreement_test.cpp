@@ -107,7 +107,7 @@ void check_paying(const std::string& name, double resolution, double noise) {
     }
 }
 
-/// Lights chosen by what was learned, once many were sampled.
+/// Lights chosen by the learned irradiance of clusters, once many were sampled.
 void check_learned_lights(const std::string& name, double resolution, double noise) {
     const SceneDescription scene = shipped_scene(name);
     const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution, noise);

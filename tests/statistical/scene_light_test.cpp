@@ -67,7 +67,7 @@ TEST_CASE("No path leaves the sealed scenes at either end of their knobs") {
         for (const KnobDescription& knob : shipped_scene(name).knobs)
             for (const float end : {knob.low, knob.high}) {
                 CAPTURE(knob.name, end);
-                check_sealed(load_scene(name, PL_SOURCE_DIR "/assets", {{knob.name, end}}),
+                check_sealed(load_scene(name, PL_SOURCE_DIR "/assets", {.knobs = {{knob.name, end}}}),
                              {MethodId::Default, true});
             }
 }

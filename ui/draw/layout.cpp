@@ -13,14 +13,15 @@ constexpr float kSmallestLeftEm = 16.0f;
 constexpr float kSmallestRightEm = 18.0f;
 constexpr float kGoodViewEm = 36.0f;
 constexpr float kSmallestViewEm = 18.0f;
-constexpr float kAccuracyShare = 0.66f;  ///< of the height at the right
-constexpr float kBarEm = 1.75f;          ///< height of menu and status bar
+constexpr float kAccuracyShare = 0.66f;       ///< of the height at the right
+constexpr float kSmallAccuracyShare = 0.45f;  ///< beside a tab with discs
+constexpr float kBarEm = 1.75f;               ///< height of menu and status bar
 /// A picture that fills more than this share of the view is not stretched: stretching blurs.
 constexpr float kNearlyFull = 0.95f;
 
 }  // namespace
 
-Layout make_layout(float width, float height, float em, bool panels, bool accuracy) {
+Layout make_layout(float width, float height, float em, bool panels, bool accuracy, bool detail) {
     Layout layout;
     layout.panels = panels;
     layout.view = {0.0f, 0.0f, width, height};
@@ -40,7 +41,7 @@ Layout make_layout(float width, float height, float em, bool panels, bool accura
     layout.left = {0.0f, bar, left_shown, middle};
     layout.right = {width - right_shown, bar, right_shown, middle};
     if (accuracy) {
-        const float below = std::round(kAccuracyShare * middle);
+        const float below = std::round((detail ? kSmallAccuracyShare : kAccuracyShare) * middle);
         layout.right.height = middle - below;
         layout.accuracy = {width - right_shown, bar + middle - below, right_shown, below};
     }

@@ -17,7 +17,8 @@ struct Layout {
 };
 
 /// All in pixels; `em` is the font size. In a window too narrow for panels and picture the panels float over it.
-Layout make_layout(float width, float height, float em, bool panels, bool accuracy);
+/// `detail`: the tabs have more to show, and get more than half of the height beside the accuracy panel.
+Layout make_layout(float width, float height, float em, bool panels, bool accuracy, bool detail);
 
 /// The largest rectangle with the shape of a picture of width x height in the middle of `view`. A picture that is
 /// somewhat smaller than the view is shown pixel by pixel.

@@ -5,6 +5,7 @@
 namespace pl {
 
 void Selection::update() {
+    light_.update(link_.frame(), inspection());
     const std::optional<PickAnswer> answer = link_.worker().take_pick();
     if (!answer) return;
     if (!answer->point) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "ui/model/display_controls.h"
+#include "ui/model/light_tracing.h"
 #include "ui/model/messages.h"
 #include "ui/model/render_link.h"
 
@@ -25,6 +26,9 @@ public:
     std::int32_t volume() const { return volume_; }
     /// The inspection of the selected volume's hemisphere; null until the render thread has made it.
     const VolumeInspection* inspection() const;
+    /// The light that reaches the volume.
+    LightTracing& light() { return light_; }
+    const LightTracing& light() const { return light_; }
     /// True once after a click has selected a volume.
     bool take_new_volume();
     /// The point and the volume; the material stays.
@@ -51,6 +55,7 @@ private:
     std::int32_t volume_ = kNoVolume;
     int hovered_cell_ = -1;
     bool is_new_ = false;
+    LightTracing light_;
 };
 
 }  // namespace pl

@@ -8,8 +8,9 @@ namespace pl {
 
 /// The values drawn in the cells of the selected volume's hemisphere.
 struct CellDisplay {
+    bool truth = true;  ///< the light that reaches the volume, beside the learned one
     CellQuantity quantity = CellQuantity::Radiance;
-    ColorScale scale = ColorScale::Logarithmic;  ///< a lamp is brighter than all other directions together
+    RangeRule range;
 };
 
 /// The plot of the accuracy panel, between frames.

@@ -65,6 +65,12 @@ void add_guiding_badge(BadgeRow& row, const GuidingStatus& guiding) {
                 colors::kWarning);
 }
 
+/// Light that the scene's files do not have, or its lack.
+void add_light_badge(BadgeRow& row, SceneLight light) {
+    if (light == SceneLight::Default) row.add("default light: a sky with a sun", colors::kText);
+    if (light == SceneLight::None) row.add("no light in this scene", colors::kWarning);
+}
+
 void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
     const Snapshot& snapshot = frame.snapshot;
     const View view = snapshot.slot.view;
@@ -169,6 +175,7 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     BadgeRow row({view.x + em(0.6f), view.y + em(0.6f)}, view.x + view.width - em(0.6f));
     // Compared pictures have labels of their own.
     if (model.frame() != nullptr && plan.tiles.empty()) add_picture_badges(row, *model.frame());
+    if (model.frame() != nullptr) add_light_badge(row, model.frame()->facts.light);
     add_compare_badges(row, model, plan);
     const WorkerStatus& status = model.status();
     add_turns_badge(row, status);

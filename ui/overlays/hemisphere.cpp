@@ -49,14 +49,15 @@ void draw_hemisphere(const ViewerModel& model, const Rect& image) {
     const VolumeInspection* volume = model.selection().inspection();
     if (!model.window().hemisphere || volume == nullptr) return;
     const PublishedFrame& frame = *model.frame();
-    const float radius = kRadiusShare * frame.diagonal;
+    const float radius = kRadiusShare * frame.facts.diagonal;
     const std::vector<CellFan> fans = make_cell_fans(volume->side);
-    const CellValues values =
-        cell_values(*volume, model.window().cell_display.quantity, model.window().cell_display.scale);
+    const CellDisplay& display = model.window().cell_display;
+    const std::vector<float> values = cell_values(*volume, display.quantity);
+    const std::vector<float> positions = positions_in(range_of(values, display.range), values);
     const std::uint8_t alpha = is_hidden(frame, *volume, radius) ? kHiddenAlpha : kAlpha;
 
     DrawList shapes;
-    add_hemisphere(shapes, *volume, fans, values, {radius, alpha, model.selection().hovered_cell()});
+    add_hemisphere(shapes, *volume, fans, positions, {radius, alpha, model.selection().hovered_cell()});
     if (model.selection().hovered_cell() >= 0 &&
         static_cast<std::size_t>(model.selection().hovered_cell()) < fans.size())
         add_ray(shapes, frame, *volume, fans[static_cast<std::size_t>(model.selection().hovered_cell())], radius);

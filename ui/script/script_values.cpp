@@ -141,6 +141,10 @@ constexpr std::array kValues{
           }},
     Value{"shown_backend",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.backend.name; }); }},
+    Value{"shown_light",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return std::string(name_of(f.facts.light)); });
+          }},
     Value{"shown_divider",
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return fmt::format("{}", f.divider); });

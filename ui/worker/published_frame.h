@@ -10,6 +10,7 @@
 
 #include "core/diagnose/find_diagnostics.h"
 #include "core/measure/paired_cost.h"
+#include "core/scene/default_light.h"
 #include "core/scene/pack_scene.h"
 #include "core/session/shown_range.h"
 #include "ui/viewer.h"
@@ -23,6 +24,16 @@ struct CellImage {
     std::vector<std::uint32_t> argb;
 };
 
+/// Properties of a scene that take a look at all of its triangles.
+struct SceneFacts {
+    float diagonal = 0.0f;  ///< of its bounds
+    SceneLight light = SceneLight::Own;
+};
+
+inline SceneFacts facts_of(const SceneDescription& scene) {
+    return {.diagonal = bounds_of(scene).diagonal(), .light = light_of(scene)};
+}
+
 struct PublishedFrame {
     DisplayFrame picture;  ///< the film in 8 bits, by `display`; may still be in transfer
     DisplaySettings display;
@@ -34,7 +45,7 @@ struct PublishedFrame {
     BackendInfo backend;
     std::shared_ptr<const SceneDescription> description;
     std::shared_ptr<const HostScene> scene;
-    float diagonal = 0.0f;                           ///< of the scene's bounds
+    SceneFacts facts;                                ///< of `description`
     ShownRange range;                                ///< of the snapshot
     std::shared_ptr<const CellImage> cells;          ///< null if not requested, or of another camera pose
     std::shared_ptr<const VolumeInspection> volume;  ///< of the selected volume; null if there is nothing to show

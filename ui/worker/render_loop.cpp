@@ -26,7 +26,7 @@ bool changes_cells(const WorkerEdit& edit) {
 RenderLoop::RenderLoop(const WorkerSetup& setup, Inbox& inbox, Outbox& outbox)
     : inbox_(inbox), outbox_(outbox), backends_(setup.make_backend, setup.backends, setup.first_backend),
       shown_(slot_of(setup.settings)), size_(setup.settings.width, setup.settings.height),
-      trial_(setup.settings.forced_effects), diagonal_(bounds_of(*setup.scene).diagonal()) {
+      trial_(setup.settings.forced_effects), facts_(facts_of(*setup.scene)) {
     outbox_.set_runs(recorder_.runs());
 }
 
@@ -119,12 +119,13 @@ void RenderLoop::apply(const WorkerEdit& edit) {
 
 /// May run twice, if a back end fails in between.
 void RenderLoop::apply(const SessionEdit& edit) {
-    if (const auto* scene = std::get_if<EditScene>(&edit)) diagonal_ = bounds_of(*scene->scene).diagonal();
     if (const auto* size = std::get_if<EditSize>(&edit)) {
         size_.resize(size->width, size->height);  // work() gives it to the session
         return;
     }
     session_->apply(edit);
+    if (std::holds_alternative<EditScene>(edit) || std::holds_alternative<EditMaterial>(edit))
+        facts_ = facts_of(session_->scene());
     if (const auto* effects = std::get_if<EditEffects>(&edit)) trial_.set_forced(effects->forced);
     if (const auto* learned = std::get_if<EditLearned>(&edit)) shown_.method = learned->field->method;
 }
@@ -230,7 +231,7 @@ void RenderLoop::publish() {
     frame->backend.name = backends_.current();
     frame->description = session_->shared_scene();
     frame->scene = session_->packed_scene();
-    frame->diagonal = diagonal_;
+    frame->facts = facts_;
     frame->cells = now_.cells ? cells_.image(*session_) : nullptr;
     frame->volume = inspection_.volume();
     size_.note_frame();

@@ -81,7 +81,7 @@ private:
     CellRenderer cells_;
     Inspection inspection_;
     FrameSchedule frames_;
-    float diagonal_;  ///< of the scene's bounds
+    SceneFacts facts_;  ///< of the session's scene
     bool failed_ = false;
 };
 

@@ -50,7 +50,7 @@ struct SpecularChain {
     bool is_open = false;  ///< the chain has at least one vertex
 };
 
-/// Whether paths of this method choose lights by what was learned, in scenes with a light tree.
+/// Whether paths of this method choose lights by the learned irradiance of clusters, in scenes with a light tree.
 template <FeatureSet F, class M>
 inline constexpr bool learns_lights = F.has(Feature::ManyLights) && M::kLearnsLights;
 

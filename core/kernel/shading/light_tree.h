@@ -97,7 +97,7 @@ struct LearnedLights {
 /// times its weight without learning, however wrong the learned choice is.
 inline constexpr float kTreeShare = 0.25f;
 
-/// A uniform number that makes one choice after another: what remains of it is uniform again.
+/// A uniform number that makes one choice after another: rescaled to the part chosen, it is uniform again.
 struct WayByNumber {
     float u;  ///< in [0,1)
 

@@ -77,7 +77,7 @@ struct LightPoint {
     Vec3f from{0.0f};                 ///< the point that it is seen from
     float area_per_steradian = 0.0f;  ///< of a light that is sampled by solid angle, else 0
     float pdf_area = 0.0f;  ///< of uniform samples on the light: per unit area, times the probability of the light
-    std::uint32_t cluster = 0;  ///< of the light, in a scene with a light tree
+    std::uint32_t cluster = kNoCluster;  ///< of the light; none without a light tree
 
     /// Density per steradian in the direction `wi` of the point.
     PL_HD float pdf_sa(Vec3f wi) const {
@@ -178,10 +178,7 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
     }
     if (scene.lights.empty()) return {};
     const LightPoint chosen = sample_light<F>(scene, Receiver::of(surface), Vec3f{u}, learned);
-    DirectLight sample{.light = chosen.surface};
-    if constexpr (F.has(Feature::ManyLights)) {
-        if (!scene.light_tree.empty()) sample.cluster = chosen.cluster;
-    }
+    DirectLight sample{.light = chosen.surface, .cluster = chosen.cluster};
     const Vec3f segment = sample.light.position - chosen.from;
     const float distance2 = glm::dot(segment, segment);
     if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};

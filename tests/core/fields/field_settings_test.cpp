@@ -46,6 +46,19 @@ TEST_CASE("The number of volumes follows the budget up to the default") {
     CHECK(bytes_per_volume(1024) > bytes_per_volume(256));
 }
 
+TEST_CASE("A light tree's clusters take their part of the budget") {
+    FieldSettings settings;
+    settings.budget_megabytes = 1.0;
+    settings.bins = 256;
+    // Per cluster: the sum of a pass in fixed point, the mean irradiance and the cumulative probability.
+    CHECK(bytes_per_volume(256, 32) == bytes_per_volume(256) + 32 * (sizeof(std::int64_t) + 2 * sizeof(float)));
+    CHECK(volume_count(settings, 32) == static_cast<int>(1e6 / static_cast<double>(bytes_per_volume(256, 32))));
+    CHECK(volume_count(settings, 32) < volume_count(settings));
+    const auto placed = static_cast<std::size_t>(volume_count(settings, 32));
+    CHECK(most_refined_volumes(settings, placed, 32) == placed);
+    CHECK(most_refined_volumes(settings, placed) > placed);
+}
+
 TEST_CASE("Bytes are those of the arrays") {
     SceneDescription description;
     description.materials.push_back(gray());

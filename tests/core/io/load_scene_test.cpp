@@ -1,17 +1,23 @@
-// The collection of files that were broken once: tests/corpus/refused must be refused with file and line or reason,
-// tests/corpus/accepted must load. A new file only has to be put there.
+// Choices at loading: the default light, the vertical axis. And the collection of files that were broken once:
+// tests/corpus/refused must be refused with file and line or reason, tests/corpus/accepted must load. A new file only has
+// to be put there.
 #include <algorithm>
 #include <filesystem>
 #include <vector>
 
 #include "core/io/load_scene.h"
+#include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
+#include "tests/support/files/temporary_folder.h"
 
 using namespace pl;
 using pl::test::contains;
+using pl::test::TemporaryFolder;
 
 namespace {
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 std::vector<std::filesystem::path> scenes_in(const std::string& folder) {
     std::vector<std::filesystem::path> result;
@@ -35,6 +41,77 @@ TEST_CASE("Corpus: files to be refused") {
         INFO(path);
         CHECK_THAT(test::input_error([&] { load_scene(path.string(), ""); }), contains(path.stem().string()));
     }
+}
+
+TEST_CASE("A file without light opens with the default light, and says so") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nKe 0 0 0\nnewmtl lamp\nKe 1 1 1\n");
+    const auto path = folder.write("a.obj", "mtllib m.mtl\nusemtl wall\n" + kTriangle).string();
+    const SceneDescription lit = load_scene(path, "");
+    CHECK(lit.default_light);
+    CHECK(lit.environment_map.texels.size() > 1000);
+    REQUIRE(lit.warnings.size() == 1);
+    CHECK_THAT(lit.warnings[0],
+               contains("a.obj: no light in this scene; by default: a sky") && contains("--default-light off"));
+
+    const SceneDescription dark = load_scene(path, "", {.default_light = false});
+    CHECK_FALSE(dark.default_light);
+    CHECK(dark.environment_map.texels.empty());
+    REQUIRE(dark.warnings.size() == 1);
+    CHECK_THAT(dark.warnings[0], contains("no light in this scene: the picture is black"));
+    CHECK(scene_hash(dark) != scene_hash(lit));
+
+    // A scene file alike, where only its own setting or the caller's choice is off.
+    const auto json = [&](const std::string& members) {
+        return folder.write("s.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj")" + members + "}").string();
+    };
+    CHECK(scene_hash(load_scene(json(""), "")) == scene_hash(lit));
+    const std::string off = R"(, "settings": {"default-light": false})";
+    CHECK_FALSE(load_scene(json(off), "").default_light);
+    CHECK(load_scene(json(off), "", {.default_light = true}).default_light);
+}
+
+TEST_CASE("A scene with a light of any kind keeps every bit, whatever is chosen for those without") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKe 1 1 1\n");
+    folder.write("dark.obj", "mtllib m.mtl\nusemtl wall\n" + kTriangle);
+    const std::string scene = R"({"schema": "pathlight.scene/1", "obj": "dark.obj", "environment": )";
+    for (const auto& path : {folder.write("lamp.obj", "mtllib m.mtl\nusemtl lamp\n" + kTriangle),
+                             folder.write("sky.json", scene + R"({"radiance": [0, 0, 1]}})"),
+                             folder.write("sun.json", scene + R"({"sun": {"radiance": [1, 1, 1]}}})")}) {
+        const SceneDescription on = load_scene(path.string(), "", {.default_light = true});
+        CHECK_FALSE(on.default_light);
+        CHECK(on.environment_map.texels.empty());
+        CHECK(scene_hash(on) == scene_hash(load_scene(path.string(), "", {.default_light = false})));
+        CHECK(on.warnings.empty());
+    }
+}
+
+TEST_CASE("The vertical axis: as chosen, else of the scene file's camera, else guessed") {
+    const glm::vec3 y{0, 1, 0};
+    const glm::vec3 z{0, 0, 1};
+    const TemporaryFolder folder;
+    // A floor for which z is up.
+    folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\n");
+    const auto obj =
+        folder.write("a.obj", "mtllib m.mtl\nusemtl wall\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n").string();
+    CHECK(load_scene(obj, "").camera.up == z);
+    CHECK(load_scene(obj, "", {.up_axis = UpAxis::Y}).camera.up == y);
+    CHECK(load_scene(obj, "", {.up_axis = UpAxis::Auto}).camera.up == z);
+
+    const auto with = [&](const std::string& members, const LoadSettings& asked = {}) {
+        const auto text = R"({"schema": "pathlight.scene/1", "obj": "a.obj", )" + members + "}";
+        return load_scene(folder.write("s.json", text).string(), "", asked);
+    };
+    CHECK(with(R"("settings": {"up-axis": "x"})").up == glm::vec3(1, 0, 0));
+    CHECK(with(R"("settings": {"up-axis": "x"})", {.up_axis = UpAxis::Auto}).up == z);
+    CHECK(with(R"("camera": {"fov_deg": 30})").camera.up == z);
+    // A camera of the file keeps what it always was; its up vector tells the default light.
+    CHECK(with(R"("camera": {"eye": [0, 0, 5]})").camera.up == y);
+    CHECK(with(R"("camera": {"eye": [0, 0, 5], "up": [0.1, -1, 0]})").up == -y);
+    const SceneDescription given = with(R"("camera": {"eye": [0, 0, 5], "up": [0, 1, 0]})", {.up_axis = UpAxis::Z});
+    CHECK(given.camera.up == y);
+    CHECK(given.up == z);
 }
 
 TEST_CASE("Corpus: files to be loaded") {

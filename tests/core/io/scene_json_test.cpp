@@ -235,8 +235,9 @@ TEST_CASE("Textures that a scene file names, and triangles without texture point
     folder.write("s.obj", "mtllib m.mtl\nusemtl wall\nv -1 0 0\nv 1 0 0\nv 0 2 0\nvt 0.25 0.5\nvt 1 0 0\nvt 2\n"
                           "f 1/1 2/2 3/3\nf 1/1 3/3 2\n");
     write_png8(folder.path() / "t.png", {.width = 1, .height = 1, .rgb = {255, 188, 0}});
-    const std::string text = "{\"schema\": \"pathlight.scene/1\", \"obj\": \"s.obj\", \"materials\": {\"wall\": "
-                             "{\"albedo_map\": \"t.png\", \"wrap\": \"clamp\"}}}";
+    const std::string text =
+        "{\"schema\": \"pathlight.scene/1\", \"obj\": \"s.obj\", \"materials\": {\"wall\": "
+        "{\"albedo_map\": \"t.png\", \"wrap\": \"clamp\"}}, \"environment\": {\"radiance\": [1, 1, 1]}}";
     const SceneDescription scene = load_scene(folder.write("scene.json", text).string(), folder.path());
     REQUIRE(scene.textures.size() == 1);
     CHECK_FALSE(scene.textures[0].repeats);

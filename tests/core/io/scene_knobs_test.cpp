@@ -29,7 +29,7 @@ SceneDescription load(const std::string& knob, const KnobValues& asked = {}) {
     folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0.5 0.25 0.5\nKe 1 1 1\n");
     folder.write("s.obj", kObj);
     const std::string text = "{\"schema\": \"pathlight.scene/1\", \"obj\": \"s.obj\",\n\"knobs\": {\n" + knob + "}}";
-    return load_scene(folder.write("scene.json", text).string(), folder.path(), asked);
+    return load_scene(folder.write("scene.json", text).string(), folder.path(), {.knobs = asked});
 }
 
 /// A knob "k" from -10 to 10 with default 1, with this effect.
@@ -150,7 +150,7 @@ TEST_CASE("Values that a knob does not take, and knobs that are not there, are e
     CHECK_THAT(message({{"knob", 1.0f}}), contains("no such knob (nearest: 'k'; known: k)"));
     CHECK_THAT(error_message(ErrorKind::Usage,
                              [] {
-                                 load_scene("furnace", kAssets, {{"k", 1.0f}});
+                                 load_scene("furnace", kAssets, {.knobs = {{"k", 1.0f}}});
                              }),
                contains("it has none"));
     CHECK(load(knob, {{"k", 10.0f}}).knobs[0].value == 10.0f);

@@ -4,7 +4,7 @@
 using namespace pl;
 
 TEST_CASE("Layout: panels, picture and bars fill the window without overlap") {
-    const Layout layout = make_layout(1440.0f, 900.0f, 16.0f, true, false);
+    const Layout layout = make_layout(1440.0f, 900.0f, 16.0f, true, false, false);
     CHECK(layout.left.x == 0.0f);
     CHECK(layout.view.x == layout.left.width);
     CHECK(layout.right.x == layout.view.x + layout.view.width);
@@ -14,23 +14,31 @@ TEST_CASE("Layout: panels, picture and bars fill the window without overlap") {
         CHECK(rect.y + rect.height == layout.status.y);
     }
     CHECK(layout.status.y + layout.status.height == 900.0f);
-    const Layout bare = make_layout(1440.0f, 900.0f, 16.0f, false, false);
+    const Layout bare = make_layout(1440.0f, 900.0f, 16.0f, false, false, false);
     CHECK(bare.view.width == 1440.0f);
     CHECK(bare.view.height == 900.0f);
     CHECK(bare.left.width == 0.0f);
 }
 
+TEST_CASE("Layout: a tab with details gets more of the height than the accuracy panel") {
+    const Layout plain = make_layout(1440.0f, 900.0f, 16.0f, true, true, false);
+    const Layout detail = make_layout(1440.0f, 900.0f, 16.0f, true, true, true);
+    CHECK(plain.right.height < plain.accuracy.height);
+    CHECK(detail.right.height > detail.accuracy.height);
+    for (const Layout& layout : {plain, detail}) CHECK(layout.right.y + layout.right.height == layout.accuracy.y);
+}
+
 TEST_CASE("Layout: in a narrow window the panels shrink, then float over the picture") {
-    const Layout narrow = make_layout(1024.0f, 700.0f, 16.0f, true, false);
+    const Layout narrow = make_layout(1024.0f, 700.0f, 16.0f, true, false, false);
     CHECK(narrow.left.width < 18.0f * 16.0f);
     CHECK(narrow.right.width < 25.0f * 16.0f);
     CHECK(narrow.view.width > 400.0f);
     CHECK(narrow.view.width == narrow.clear.width);
-    const Layout floating = make_layout(800.0f, 600.0f, 16.0f, true, false);
+    const Layout floating = make_layout(800.0f, 600.0f, 16.0f, true, false, false);
     CHECK(floating.view.width == 800.0f);
     CHECK(floating.clear.width < 800.0f);
     for (const float width : {1.0f, 100.0f, 400.0f, 640.0f}) {
-        const Layout tiny = make_layout(width, 20.0f, 16.0f, true, false);
+        const Layout tiny = make_layout(width, 20.0f, 16.0f, true, false, false);
         CHECK(tiny.left.height >= 1.0f);
         CHECK(tiny.left.width + tiny.right.width <= width);
         CHECK(tiny.clear.width >= 0.0f);

@@ -122,6 +122,30 @@ TEST_CASE("Render worker: low resolution can be forbidden") {
     CHECK(frame->snapshot.width == 512);
 }
 
+TEST_CASE("Render worker: a frame tells what lights its scene, with the materials as edited") {
+    Bench bench;
+    RenderWorker worker(bench.setup());
+    const auto frame = frame_of(worker, 0);
+    REQUIRE(frame);
+    CHECK(frame->facts.light == SceneLight::Own);
+    CHECK(frame->facts.diagonal == bounds_of(*small_scene()).diagonal());
+
+    MaterialDescription off = small_scene()->materials[1];
+    off.emission = glm::vec3{0.0f};
+    const auto dark = frame_of(worker, worker.submit(EditMaterial{1, off}));
+    REQUIRE(dark);
+    CHECK(dark->facts.light == SceneLight::None);
+
+    auto lit = std::make_shared<SceneDescription>(*small_scene());
+    for (glm::vec3& position : lit->positions) position *= 3.0f;
+    lit->materials[1] = off;
+    add_default_light(*lit);
+    const auto other = frame_of(worker, worker.submit(EditScene{lit}));
+    REQUIRE(other);
+    CHECK(other->facts.light == SceneLight::Default);
+    CHECK(other->facts.diagonal == Approx(3.0f * frame->facts.diagonal));
+}
+
 TEST_CASE("Render worker: a pause rests, a step makes one pass, a camera gets one picture") {
     Bench bench;
     bench.control->pass_microseconds = 1000;

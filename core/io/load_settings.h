@@ -1,0 +1,19 @@
+// Choices with which a scene is opened.
+#pragma once
+
+#include <optional>
+
+#include "core/scene/description.h"
+#include "core/scene/up_axis.h"
+
+namespace pl {
+
+/// Where a choice is empty, the settings of the scene file decide.
+struct LoadSettings {
+    KnobValues knobs{};
+    std::optional<bool>
+        default_light{};              ///< light a scene that has no light; on unless the scene file says otherwise
+    std::optional<UpAxis> up_axis{};  ///< of default camera and default light; guessed unless it does
+};
+
+}  // namespace pl
