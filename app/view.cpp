@@ -60,8 +60,8 @@ std::string command_of(const ViewerPicture& picture, const SceneDescription& sce
     shown.display = picture.display;
     shown.backend = picture.backend == first_backend ? opened.backend : picture.backend;
     shown.threads = opened.threads;
-    if (picture.limits.spp > 0) shown.spp = picture.limits.spp;
-    if (picture.limits.seconds > 0.0) shown.time_limit_seconds = picture.limits.seconds;
+    if (picture.spp > 0) shown.spp = picture.spp;
+    shown.load_field = picture.field;
     return command_text(shown, defaults);
 }
 

@@ -169,6 +169,9 @@ void Viewer::dispatch(const SDL_Event& event) {
     // Tab moves between fields only while text is typed; else it hides the panels.
     const bool is_tab = event.type == SDL_KEYDOWN && event.key.keysym.scancode == SDL_SCANCODE_TAB;
     if (!is_tab || io.WantTextInput) gui_.handle(event);
+    // Esc closes the topmost only: a menu or list before anything behind it.
+    const bool is_escape = event.type == SDL_KEYDOWN && event.key.keysym.scancode == SDL_SCANCODE_ESCAPE;
+    if (is_escape && !io.WantTextInput && gui_.close_popups()) return;
     input_.handle(event, model_,
                   {plan_.at_image ? image_ : Rect{}, layout_.view, io.WantCaptureMouse, io.WantTextInput,
                    script_ ? script_->seconds() : steady_seconds() - start_});

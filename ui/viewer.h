@@ -49,6 +49,8 @@ struct ViewerPicture {
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
+    std::uint32_t spp = 0;  ///< samples per pixel so far
+    std::string field{};  ///< file with the learned field that a picture like this one continues from; empty for none
     std::vector<std::string> edited_materials{};  ///< names of those that are not as in the scene's files
 };
 

@@ -38,10 +38,33 @@ std::string either(double ratio, const char* above, const char* below) {
     return ratio >= 1.0 ? fmt::format("{} {}", times(ratio), above) : fmt::format("{} {}", times(1.0 / ratio), below);
 }
 
+bool counts_as_equal(double ratio) { return ratio >= 1.0 / kEqualFactor && ratio <= kEqualFactor; }
+
+bool has_bounds(const Interval& ratio) { return std::isfinite(ratio.low) && std::isfinite(ratio.high); }
+
+std::string samples_text(double ratio, const std::string& base_name) {
+    if (counts_as_equal(ratio)) return fmt::format("needs as many samples as {}", base_name);
+    return fmt::format("needs {} samples than {}", either(ratio, "fewer", "more"), base_name);
+}
+
+std::string cost_text(double ratio) {
+    return counts_as_equal(ratio) ? "each costs as much" : "each costs " + either(ratio, "less", "more");
+}
+
+std::string net_text(const Gain& gain) {
+    const bool has_interval = gain.runs >= kFewestRuns;
+    if (!has_interval && counts_as_equal(gain.net.value)) return "about as fast to the same error";
+    const Verdict verdict = verdict_of(gain.net);
+    if (has_interval && verdict == Verdict::NoDifference) return "no difference in the time to the same error";
+    if (has_interval && verdict == Verdict::Undecided) return "undecided which is faster to the same error";
+    return either(gain.net.value, "faster", "slower") + " to the same error";
+}
+
+/// Of a decided ratio as the factor that the sentence names, which is at least 1.
 std::string interval_text(const Interval& net) {
-    const bool faster = net.value >= 1.0;
-    const double low = faster ? net.low : 1.0 / net.high;
-    const double high = faster ? net.high : 1.0 / net.low;
+    const bool inverted = verdict_of(net) == Verdict::Slower;
+    const double low = inverted ? 1.0 / net.high : net.low;
+    const double high = inverted ? 1.0 / net.low : net.high;
     return fmt::format("{:.2g} to {:.2g}", low, high);
 }
 
@@ -66,22 +89,36 @@ Gain gain_over(std::span<const RunEnd> base, std::span<const RunEnd> method, std
     return gain;
 }
 
-bool is_decided(const Interval& ratio) {
-    return std::isfinite(ratio.low) && std::isfinite(ratio.high) && !ratio.contains(1.0);
+Verdict verdict_of(const Interval& ratio) {
+    if (!std::isfinite(ratio.value)) return Verdict::Unresolved;
+    if (!has_bounds(ratio)) return Verdict::Undecided;
+    if (counts_as_equal(ratio.low) && counts_as_equal(ratio.high)) return Verdict::NoDifference;
+    if (ratio.contains(1.0)) return Verdict::Undecided;
+    return ratio.value > 1.0 ? Verdict::Faster : Verdict::Slower;
+}
+
+std::string verdict_text(const Interval& ratio) {
+    switch (verdict_of(ratio)) {
+    case Verdict::Faster:
+    case Verdict::Slower: return either(ratio.value, "faster", "slower");
+    case Verdict::NoDifference: return "no difference";
+    case Verdict::Undecided: return "undecided";
+    case Verdict::Unresolved: break;
+    }
+    return "not resolved";
 }
 
 std::string headline(const Gain& gain, const std::string& base_name) {
     if (!std::isfinite(gain.net.value))
         return fmt::format("cannot be compared with {}: an error is below what the reference resolves", base_name);
-    std::string text = fmt::format(
-        "needs {} samples than {}, each costs {}: {} to the same error", either(gain.samples.value, "fewer", "more"),
-        base_name, either(gain.cost.value, "less", "more"), either(gain.net.value, "faster", "slower"));
+    std::string text = fmt::format("{}, {}: {}", samples_text(gain.samples.value, base_name),
+                                   cost_text(gain.cost.value), net_text(gain));
     if (gain.runs == 1)
         text += " (one run each: no interval)";
     else if (gain.runs < kFewestRuns)
         text += fmt::format(" (only {} runs: no interval)", gain.runs);
     else
-        text += fmt::format(" (95 %: {}{})", interval_text(gain.net), is_decided(gain.net) ? "" : ", so undecided");
+        text += fmt::format(" (95 %: {})", interval_text(gain.net));
     if (gain.ahead_from_seconds)
         text += fmt::format(", ahead from {:.2g} s on", *gain.ahead_from_seconds);
     else if (gain.compared_until_seconds > 0.0)

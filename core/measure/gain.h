@@ -37,12 +37,25 @@ struct Gain {
 Gain gain_over(std::span<const RunEnd> base, std::span<const RunEnd> method, std::span<const Curve> base_curves,
                std::span<const Curve> method_curves);
 
-/// Whether the interval is finite and excludes 1.
-bool is_decided(const Interval& ratio);
+/// Ratios of times between 1 / kEqualFactor and kEqualFactor count as equal.
+inline constexpr double kEqualFactor = 1.05;
+
+/// The statement that the 95 % interval of a ratio of times supports.
+enum class Verdict {
+    Faster,
+    Slower,
+    NoDifference,  ///< the whole interval counts as equal
+    Undecided,     ///< the interval contains 1, or there is none
+    Unresolved,    ///< an error is below the resolution of the reference: no ratio
+};
+Verdict verdict_of(const Interval& ratio);
+
+/// "1.7x faster", "1.2x slower", "no difference", "undecided", "not resolved".
+std::string verdict_text(const Interval& ratio);
 
 /// "needs 3.4x fewer samples than default, each costs 2.0x more: 1.7x faster to the same error (95 %: 1.5 to 1.9),
-/// ahead from 2.6 s on". Also states that the method is slower, that the comparison is undecided, or that there are
-/// too few runs.
+/// ahead from 2.6 s on". Also states that the method is slower, that there is no difference, that the comparison is
+/// undecided, or that there are too few runs.
 std::string headline(const Gain& gain, const std::string& base_name);
 
 /// Times from `first` to `last` in equal steps of their logarithm, both included.

@@ -35,12 +35,8 @@ double passing_seconds(const Clocks& clocks) { return clocks.learn + clocks.rend
 
 }  // namespace
 
-LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details)
-    : LiveRuns(picture_bytes_cap, std::move(details), Allowance{}) {}
-
-LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details, const Allowance& allowance)
-    : picture_bytes_cap_(picture_bytes_cap), details_(std::move(details)), allowance_(allowance),
-      budget_(allowance.share) {
+LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details, double share)
+    : picture_bytes_cap_(picture_bytes_cap), details_(std::move(details)), budget_(share) {
     update_current();
 }
 
@@ -68,7 +64,7 @@ void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
     }
     // Points to come are decomposed as well (take_apart), which takes about as long again.
     if (caught_up > 0) budget_.expect_more(2.0 * watch.seconds() / caught_up);
-    catching_up_seconds_ += watch.seconds();
+    unbudgeted_seconds_ += watch.seconds();
     update_current();
 }
 
@@ -117,10 +113,9 @@ bool LiveRuns::is_due(const Session& session, FilmSlot slot, const FilmOrigin& o
     if (session.passes(slot) == track.passes) return false;  // a part of a pass
     track.passes = session.passes(slot);
     const double passing = passing_seconds(session.clocks(slot));
-    const auto pixels = static_cast<double>(film_pixels(session.settings().width, session.settings().height));
-    budget_.guess((reference_ ? 2.0 : 1.0) * allowance_.guessed_seconds_per_pixel * pixels /
-                  measuring_threads(session));
-    if (session.passes(slot) < 2 || passing < track.next_seconds || !budget_.allows(charged_seconds_)) return false;
+    if (track.passes < kFirstMeasured) return false;
+    if (track.passes > kLastMeasured && (passing < track.next_seconds || !budget_.allows(charged_seconds_)))
+        return false;
     track.next_seconds = passing * kPointRatio;
     return true;
 }
@@ -142,7 +137,12 @@ bool LiveRuns::add_point(const Session& session, FilmSlot slot, const FilmOrigin
         limit_runs();
         limit_pictures(label.picture);
     }
-    budget_.spend(watch.seconds());
+    if (session.passes(slot) > kLastMeasured) {
+        budget_.spend(watch.seconds());
+    } else {
+        budget_.note(watch.seconds());
+        unbudgeted_seconds_ += watch.seconds();
+    }
     return point.has_value();
 }
 
@@ -248,7 +248,7 @@ void LiveRuns::update_current() {
         LiveRunSet{.runs = runs_,
                    .picture_bytes = picture_bytes(),
                    .picture_bytes_cap = picture_bytes_cap_,
-                   .measure_seconds = budget_.spent_seconds() + catching_up_seconds_,
+                   .measure_seconds = budget_.spent_seconds() + unbudgeted_seconds_,
                    .charged_seconds = charged_seconds_});
 }
 

@@ -22,27 +22,23 @@ public:
     /// a picture stays.
     using Details = std::function<std::string(const Session&, FilmSlot)>;
 
-    /// Time for measuring.
-    struct Allowance {
-        /// Of the charged time. A fifth below the promised share: the budget rests on the last measurement, and the
-        /// next may take longer.
-        double share = 0.8 * MeasureBudget::kDefaultShare;
-        /// Of one thread, for the first measurement, which has to be within the budget like the others; twice as much
-        /// with a reference.
-        double guessed_seconds_per_pixel = 70e-9;
-    };
+    /// Share of the charged time for measuring. A fifth below the promised share: the budget rests on the last
+    /// measurement, and the next may take longer.
+    static constexpr double kShare = 0.8 * MeasureBudget::kDefaultShare;
+    static constexpr std::uint32_t kFirstMeasured = 2;  ///< the first pass after which a film has two halves
+    static constexpr std::uint32_t kLastMeasured = kFirstMeasured + 9;
 
-    explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {});
-    LiveRuns(std::size_t picture_bytes_cap, Details details, const Allowance& allowance);
+    explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {}, double share = kShare);
 
     /// Errors of its picture are measured against it from now on, and for past points that still have their pictures,
     /// in about the time of their first measurement. Existing errors stay. Null: no reference. Throws Error(Input) if
     /// the halves do not have the stated size.
     void set_reference(std::shared_ptr<const LiveReference> reference);
 
-    /// To be called after each piece of work; returns whether current() has changed. A point is added after the first
-    /// pass that is a twelfth of a decade of rendering and learning behind the last point, if the film has two halves
-    /// and measuring keeps within its share of the time charged to all runs together. A run whose film is cleared
+    /// To be called after each piece of work; returns whether current() has changed. Points are added after passes
+    /// kFirstMeasured to kLastMeasured in any case, on no budget, so that a curve begins with the picture; from then on
+    /// after the first pass that is a twelfth of a decade of rendering and learning behind the last point, if measuring
+    /// keeps within its share of the time charged to all runs together. A run whose film is cleared
     /// before its second point is dropped: camera moves leave such runs behind.
     bool observe(const Session& session, FilmSlot slot);
 
@@ -84,10 +80,9 @@ private:
     std::map<std::uint64_t, Track> tracks_;  ///< by number of their film, of the present generation
     std::uint64_t number_ = 0;               ///< of the film observed last; 0 for one that is not measured
     std::uint64_t generation_ = 0;
-    Allowance allowance_;
     MeasureBudget budget_;
-    double charged_seconds_ = 0.0;      ///< to all runs
-    double catching_up_seconds_ = 0.0;  ///< of set_reference(), which is on no budget
+    double charged_seconds_ = 0.0;     ///< to all runs
+    double unbudgeted_seconds_ = 0.0;  ///< for measuring first passes, and past points in set_reference()
     std::shared_ptr<const LiveRunSet> current_;
 };
 

@@ -17,12 +17,10 @@ public:
     }
     void spend(double seconds) {
         spent_seconds_ += seconds;
-        last_seconds_ = seconds;
+        note(seconds);
     }
-    /// Estimate for the first measurement; unused once there was one.
-    void guess(double seconds) {
-        if (spent_seconds_ == 0.0) last_seconds_ = seconds;
-    }
+    /// A measurement made in any case, on no budget; the next one is expected to take as long.
+    void note(double seconds) { last_seconds_ = seconds; }
     /// Measurements to come take so much longer than the last one.
     void expect_more(double seconds) { last_seconds_ += seconds; }
     double spent_seconds() const { return spent_seconds_; }

@@ -77,6 +77,7 @@ Snapshot Session::summary(FilmSlot slot) const {
             .pixels = {},
             .halves = {},
             .passes = state.passes,
+            .warm = state.origin.warm,
             .counters = state.counters,
             .is_closed = scene_.is_closed(),
             .clocks = clocks(slot),

@@ -62,6 +62,7 @@ struct Snapshot {
     std::vector<Vec3f> pixels;  ///< mean radiance or view values, linear; row 0 at the top
     FilmHalves halves{};        ///< only of Session::snapshot_with_halves()
     std::uint32_t passes = 0;   ///< samples per pixel
+    bool warm = false;          ///< FilmOrigin::warm
     PassCounters counters;      ///< of this film
     /// Closed surfaces surround the camera, so that paths that escaped were lost. Known once a path has escaped (in large
     /// scenes after the first pass); false before, and in scenes with light from far away.

@@ -8,11 +8,12 @@
 namespace pl::test {
 namespace {
 
-/// Runs the viewer on a script in a folder, at rest after two samples.
-ProgramResult run_script(const TempDir& folder, const std::string& script, const Arguments& more = {}) {
+/// Runs the viewer on a script in a folder, at rest after so many samples.
+ProgramResult run_script(const TempDir& folder, const std::string& script, const Arguments& more = {},
+                         const std::string& spp = "2") {
     write_all(folder / "script", script);
     Arguments arguments{"view",    "cornell", "--script", "script", "--software", "--window",
-                        "800x600", "--size",  "32x24",    "--spp",  "2"};
+                        "800x600", "--size",  "32x24",    "--spp",  spp};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(arguments, {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
 }
@@ -51,6 +52,36 @@ TEST_CASE("the command of a saved picture makes that picture") {
     CHECK((read_png8(folder / "cornell.png").rgb == read_png8(shown).rgb));
     REQUIRE(run_shell(command + " -o again.exr", {.folder = folder.path()}).code == 0);
     CHECK((read_exr(folder / "again.exr").pixels == read_exr(linear).pixels));
+}
+
+TEST_CASE("the command of a picture that is not finished makes it with its samples") {
+    const TempDir folder;
+    const ProgramResult result =
+        run_script(folder,
+                   "1 tap 3\n2 wait shown_method == reinforcement\n2 wait shown_spp >= 3\n3 tap Space\n"
+                   "4 wait state == paused\n8 tap s ctrl\n9 wait message ~ saved\n10 quit\n",
+                   {}, "100000");
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const std::filesystem::path linear = only_file(folder, ".exr");
+    REQUIRE_FALSE(linear.empty());
+    const std::string command = command_in(only_file(folder, ".png"));
+    INFO(command);
+    CHECK_THAT(command, !contains("100000") && !contains("--load-field"));
+    REQUIRE(run_shell(command + " -o again.exr", {.folder = folder.path()}).code == 0);
+    CHECK((read_exr(folder / "again.exr").pixels == read_exr(linear).pixels));
+}
+
+TEST_CASE("the command of a picture that began with a learned field continues from that field's file") {
+    const TempDir folder;
+    const ProgramResult result =
+        run_script(folder, "1 tap 3\n2 wait learned >= 2\n3 tap r\n4 wait shown_spp == 2\n5 tap C ctrl\n"
+                           "6 wait message ~ continues from the field\n7 wait busy == no\n8 quit\n");
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const std::filesystem::path field = only_file(folder, ".field");
+    REQUIRE_FALSE(field.empty());
+    CHECK_THAT(result.err + result.out, !contains("error"));
 }
 
 TEST_CASE("the window opens with the settings of the command line") {

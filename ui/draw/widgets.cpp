@@ -51,6 +51,21 @@ private:
     std::array<float, N> now_;
 };
 
+/// Draws the word over the number of the last field, whose two step buttons are at its right, unless it is being typed.
+void cover_zero(const char* word) {
+    if (ImGui::IsItemActive()) return;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float buttons = 2.0f * (ImGui::GetFrameHeight() + style.ItemInnerSpacing.x);
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high{ImGui::GetItemRectMax().x - buttons, ImGui::GetItemRectMax().y};
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect(low, high, true);
+    list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_WindowBg));  // the field's own ground is see-through
+    list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), style.FrameRounding);
+    list.AddText({low.x + style.FramePadding.x, low.y + style.FramePadding.y}, colors::kFaint, word);
+    list.PopClipRect();
+}
+
 }  // namespace
 
 void begin_fixed_window(const char* name, const Rect& place, int extra_flags) {
@@ -159,22 +174,25 @@ bool toggle_row(const char* label, const char* tip, bool* value) {
     return changed;
 }
 
-bool int_row(const char* label, const char* tip, int* value, int step) {
+bool int_row(const char* label, const char* tip, int* value, int step, const char* zero_word) {
     begin_row(label, tip);
     EditedNumbers<1> edited(label, {static_cast<float>(*value)});
     int number = static_cast<int>(edited.shown()[0]);
     const bool changed = ImGui::InputInt(hidden_label(label).c_str(), &number, step, 10 * step);
+    if (number == 0 && zero_word != nullptr) cover_zero(zero_word);
     end_row(label, tip);
     if (!edited.finish(changed, {static_cast<float>(number)})) return false;
     *value = number;
     return true;
 }
 
-bool double_row(const char* label, const char* tip, double* value, double step, const char* format) {
+bool double_row(const char* label, const char* tip, double* value, double step, const char* format,
+                const char* zero_word) {
     begin_row(label, tip);
     EditedNumbers<1> edited(label, {static_cast<float>(*value)});
     auto number = static_cast<double>(edited.shown()[0]);
     const bool changed = ImGui::InputDouble(hidden_label(label).c_str(), &number, step, 10.0 * step, format);
+    if (number == 0.0 && zero_word != nullptr) cover_zero(zero_word);
     end_row(label, tip);
     if (!edited.finish(changed, {static_cast<float>(number)})) return false;
     *value = number;

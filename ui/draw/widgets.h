@@ -47,8 +47,10 @@ bool slider_row(const char* label, const char* tip, float* value, const SliderRa
 bool toggle_row(const char* label, const char* tip, bool* value);
 
 /// Typed numbers; a change takes effect when the field is left or Enter is pressed. Exact up to 2^24.
-bool int_row(const char* label, const char* tip, int* value, int step);
-bool double_row(const char* label, const char* tip, double* value, double step, const char* format);
+/// `zero_word` is shown in place of a 0 that means the lack of a limit or an automatic choice; null for plain zeros.
+bool int_row(const char* label, const char* tip, int* value, int step, const char* zero_word = nullptr);
+bool double_row(const char* label, const char* tip, double* value, double step, const char* format,
+                const char* zero_word = nullptr);
 bool size_row(const char* label, const char* tip, int* width, int* height);
 bool point_row(const char* label, const char* tip, float* xyz);
 

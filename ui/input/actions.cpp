@@ -57,7 +57,7 @@ Action method_action(const MethodInfo& method) {
 
 std::vector<Action> actions_after_methods() {
     return {
-        {NextEvent, Group::Method, "L", "next-event estimation on or off", {sign(SDLK_l)}},
+        {NextEvent, Group::Method, "L", "light samples on or off", {sign(SDLK_l)}},
 
         {PreviousView, Group::View, ",", "previous view", {at(SDL_SCANCODE_COMMA)}},
         {NextView, Group::View, ".", "next view", {at(SDL_SCANCODE_PERIOD)}},

@@ -12,13 +12,18 @@ constexpr float kExposureStep = 0.5f;  ///< stops
 
 void copy_command(ViewerModel& model) {
     Messages& messages = model.messages();
-    const std::string command = model.files().pictures().command_line();
+    // A picture that began with a learned field is repeated with one: the field as it is now, the nearest that there is.
+    const bool warm = model.frame() != nullptr && model.frame()->snapshot.warm;
+    const std::string field = warm ? model.files().fields().save().string() : "";
+    const std::string command = model.files().pictures().command_line(field);
     if (command.empty()) {
         messages.say(MessageLevel::Warning, "this build cannot write the command line");
         return;
     }
     ImGui::SetClipboardText(command.c_str());
     messages.say(MessageLevel::Info, "copied: " + command);
+    if (warm)
+        messages.say(MessageLevel::Info, "it continues from the field as it is now: the same light with other noise");
     const std::size_t edited = model.scene().materials().edited_names().size();
     if (edited > 0)
         messages.say(MessageLevel::Warning,

@@ -34,12 +34,20 @@ void PictureFiles::finish() {
 }
 
 ViewerPicture PictureFiles::picture() const {
-    return {scene_.name(),       link_.status().backend, render_.settings(),
-            display_.settings(), render_.limits(),       scene_.materials().edited_names()};
+    return {.scene = scene_.name(),
+            .backend = link_.status().backend,
+            .settings = render_.settings(),
+            .display = display_.settings(),
+            .limits = render_.limits(),
+            .spp = link_.status().passes,
+            .edited_materials = scene_.materials().edited_names()};
 }
 
-std::string PictureFiles::command_line() const {
-    return options_.command_line ? options_.command_line(picture()) : "";
+std::string PictureFiles::command_line(const std::string& field) const {
+    if (!options_.command_line) return "";
+    ViewerPicture shown = picture();
+    shown.field = field;
+    return options_.command_line(shown);
 }
 
 void PictureFiles::save(std::initializer_list<const char*> suffixes) {
@@ -66,6 +74,7 @@ void PictureFiles::write_unsaved() {
     ViewerPicture shown = picture();
     shown.settings = frame->settings;
     shown.backend = frame->backend.name;
+    shown.spp = frame->snapshot.passes;
     for (const std::filesystem::path& path : std::exchange(unsaved_, {})) {
         jobs_.push([this, path, shown, frame]() -> JobThread::Report {
             save_window_picture(path, frame->snapshot, shown,

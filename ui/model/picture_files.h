@@ -35,7 +35,7 @@ public:
     /// The picture in the window with its settings.
     ViewerPicture picture() const;
     /// Of the scene as in its files, without edited materials; empty in builds without it.
-    std::string command_line() const;
+    std::string command_line(const std::string& field = "") const;
 
 private:
     void save(std::initializer_list<const char*> suffixes);

@@ -1,4 +1,5 @@
 #include "ui/model/render_controls.h"
+#include "ui/draw/words.h"
 
 #include <algorithm>
 
@@ -42,8 +43,7 @@ void RenderControls::set_next_event(bool on) {
     if (on == settings_.next_event) return;
     settings_.next_event = on;
     submit_estimator();
-    messages_.note(MessageLevel::Info, on ? "next-event estimation on: pictures and fields start over"
-                                          : "next-event estimation off: pictures and fields start over");
+    messages_.note(MessageLevel::Info, fmt::format("{}: pictures and fields start over", light_samples_text(on)));
 }
 
 void RenderControls::set_max_depth(int depth) {

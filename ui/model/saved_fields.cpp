@@ -1,6 +1,7 @@
 #include "ui/model/saved_fields.h"
 
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,18 +15,25 @@ SavedFields::SavedFields(const ModelServices& services, FileNames& names, const 
     : options_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
       names_(names), scene_(scene), render_(render) {}
 
-void SavedFields::save() { link_.worker().request_learned(); }
+std::filesystem::path SavedFields::save() {
+    if (wanted_.empty()) {
+        const std::string suffix(kFieldSuffix);
+        const std::string_view method = info_of(render_.method()).name;
+        wanted_ = names_.next(scene_, method, {suffix.c_str()}).string() + suffix;
+    }
+    link_.worker().request_learned();
+    return wanted_;
+}
 
 void SavedFields::update() {
     const std::optional<LearnedAnswer> answer = link_.worker().take_learned();
     if (!answer) return;
+    const std::filesystem::path path = std::exchange(wanted_, {});
+    if (path.empty()) return;  // asked for twice
     if (!answer->field) {
         messages_.say(MessageLevel::Warning, answer->reason);
         return;
     }
-    const std::string suffix(kFieldSuffix);
-    const std::string_view method = info_of(answer->field->method).name;
-    const std::filesystem::path path = names_.next(scene_, method, {suffix.c_str()}).string() + suffix;
     jobs_.push([this, path, field = answer->field]() -> JobThread::Report {
         write_field(path, *field);
         return [this, text = fmt::format("saved {}: {}", path.string(), summary_of(*field))] {

@@ -21,7 +21,8 @@ public:
     /// Takes a field from the render thread to write; once per frame of the window.
     void update();
 
-    void save();
+    /// Writes the field as the render thread has it next; the file it will be in. Without a field a message says so.
+    std::filesystem::path save();
     void load(const std::filesystem::path& path);
     /// The newest saved field of the scene in the window.
     void load_newest();
@@ -37,6 +38,7 @@ private:
     FileNames& names_;
     const ViewedScene& scene_;
     RenderControls& render_;
+    std::filesystem::path wanted_;  ///< of the field that was requested and has not come yet; else empty
 };
 
 }  // namespace pl

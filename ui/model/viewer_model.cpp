@@ -1,4 +1,5 @@
 #include "ui/model/viewer_model.h"
+#include "ui/draw/words.h"
 
 #include <fmt/format.h>
 
@@ -68,8 +69,8 @@ bool ViewerModel::busy() const {
 
 std::string ViewerModel::title() const {
     const std::string back_end = frame() != nullptr ? back_end_label(status().backend) : "starting";
-    std::string text = fmt::format("{} spp - {} - {} - {}", status().passes, info_of(render_.method()).label,
-                                   back_end, scene_.name());
+    std::string text = fmt::format("{} spp - {}, {} - {} - {}", status().passes, info_of(render_.method()).label,
+                                   light_samples_text(render_.settings().next_event), back_end, scene_.name());
     if (status().state == WorkerState::Done) text = "done: " + text;
     if (status().state == WorkerState::Paused) text = "paused: " + text;
     return text;

@@ -5,6 +5,7 @@
 #include "core/kernel/film/heat_color.h"
 #include "ui/compare/half_image.h"
 #include "ui/draw/widgets.h"
+#include "ui/draw/words.h"
 #include "ui/overlays/overlays.h"
 
 namespace pl {
@@ -60,8 +61,8 @@ void add_guiding_badge(BadgeRow& row, const GuidingStatus& guiding) {
     if (guiding.pays)
         row.add(fmt::format("guiding pays: {:.2g}x predicted", *guiding.gain), colors::kGood);
     else
-        row.add(fmt::format("guiding does not pay: {:.2g}x predicted, {} passes by Default", *guiding.gain,
-                            guiding.unguided_passes),
+        row.add(fmt::format("guiding does not pay: {:.2g}x predicted, {} by Default", *guiding.gain,
+                            passes_text(guiding.unguided_passes)),
                 colors::kWarning);
 }
 
@@ -76,7 +77,8 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
     const View view = snapshot.slot.view;
     const std::string back_end = back_end_label(frame.backend.name);
     if (view == View::Beauty || view == View::RadianceMap)
-        row.add(fmt::format("{}  {}  {} spp  {}", info_of(snapshot.slot.method).label, back_end, snapshot.passes,
+        row.add(fmt::format("{}, {}  {}  {} spp  {}", info_of(snapshot.slot.method).label,
+                            light_samples_text(frame.settings.next_event), back_end, snapshot.passes,
                             short_seconds(work_seconds(snapshot.clocks))),
                 colors::kText);
     else

@@ -5,26 +5,14 @@
 
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
-#include "ui/plot/draw_plot.h"
+#include "ui/plot/draw_run_table.h"
 #include "ui/plot/plot_widget.h"
 
 namespace pl {
 namespace {
 
-constexpr float kPlotEm = 15.5f;
-constexpr float kSmallestPlotEm = 9.0f;
-
-/// Above the scrolled part, so that they are always visible.
-void draw_headlines(const AccuracyModel& model) {
-    for (const Headline& headline : model.headlines()) {
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float height = ImGui::GetTextLineHeight();
-        ImGui::GetWindowDrawList()->AddRectFilled(
-            {at.x, at.y + 0.2f * height}, {at.x + em(0.5f), at.y + 0.9f * height}, to_imgui_color(headline.color));
-        ImGui::SetCursorScreenPos({at.x + em(0.8f), at.y});
-        ImGui::TextWrapped("%s", headline.text.c_str());
-    }
-}
+constexpr float kPlotEm = 18.0f;
+constexpr float kSmallestPlotEm = 15.0f;  ///< 240 pixels of the design size
 
 void draw_metric_choice(AccuracyModel& model) {
     ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - em(10.0f), em(4.0f)));
@@ -160,8 +148,8 @@ void draw_reference(ViewerModel& model) {
         faint_text(fmt::format("{}, noise {:.2g}", reference->label, reference->noise_relmse).c_str());
     if (wide_button(
             model.references().current() != nullptr ? "Continue the reference" : "Render the reference",
-            "Key Ctrl+R. Two independent halves, on the CPU at low priority, by default path tracing with next-event "
-            "estimation. Rendering rests meanwhile, so that no timed pass gets slower. Stored in the folder "
+            "Key Ctrl+R. Two independent halves, on the CPU at low priority, by default path tracing with light "
+            "samples. Rendering rests meanwhile, so that no timed pass gets slower. Stored in the folder "
             "references "
             "like those of 'pathlight reference', and found again by scene, camera and size."))
         model.references().make();
@@ -189,7 +177,7 @@ void draw_accuracy_panel(ViewerModel& model, const Layout& layout) {
     AccuracyModel& accuracy = model.comparison().accuracy();
     begin_fixed_window("accuracy", layout.accuracy,
                        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-    draw_headlines(accuracy);
+    draw_run_table(accuracy);  // above the scrolled part: always visible
     ImGui::BeginChild("scrolled", {0.0f, 0.0f}, false,
                       window.plot.has_wheel ? ImGuiWindowFlags_NoScrollWithMouse : 0);
     draw_metric_choice(accuracy);
@@ -200,8 +188,8 @@ void draw_accuracy_panel(ViewerModel& model, const Layout& layout) {
     if (draw_accuracy_plot(accuracy, window.plot.drag, window.plot.frame, height))
         model.comparison().set_cursor(accuracy.cursor());
     window.plot.has_wheel = ImGui::IsItemHovered();
-    draw_legend(accuracy);
     draw_cursor_table(accuracy);
+    draw_other_runs(accuracy);
     draw_comparison(model);
     draw_reference(model);
     draw_footing(accuracy);

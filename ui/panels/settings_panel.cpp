@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "ui/draw/widgets.h"
+#include "ui/draw/words.h"
 #include "ui/input/perform_action.h"
 #include "ui/panels/panels.h"
 
@@ -21,10 +22,12 @@ void draw_method(ViewerModel& model) {
     }
     faint_text(std::string(info_of(model.render().settings().method).summary).c_str());
     bool next_event = model.render().settings().next_event;
-    if (toggle_row("Next-event estimation",
-                   "Samples a point on a light at every path vertex and combines it with the scattered directions by "
-                   "multiple importance sampling. Off by default: then paths reach light only by scattering.",
-                   &next_event))
+    if (toggle_row(
+            "Light samples",
+            "Key L: next-event estimation. Samples a point on a light at every path vertex and combines it with "
+            "the scattered directions by multiple importance sampling. Off by default: then paths reach light "
+            "only by scattering.",
+            &next_event))
         model.render().set_next_event(next_event);
 }
 
@@ -68,7 +71,7 @@ void draw_sampling(ViewerModel& model) {
     if (!section("Sampling", true)) return;
     SampleLimits limits = model.render().limits();
     int spp = static_cast<int>(limits.spp);
-    if (int_row("Samples", "Stop at this number of samples per pixel. 0: no limit.", &spp, 64)) {
+    if (int_row("Samples", "Stop at this number of samples per pixel. 0: no limit.", &spp, 64, "no limit")) {
         limits.spp = static_cast<std::uint32_t>(std::max(spp, 0));
         model.render().set_limits(limits);
     }
@@ -76,7 +79,7 @@ void draw_sampling(ViewerModel& model) {
     if (double_row("Seconds",
                    "Stop after this time: placement of volumes, precomputation, learning and rendering, without "
                    "loading, the hierarchy and the window. 0: no limit.",
-                   &seconds, 5.0, "%.1f")) {
+                   &seconds, 5.0, "%.1f", "no limit")) {
         limits.seconds = std::max(seconds, 0.0);
         model.render().set_limits(limits);
     }
@@ -149,9 +152,9 @@ void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
                    "vertex. Sarsa: the learned radiance of the next direction. Monte Carlo: the radiance of "
                    "the rest of the path.",
                    &target, "Expected Sarsa\0Sarsa\0Monte Carlo\0");
-    changed |= choice_row(
-        "Light", "With next-event estimation: learn all incident radiance, or only the part without light samples.",
-        &light, "All\0Indirect\0");
+    changed |= choice_row("Light",
+                          "With light samples: learn all incident radiance, or only the part without light samples.",
+                          &light, "All\0Indirect\0");
     if (!changed) return;
     settings.rate = kRates[static_cast<std::size_t>(rate)];
     settings.learning = {static_cast<LearningTarget>(target), static_cast<LearnedLight>(light)};
@@ -162,10 +165,10 @@ void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
 void draw_learned_amount(const ViewerModel& model) {
     const std::optional<FieldStatus>& field = model.status().field;
     if (field) {
-        text_row(
-            "Learned",
-            fmt::format("{} passes, {} samples", field->passes, short_number(static_cast<double>(field->records))),
-            "Passes and training samples of the field. Camera moves keep it.");
+        text_row("Learned",
+                 fmt::format("{}, {} samples", passes_text(field->passes),
+                             short_number(static_cast<double>(field->records))),
+                 "Passes and training samples of the field. Camera moves keep it.");
     } else {
         const MethodInfo& method = info_of(model.render().method());
         faint_text(method.uses_field ? "nothing yet" : fmt::format("{} has no field.", method.label).c_str());
@@ -192,7 +195,7 @@ void draw_learning(ViewerModel& model) {
     if (int_row("Volumes",
                 "Number of radiance volumes; 0: as many as the memory holds, at most 1000. More volumes learn more "
                 "slowly.",
-                &volumes, 100)) {
+                &volumes, 100, "automatic")) {
         settings.volumes = std::clamp(volumes, 0, 1000000);
         model.render().set_field(settings);
     }

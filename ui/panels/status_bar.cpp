@@ -2,6 +2,7 @@
 
 #include "ui/draw/method_keys.h"
 #include "ui/draw/widgets.h"
+#include "ui/draw/words.h"
 #include "ui/panels/panels.h"
 
 namespace pl {
@@ -33,7 +34,7 @@ private:
 void draw_counts(StatusLine& line, const ViewerModel& model) {
     if (model.frame() == nullptr) return;
     if (const auto& field = model.status().field)
-        line.add(fmt::format("{} learned", field->passes),
+        line.add(passes_text(field->passes) + " learned",
                  "Passes whose training samples the field has learned from. Camera moves keep the field.");
 }
 
@@ -86,6 +87,8 @@ void draw_status_bar(ViewerModel& model, const Layout& layout) {
     draw_diagnostics(line, model);
     line.add(std::string(info_of(model.render().settings().method).label),
              fmt::format("The method; keys {}.", method_keys()).c_str());
+    line.add(light_samples_text(model.render().settings().next_event),
+             "Key L: whether each path vertex samples a point on a light.");
     if (model.frame() != nullptr)
         line.add(back_end_label(model.status().backend), model.frame()->backend.device.c_str());
     line.add(fmt::format("{}x{}", model.render().settings().width, model.render().settings().height),

@@ -57,15 +57,33 @@ void AccuracyModel::fit_view() {
     view_ = PlotView(fit_range(lines_));
 }
 
+void AccuracyModel::pan_view(Vec2f pixels, const Rect& frame) {
+    view_.pan(pixels, frame);
+    keep_view();
+}
+
+void AccuracyModel::zoom_view(float notches, Vec2f at, const Rect& frame) {
+    view_.zoom(notches, at, frame);
+    keep_view();
+}
+
+void AccuracyModel::keep_view() {
+    view_kept_ = true;
+    view_.keep_at(fit_range(lines_));
+}
+
 void AccuracyModel::recompute() {
     const ErrorMetric before = kind_.metric;
     kind_ = wanted_;
     if (!is_measured(runs(), picture_, kind_.metric)) kind_.metric = ErrorMetric::Noise;
     if (kind_.metric != before && cursor_.kind == Cursor::Kind::EqualError) cursor_ = {};
     make_lines();
-    headlines_ = make_headlines(runs(), picture_);
+    table_ = make_run_table(runs(), picture_);
     rows_ = cursor_rows(runs(), picture_, kind_, cursor_);
-    if (!view_kept_) view_ = PlotView(fit_range(lines_));
+    if (view_kept_)
+        keep_view();  // of another picture the curves may lie elsewhere
+    else
+        view_ = PlotView(fit_range(lines_));
 }
 
 void AccuracyModel::make_lines() {
@@ -79,8 +97,8 @@ void AccuracyModel::make_lines() {
         lines_.push_back({.run = run->number,
                           .name = name_of(label),
                           .color = info_of(label.method).color,
-                          .style = style_of(label.backend),
-                          .warm = label.warm,
+                          .style = style_of(label),
+                          .marker = marker_of(label),
                           .comparable = comparable,
                           .hidden = hidden_.count(run->number) > 0,
                           .in_progress = run->in_progress,

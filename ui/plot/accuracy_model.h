@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ui/plot/cursor_table.h"
-#include "ui/plot/headlines.h"
 #include "ui/plot/plot_lines.h"
+#include "ui/plot/run_table.h"
 
 namespace pl {
 
@@ -38,20 +38,21 @@ public:
     /// All runs of this picture, and the newest of others.
     const std::vector<PlotLine>& lines() const { return lines_; }
     static constexpr std::size_t kOtherLines = 6;
-    const std::vector<Headline>& headlines() const { return headlines_; }
+    const RunTable& table() const { return table_; }
     const std::vector<CursorRow>& rows() const { return rows_; }
     /// Noise of the reference in the plotted metric: smaller errors are not significant. 0 if unknown.
     double floor() const;
 
-    PlotView& view() { return view_; }
     const PlotView& view() const { return view_; }
-    /// Keeps the range of the axes after the user has changed it; otherwise it follows the curves.
-    void keep_view() { view_kept_ = true; }
+    /// By the user: the range is kept from now on, at most a decade beyond the curves; otherwise it follows them.
+    void pan_view(Vec2f pixels, const Rect& frame);
+    void zoom_view(float notches, Vec2f at, const Rect& frame);
     void fit_view();
 
 private:
     void recompute();
     void make_lines();
+    void keep_view();
 
     std::shared_ptr<const LiveRunSet> runs_;
     std::uint64_t picture_ = 0;
@@ -61,7 +62,7 @@ private:
     Cursor cursor_;
     std::set<std::uint64_t> hidden_;
     std::vector<PlotLine> lines_;
-    std::vector<Headline> headlines_;
+    RunTable table_;
     std::vector<CursorRow> rows_;
     PlotView view_;
     bool view_kept_ = false;

@@ -65,8 +65,7 @@ void draw_polyline(ImDrawList& list, std::span<const Vec2f> points, ImU32 color,
             list.AddLine(to_imgui(points[i]), to_imgui(points[i + 1]), color, width);
         return;
     }
-    const bool dashed = style == LineStyle::Dashed;
-    const std::vector<Vec2f> pieces = dashes(points, em(dashed ? 0.5f : 0.15f), em(dashed ? 0.35f : 0.25f));
+    const std::vector<Vec2f> pieces = dashes(points, em(0.5f), em(0.35f));
     for (std::size_t i = 0; i + 1 < pieces.size(); i += 2)
         list.AddLine(to_imgui(pieces[i]), to_imgui(pieces[i + 1]), color, width);
 }
@@ -85,11 +84,18 @@ void draw_band(ImDrawList& list, std::span<const LinePoint> points, const PlotVi
     }
 }
 
-/// Filled, or hollow for warm runs.
-void draw_marker(ImDrawList& list, Vec2f at, ImU32 color, bool warm) {
+void draw_marker(ImDrawList& list, Vec2f at, ImU32 color, const PlotMarker& marker) {
     const float radius = em(0.17f);
-    list.AddCircleFilled(to_imgui(at), radius, warm ? kGround : color, 12);
-    if (warm) list.AddCircle(to_imgui(at), radius, color, 12, 1.5f);
+    const ImU32 inside = marker.hollow ? kGround : color;
+    if (marker.square) {
+        const ImVec2 low{at.x - radius, at.y - radius};
+        const ImVec2 high{at.x + radius, at.y + radius};
+        list.AddRectFilled(low, high, inside);
+        if (marker.hollow) list.AddRect(low, high, color, 0.0f, 0, 1.5f);
+        return;
+    }
+    list.AddCircleFilled(to_imgui(at), radius, inside, 12);
+    if (marker.hollow) list.AddCircle(to_imgui(at), radius, color, 12, 1.5f);
 }
 
 }  // namespace
@@ -136,7 +142,7 @@ void draw_lines(ImDrawList& list, std::span<const PlotLine> lines, const PlotVie
                 draw_band(list, line.points, view, frame,
                           to_imgui_color((line.color & 0xffffffu) | kBandAlpha << 24));
             draw_polyline(list, points, color, line.style, line.in_progress ? 2.5f : 1.5f);
-            for (const Vec2f& point : points) draw_marker(list, point, color, line.warm);
+            for (const Vec2f& point : points) draw_marker(list, point, color, line.marker);
         }
     list.PopClipRect();
 }
@@ -165,7 +171,7 @@ void draw_sample(ImDrawList& list, const PlotLine& line, ImVec2 left, float widt
     const ImU32 color = to_imgui_color(line.hidden || !line.comparable ? kGray : line.color);
     const std::array<Vec2f, 2> ends{Vec2f{left.x, left.y}, Vec2f{left.x + width, left.y}};
     draw_polyline(list, ends, color, line.style, 2.0f);
-    draw_marker(list, 0.5f * (ends[0] + ends[1]), color, line.warm);
+    draw_marker(list, 0.5f * (ends[0] + ends[1]), color, line.marker);
 }
 
 }  // namespace pl

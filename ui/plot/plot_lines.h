@@ -22,7 +22,7 @@ struct PlotLine {
     std::string name;
     std::uint32_t color = 0;  ///< opaque ARGB
     LineStyle style = LineStyle::Full;
-    bool warm = false;
+    PlotMarker marker;
     bool comparable = true;  ///< of the picture in the window; others are gray
     bool hidden = false;
     bool in_progress = false;

@@ -26,6 +26,13 @@ LogAxis scaled(const LogAxis& axis, double factor, double position) {
     return LogAxis::exactly(std::pow(10.0, low), std::pow(10.0, low + wanted));
 }
 
+/// The axis shortened and moved so that it lies in [low, high].
+LogAxis within(const LogAxis& axis, double low, double high) {
+    const double span = std::min(std::log10(axis.high() / axis.low()), std::log10(high / low));
+    const double first = std::clamp(std::log10(axis.low()), std::log10(low), std::log10(high) - span);
+    return LogAxis::exactly(std::pow(10.0, first), std::pow(10.0, first + span));
+}
+
 /// The largest of 1, 2 and 5 times a power of ten that is not above `value`, or the smallest not below it.
 double round_to_tick(double value, bool up) {
     constexpr double kSlack = 1.0 + 1.0e-9;  // rounding of a tick gives the tick itself
@@ -86,6 +93,12 @@ void PlotView::zoom(float notches, Vec2f at, const Rect& frame) {
     const double factor = std::pow(kZoomStep, -static_cast<double>(notches));
     x_ = scaled(x_, factor, (at.x - frame.x) / frame.width);
     y_ = scaled(y_, factor, 1.0f - (at.y - frame.y) / frame.height);
+}
+
+void PlotView::keep_at(const PlotRange& data) {
+    static const double kMargin = std::pow(10.0, kMarginDecades);
+    x_ = within(x_, data.x_low / kMargin, data.x_high * kMargin);
+    y_ = within(y_, data.y_low / kMargin, data.y_high * kMargin);
 }
 
 PlotRange fit_range(std::span<const PlotValue> values) {

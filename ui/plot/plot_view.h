@@ -42,6 +42,9 @@ public:
 
     /// The values under the pointer follow it.
     void pan(Vec2f pixels, const Rect& frame);
+    /// Keeps the view at the data: no axis reaches further beyond `data` than kMarginDecades at either end.
+    static constexpr double kMarginDecades = 1.0;
+    void keep_at(const PlotRange& data);
     /// Zooms in for positive notches; the value at `at` keeps its place.
     void zoom(float notches, Vec2f at, const Rect& frame);
 

@@ -56,15 +56,10 @@ bool handle_pointer(AccuracyModel& model, PlotDrag& drag, const Rect& frame) {
         if (ImGui::IsItemClicked(ImGuiMouseButton_Left)) drag = under;
         if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) model.set_cursor({});
         if (frame.contains(pointer) && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) model.fit_view();
-        if (io.MouseWheel != 0.0f) {
-            model.view().zoom(io.MouseWheel, pointer, frame);
-            model.keep_view();
-        }
+        if (io.MouseWheel != 0.0f) model.zoom_view(io.MouseWheel, pointer, frame);
     }
-    if (drag == PlotDrag::Pan && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
-        model.view().pan({io.MouseDelta.x, io.MouseDelta.y}, frame);
-        model.keep_view();
-    }
+    if (drag == PlotDrag::Pan && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
+        model.pan_view({io.MouseDelta.x, io.MouseDelta.y}, frame);
     if (drag != PlotDrag::EqualCost && drag != PlotDrag::EqualError) return false;
     model.set_cursor(cursor_at(model, drag, pointer, frame));
     return true;
@@ -125,12 +120,13 @@ bool draw_accuracy_plot(AccuracyModel& model, PlotDrag& drag, Rect& frame, float
     return moved;
 }
 
-void draw_legend(AccuracyModel& model) {
+void draw_legend(AccuracyModel& model, const std::function<bool(const PlotLine&)>& is_shown) {
     const float sample = em(1.8f);
     std::uint64_t clicked = 0;
     float used = 0.0f;
     const float room = ImGui::GetContentRegionAvail().x;
     for (const PlotLine& line : model.lines()) {
+        if (!is_shown(line)) continue;
         const float width = sample + em(0.4f) + ImGui::CalcTextSize(line.name.c_str()).x;
         if (used > 0.0f && used + em(0.8f) + width <= room)
             ImGui::SameLine(0.0f, em(0.8f));

@@ -66,17 +66,16 @@ std::string name_of(const RunLabel& label) {
     std::string backend = label.backend;
     for (char& letter : backend) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
     std::string name = fmt::format("{} {}", info_of(label.method).label, backend);
-    if (label.next_event) name += " NEE";
-    if (label.seed > 1) name += fmt::format(" seed {}", label.seed);
-    if (!label.details.empty()) name += " " + label.details;
+    if (label.next_event) name += ", light samples";
+    if (label.seed > 1) name += fmt::format(", seed {}", label.seed);
+    if (!label.details.empty()) name += ", " + label.details;
     if (label.warm) name += ", warm";
     return name;
 }
 
-LineStyle style_of(const std::string& backend) {
-    if (backend == "cpu") return LineStyle::Full;
-    return backend == "cuda" ? LineStyle::Dashed : LineStyle::Dotted;
-}
+LineStyle style_of(const RunLabel& label) { return label.next_event ? LineStyle::Full : LineStyle::Dashed; }
+
+PlotMarker marker_of(const RunLabel& label) { return {.square = label.backend != "cpu", .hollow = label.warm}; }
 
 std::shared_ptr<const LiveRun> find_run(RunList runs, std::uint64_t number) {
     const auto found = std::ranges::find(runs, number, [](const auto& run) { return run->number; });

@@ -44,12 +44,21 @@ Curve curve_of(const LiveRun& run, const CurveKind& kind);
 /// The other cost along a run: samples per pixel over seconds, or seconds over samples per pixel.
 Curve other_cost_of(const LiveRun& run, CostAxis axis);
 
-/// "Reinforcement CPU, warm": everything that distinguishes the run from others.
+/// "Reinforcement CPU, light samples, warm": everything that distinguishes the run from others.
 std::string name_of(const RunLabel& label);
 
-enum class LineStyle { Full, Dashed, Dotted };
-/// One for each back end.
-LineStyle style_of(const std::string& backend);
+/// Full with light samples, dashed without.
+enum class LineStyle { Full, Dashed };
+LineStyle style_of(const RunLabel& label);
+
+/// The mark at each point of a run.
+struct PlotMarker {
+    bool square = false;  ///< of runs on another back end than the CPU; else round
+    bool hollow = false;  ///< of warm runs
+
+    friend bool operator==(const PlotMarker&, const PlotMarker&) = default;
+};
+PlotMarker marker_of(const RunLabel& label);
 
 using RunList = std::span<const std::shared_ptr<const LiveRun>>;
 

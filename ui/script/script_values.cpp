@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/scene/needed_effects.h"
+#include "ui/draw/imgui_compat.h"
 #include "ui/model/viewer_model.h"
 
 namespace pl {
@@ -73,6 +74,19 @@ std::string turn_passes(const ViewerModel& model, std::size_t side) {
     return fmt::format("{}", model.status().turns ? model.status().turns->passes[side] : 0);
 }
 
+/// The sentence on the newest run of the table that is compared; without one the note, or why there is none.
+std::string headline_text(const ViewerModel& model) {
+    const RunTable& table = model.comparison().accuracy().table();
+    std::string text = table.note;
+    std::uint64_t newest = 0;
+    for (const RunRow& row : table.rows) {
+        if (row.missing == MissingGain::IsBase || row.run < newest) continue;
+        newest = row.run;
+        text = row.remark;
+    }
+    return text;
+}
+
 constexpr std::array kValues{
     Value{"method", [](const ViewerModel& m) { return std::string(info_of(m.render().settings().method).name); }},
     Value{"view", [](const ViewerModel& m) { return std::string(info_of(m.render().settings().view).name); }},
@@ -83,12 +97,16 @@ constexpr std::array kValues{
     Value{"nee", [](const ViewerModel& m) { return word(m.render().settings().next_event); }},
     Value{"exposure", [](const ViewerModel& m) { return fmt::format("{}", m.display().settings().exposure_ev); }},
     Value{"opacity", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.display().cells_opacity()); }},
+    Value{"list",
+          [](const ViewerModel&) {
+              return std::string(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) ? "open" : "closed");
+          }},
     Value{"accuracy", [](const ViewerModel& m) { return word(m.window().accuracy); }},
     Value{"runs", [](const ViewerModel& m) { return fmt::format("{}", m.comparison().accuracy().runs().size()); }},
     Value{"points", point_count},
     Value{"plotted",
           [](const ViewerModel& m) { return std::string(info_of(m.comparison().accuracy().kind().metric).label); }},
-    Value{"headline", [](const ViewerModel& m) { return m.comparison().accuracy().headlines().front().text; }},
+    Value{"headline", headline_text},
     Value{"compare", [](const ViewerModel& m) { return std::string(name_of(m.comparison().state().mode)); }},
     Value{"sides", shown_sides},
     Value{"split", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.comparison().state().split); }},

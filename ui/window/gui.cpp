@@ -35,6 +35,12 @@ void Gui::set_scale(float ui_scale) {
     draw_.upload_fonts();
 }
 
+bool Gui::close_popups() {
+    if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return false;
+    ImGui::SetWindowFocus(nullptr);  // without keyboard navigation Dear ImGui itself leaves them open
+    return true;
+}
+
 void Gui::handle(const SDL_Event& event) {
     ImGui_ImplSDL2_ProcessEvent(&event);
     mouse_.handle(event);

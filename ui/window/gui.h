@@ -19,6 +19,8 @@ public:
     Gui& operator=(const Gui&) = delete;
 
     void handle(const SDL_Event& event);
+    /// Closes all menus and lists that are open; false if there was none.
+    bool close_popups();
     void set_scale(float ui_scale);
     /// Runs `build` between the start and the end of a frame of this many seconds.
     void frame(double delta_seconds, const std::function<void()>& build);

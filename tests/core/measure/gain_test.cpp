@@ -2,6 +2,7 @@
 #include "core/measure/gain.h"
 
 #include <cmath>
+#include <limits>
 
 #include "tests/support/catch.hpp"
 
@@ -38,7 +39,7 @@ TEST_CASE("fewer samples, dearer samples, and their product") {
     CHECK_THAT(gain.samples.value, WithinRel(6.0, 1e-9));
     CHECK_THAT(gain.cost.value, WithinRel(0.5, 1e-9));
     CHECK_THAT(gain.samples.value * gain.cost.value, WithinRel(gain.net.value, 1e-9));
-    CHECK(is_decided(gain.net));
+    CHECK(verdict_of(gain.net) == Verdict::Faster);
     CHECK(*gain.ahead_from_seconds == 0.5);
     CHECK_THAT(headline(gain, "default"),
                contains("needs 6.0x fewer samples than default, each costs 2.0x more: 3.0x faster to the same error "
@@ -62,15 +63,34 @@ TEST_CASE("a set-up pays back when the curves cross") {
     CHECK_THAT(*late.ahead_from_seconds, WithinRel(24.0, 0.15));  // interpolated between points at 16 and 32 s
 }
 
-TEST_CASE("equal methods are undecided, few runs have no interval, no error no ratio") {
+TEST_CASE("equal methods do not differ, scattered ones are undecided, few runs have no interval, no error no ratio") {
     const Gain equal = gain_of(Runs(2.0, 0.0, 50.0), Runs(2.01, 0.0, 50.0));
-    CHECK_FALSE(is_decided(equal.net));
-    CHECK_THAT(headline(equal, "default"), contains("so undecided"));
+    CHECK(verdict_of(equal.net) == Verdict::NoDifference);
+    CHECK_THAT(headline(equal, "default"),
+               contains("needs as many samples as default, each costs as much: no difference in the time to the same "
+                        "error (95 %: 0."));
+    Runs scattered(2.2, 0.0, 50.0);
+    for (std::size_t i = 0; i < scattered.ends.size(); ++i) scattered.ends[i].error *= i % 2 == 0 ? 0.5 : 2.0;
+    const Gain unclear = gain_of(Runs(2.0, 0.0, 50.0), scattered);
+    CHECK(verdict_of(unclear.net) == Verdict::Undecided);
+    CHECK_THAT(headline(unclear, "default"), contains("undecided which is faster to the same error (95 %: 0."));
+    CHECK_THAT(headline(gain_of(Runs(2.0, 0.0, 50.0, 1), Runs(2.01, 0.0, 50.0, 1)), "default"),
+               contains("about as fast to the same error (one run each: no interval)"));
     CHECK_THAT(headline(gain_of(Runs(2.0, 0.0, 50.0, 3), Runs(1.0, 0.0, 50.0, 3)), "default"),
                contains("only 3 runs: no interval"));
     Runs below(2.0, 0.0, 50.0);
     below.ends.front().error = -1e-9;
     CHECK_THAT(headline(gain_of(Runs(2.0, 0.0, 50.0), below), "default"), contains("cannot be compared"));
+}
+
+TEST_CASE("the verdict is what the interval supports") {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    CHECK(verdict_text({1.7, 1.5, 1.9}) == "1.7x faster");
+    CHECK(verdict_text({0.5, 0.4, 0.6}) == "2.0x slower");
+    CHECK(verdict_text({1.02, 1.01, 1.03}) == "no difference");  // decided, and too little to name
+    CHECK(verdict_text({1.02, 0.8, 1.3}) == "undecided");
+    CHECK(verdict_text({3.0, 0.0, kNone}) == "undecided");
+    CHECK(verdict_text({std::nan(""), 0.0, kNone}) == "not resolved");
 }
 
 TEST_CASE("the range that all runs cover") {

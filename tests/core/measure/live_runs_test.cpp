@@ -18,7 +18,7 @@ namespace {
 constexpr int kSide = 16;
 constexpr std::size_t kPictureBytes = kSide * kSide * 6;
 constexpr std::size_t kPlenty = 1u << 24;
-constexpr LiveRuns::Allowance kAlways{std::numeric_limits<double>::infinity(), 0.0};
+constexpr double kAlways = std::numeric_limits<double>::infinity();  ///< share
 constexpr float kEmission = 0.5f;
 constexpr float kAlbedo = 0.5f;
 
@@ -29,10 +29,9 @@ struct Recording {
     LiveRuns runs;
     FilmSlot slot;
 
-    explicit Recording(std::size_t cap = kPlenty, LiveRuns::Allowance allowance = kAlways,
-                       MethodId method = MethodId::Default)
+    explicit Recording(std::size_t cap = kPlenty, double share = kAlways, MethodId method = MethodId::Default)
         : session(make_session(scene, quick_learner(scene, {method, false}, kSide, 1))),
-          runs(cap, {}, allowance), slot{method, View::Beauty} {}
+          runs(cap, {}, share), slot{method, View::Beauty} {}
 
     /// Renders so many more samples per pixel, observed one by one; the number of changes of the set.
     int render(std::uint32_t passes) {
@@ -89,15 +88,29 @@ std::size_t pictures_of(const LiveRun& run) {
 }  // namespace
 
 TEST_CASE("the charged time is reported while no point is due") {
-    Recording recording(kPlenty, {1e-9, 0.0});  // measuring may take next to nothing: one point, and then none
-    recording.render(2);
-    REQUIRE(recording.last().points.size() == 1);
+    Recording recording(kPlenty, 1e-9);  // measuring may take next to nothing: none after the first passes
+    recording.render(LiveRuns::kLastMeasured);
+    const std::size_t points = LiveRuns::kLastMeasured - LiveRuns::kFirstMeasured + 1;
+    REQUIRE(recording.last().points.size() == points);
     const double told = recording.runs.current()->charged_seconds;
     const double spent = recording.runs.current()->measure_seconds;
     while (charged_seconds(recording.session.clocks(recording.slot)) < 3.0 * told) recording.render(1);
-    CHECK(recording.last().points.size() == 1);
+    CHECK(recording.last().points.size() == points);
     CHECK(recording.runs.current()->charged_seconds > 2.0 * told);
     CHECK(recording.runs.current()->measure_seconds == spent);
+}
+
+TEST_CASE("each of the first passes is measured, whatever measuring costs") {
+    Recording recording(kPlenty, 0.0);
+    recording.render(LiveRuns::kLastMeasured + 3);
+    const LiveRun& run = recording.last();
+    REQUIRE(run.points.size() == 10);
+    for (std::size_t i = 0; i < run.points.size(); ++i) CHECK(run.points[i].spp == i + 2);
+    CHECK(recording.runs.current()->measure_seconds > 0.0);  // told, though on no budget
+    // Another method begins with its own first passes.
+    recording.slot.method = MethodId::Reinforcement;
+    recording.render(3);
+    CHECK(recording.last().points.size() == 2);
 }
 
 TEST_CASE("points are a twelfth of a decade apart and hold cost, noise and picture") {
@@ -106,7 +119,7 @@ TEST_CASE("points are a twelfth of a decade apart and hold cost, noise and pictu
     CHECK(recording.runs.current()->picture_bytes_cap == kPlenty);
     CHECK(recording.render(1) == 0);  // one sample has no halves
     CHECK(recording.render(1) == 1);
-    recording.record(12);
+    recording.record(14);
     REQUIRE(recording.count() == 1);
     const LiveRun& run = recording.run(0);
     CHECK(run.in_progress);
@@ -114,8 +127,8 @@ TEST_CASE("points are a twelfth of a decade apart and hold cost, noise and pictu
     CHECK(run.label.backend == "cpu");
     CHECK_FALSE(run.label.warm);
     CHECK(run.label.picture == picture_key(recording.scene, recording.session.settings()));
-    REQUIRE(run.points.size() == 13);
-    for (std::size_t i = 1; i < run.points.size(); ++i)
+    REQUIRE(run.points.size() == 15);
+    for (std::size_t i = 10; i < run.points.size(); ++i)
         CHECK(seconds_of(run.points[i]) >= std::pow(10.0, 1.0 / 12.0) * seconds_of(run.points[i - 1]));
     const LivePoint& point = run.points.back();
     CHECK(point.counters.paths == std::uint64_t{point.spp} * kSide * kSide);
@@ -252,26 +265,16 @@ TEST_CASE("other views are not measured, and interrupt no run") {
     CHECK(recording.run(0).points.size() > points);
 }
 
-TEST_CASE("the first measurement waits until it is paid for, too") {
-    Recording patient(kPlenty, {0.01, 1.0});  // 256 s for the whole picture
-    patient.render(200);
-    CHECK(patient.count() == 0);
-    CHECK(patient.runs.current()->measure_seconds == 0.0);
-    Recording modest(kPlenty, {0.01, 1e-15});  // a fraction of a clock tick, which the second pass has paid for
-    modest.render(2);
-    CHECK(modest.count() == 1);
-}
-
 // The rule itself is tested with made-up seconds in measure_budget_test.cpp.
 TEST_CASE("the share of measuring is one of all runs together") {
-    Recording never(kPlenty, {0.0, 0.0});
+    Recording never(kPlenty, 0.0);
     never.render(500);
     REQUIRE(never.count() == 1);
-    CHECK(never.run(0).points.size() == 1);  // its cost was not known before
-    CHECK(never.runs.current()->measure_seconds > 0.0);
+    CHECK(never.run(0).points.size() == 10);
     never.slot.method = MethodId::Reinforcement;
     never.render(50);
-    CHECK(never.count() == 1);
+    REQUIRE(never.count() == 2);
+    CHECK(never.run(1).points.size() == 10);
     CHECK_FALSE(never.run(0).in_progress);
 }
 

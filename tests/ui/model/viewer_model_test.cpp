@@ -33,7 +33,7 @@ TEST_CASE("Viewer model: title and command line describe the picture") {
     FileBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-    CHECK_THAT(model.title(), contains(" spp - Default - CPU - small"));
+    CHECK_THAT(model.title(), contains(" spp - Default, light samples off - CPU - small"));
     CHECK(model.files().pictures().command_line() == "pathlight render small");
     model.render().set_paused(true);
     REQUIRE(bench.run_until(model, [&] { return model.status().state == WorkerState::Paused; }));

@@ -35,9 +35,10 @@ TEST_CASE("Accuracy model: shows noise until an error is measured, then the erro
     CHECK(model.floor() == 0.0);  // known as relMSE only
 }
 
-TEST_CASE("Accuracy model: before the first run there is an empty plot and a sentence") {
+TEST_CASE("Accuracy model: before the first run there is an empty plot and a note") {
     AccuracyModel model;
-    CHECK(model.headlines().size() == 1);
+    CHECK(model.table().rows.empty());
+    CHECK_FALSE(model.table().note.empty());
     CHECK(model.lines().empty());
     CHECK(model.rows().empty());
     model.set_cursor({Kind::EqualCost, 1.0});
@@ -66,12 +67,21 @@ TEST_CASE("Accuracy model: the view follows the curves until a person takes it")
     const double before = model.view().x_axis().high();
     model.update(set_of({make_run({})}), kThisPicture, 0.0);
     CHECK(model.view().x_axis().high() > before);
-    model.keep_view();
+    model.zoom_view(0.0f, {10.0f, 10.0f}, {0.0f, 0.0f, 100.0f, 100.0f});
     const double kept = model.view().x_axis().high();
     model.update(set_of({make_run({.last_sample = 4096})}), kThisPicture, 0.0);
     CHECK(model.view().x_axis().high() == kept);
     model.fit_view();
     CHECK(model.view().x_axis().high() > kept);
+    const Rect frame{0.0f, 0.0f, 100.0f, 100.0f};
+    const double fitted = model.view().x_axis().high();
+    for (int i = 0; i < 40; ++i) model.zoom_view(-1.0f, {50.0f, 50.0f}, frame);
+    for (int i = 0; i < 40; ++i) model.pan_view({-500.0f, 0.0f}, frame);
+    CHECK_THAT(model.view().x_axis().high(), WithinRel(10.0 * fitted, 1e-9));
+    // Another picture with curves elsewhere: a kept view goes to them.
+    model.update(set_of({make_run({.seconds_per_sample = 1e-4, .last_sample = 8, .picture = kThisPicture + 1})}),
+                 kThisPicture + 1, 0.0);
+    CHECK(model.view().x_axis().high() < 1.0);
 }
 
 TEST_CASE("Accuracy model: a day of flying around does not fill the legend") {

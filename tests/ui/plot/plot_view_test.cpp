@@ -52,6 +52,27 @@ TEST_CASE("Plot: no wheel and no drag leads where there is nothing to see") {
     CHECK_FALSE(view.x_axis().ticks(5).empty());
 }
 
+TEST_CASE("Plot: a view kept at the data reaches a decade beyond it, and always overlaps it") {
+    const PlotRange data{.x_low = 0.1, .x_high = 100.0, .y_low = 1e-4, .y_high = 1.0};
+    PlotView view(data);
+    for (int i = 0; i < 50; ++i) view.zoom(-1.0f, {150.0f, 60.0f}, kFrame);
+    view.keep_at(data);
+    CHECK_THAT(view.x_axis().low(), WithinRel(0.01, 1e-9));
+    CHECK_THAT(view.x_axis().high(), WithinRel(1000.0, 1e-9));
+    CHECK_THAT(view.y_axis().high(), WithinRel(10.0, 1e-9));
+    PlotView moved(data);
+    moved.zoom(5.0f, {150.0f, 60.0f}, kFrame);
+    const double span = moved.x_axis().high() / moved.x_axis().low();
+    moved.pan({-5000.0f, 0.0f}, kFrame);
+    moved.keep_at(data);
+    CHECK_THAT(moved.x_axis().high(), WithinRel(1000.0, 1e-9));  // moved, not stretched
+    CHECK_THAT(moved.x_axis().high() / moved.x_axis().low(), WithinRel(span, 1e-9));
+    PlotView inside({.x_low = 1.0, .x_high = 10.0, .y_low = 1e-3, .y_high = 0.1});
+    inside.keep_at(data);
+    CHECK_THAT(inside.x_axis().low(), WithinRel(1.0, 1e-9));
+    CHECK_THAT(inside.y_axis().high(), WithinRel(0.1, 1e-9));
+}
+
 TEST_CASE("Plot: the fitted range is rounded to ticks, and there is one for nothing at all") {
     const std::vector<PlotValue> values{{0.12, 3e-3}, {31.0, 0.4}, {0.0, 1.0}, {1.0, -1.0}, {NAN, 1.0}};
     const PlotRange range = fit_range(values);
