@@ -35,7 +35,8 @@ std::string_view name_of(PathEnd end);
 /// Emission that a path reached: of a surface or, where the path escaped, of the environment.
 struct EmissionRecord {
     Vec3f radiance{0.0f};
-    float weight = 1.0f;  ///< MIS weight; 1 if the vertex before sampled no lights. Of an environment map, not of a constant one
+    float weight =
+        1.0f;  ///< MIS weight; 1 if the vertex before sampled no lights. Of an environment map, not of a constant one
     float light_pdf_sa = 0.0f;  ///< of light sampling at the vertex before, per steradian; 0 without it
     Vec3f contribution{0.0f};   ///< to the radiance of the pixel
 };
@@ -55,9 +56,10 @@ struct LightRecord {
 
 /// Russian roulette or splitting at a vertex.
 struct RouletteRecord {
-    float estimate = 1.0f;           ///< contribution estimate, relative to the path's first vertex
-    float expected_branches = 1.0f;  ///< survival probability if at most 1, else the number that the path is split into
-    std::uint32_t branches = 1;      ///< that do continue; 0: the path ends here
+    float estimate = 1.0f;  ///< contribution estimate, relative to the path's first vertex
+    float expected_branches =
+        1.0f;                    ///< survival probability if at most 1, else the number that the path is split into
+    std::uint32_t branches = 1;  ///< that do continue; 0: the path ends here
 };
 
 /// A direction that a path continues in from a vertex. Densities per steradian, 0 for delta lobes.
@@ -111,9 +113,9 @@ struct PathRecord {
     /// That the path's random numbers are drawn by: the sample's number in its picture, and PassReplay::first_sample more.
     std::uint32_t sample = 0;
     bool is_guided = false;
-    Vec3f eye{0.0f};              ///< origin of the camera ray
-    Vec3f radiance{0.0f};         ///< of the pixel by this path, with the bits of its pass
-    std::uint32_t segments = 0;   ///< rays traced, without shadow rays
+    Vec3f eye{0.0f};             ///< origin of the camera ray
+    Vec3f radiance{0.0f};        ///< of the pixel by this path, with the bits of its pass
+    std::uint32_t segments = 0;  ///< rays traced, without shadow rays
     std::uint32_t shadow_rays = 0;
     std::vector<VertexRecord> vertices{};  ///< in the order of tracing; a vertex comes after its parent
     std::vector<BranchEnd> ends{};         ///< one for each branch, in the order of tracing

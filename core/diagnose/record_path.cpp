@@ -78,8 +78,7 @@ private:
             vertex.emission = environment_emission(before);
         }
         if (vertex.roulette && vertex.roulette->branches > 1)
-            forks_.push_back(
-                {static_cast<std::uint32_t>(record.vertices.size()), vertex.roulette->branches - 1});
+            forks_.push_back({static_cast<std::uint32_t>(record.vertices.size()), vertex.roulette->branches - 1});
         points_.push_back(point);
         record.vertices.push_back(std::move(vertex));
         return end;
@@ -118,8 +117,8 @@ private:
         emission.weight = add_emission(scene_, context_.settings, surface, emission.radiance, alone);
         emission.contribution = alone.radiance;
         if (samples_lights(before))
-            emission.light_pdf_sa = light_pdf_sa<kAll>(scene_, before.ray.origin, surface, before.ray.direction,
-                                                       before.lights.learned());
+            emission.light_pdf_sa =
+                light_pdf_sa<kAll>(scene_, before.ray.origin, surface, before.ray.direction, before.lights.learned());
         return emission;
     }
 
@@ -145,8 +144,8 @@ private:
         if (++state.vertices >= context_.settings.max_depth) return PathEnd::DepthLimit;
         const VertexNumbers numbers = draw_vertex_numbers<kAll>(context_.settings, before);
         if (context_.settings.next_event != 0) vertex.light = light_sample(point, numbers.light, before);
-        const Continuation next = play_roulette(method_, context_.settings, point.vertex, point.bsdf.albedo(),
-                                                numbers.scatter.w, state);
+        const Continuation next =
+            play_roulette(method_, context_.settings, point.vertex, point.bsdf.albedo(), numbers.scatter.w, state);
         vertex.roulette = roulette_record(next, before, state);
         return next.branches == 0 ? std::optional(PathEnd::Roulette) : std::nullopt;
     }
@@ -227,8 +226,7 @@ private:
                 point.bsdf.eval(point.surface, direction.wi, point.bsdf.cosine(point.surface, direction.wi));
             if constexpr (GuidedMethod<M>) {
                 if (point.vertex.is_served())
-                    direction.field_pdf_sa =
-                        method_.field.density(point.vertex, point.surface, direction.wi).pdf_sa;
+                    direction.field_pdf_sa = method_.field.density(point.vertex, point.surface, direction.wi).pdf_sa;
             }
         } else {
             direction.technique = Technique::Delta;

@@ -39,8 +39,7 @@ PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std
     std::uint32_t clamped = 0;
     PathDefects defects =
         with_replayed_method<CountingMethod>(passes, field, sample, [&](auto method, const PathSettings& path) {
-            if constexpr (requires { method.clamped; })
-                method.clamped = passes.repeats_training ? &clamped : nullptr;
+            if constexpr (requires { method.clamped; }) method.clamped = passes.repeats_training ? &clamped : nullptr;
             return trace_again(passes, path, method, pixel, sample);
         });
     defects.clamped_samples = clamped;

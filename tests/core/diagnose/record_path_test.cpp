@@ -77,10 +77,11 @@ void check_explains(const PathRecord& path) {
             CHECK(next.branch == direction.branch);
             CHECK(next.throughput == direction.throughput);
             CHECK(next.bounce == vertex.bounce + 1);
+            CHECK((direction.technique == Technique::Delta) == (direction.pdf_sa == 0.0f));
             const float a = vertex.bsdf_fraction;
-            const float mixture = (1.0f - vertex.delta_probability) *
-                                  (a * direction.bsdf_pdf_sa + (1.0f - a) * direction.field_pdf_sa);
-            CHECK(direction.pdf_sa == (direction.technique == Technique::Delta ? 0.0f : Approx(mixture).epsilon(1e-5)));
+            const float mixture = a * direction.bsdf_pdf_sa + (1.0f - a) * direction.field_pdf_sa;
+            if (direction.technique != Technique::Delta)
+                CHECK(direction.pdf_sa == Approx((1.0f - vertex.delta_probability) * mixture).epsilon(1e-5));
         }
     }
     CHECK(directions + 1 == path.vertices.size());
