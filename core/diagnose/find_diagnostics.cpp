@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "core/base/work_queue.h"
+#include "core/diagnose/record_path.h"
 #include "core/diagnose/replay_path.h"
 
 namespace pl {
@@ -32,7 +33,7 @@ public:
     Search(DiagnosticsInput source, int threads, const StopFlag* stop)
         : passes_(std::move(source.passes)), threads_(threads), stop_(stop) {
         map_ = begin_map(passes_, source.counted);
-        if (passes_.volumes) field_ = field_view(passes_.shape, *passes_.volumes, passes_.field);
+        field_ = field_of(passes_);
     }
 
     DiagnosticsMap run(const std::function<void(double)>& told) {

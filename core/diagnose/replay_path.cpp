@@ -1,10 +1,8 @@
 #include "core/diagnose/replay_path.h"
 
+#include "core/diagnose/replayed_method.h"
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/integrator/trace_path.h"
-#include "core/kernel/methods/default.h"
-#include "core/kernel/methods/targets/expected_sarsa.h"
-#include "core/session/path_settings.h"
 
 namespace pl {
 namespace {
@@ -38,21 +36,14 @@ PathDefects trace_again(const PassReplay& passes, const PathSettings& path, cons
 
 PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel,
                         std::uint32_t sample) {
-    if (!passes.volumes) return trace_again(passes, passes.path, DefaultMethod{}, pixel, sample);
-    if (!passes.is_guided(sample - passes.first_sample))
-        return trace_again(passes, passes.unguided_path, DefaultMethod{}, pixel, sample);
-    return visit_field(field, [&](const auto& view) {
-        std::uint32_t clamped = 0;
-        CountingMethod<std::remove_cvref_t<decltype(view)>> method;
-        method.field = view;
-        method.mixture = passes.mixture;
-        method.learning = passes.learning;
-        if (passes.repeats_training) method.clamped = &clamped;
-        const PathSettings path = passes.has_moving_tables ? at_pass(passes.path, sample) : passes.path;
-        PathDefects defects = trace_again(passes, path, method, pixel, sample);
-        defects.clamped_samples = clamped;
-        return defects;
-    });
+    std::uint32_t clamped = 0;
+    PathDefects defects =
+        with_replayed_method<CountingMethod>(passes, field, sample, [&](auto method, const PathSettings& path) {
+            if constexpr (requires { method.clamped; }) method.clamped = passes.repeats_training ? &clamped : nullptr;
+            return trace_again(passes, path, method, pixel, sample);
+        });
+    defects.clamped_samples = clamped;
+    return defects;
 }
 
 }  // namespace pl

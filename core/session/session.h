@@ -49,6 +49,11 @@ public:
     /// Does the next piece of work on a film: a slice of precomputation if the method still needs it, else one sample for
     /// every pixel, followed by an update of the field if the method learns.
     Progress advance(FilmSlot slot, const StopFlag* stop = nullptr);
+    /// Does the work before the path of one pixel in the next pass, for pass_replay(): a slice of precomputation if the method still
+    /// needs it, else the choice of guidance and, within the first pass of a learner, the parts before the pixel's with their
+    /// updates. Rendered: the path is the next to be traced in the pixel's part. advance() completes the pass. The film must not
+    /// be beyond the pixel.
+    Progress advance_to_path(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop = nullptr);
 
     /// Copy of a film and all statistics.
     Snapshot snapshot(FilmSlot slot) const;
@@ -117,10 +122,13 @@ private:
     void begin_film(FilmSlot slot);
     void take_pixels(Snapshot& snapshot, FilmReading film) const;
 
+    void prepare_film(FilmSlot slot);
+    void prepare_pass(FilmSlot slot);
     bool needs_precompute(FilmSlot slot) const;
     Progress precompute_slice(FilmSlot slot, const StopFlag* stop);
     Progress render_slot(FilmSlot slot, const StopFlag* stop);
     Progress render_pass(FilmSlot slot, const StopFlag* stop);
+    bool render_parts_before(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop);
     void render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop);
     PassRequest pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const;
     bool chooses_guiding(FilmSlot slot) const;

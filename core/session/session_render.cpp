@@ -17,16 +17,29 @@ bool is_power_of_two(std::uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 }  // namespace
 
 Progress Session::advance(FilmSlot slot, const StopFlag* stop) {
-    begin_film(slot);
+    prepare_film(slot);
     const ViewInfo& view = info_of(slot.view);
-    if (view.needs_volumes) ensure_volumes();
-    if (info_of(slot.method).uses_field || view.needs_tables) ensure_tables(slot.method);
     if (needs_precompute(slot)) return precompute_slice(slot, stop);
     if (view.needs_tables && info_of(slot.method).learns && films_[slot].next_pixel == 0) {
         const Progress learned = render_slot({slot.method, View::Beauty}, stop);
         if (learned == Progress::Stopped) return learned;
     }
     return render_slot(slot, stop);
+}
+
+Progress Session::advance_to_path(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop) {
+    prepare_film(slot);
+    if (needs_precompute(slot)) return precompute_slice(slot, stop);
+    prepare_pass(slot);
+    if (films_[slot].next_pixel == 0 && !choose_guiding(slot, stop)) return Progress::Stopped;
+    return render_parts_before(slot, pixel, stop) ? Progress::Rendered : Progress::Stopped;
+}
+
+void Session::prepare_film(FilmSlot slot) {
+    begin_film(slot);
+    const ViewInfo& view = info_of(slot.view);
+    if (view.needs_volumes) ensure_volumes();
+    if (info_of(slot.method).uses_field || view.needs_tables) ensure_tables(slot.method);
 }
 
 void Session::begin_film(FilmSlot slot) {
@@ -86,33 +99,42 @@ std::uint32_t Session::probe_count() const {
 
 Progress Session::render_slot(FilmSlot slot, const StopFlag* stop) {
     begin_film(slot);
+    prepare_pass(slot);
+    return render_pass(slot, stop);
+}
+
+void Session::prepare_pass(FilmSlot slot) {
     ensure_film(slot);
     const FilmProgress& state = films_[slot];
-    if (state.next_pixel == 0) {
-        if (learns_from(slot)) field(slot.method) = field(slot.method).without_part();
-        // The map shows a changing field: restarting at powers of two keeps at least half of the samples recent.
-        if (slot.view == View::RadianceMap && is_power_of_two(state.passes))
-            backend_->reset_film(slot, settings_.width, settings_.height);
-    }
-    return render_pass(slot, stop);
+    if (state.next_pixel > 0) return;
+    if (learns_from(slot)) field(slot.method) = field(slot.method).without_part();
+    // The map shows a changing field: restarting at powers of two keeps at least half of the samples recent.
+    if (slot.view == View::RadianceMap && is_power_of_two(state.passes))
+        backend_->reset_film(slot, settings_.width, settings_.height);
 }
 
 /// The rest of a pass, in parts.
 Progress Session::render_pass(FilmSlot slot, const StopFlag* stop) {
     FilmProgress& state = films_[slot];
     if (state.next_pixel == 0 && !choose_guiding(slot, stop)) return Progress::Stopped;
-    while (true) {
-        const std::uint32_t end = end_of_part(slot);
-        render_part(slot, end, stop);
-        if (state.next_pixel < end) return Progress::Stopped;
-        if (end == pixel_count()) break;
-        finish_learning_part(slot);
-    }
+    if (!render_parts_before(slot, pixel_count() - 1, stop)) return Progress::Stopped;
+    render_part(slot, pixel_count(), stop);
+    if (state.next_pixel < pixel_count()) return Progress::Stopped;
     state.next_pixel = 0;
     measure_guiding(slot);
     ++state.passes;
     if (learns_from(slot)) finish_learning_pass(slot);
     return Progress::Rendered;
+}
+
+/// The parts of a pass that end before a pixel, each with its update. Returns false if it was stopped.
+bool Session::render_parts_before(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop) {
+    for (std::uint32_t end = end_of_part(slot); end <= pixel; end = end_of_part(slot)) {
+        render_part(slot, end, stop);
+        if (films_[slot].next_pixel < end) return false;
+        finish_learning_part(slot);
+    }
+    return true;
 }
 
 std::uint32_t Session::end_of_part(FilmSlot slot) const {

@@ -1,0 +1,124 @@
+// One path of a picture with all its vertices, as data: for text, files and drawings of paths.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/kernel/base/math.h"
+#include "core/kernel/geometry/ray.h"
+#include "core/kernel/guiding/placement_view.h"
+
+namespace pl {
+
+/// The technique that a scattered direction was sampled by.
+enum class Technique : std::uint32_t {
+    Bsdf,   ///< the BSDF without its delta lobes
+    Field,  ///< the guiding field
+    Delta,  ///< a delta lobe: mirror reflection or refraction
+};
+/// "bsdf", "field", "delta".
+std::string_view name_of(Technique technique);
+
+/// The event that ended a path or one of its branches.
+enum class PathEnd : std::uint32_t {
+    Escaped,        ///< the ray met no surface
+    Absorbed,       ///< the surface reflects nothing
+    Roulette,       ///< Russian roulette
+    DepthLimit,     ///< PathSettings::max_depth
+    ZeroDirection,  ///< the sampled direction has f cos = 0
+};
+/// "escaped", "absorbed", "roulette", "depth-limit", "zero-direction".
+std::string_view name_of(PathEnd end);
+
+/// Emission that a path reached: of a surface or, where the path escaped, of the environment.
+struct EmissionRecord {
+    Vec3f radiance{0.0f};
+    float weight =
+        1.0f;  ///< MIS weight; 1 if the vertex before sampled no lights. Of an environment map, not of a constant one
+    float light_pdf_sa = 0.0f;  ///< of light sampling at the vertex before, per steradian; 0 without it
+    Vec3f contribution{0.0f};   ///< to the radiance of the pixel
+};
+
+/// A light sample at a vertex. Densities per steradian.
+struct LightRecord {
+    Vec3f wi{0.0f};
+    std::optional<Vec3f> position{};         ///< on the light; none if it is infinitely far away
+    std::uint32_t primitive = kNoPrimitive;  ///< of the light, likewise
+    float pdf_sa = 0.0f;                     ///< of light sampling
+    float scatter_pdf_sa = 0.0f;             ///< of scattering into the same direction
+    float weight = 0.0f;                     ///< MIS weight
+    bool is_visible = false;
+    Vec3f unoccluded{0.0f};    ///< contribution if nothing occludes the light
+    Vec3f contribution{0.0f};  ///< to the radiance of the pixel
+};
+
+/// Russian roulette or splitting at a vertex.
+struct RouletteRecord {
+    float estimate = 1.0f;  ///< contribution estimate, relative to the path's first vertex
+    float expected_branches =
+        1.0f;                    ///< survival probability if at most 1, else the number that the path is split into
+    std::uint32_t branches = 1;  ///< that do continue; 0: the path ends here
+};
+
+/// A direction that a path continues in from a vertex. Densities per steradian, 0 for delta lobes.
+struct ScatterRecord {
+    std::uint32_t branch = 0;
+    std::uint32_t next = 0;  ///< index of the vertex that it leads to
+    Technique technique = Technique::Bsdf;
+    Vec3f wi{0.0f};
+    float pdf_sa = 0.0f;        ///< of all techniques together: (1 - delta probability) (a p_bsdf + (1 - a) p_field)
+    float bsdf_pdf_sa = 0.0f;   ///< p_bsdf
+    float field_pdf_sa = 0.0f;  ///< p_field; 0 if no field serves the vertex
+    Vec3f bsdf_cos{0.0f};       ///< f |cos theta_i|, 1/sr; 0 for delta lobes
+    Vec3f throughput{1.0f};     ///< of the path, this direction included
+};
+
+struct VertexRecord {
+    std::int32_t parent = -1;  ///< index of the vertex before; -1: the camera
+    std::uint32_t branch = 0;
+    std::uint32_t bounce = 0;  ///< scattering events from the camera to here
+    bool is_escape = false;    ///< no surface was met: of the members below only wo, throughput and emission are set
+    Vec3f origin{0.0f};        ///< of the ray that ends here
+    Vec3f wo{0.0f};            ///< unit, towards `origin`
+    Vec3f throughput{1.0f};    ///< of the path on arrival
+    Vec3f position{0.0f};
+    Vec3f geometric_normal{0.0f};  ///< on the side of wo, like the next one
+    Vec3f shading_normal{0.0f};
+    float distance = 0.0f;  ///< along the ray, scene units
+    std::uint32_t primitive = kNoPrimitive;
+    std::uint32_t material = 0;
+    Vec3f albedo{0.0f};
+    float delta_probability = 0.0f;   ///< of choosing among delta lobes alone
+    std::int32_t volume = kNoVolume;  ///< that serves the vertex
+    float bsdf_fraction = 1.0f;       ///< a, the probability of BSDF sampling; 1 if no field serves the vertex
+    EmissionRecord emission{};
+    std::optional<LightRecord> light{};        ///< none if no light was sampled, or none that can contribute
+    std::optional<RouletteRecord> roulette{};  ///< none where the path ended before
+    std::vector<ScatterRecord> scattered{};    ///< more than one if the path was split here
+
+    /// To the radiance of the pixel, from here alone.
+    Vec3f contribution() const { return emission.contribution + (light ? light->contribution : Vec3f{0.0f}); }
+};
+
+struct BranchEnd {
+    std::uint32_t branch = 0;
+    std::uint32_t vertex = 0;  ///< the last one
+    PathEnd reason = PathEnd::Absorbed;
+};
+
+struct PathRecord {
+    std::uint32_t pixel = 0;  ///< row-major
+    /// That the path's random numbers are drawn by: the sample's number in its picture, and PassReplay::first_sample more.
+    std::uint32_t sample = 0;
+    bool is_guided = false;
+    Vec3f eye{0.0f};             ///< origin of the camera ray
+    Vec3f radiance{0.0f};        ///< of the pixel by this path, with the bits of its pass
+    std::uint32_t segments = 0;  ///< rays traced, without shadow rays
+    std::uint32_t shadow_rays = 0;
+    std::vector<VertexRecord> vertices{};  ///< in the order of tracing; a vertex comes after its parent
+    std::vector<BranchEnd> ends{};         ///< one for each branch, in the order of tracing
+};
+
+}  // namespace pl

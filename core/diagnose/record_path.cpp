@@ -1,0 +1,268 @@
+#include "core/diagnose/record_path.h"
+
+#include "core/diagnose/observed_method.h"
+#include "core/diagnose/replayed_method.h"
+#include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/trace_path.h"
+
+namespace pl {
+namespace {
+
+/// The kernel of all features traces the same bits as the one that rendered the pass.
+constexpr FeatureSet kAll = kEveryFeature;
+
+/// Traces a path segment by segment. The state before a segment and the kernel's functions give the vertex at its end; the state
+/// behind it, the direction that follows.
+template <Method M>
+class Recorder {
+public:
+    using State = PathState<kAll, M>;
+
+    /// `choices` are those that the method notes.
+    Recorder(const PathContext<M>& context, ObservedChoices& choices)
+        : scene_(context.scene), method_(context.method), context_(context), choices_(choices) {}
+
+    PathRecord run(State& state) {
+        PathRecord record{.pixel = state.pixel, .sample = state.sample, .eye = state.ray.origin};
+        PathCounters counters;
+        PathStatus status = PathStatus::Continues;
+        for (std::int32_t parent = -1; status == PathStatus::Continues;) {
+            const State before = state;
+            const auto index = static_cast<std::uint32_t>(record.vertices.size());
+            const std::optional<PathEnd> end = add_vertex(before, parent, record);
+            choices_.is_light_visible = false;
+            status = trace_segment<kAll>(context_, BvhIntersector{scene_}, state, counters);
+            see_light(record.vertices.back());
+            parent = follow(before, state, status, {.vertex = index, .end = end}, record);
+        }
+        record.radiance = state.radiance;
+        record.segments = static_cast<std::uint32_t>(counters.segments);
+        record.shadow_rays = static_cast<std::uint32_t>(counters.shadow_rays);
+        return record;
+    }
+
+private:
+    using Point = ScatterPoint<kAll, M>;
+
+    /// A vertex where branches of the path wait.
+    struct WaitingFork {
+        std::uint32_t vertex = 0;
+        std::uint32_t waiting = 0;
+    };
+    /// The last vertex, and the reason why its branch ends there, as far as it is known before a direction is sampled.
+    struct Arrival {
+        std::uint32_t vertex = 0;
+        std::optional<PathEnd> end;
+    };
+
+    static std::uint32_t branch_of(const State& state) {
+        if constexpr (SplittingMethod<M>) return state.branches.number;
+        return 0;
+    }
+
+    std::optional<PathEnd> add_vertex(const State& before, std::int32_t parent, PathRecord& record) {
+        VertexRecord vertex{.parent = parent,
+                            .branch = branch_of(before),
+                            .bounce = before.vertices,
+                            .origin = before.ray.origin,
+                            .wo = -before.ray.direction,
+                            .throughput = before.throughput};
+        const Hit hit = closest_solid_hit<kAll>(scene_, BvhIntersector{scene_}, before.ray);
+        Point point;
+        std::optional<PathEnd> end = PathEnd::Escaped;
+        if (hit.found()) {
+            point = add_surface(hit, before, vertex);
+            end = add_interaction(point, before, vertex);
+        } else {
+            vertex.is_escape = true;
+            vertex.emission = environment_emission(before);
+        }
+        if (vertex.roulette && vertex.roulette->branches > 1)
+            forks_.push_back({static_cast<std::uint32_t>(record.vertices.size()), vertex.roulette->branches - 1});
+        points_.push_back(point);
+        record.vertices.push_back(std::move(vertex));
+        return end;
+    }
+
+    Point add_surface(const Hit& hit, const State& before, VertexRecord& vertex) const {
+        Point point;
+        point.surface = make_surface_point<kAll>(scene_, hit, vertex.wo);
+        point.bsdf = make_bsdf<kAll>(scene_, point.surface, hit_weights(hit), vertex.wo);
+        MethodCounters uncounted;
+        if (point.bsdf.scatters() && !point.bsdf.is_specular())
+            point.vertex = method_.locate(point.surface, uncounted);
+        vertex.position = point.surface.position;
+        vertex.geometric_normal = point.surface.geometric_normal;
+        vertex.shading_normal = point.surface.shading_normal;
+        vertex.distance = hit.t;
+        vertex.primitive = point.surface.primitive;
+        vertex.material = point.surface.material;
+        vertex.albedo = point.bsdf.albedo();
+        vertex.delta_probability = point.bsdf.is_lambert() ? 0.0f : point.bsdf.delta_probability();
+        if constexpr (GuidedMethod<M>) {
+            if (point.vertex.is_served()) {
+                vertex.volume = point.vertex.volume;
+                vertex.bsdf_fraction = method_.bsdf_fraction(point.vertex);
+            }
+        }
+        vertex.emission = surface_emission(hit, point.surface, before);
+        return point;
+    }
+
+    EmissionRecord surface_emission(const Hit& hit, const SurfacePoint& surface, const State& before) const {
+        EmissionRecord emission{.radiance = emitted_at<kAll>(scene_, surface, hit_weights(hit))};
+        if (is_black(emission.radiance)) return emission;
+        State alone = before;
+        alone.radiance = Vec3f{0.0f};
+        emission.weight = add_emission(scene_, context_.settings, surface, emission.radiance, alone);
+        emission.contribution = alone.radiance;
+        if (samples_lights(before))
+            emission.light_pdf_sa =
+                light_pdf_sa<kAll>(scene_, before.ray.origin, surface, before.ray.direction, before.lights.learned());
+        return emission;
+    }
+
+    EmissionRecord environment_emission(const State& before) const {
+        State alone = before;
+        alone.radiance = Vec3f{0.0f};
+        EmissionRecord emission{.radiance = add_environment(scene_, context_.settings, alone).radiance,
+                                .contribution = alone.radiance};
+        if (scene_.far_lights.empty() || !samples_lights(before)) return emission;
+        emission.light_pdf_sa = far_light_pdf_sa(scene_, before.ray.direction);
+        emission.weight = direction_weight(context_.settings, before, [&] { return emission.light_pdf_sa; });
+        return emission;
+    }
+
+    bool samples_lights(const State& before) const {
+        return context_.settings.next_event != 0 && before.direction_pdf_sa > 0.0f;
+    }
+
+    /// The light sample, and roulette. Returns the reason if the path ends.
+    std::optional<PathEnd> add_interaction(Point& point, const State& before, VertexRecord& vertex) {
+        if (!point.bsdf.scatters()) return PathEnd::Absorbed;
+        State state = before;
+        if (++state.vertices >= context_.settings.max_depth) return PathEnd::DepthLimit;
+        const VertexNumbers numbers = draw_vertex_numbers<kAll>(context_.settings, before);
+        if (context_.settings.next_event != 0) vertex.light = light_sample(point, numbers.light, before);
+        const Continuation next =
+            play_roulette(method_, context_.settings, point.vertex, point.bsdf.albedo(), numbers.scatter.w, state);
+        vertex.roulette = roulette_record(next, before, state);
+        return next.branches == 0 ? std::optional(PathEnd::Roulette) : std::nullopt;
+    }
+
+    std::optional<LightRecord> light_sample(const Point& point, Vec4f u, const State& before) const {
+        const UnweightedLight light = sample_light(context_, point, u, before);
+        if (!(light.pdf_sa > 0.0f)) return std::nullopt;
+        LightRecord record{.wi = light.wi, .primitive = light.ray.target, .pdf_sa = light.pdf_sa};
+        if (record.primitive != kNoPrimitive)
+            record.position = light.ray.origin + light.ray.t_max * light.ray.direction;
+        record.scatter_pdf_sa = scatter_pdf_sa(method_, point, light.wi);
+        record.weight = balance_weight(light.pdf_sa, record.scatter_pdf_sa);
+        State unused = before;
+        ShadowRequest<M> shadow;
+        weigh_light<kAll>(method_, point.vertex, light, record.scatter_pdf_sa, unused, shadow);
+        record.unoccluded = shadow.contribution;
+        return record;
+    }
+
+    /// `before` and `after` roulette.
+    RouletteRecord roulette_record(const Continuation& next, const State& before, const State& after) const {
+        RouletteRecord record{.estimate = choices_.estimate, .branches = next.branches};
+        if (after.vertices < context_.settings.roulette_start) return record;
+        const float factor = max_component(after.throughput) / max_component(before.throughput);
+        // Roulette that ends a path leaves its state as it was.
+        record.expected_branches = next.branches == 0 || !(factor > 0.0f)
+                                       ? survival_probability(context_.settings, record.estimate, after.survival)
+                                       : 1.0f / factor;
+        return record;
+    }
+
+    void see_light(VertexRecord& vertex) const {
+        if (!vertex.light || !choices_.is_light_visible) return;
+        vertex.light->is_visible = true;
+        vertex.light->contribution = vertex.light->unoccluded;
+    }
+
+    /// Adds the direction that the path goes on in: from the last vertex, or from a fork once a branch has ended. Returns the
+    /// vertex that it leaves; -1 if the path has ended.
+    std::int32_t follow(const State& before, const State& after, PathStatus status, const Arrival& last,
+                        PathRecord& record) {
+        const bool goes_on = status == PathStatus::Continues;
+        std::uint32_t from = last.vertex;
+        std::uint32_t branch = branch_of(before);
+        if (goes_on && branch == branch_of(after)) {
+            add_direction(from, after, record);
+            return static_cast<std::int32_t>(from);
+        }
+        record.ends.push_back({branch, from, last.end.value_or(PathEnd::ZeroDirection)});
+        while (branch < branch_of(after)) {
+            ++branch;
+            from = begin_branch_at_fork();
+            if (branch < branch_of(after) || !goes_on) record.ends.push_back({branch, from, PathEnd::ZeroDirection});
+        }
+        if (!goes_on) return -1;
+        add_direction(from, after, record);
+        return static_cast<std::int32_t>(from);
+    }
+
+    /// As Branches::begin().
+    std::uint32_t begin_branch_at_fork() {
+        const std::uint32_t vertex = forks_.back().vertex;
+        if (--forks_.back().waiting == 0) forks_.pop_back();
+        return vertex;
+    }
+
+    void add_direction(std::uint32_t from, const State& after, PathRecord& record) const {
+        const Point& point = points_[from];
+        ScatterRecord direction{.branch = branch_of(after),
+                                .next = static_cast<std::uint32_t>(record.vertices.size()),
+                                .wi = after.ray.direction,
+                                .pdf_sa = after.direction_pdf_sa,
+                                .throughput = after.throughput};
+        if (after.direction_pdf_sa > 0.0f) {
+            direction.technique = choices_.samples_field ? Technique::Field : Technique::Bsdf;
+            direction.bsdf_pdf_sa = choices_.direction.bsdf_pdf_sa;
+            direction.bsdf_cos =
+                point.bsdf.eval(point.surface, direction.wi, point.bsdf.cosine(point.surface, direction.wi));
+            if constexpr (GuidedMethod<M>) {
+                if (point.vertex.is_served())
+                    direction.field_pdf_sa = method_.field.density(point.vertex, point.surface, direction.wi).pdf_sa;
+            }
+        } else {
+            direction.technique = Technique::Delta;
+        }
+        record.vertices[from].scattered.push_back(direction);
+    }
+
+    const SceneView& scene_;
+    const M& method_;
+    PathContext<M> context_;
+    ObservedChoices& choices_;
+    std::vector<Point> points_;  ///< one for each vertex
+    std::vector<WaitingFork> forks_;
+};
+
+}  // namespace
+
+AnyFieldView field_of(PassReplay& passes) {
+    if (!passes.volumes) return {};
+    return field_view(passes.shape, *passes.volumes, passes.field);
+}
+
+PathRecord record_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel, std::uint32_t pass) {
+    const std::uint32_t sample = passes.first_sample + pass;
+    const SceneView scene = passes.scene->view();
+    const PixelGrid grid{static_cast<std::uint32_t>(passes.width), static_cast<std::uint32_t>(passes.height), sample};
+    const auto trace = [&](const auto& method, const PathSettings& path) {
+        using M = Observed<std::remove_cvref_t<decltype(method)>>;
+        ObservedChoices choices;
+        const M observed(method, choices);
+        auto state = begin_path<kAll, M>(passes.camera, path, grid, pixel);
+        return Recorder<M>({scene, observed, path}, choices).run(state);
+    };
+    PathRecord record = with_replayed_method<ObservedGuided>(passes, field, sample, trace);
+    record.is_guided = is_guided_path(passes, sample);
+    return record;
+}
+
+}  // namespace pl

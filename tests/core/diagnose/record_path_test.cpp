@@ -1,0 +1,147 @@
+// A recorded path is the path of the picture, to the bit, and its parts explain its radiance.
+#include "core/diagnose/record_path.h"
+#include "core/kernel/integrator/steps.h"
+#include "core/scene/pack_scene.h"
+#include "core/session/path_settings.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr std::uint32_t kPixels = 61 * 47;
+
+void come_to_path(Session& session, std::uint32_t pixel) {
+    while (session.advance_to_path(slot_of(session), pixel) == Progress::Precomputed) {
+    }
+}
+
+/// The paths of the pass under way, each with the field that its part samples from.
+std::vector<PathRecord> record_pass(Session& session) {
+    std::vector<PathRecord> paths;
+    const FilmSlot slot = slot_of(session);
+    while (paths.size() < kPixels) {
+        const auto first = static_cast<std::uint32_t>(paths.size());
+        come_to_path(session, first);
+        PassReplay passes = session.pass_replay(slot);
+        const AnyFieldView field = field_of(passes);
+        const bool in_parts = info_of(slot.method).learns && passes.first_sample + passes.samples == 0;
+        // Parts end at powers of two from 1024 on.
+        const std::uint32_t end = in_parts ? std::min(first == 0 ? 1024u : 2 * first, kPixels) : kPixels;
+        for (std::uint32_t pixel = first; pixel < end; ++pixel)
+            paths.push_back(record_path(passes, field, pixel, passes.samples));
+    }
+    return paths;
+}
+
+std::vector<Vec3f> radiances(const std::vector<PathRecord>& paths) {
+    std::vector<Vec3f> radiance;
+    for (const PathRecord& path : paths) radiance.push_back(path.radiance);
+    return radiance;
+}
+
+/// The samples of the session's next pass alone, without those of further camera rays.
+std::vector<Vec3f> render_alone(Session& session) {
+    const FilmSlot slot = slot_of(session);
+    const RenderSettings& settings = session.settings();
+    const std::uint32_t pass = session.passes(slot);
+    PathSettings path = path_settings(settings, slot.method);
+    if (info_of(slot.method).learns) path = at_pass(path, pass);
+    RenderBackend& backend = session.backend_access();
+    backend.reset_film(slot, settings.width, settings.height);
+    backend.run_pass({.slot = slot,
+                      .features = session.needed_features(slot),
+                      .path = path,
+                      .camera = make_camera(settings.camera, settings.width, settings.height),
+                      .mixture = mixture_of(settings, slot.method),
+                      .learning = settings.field.learning,
+                      .sample = pass});
+    return backend.read_film(slot).mean;
+}
+
+void check_explains(const PathRecord& path) {
+    REQUIRE(path.segments == path.vertices.size());
+    Vec3f sum{0.0f};
+    std::uint32_t directions = 0;
+    for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+        const VertexRecord& vertex = path.vertices[i];
+        sum += vertex.contribution();
+        for (const ScatterRecord& direction : vertex.scattered) {
+            ++directions;
+            const VertexRecord& next = path.vertices[direction.next];
+            CHECK(next.parent == static_cast<std::int32_t>(i));
+            CHECK(next.branch == direction.branch);
+            CHECK(next.throughput == direction.throughput);
+            CHECK(next.bounce == vertex.bounce + 1);
+            CHECK((direction.technique == Technique::Delta) == (direction.pdf_sa == 0.0f));
+            const float a = vertex.bsdf_fraction;
+            const float mixture = a * direction.bsdf_pdf_sa + (1.0f - a) * direction.field_pdf_sa;
+            if (direction.technique != Technique::Delta)
+                CHECK(direction.pdf_sa == Approx((1.0f - vertex.delta_probability) * mixture).epsilon(1e-5));
+        }
+    }
+    CHECK(directions + 1 == path.vertices.size());
+    // The same terms, in the same order but for the two parts of an environment.
+    CHECK(glm::length(sum - path.radiance) <= 1e-6f * glm::length(path.radiance));
+    REQUIRE_FALSE(path.ends.empty());
+    for (std::size_t i = 0; i < path.ends.size(); ++i) CHECK(path.ends[i].branch == i);
+}
+
+}  // namespace
+
+TEST_CASE("Record path: every pixel's first path has the bits of the picture, by every method") {
+    for (const char* name : {"cornell", "spheres", "sky"}) {
+        const SceneDescription scene = shipped_scene(name);
+        for (const Estimator& estimator : kEstimators) {
+            INFO(name << ", " << estimator);
+            const RenderSettings settings = small_settings(scene, estimator);
+            Session recorded = make_session(scene, settings);
+            Session rendered = make_session(scene, settings);
+            const std::vector<PathRecord> paths = record_pass(recorded);
+            render_passes(rendered, 1);
+            CHECK(same_bits(radiances(paths), rendered.snapshot(slot_of(rendered)).pixels));
+            // Coming to a path changes nothing of the picture.
+            render_passes(recorded, 1);
+            CHECK(same_state(state_of(recorded), state_of(rendered)));
+        }
+    }
+}
+
+TEST_CASE("Record path: later paths have the bits of their pass, branches included") {
+    constexpr std::uint32_t kPasses = 6;
+    const SceneDescription scene = shipped_scene("cornell");
+    for (const Estimator& estimator : kEstimators) {
+        INFO(estimator);
+        Session session = make_session(scene, small_settings(scene, estimator));
+        render_passes(session, kPasses);
+        const std::vector<PathRecord> paths = record_pass(session);
+        CHECK(same_bits(radiances(paths), render_alone(session)));
+        std::size_t most_branches = 0;
+        bool has_field_sample = false;
+        for (const PathRecord& path : paths) {
+            check_explains(path);
+            most_branches = std::max(most_branches, path.ends.size());
+            for (const VertexRecord& vertex : path.vertices)
+                for (const ScatterRecord& direction : vertex.scattered)
+                    has_field_sample |= direction.technique == Technique::Field;
+        }
+        const bool has_field = info_of(estimator.method).uses_field;
+        CHECK(has_field_sample == has_field);
+        CHECK((most_branches > 1) == (has_field && !estimator.next_event));
+    }
+}
+
+TEST_CASE("Record path: the parts of a path explain it at all kinds of surfaces and lights") {
+    for (const char* name : {"spheres", "coats", "plates", "sky", "gallery"}) {
+        const SceneDescription scene = shipped_scene(name);
+        for (const Estimator& estimator : kEstimators) {
+            INFO(name << ", " << estimator);
+            Session session = make_session(scene, small_settings(scene, estimator));
+            for (const PathRecord& path : record_pass(session)) check_explains(path);
+        }
+    }
+}
