@@ -34,8 +34,13 @@ void PictureFiles::finish() {
 }
 
 ViewerPicture PictureFiles::picture() const {
-    return {scene_.name(),       link_.status().backend, render_.settings(),
-            display_.settings(), render_.limits(),       scene_.materials().edited_names()};
+    return {.scene = scene_.shown(),
+            .description = scene_.materials().file(),
+            .backend = link_.status().backend,
+            .settings = render_.settings(),
+            .display = display_.settings(),
+            .limits = render_.limits(),
+            .edited_materials = scene_.materials().edited_names()};
 }
 
 std::string PictureFiles::command_line() const {
