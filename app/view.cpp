@@ -5,7 +5,6 @@
 #if PL_VIEWER
 
 #include <algorithm>
-#include <map>
 #include <mutex>
 #include <thread>
 
@@ -21,41 +20,24 @@
 namespace pl {
 namespace {
 
-/// The scenes opened so far, for the functions that the viewer calls on any of its threads.
-class OpenedScenes {
-public:
-    void add(const std::string& name, std::shared_ptr<const SceneDescription> scene) {
-        const std::lock_guard lock(mutex_);
-        scenes_[name] = std::move(scene);
-    }
-    std::shared_ptr<const SceneDescription> find(const std::string& name) const {
-        const std::lock_guard lock(mutex_);
-        return scenes_.at(name);
-    }
-
-private:
-    mutable std::mutex mutex_;
-    std::map<std::string, std::shared_ptr<const SceneDescription>> scenes_;
-};
-
 /// Leaves one core to the window where there are several.
 int viewer_threads(int asked) {
     return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 
-/// Knobs and vertical axis of the command line belong to the scene that it names, not to scenes opened later.
-LoadSettings load_settings_of(const std::string& scene, const Options& opened) {
-    if (scene == opened.scene) return opened.load;
-    return {.default_light = opened.load.default_light};
+/// The vertical axis of the command line belongs to the scene that it names, not to scenes opened later.
+LoadSettings load_settings_of(const SceneRequest& scene, const Options& opened) {
+    LoadSettings settings{.knobs = scene.knobs, .default_light = opened.load.default_light};
+    if (scene.name == opened.scene) settings.up_axis = opened.load.up_axis;
+    return settings;
 }
 
 /// `first_backend` is the back end that the options' choice selected.
-std::string command_of(const ViewerPicture& picture, const SceneDescription& scene, const Options& opened,
-                       const std::string& first_backend) {
-    const Options defaults = scene_defaults(picture.scene, scene);
+std::string command_of(const ViewerPicture& picture, const Options& opened, const std::string& first_backend) {
+    const Options defaults = scene_defaults(picture.scene.name, *picture.description);
     Options shown = defaults;
     shown.load = load_settings_of(picture.scene, opened);
-    shown.output = scene.source.stem().string() + ".png";
+    shown.output = picture.description->source.stem().string() + ".png";
     shown.render = picture.settings;
     shown.display = picture.display;
     shown.backend = picture.backend == first_backend ? opened.backend : picture.backend;
@@ -120,16 +102,14 @@ private:
 };
 
 /// The viewer's calls into the program. All arguments outlive it.
-void add_functions(ViewerOptions& viewer, ViewerBackends& backends, OpenedScenes& scenes, const Options& options,
-                   Console& console) {
+void add_functions(ViewerOptions& viewer, ViewerBackends& backends, const Options& options) {
     viewer.make_backend = [&](const std::string& name) { return backends.make(name); };
-    viewer.load_scene = [&](const std::string& name) {
-        const auto scene = open_scene(name, load_settings_of(name, options), console).scene;
-        scenes.add(name, scene);
-        return scene;
+    viewer.load_scene = [&](const SceneRequest& request) {
+        return std::make_shared<const SceneDescription>(
+            load_scene(request.name, find_assets_dir(), load_settings_of(request, options)));
     };
     viewer.command_line = [&](const ViewerPicture& picture) {
-        return command_of(picture, *scenes.find(picture.scene), options, backends.first_name());
+        return command_of(picture, options, backends.first_name());
     };
 }
 
@@ -139,14 +119,11 @@ int run_view(const CommandLine& line, Console& console) {
     const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
-    OpenedScenes scenes;
-    scenes.add(options.scene, loaded.scene);
-
     ViewerBackends backends(options);
     ViewerOptions viewer = viewer_options(line, options, loaded);
     viewer.first_backend = backends.first_name();
     viewer.backends = backends.choices();
-    add_functions(viewer, backends, scenes, options, console);
+    add_functions(viewer, backends, options);
     viewer.field = fields.take(*loaded.scene, options);
     try {
         return run_viewer(viewer);

@@ -248,7 +248,7 @@ int run_viewer(const ViewerOptions& options) {
     double load_seconds = options.load_seconds;
     if (!scene) {
         const double start = steady_seconds();
-        scene = options.load_scene(options.scene_name);
+        scene = options.load_scene({options.scene_name});
         load_seconds = steady_seconds() - start;
     }
     Viewer viewer(options, std::move(scene), load_seconds);

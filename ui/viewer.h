@@ -1,5 +1,5 @@
-// The viewer: a window in which a session runs. The program makes back ends, opens scenes with their knobs and writes
-// the command line; the viewer does everything else.
+// The viewer: a window in which a session runs. The program makes back ends, loads scenes and writes the command line;
+// the viewer does everything else.
 #pragma once
 
 #include <array>
@@ -42,9 +42,18 @@ struct BackendChoice {
 };
 using BackendChoices = std::vector<BackendChoice>;
 
+/// A scene to be loaded, with the values of its knobs; the others have their defaults.
+struct SceneRequest {
+    std::string name;  ///< a known scene, or a file
+    KnobValues knobs{};
+
+    friend bool operator==(const SceneRequest&, const SceneRequest&) = default;
+};
+
 /// The settings of the viewer that a saved file or a command line repeats.
 struct ViewerPicture {
-    std::string scene;    ///< name as load_scene takes it
+    SceneRequest scene;   ///< with the knobs that are not at their defaults
+    std::shared_ptr<const SceneDescription> description;  ///< as loaded; never null
     std::string backend;  ///< name as make_backend takes it
     RenderSettings settings;
     DisplaySettings display;
@@ -56,7 +65,7 @@ struct ViewerPicture {
 
 /// The scene that is open, with the materials that were changed in the window.
 struct OpenScene {
-    std::string name;                                     ///< argument of load_scene
+    std::string name;                                     ///< as load_scene takes it
     std::shared_ptr<const SceneDescription> description;  ///< never null
 };
 
@@ -91,7 +100,7 @@ struct ViewerOptions {
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
-    std::string scene_name;  ///< argument of load_scene at the start
+    std::string scene_name;  ///< as load_scene takes it, at the start
     /// The scene if it is loaded already; otherwise it is loaded before the window opens.
     std::shared_ptr<const SceneDescription> scene;
     double load_seconds = 0.0;                  ///< of `scene`
@@ -113,9 +122,9 @@ struct ViewerOptions {
     /// Called on the render thread when a back end is first selected, and on other threads for references and the
     /// self test. Throws Error(Unavailable). Should leave one hardware thread to the window if there are several.
     BackendFactory make_backend;
-    /// A scene by name, with the program's knobs for it. Throws Error(Input) with file and line. Called on a helper thread
-    /// after the start.
-    std::function<std::shared_ptr<const SceneDescription>(const std::string& name)> load_scene;
+    /// A scene by name. Throws Error: Input with file and line, Usage for an unknown knob or a value out of its range.
+    /// Called on helper threads after the start.
+    std::function<std::shared_ptr<const SceneDescription>(const SceneRequest& request)> load_scene;
     /// The shell command that renders the picture; may be empty. Called on any thread.
     std::function<std::string(const ViewerPicture&)> command_line;
 };

@@ -17,13 +17,13 @@ struct FileBench : ModelBench {
         options.screenshot_dir = folder.path();
         control->pass_microseconds = 0;
         options.backends = {{"cpu", "", ""}, {"cuda", "", ""}};
-        options.load_scene = [](const std::string& name) -> std::shared_ptr<const SceneDescription> {
-            if (name == "broken.obj") throw Error(ErrorKind::Input, "broken.obj:7: expected a number, got 'x'");
+        options.load_scene = [](const SceneRequest& request) -> std::shared_ptr<const SceneDescription> {
+            if (request.name == "broken.obj") throw Error(ErrorKind::Input, "broken.obj:7: expected a number, got 'x'");
             auto scene = std::make_shared<SceneDescription>(*small_scene());
             scene->camera.eye.y = 1.5f;
             return scene;
         };
-        options.command_line = [](const ViewerPicture& picture) { return "pathlight render " + picture.scene; };
+        options.command_line = [](const ViewerPicture& picture) { return "pathlight render " + picture.scene.name; };
     }
 };
 

@@ -96,8 +96,8 @@ void run(const std::string& scene_name, const MethodInfo& method, const std::str
     options.ui_trace = bench_folder() / fmt::format("{}-{}.jsonl", script, method.name);
     options.backends = {{"cpu", "", ""}, {"second", "", ""}};
     options.make_backend = [threads](const std::string&) { return make_cpu_backend({.threads = threads}); };
-    options.load_scene = [](const std::string& name) {
-        return std::make_shared<const SceneDescription>(load_scene(name, find_assets_dir()));
+    options.load_scene = [](const SceneRequest& request) {
+        return std::make_shared<const SceneDescription>(load_scene(request.name, find_assets_dir()));
     };
     std::fprintf(stderr, "\n%s: %s, %s, %dx%d, %d render %s, trace in %s\n", script.c_str(), scene_name.c_str(),
                  std::string(method.name).c_str(), kWidth, kHeight, threads, threads == 1 ? "thread" : "threads",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/scene/validate.h"
 
 namespace pl {
@@ -9,6 +10,22 @@ namespace pl {
 void EditedMaterials::open(std::shared_ptr<const SceneDescription> file) {
     file_ = std::move(file);
     now_ = file_->materials;
+}
+
+void EditedMaterials::reopen(std::shared_ptr<const SceneDescription> file) {
+    const std::vector<MaterialDescription> before = now_;
+    std::vector<std::uint32_t> edited;
+    for (std::uint32_t i = 0; i < now_.size(); ++i)
+        if (is_edited(i)) edited.push_back(i);
+    open(std::move(file));
+    for (const std::uint32_t i : edited) {
+        if (i >= now_.size() || now_[i].name != before[i].name) continue;
+        try {
+            set(i, before[i]);
+        } catch (const Error&) {
+            continue;  // a texture of the edited material is gone
+        }
+    }
 }
 
 std::vector<std::string> EditedMaterials::edited_names() const {

@@ -16,10 +16,14 @@ public:
     /// Another scene, with unedited materials.
     void open(std::shared_ptr<const SceneDescription> file);
 
+    /// The same scene, loaded anew: edits stay where the material of this number still has its name and the edited
+    /// values are valid.
+    void reopen(std::shared_ptr<const SceneDescription> file);
+
     const std::vector<MaterialDescription>& now() const { return now_; }
     /// As in the file.
     const MaterialDescription& in_file(std::uint32_t index) const { return file_->materials[index]; }
-    const SceneDescription& file() const { return *file_; }
+    const std::shared_ptr<const SceneDescription>& file() const { return file_; }
     bool is_edited(std::uint32_t index) const { return now_[index] != in_file(index); }
     /// Names of all materials that differ from the file.
     std::vector<std::string> edited_names() const;

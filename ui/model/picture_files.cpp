@@ -34,7 +34,8 @@ void PictureFiles::finish() {
 }
 
 ViewerPicture PictureFiles::picture() const {
-    return {.scene = scene_.name(),
+    return {.scene = scene_.shown(),
+            .description = scene_.materials().file(),
             .backend = link_.status().backend,
             .settings = render_.settings(),
             .display = display_.settings(),

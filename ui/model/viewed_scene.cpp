@@ -1,5 +1,7 @@
 #include "ui/model/viewed_scene.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
@@ -9,26 +11,78 @@ namespace pl {
 
 ViewedScene::ViewedScene(const ModelServices& services, CameraMotion& camera, Selection& selection,
                          std::shared_ptr<const SceneDescription> scene)
-    : options_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
-      camera_(camera), selection_(selection), name_(options_.scene_name), materials_(std::move(scene)) {}
+    : messages_(services.messages), link_(services.link), camera_(camera), selection_(selection),
+      name_(services.options.scene_name), materials_(scene), knobs_(scene->knobs),
+      loader_(services, [this](const LoadOrder& order, std::shared_ptr<const SceneDescription> loaded,
+                               const std::string& failure) { finish(order, std::move(loaded), failure); }) {}
 
-void ViewedScene::load(const std::string& name, bool keep_camera) {
-    messages_.note(MessageLevel::Info, "loading " + name);
-    jobs_.push([this, name, keep_camera]() -> JobThread::Report {
-        auto scene = options_.load_scene(name);
-        return [this, scene, name, keep_camera] { adopt(scene, name, keep_camera); };
-    });
+KnobValues ViewedScene::turned(const std::vector<KnobDescription>& knobs) {
+    KnobValues values;
+    for (const KnobDescription& knob : knobs)
+        if (knob.value != knob.default_value) values.emplace_back(knob.name, knob.value);
+    return values;
 }
 
-void ViewedScene::adopt(std::shared_ptr<const SceneDescription> scene, const std::string& name, bool keep_camera) {
+void ViewedScene::reload() {
+    if (!is_opening()) load({{name_, turned(knobs_)}, LoadReason::Reload});
+}
+
+void ViewedScene::open(const std::string& name) { load({{name, {}}, LoadReason::Open}); }
+
+void ViewedScene::set_knob(std::size_t index, float value) {
+    if (is_opening() || index >= knobs_.size() || knobs_[index].value == value) return;
+    knobs_[index].value = value;
+    load_knobs();
+}
+
+void ViewedScene::reset_knobs() {
+    if (is_opening() || turned(knobs_).empty()) return;
+    for (KnobDescription& knob : knobs_) knob.value = knob.default_value;
+    load_knobs();
+}
+
+bool ViewedScene::is_opening() const {
+    const LoadOrder* order = loader_.newest();
+    return order != nullptr && order->reason == LoadReason::Open;
+}
+
+void ViewedScene::load(LoadOrder order) {
+    if (order.reason != LoadReason::Knobs) messages_.note(MessageLevel::Info, "loading " + order.scene.name);
+    loader_.load(std::move(order));
+}
+
+void ViewedScene::finish(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene,
+                         const std::string& failure) {
+    if (scene == nullptr)
+        messages_.say(MessageLevel::Error, failure);
+    else if (order.reason == LoadReason::Knobs)
+        adopt_knobs(std::move(scene));
+    else
+        adopt(order, std::move(scene));
+    // Newer values of the user are on their way otherwise.
+    if (loader_.newest() == nullptr) knobs_ = materials_.file()->knobs;
+}
+
+void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene) {
     selection_.deselect();
     selection_.drop_material();
     materials_.open(scene);
-    name_ = name;
-    camera_.open(scene->camera, bounds_of(*scene).diagonal(), keep_camera);
+    name_ = order.scene.name;
+    camera_.open(scene->camera, bounds_of(*scene).diagonal(), order.reason == LoadReason::Reload);
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
-    messages_.say(MessageLevel::Info, fmt::format("opened {}: {} triangles", name, scene->triangles.size()));
+    messages_.say(MessageLevel::Info, fmt::format("opened {}: {} triangles", name_, scene->triangles.size()));
     link_.worker().submit(EditScene{std::move(scene)});
+    link_.worker().submit(EditCamera{camera_.camera()});
+}
+
+void ViewedScene::adopt_knobs(std::shared_ptr<const SceneDescription> scene) {
+    selection_.deselect();
+    materials_.reopen(scene);
+    camera_.open(scene->camera, bounds_of(*scene).diagonal(), true);
+    camera_.touch();
+    link_.worker().submit(EditScene{std::move(scene)});
+    for (std::uint32_t i = 0; i < materials_.now().size(); ++i)
+        if (materials_.is_edited(i)) link_.worker().submit(EditMaterial{i, materials_.now()[i]});
     link_.worker().submit(EditCamera{camera_.camera()});
 }
 

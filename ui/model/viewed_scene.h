@@ -1,12 +1,14 @@
-// The scene in the window: its name, its loading, and its materials as edited since.
+// The scene in the window: its name, its loading, its knobs, and its materials as edited since.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ui/model/camera_motion.h"
 #include "ui/model/edited_materials.h"
+#include "ui/model/scene_loader.h"
 #include "ui/model/selection.h"
 #include "ui/model/services.h"
 
@@ -17,15 +19,25 @@ public:
     ViewedScene(const ModelServices& services, CameraMotion& camera, Selection& selection,
                 std::shared_ptr<const SceneDescription> scene);
 
-    /// Name: the argument of load_scene.
+    /// As load_scene takes it.
     const std::string& name() const { return name_; }
+    /// The name with the knobs of the loaded scene that are not at their defaults.
+    SceneRequest shown() const { return {name_, turned(materials_.file()->knobs)}; }
     /// The rendered scene, with the edited materials.
     OpenScene rendered() const { return {name_, link_.status().scene}; }
 
-    /// Reads the files again on the helper thread; the camera and the old scene stay until then.
-    void reload() { load(name_, true); }
-    /// Another scene with its own camera. If it cannot be read, the old one stays.
-    void open(const std::string& name) { load(name, false); }
+    /// Reads the files again on the helper thread; camera and knobs stay. The old scene stays until then, and if they
+    /// cannot be read.
+    void reload();
+    /// Another scene with its own camera, its knobs at their defaults. If it cannot be read, the old one stays.
+    void open(const std::string& name);
+
+    /// The values are the wanted ones, which the picture follows.
+    const std::vector<KnobDescription>& knobs() const { return knobs_; }
+    /// Loads the scene again with this value; camera, settings and edited materials stay. A value that the loader
+    /// refuses leaves the old one, with a message. Nothing while another scene is being opened.
+    void set_knob(std::size_t index, float value);
+    void reset_knobs();
 
     const EditedMaterials& materials() const { return materials_; }
     /// Material of the last picked surface, or the one chosen from the list.
@@ -37,17 +49,22 @@ public:
     void restore_materials();
 
 private:
-    void load(const std::string& name, bool keep_camera);
-    void adopt(std::shared_ptr<const SceneDescription> scene, const std::string& name, bool keep_camera);
+    static KnobValues turned(const std::vector<KnobDescription>& knobs);
+    bool is_opening() const;
+    void load(LoadOrder order);
+    void load_knobs() { load({{name_, turned(knobs_)}, LoadReason::Knobs}); }
+    void finish(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene, const std::string& failure);
+    void adopt(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene);
+    void adopt_knobs(std::shared_ptr<const SceneDescription> scene);
 
-    const ViewerOptions& options_;
     Messages& messages_;
-    Jobs& jobs_;
     RenderLink& link_;
     CameraMotion& camera_;
     Selection& selection_;
     std::string name_;
     EditedMaterials materials_;
+    std::vector<KnobDescription> knobs_;
+    SceneLoader loader_;
 };
 
 }  // namespace pl

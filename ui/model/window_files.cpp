@@ -12,7 +12,7 @@ namespace {
 
 ImageMetadata metadata_of(const Snapshot& snapshot, const ViewerPicture& picture, const std::string& command) {
     ImageMetadata metadata{{"Software", "pathlight " PL_VERSION},
-                           {"scene", picture.scene},
+                           {"scene", picture.scene.name},
                            {"method", std::string(info_of(snapshot.slot.method).name)},
                            {"view", std::string(info_of(snapshot.slot.view).name)},
                            {"backend", picture.backend},

@@ -102,7 +102,7 @@ void draw_material_tab(ViewerModel& model) {
     material.kind = static_cast<SurfaceKind>(kind);
     changed |= draw_reflection(material, file);
     changed |= draw_emission(material, file);
-    draw_textures(material.textures, model.scene().materials().file());
+    draw_textures(material.textures, *model.scene().materials().file());
     if (changed) model.scene().set_material(index, material);
     draw_restore(model, index);
 }

@@ -12,6 +12,23 @@
 namespace pl {
 namespace {
 
+/// Only for scenes with knobs.
+void draw_scene(ViewerModel& model) {
+    const std::vector<KnobDescription> knobs = model.scene().knobs();
+    if (knobs.empty() || !section("Scene", true)) return;
+    for (std::size_t i = 0; i < knobs.size(); ++i) {
+        const KnobDescription& knob = knobs[i];
+        float value = knob.value;
+        if (slider_row(knob.name.c_str(), (knob.does + ". The field is learned anew.").c_str(), &value,
+                       {knob.low, knob.high, knob.default_value, "%.4g"}))
+            model.scene().set_knob(i, value);
+    }
+    const bool turned = std::ranges::any_of(knobs, [](const KnobDescription& k) { return k.value != k.default_value; });
+    ImGui::BeginDisabled(!turned);
+    if (wide_button("Reset knobs", "The scene's own values.")) model.scene().reset_knobs();
+    ImGui::EndDisabled();
+}
+
 void draw_method(ViewerModel& model) {
     if (!section("Method", true)) return;
     const MethodId current = model.render().settings().method;
@@ -272,6 +289,7 @@ void draw_display(ViewerModel& model) {
 void draw_settings_panel(ViewerModel& model, const Layout& layout) {
     begin_fixed_window("settings", layout.left);
     draw_run_buttons(model);
+    draw_scene(model);
     draw_method(model);
     draw_back_end(model);
     draw_display(model);

@@ -87,6 +87,14 @@ std::string headline_text(const ViewerModel& model) {
     return text;
 }
 
+/// "opening=17.9", "none".
+std::string knob_text(const std::vector<KnobDescription>& knobs) {
+    std::string text;
+    for (const KnobDescription& knob : knobs)
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", knob.name, knob.value);
+    return text.empty() ? "none" : text;
+}
+
 constexpr std::array kValues{
     Value{"method", [](const ViewerModel& m) { return std::string(info_of(m.render().settings().method).name); }},
     Value{"view", [](const ViewerModel& m) { return std::string(info_of(m.render().settings().view).name); }},
@@ -197,6 +205,11 @@ constexpr std::array kValues{
     Value{"effect_pairs", measured_pairs},
     Value{"edited",
           [](const ViewerModel& m) { return fmt::format("{}", m.scene().materials().edited_names().size()); }},
+    Value{"knobs", [](const ViewerModel& m) { return knob_text(m.scene().knobs()); }},
+    Value{"shown_knobs",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return knob_text(f.description->knobs); });
+          }},
     Value{"roughness",
           [](const ViewerModel& m) {
               const auto index = m.scene().selected_material();

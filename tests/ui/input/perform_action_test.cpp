@@ -8,7 +8,7 @@ using namespace pl::test;
 
 TEST_CASE("Perform action: every action but the held keys has an effect, each method its own") {
     ModelBench bench(16);
-    bench.options.load_scene = [](const std::string&) { return small_scene(); };
+    bench.options.load_scene = [](const SceneRequest&) { return small_scene(); };
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     for (const Action& action : all_actions()) {
         INFO(action.text);

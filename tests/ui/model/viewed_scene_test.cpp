@@ -131,7 +131,7 @@ TEST_CASE("Viewed scene: references are looked up with the edited scene") {
 TEST_CASE("Viewed scene: a new scene has the materials of its file, and pictures name the edited ones") {
     MaterialBench bench;
     const auto scene = small_scene();
-    bench.options.load_scene = [](const std::string&) { return small_scene(); };
+    bench.options.load_scene = [](const SceneRequest&) { return small_scene(); };
     ViewerModel model(bench.options, scene, bench.options.settings, 0.0);
     CHECK(model.files().pictures().picture().edited_materials.empty());
     model.scene().select_material(1);
