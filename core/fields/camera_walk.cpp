@@ -7,6 +7,7 @@
 #include "core/fields/radical_inverse.h"
 #include "core/fields/walk.h"
 #include "core/kernel/base/rng.h"
+#include "core/kernel/guiding/volume_lookup.h"
 #include "core/kernel/integrator/holes.h"
 
 namespace pl {

@@ -108,8 +108,8 @@ ModelBench make_bench() {
     options.settings.field.volumes = 16;
     options.settings.field.bins = 16;
     options.backends = {{"cpu", "", ""}, {"cuda", "", ""}, {"other", "", "there is none"}};
-    options.load_scene = [](const std::string& name) {
-        if (name.size() % 2 == 0) throw Error(ErrorKind::Input, name + ":1: expected a scene");
+    options.load_scene = [](const SceneRequest& request) {
+        if (request.name.size() % 2 == 0) throw Error(ErrorKind::Input, request.name + ":1: expected a scene");
         return small_scene();
     };
     options.screenshot_dir = "/dev/null/pictures";
