@@ -14,7 +14,7 @@ void copy_command(ViewerModel& model) {
     Messages& messages = model.messages();
     // A picture that began with a learned field is repeated with one: the field as it is now, the nearest that there is.
     const bool warm = model.frame() != nullptr && model.frame()->snapshot.warm;
-    const std::string field = warm ? model.files().fields().save().string() : "";
+    const std::string field = warm ? model.files().fields().save_as_named().string() : "";
     const std::string command = model.files().pictures().command_line(field);
     if (command.empty()) {
         messages.say(MessageLevel::Warning, "this build cannot write the command line");

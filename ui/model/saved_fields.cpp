@@ -15,25 +15,28 @@ SavedFields::SavedFields(const ModelServices& services, FileNames& names, const 
     : options_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
       names_(names), scene_(scene), render_(render) {}
 
-std::filesystem::path SavedFields::save() {
-    if (wanted_.empty()) {
-        const std::string suffix(kFieldSuffix);
-        const std::string_view method = info_of(render_.method()).name;
-        wanted_ = names_.next(scene_, method, {suffix.c_str()}).string() + suffix;
-    }
-    link_.worker().request_learned();
-    return wanted_;
+std::filesystem::path SavedFields::next_name(MethodId method) {
+    const std::string suffix(kFieldSuffix);
+    return names_.next(scene_, info_of(method).name, {suffix.c_str()}).string() + suffix;
+}
+
+void SavedFields::save() { link_.worker().request_learned(); }
+
+std::filesystem::path SavedFields::save_as_named() {
+    if (promised_.empty()) promised_ = next_name(render_.method());
+    save();
+    return promised_;
 }
 
 void SavedFields::update() {
     const std::optional<LearnedAnswer> answer = link_.worker().take_learned();
     if (!answer) return;
-    const std::filesystem::path path = std::exchange(wanted_, {});
-    if (path.empty()) return;  // asked for twice
+    std::filesystem::path path = std::exchange(promised_, {});
     if (!answer->field) {
         messages_.say(MessageLevel::Warning, answer->reason);
         return;
     }
+    if (path.empty()) path = next_name(answer->field->method);
     jobs_.push([this, path, field = answer->field]() -> JobThread::Report {
         write_field(path, *field);
         return [this, text = fmt::format("saved {}: {}", path.string(), summary_of(*field))] {

@@ -21,14 +21,17 @@ public:
     /// Takes a field from the render thread to write; once per frame of the window.
     void update();
 
-    /// Writes the field as the render thread has it next; the file it will be in. Without a field a message says so.
-    std::filesystem::path save();
+    /// Writes the field as the render thread has it next. Without a field a message says so.
+    void save();
+    /// The same, and returns the name of its file beforehand.
+    std::filesystem::path save_as_named();
     void load(const std::filesystem::path& path);
     /// The newest saved field of the scene in the window.
     void load_newest();
 
 private:
     void adopt(const std::shared_ptr<LearnedField>& field, const std::filesystem::path& path);
+    std::filesystem::path next_name(MethodId method);
     std::filesystem::path newest_file() const;
 
     const ViewerOptions& options_;
@@ -38,7 +41,7 @@ private:
     FileNames& names_;
     const ViewedScene& scene_;
     RenderControls& render_;
-    std::filesystem::path wanted_;  ///< of the field that was requested and has not come yet; else empty
+    std::filesystem::path promised_;  ///< the name for the field that was requested; empty if any will do
 };
 
 }  // namespace pl

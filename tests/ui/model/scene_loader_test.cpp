@@ -56,7 +56,7 @@ SceneRequest small_with_gap(float value) { return {"small", {{"gap", value}}}; }
 
 }  // namespace
 
-TEST_CASE("Scene loader: a knob loads the scene again; camera and edited materials stay") {
+TEST_CASE("Scene loader: a knob loads the scene again, camera and edited materials stay") {
     KnobBench bench;
     ViewerModel model(bench.options, KnobBench::scene(), bench.options.settings, 0.0);
     REQUIRE(bench.shows(model, 2.0f));
