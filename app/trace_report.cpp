@@ -34,8 +34,7 @@ std::string surface_text(const VertexRecord& vertex, const SceneDescription& sce
     if (vertex.delta_probability > 0.0f)
         text += fmt::format(", delta lobe with probability {}", print_float(vertex.delta_probability));
     if (vertex.volume != kNoVolume)
-        text += fmt::format("\n  volume      {}, guided with probability {}", vertex.volume,
-                            print_float(1.0f - vertex.bsdf_fraction));
+        text += fmt::format("\n  volume      {}, BSDF fraction {}", vertex.volume, print_float(vertex.bsdf_fraction));
     return text + "\n";
 }
 
@@ -165,7 +164,7 @@ std::string path_text(const TracedPath& traced) {
             if (end.vertex == i)
                 text += fmt::format("  end         of branch {}: {}\n", end.branch, ending_text(end.reason));
     }
-    return text + fmt::format("radiance {}, {} segments, {} shadow rays, {} branches\n", print_vector(path.radiance),
+    return text + fmt::format("radiance {}; segments {}, shadow rays {}, branches {}\n", print_vector(path.radiance),
                               path.segments, path.shadow_rays, path.ends.size());
 }
 
