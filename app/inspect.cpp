@@ -57,14 +57,6 @@ std::int32_t volume_under(Session& session, const glm::ivec2& pixel) {
     return picked->volume;
 }
 
-void require_inside(const Options& options) {
-    if (!options.pixel) return;
-    const glm::ivec2 pixel = *options.pixel;
-    if (pixel.x >= options.render.width || pixel.y >= options.render.height)
-        throw Error(ErrorKind::Usage, fmt::format("--pixel: expected a pixel of {}x{}, got {},{}",
-                                                  options.render.width, options.render.height, pixel.x, pixel.y));
-}
-
 /// A loaded field is inspected as it is, unless limits ask for more training. A radiance map is completed in any
 /// case.
 bool is_trained(const Options& options) {
@@ -110,7 +102,7 @@ int run_inspect(const CommandLine& line, Console& console) {
     const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
-    require_inside(options);
+    require_pixel_inside(options);
     RenderSettings training = options.render;
     training.guiding = GuidingRule::Always;  // the field is wanted, not the picture: every pass trains it
     Session session(make_backend(options.backend, options.threads), loaded.scene, training,

@@ -25,6 +25,7 @@ int run(const std::vector<std::string>& arguments, Console& console) {
     case Command::Info: return run_info(line, console);
     case Command::Devices: return run_devices(line, console);
     case Command::Inspect: return run_inspect(line, console);
+    case Command::Trace: return run_trace(line, console);
     case Command::Compare: return run_compare(line, console);
     case Command::Bench: return run_bench(line, console);
     case Command::Report: return run_report(line, console);

@@ -21,6 +21,7 @@ enum class Command : std::uint32_t {
     Info,
     Devices,
     Inspect,
+    Trace,
     Compare,
     Reference,
     Bench,
@@ -79,6 +80,7 @@ struct Options {
 
     std::optional<ScenePoint> at;
     std::optional<glm::ivec2> pixel;
+    std::optional<std::uint32_t> sample;  ///< trace: number of the pixel's sample
     bool truth = false;                 ///< inspect: also the light that reaches the volume
     std::uint32_t truth_samples = 256;  ///< paths per cell for it
 

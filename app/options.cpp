@@ -135,7 +135,8 @@ std::optional<std::string> answer_to(Command command, const Found& found) {
 void require_complete(Command command, const Options& options) {
     const bool needs_file = command == Command::Render || command == Command::Inspect;
     const bool needs_folder = command == Command::Reference || command == Command::Bench;
-    if (options.scene.empty() && options.inputs.empty() && (needs_file || needs_folder || command == Command::Info))
+    if (options.scene.empty() && options.inputs.empty() &&
+        (needs_file || needs_folder || command == Command::Info || command == Command::Trace))
         fail(fmt::format("'{}' needs a SCENE: a name ({}), an .obj file or a scene .json file", command_name(command),
                          fmt::join(list_scenes(find_assets_dir()), ", ")));
     if (options.output.empty() && needs_file)
@@ -144,6 +145,8 @@ void require_complete(Command command, const Options& options) {
         fail(fmt::format("'{}' needs a folder to write to: -o DIR", command_name(command)));
     if (command == Command::Inspect && options.at.has_value() == options.pixel.has_value())
         fail("'inspect' needs a place: either --at X,Y,Z[,NX,NY,NZ] or --pixel X,Y");
+    if (command == Command::Trace && !(options.pixel && options.sample))
+        fail("'trace' needs a path: --pixel X,Y and --sample N");
     if (command == Command::Report && options.inputs.size() != 1)
         fail(fmt::format("'report' needs one folder of 'bench', DIR: got {}", options.inputs.size()));
     if (command == Command::Compare && options.inputs.size() != 2)

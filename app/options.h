@@ -33,6 +33,9 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments);
 /// other, Error(Input) for invalid settings of the scene.
 Options resolve_options(const CommandLine& line, const SceneDescription& scene, const LearnedField* loaded = nullptr);
 
+/// Throws Error(Usage) if --pixel is given and outside of the picture.
+void require_pixel_inside(const Options& options);
+
 /// resolve_options() of a scene opened without options.
 Options scene_defaults(const std::string& scene_name, const SceneDescription& scene);
 

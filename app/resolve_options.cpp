@@ -174,6 +174,7 @@ Options resolve_options(const CommandLine& line, const SceneDescription& scene, 
     settle_size(options);
     settle_camera(options);
     if (line.command == Command::Inspect) settle_inspection(line, options);
+    if (line.command == Command::Trace) options.render.view = View::Beauty;  // other views trace no paths
     if (line.command == Command::Reference) settle_reference(line, options);
     if (line.command == Command::Bench) {
         options.render.view = View::Beauty;
@@ -182,6 +183,14 @@ Options resolve_options(const CommandLine& line, const SceneDescription& scene, 
     settle_target(line, options);
     check_combinations(line.command, options);
     return options;
+}
+
+void require_pixel_inside(const Options& options) {
+    if (!options.pixel) return;
+    const glm::ivec2 pixel = *options.pixel;
+    if (pixel.x >= options.render.width || pixel.y >= options.render.height)
+        throw Error(ErrorKind::Usage, fmt::format("--pixel: expected a pixel of {}x{}, got {},{}",
+                                                  options.render.width, options.render.height, pixel.x, pixel.y));
 }
 
 Options scene_defaults(const std::string& scene_name, const SceneDescription& scene) {

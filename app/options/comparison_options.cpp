@@ -14,6 +14,13 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
     {.name = "pixel", .flags = "--pixel", .value = "X,Y", .group = kPlace,
      .help = "The volume that serves the surface seen there; 0,0 is the top left pixel",
      .commands = CommandSet(Command::Inspect), .parse = parse_pixel},
+    {.name = "pixel", .flags = "--pixel", .value = "X,Y", .group = kPlace,
+     .help = "The pixel of the path; 0,0 is the top left one",
+     .commands = CommandSet(Command::Trace), .parse = parse_pixel},
+    {.name = "sample", .flags = "--sample", .value = "N", .group = kPlace,
+     .help = "The sample of that pixel, from 0 on",
+     .commands = CommandSet(Command::Trace),
+     .parse = [](Options& o, Text text) { o.sample = static_cast<std::uint32_t>(parse_whole(text, 0, 1000000000)); }},
     {.name = "truth", .flags = "--truth", .value = "", .group = kPlace,
      .help = "Also the light that reaches the volume, by paths of default from there: beside the learned radiance, with "
              "the divergence of the learned densities from it",

@@ -30,23 +30,24 @@ using Text = const std::string&;
 
 /// Subcommands that options have in common.
 inline constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Info, Command::Devices,
-                                        Command::Inspect, Command::Compare, Command::Reference, Command::Bench,
-                                        Command::Report, Command::SelfTest);
+                                        Command::Inspect, Command::Trace, Command::Compare, Command::Reference,
+                                        Command::Bench, Command::Report, Command::SelfTest);
 inline constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Info, Command::Inspect,
-                                       Command::Reference, Command::Bench);
-inline constexpr CommandSet kThreaded(Command::View, Command::Render, Command::Info, Command::Inspect,
+                                       Command::Trace, Command::Reference, Command::Bench);
+inline constexpr CommandSet kThreaded(Command::View, Command::Render, Command::Info, Command::Inspect, Command::Trace,
                                       Command::Reference, Command::Bench, Command::SelfTest);
 inline constexpr CommandSet kOneMethod(Command::View, Command::Render, Command::Info, Command::Inspect,
-                                       Command::Reference);
-inline constexpr CommandSet kPaths(Command::View, Command::Render, Command::Inspect, Command::Reference,
-                                   Command::Bench);
-inline constexpr CommandSet kSampling(Command::View, Command::Render, Command::Inspect);
+                                       Command::Trace, Command::Reference);
+inline constexpr CommandSet kPaths(Command::View, Command::Render, Command::Inspect, Command::Trace,
+                                   Command::Reference, Command::Bench);
+inline constexpr CommandSet kSampling(Command::View, Command::Render, Command::Inspect, Command::Trace);
 inline constexpr CommandSet kPictures(Command::View, Command::Render);
 inline constexpr CommandSet kHeadless(Command::Render, Command::Info, Command::Devices, Command::Inspect,
-                                      Command::Compare, Command::Reference, Command::Bench, Command::Report,
-                                      Command::SelfTest);
+                                      Command::Trace, Command::Compare, Command::Reference, Command::Bench,
+                                      Command::Report, Command::SelfTest);
 inline constexpr CommandSet kFiles(Command::Render, Command::Inspect);
-inline constexpr CommandSet kWorking(Command::Render, Command::Inspect, Command::Reference, Command::Bench);
+inline constexpr CommandSet kWorking(Command::Render, Command::Inspect, Command::Trace, Command::Reference,
+                                     Command::Bench);
 
 /// Headings of the help.
 inline constexpr std::string_view kOutput = "Output";

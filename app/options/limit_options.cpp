@@ -11,7 +11,7 @@ void parse_spp(Options& options, const std::string& text) {
 constexpr auto kLimitOptions = std::to_array<OptionSpec>({
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel (default 64 unless another limit is given; the viewer has no limit by default)",
-     .commands = kSampling, .in_scene_files = true,
+     .commands = CommandSet(Command::View, Command::Render, Command::Inspect), .in_scene_files = true,
      .parse = parse_spp,
      .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
@@ -27,7 +27,8 @@ constexpr auto kLimitOptions = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
     {.name = "time-limit", .flags = "--time-limit", .value = "SECONDS", .group = kStop,
      .help = "Seconds of work after loading, checked after each pass; at least one pass is made",
-     .commands = kPaths, .in_scene_files = true, .parse = parse_time_limit,
+     .commands = CommandSet(Command::View, Command::Render, Command::Inspect, Command::Reference, Command::Bench),
+     .in_scene_files = true, .parse = parse_time_limit,
      .print = [](const Options& o) { return o.time_limit_seconds ? print_real(*o.time_limit_seconds) : ""; }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kStop,
      .help = "A relMSE: of the error against the reference in the folder --reference, or without one of the "

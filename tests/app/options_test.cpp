@@ -219,7 +219,7 @@ TEST_CASE("help, version and lists are answers, whatever else is missing") {
 
 TEST_CASE("every option that can be given is in the help of its subcommand") {
     for (const char* command :
-         {"view", "render", "info", "devices", "inspect", "compare", "reference", "bench", "report"}) {
+         {"view", "render", "info", "devices", "inspect", "trace", "compare", "reference", "bench", "report"}) {
         const std::string help = *parse_command_line({command, "--help"}).answer;
         const Command id = parse_command_line({command, "--help"}).command;
         for (const OptionSpec& spec : option_table()) {

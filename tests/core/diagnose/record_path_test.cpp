@@ -145,3 +145,23 @@ TEST_CASE("Record path: the parts of a path explain it at all kinds of surfaces 
         }
     }
 }
+
+TEST_CASE("Record path: whether a pass is guided is known before it, and asking changes no later choice") {
+    const SceneDescription scene = shipped_scene("cornell");
+    const RenderSettings settings = settings_without_gain(scene, MethodId::Reinforcement);
+    Session asked = make_session(scene, settings);
+    Session rendered = make_session(scene, settings);
+    std::uint32_t unguided = 0;
+    for (std::uint32_t pass = 0; pass < 24; ++pass) {
+        come_to_path(asked, 5);
+        PassReplay passes = asked.pass_replay(slot_of(asked));
+        const PathRecord path = record_path(passes, field_of(passes), 5, pass);
+        render_passes(asked, 1);
+        render_passes(rendered, 1);
+        CHECK(path.is_guided == rendered.pass_replay(slot_of(rendered)).is_guided(pass));
+        unguided += path.is_guided ? 0 : 1;
+    }
+    CHECK(unguided > 0);
+    CHECK(unguided < 24);
+    CHECK(same_state(state_of(asked), state_of(rendered)));
+}

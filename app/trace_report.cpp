@@ -1,0 +1,191 @@
+#include "app/trace_report.h"
+
+#include <fmt/format.h>
+
+#include "app/parse_values.h"
+#include "core/session/methods.h"
+
+namespace pl {
+namespace {
+
+std::string vertex_name(std::int32_t index) {
+    return index < 0 ? std::string("the camera") : fmt::format("vertex {}", index);
+}
+
+std::string ending_text(PathEnd end) {
+    switch (end) {
+    case PathEnd::Escaped: return "no surface is met";
+    case PathEnd::Absorbed: return "the surface reflects nothing";
+    case PathEnd::Roulette: return "Russian roulette";
+    case PathEnd::DepthLimit: return "--max-depth is reached";
+    case PathEnd::ZeroDirection: return "the sampled direction has f cos = 0";
+    }
+    return "";
+}
+
+std::string surface_text(const VertexRecord& vertex, const SceneDescription& scene) {
+    std::string text =
+        fmt::format("  position    {}, distance {}\n", print_vector(vertex.position), print_float(vertex.distance));
+    text += fmt::format("  normal      {}", print_vector(vertex.geometric_normal));
+    if (vertex.shading_normal != vertex.geometric_normal)
+        text += fmt::format(", shading {}", print_vector(vertex.shading_normal));
+    text += fmt::format("\n  material    {}, albedo {}", scene.materials[vertex.material].name,
+                        print_vector(vertex.albedo));
+    if (vertex.delta_probability > 0.0f)
+        text += fmt::format(", delta lobe with probability {}", print_float(vertex.delta_probability));
+    if (vertex.volume != kNoVolume)
+        text += fmt::format("\n  volume      {}, BSDF fraction {}", vertex.volume, print_float(vertex.bsdf_fraction));
+    return text + "\n";
+}
+
+std::string emission_text(const EmissionRecord& emission) {
+    if (is_black(emission.radiance)) return "";
+    return fmt::format("  emission    {}, MIS weight {}, light pdf {}: contributes {}\n",
+                       print_vector(emission.radiance), print_float(emission.weight),
+                       print_float(emission.light_pdf_sa), print_vector(emission.contribution));
+}
+
+std::string light_text(const LightRecord& light) {
+    const std::string place = light.position
+                                  ? fmt::format("{} on triangle {}", print_vector(*light.position), light.primitive)
+                                  : std::string("far away");
+    return fmt::format("  light       {}, wi {}\n              pdf {}, scattering pdf {}, MIS weight {}, {}: "
+                       "contributes {}\n",
+                       place, print_vector(light.wi), print_float(light.pdf_sa), print_float(light.scatter_pdf_sa),
+                       print_float(light.weight), light.is_visible ? "visible" : "occluded",
+                       print_vector(light.contribution));
+}
+
+std::string roulette_text(const RouletteRecord& roulette) {
+    const std::string outcome = roulette.branches == 0   ? std::string("ends")
+                                : roulette.branches == 1 ? std::string("continues")
+                                                         : fmt::format("{} branches", roulette.branches);
+    return fmt::format("  roulette    contribution estimate {}, expected branches {}: {}\n",
+                       print_float(roulette.estimate), print_float(roulette.expected_branches), outcome);
+}
+
+std::string direction_text(const ScatterRecord& direction) {
+    std::string text = fmt::format("  direction   to vertex {} by {}, wi {}\n", direction.next,
+                                   name_of(direction.technique), print_vector(direction.wi));
+    if (direction.technique != Technique::Delta)
+        text += fmt::format("              pdf {} (bsdf {}, field {}), f cos {}\n", print_float(direction.pdf_sa),
+                            print_float(direction.bsdf_pdf_sa), print_float(direction.field_pdf_sa),
+                            print_vector(direction.bsdf_cos));
+    return text + fmt::format("              throughput {}\n", print_vector(direction.throughput));
+}
+
+std::string vertex_text(const VertexRecord& vertex, const SceneDescription& scene) {
+    std::string text = fmt::format(", from {}, bounce {}, branch {}\n  wo          {}\n  throughput  {}\n",
+                                   vertex_name(vertex.parent), vertex.bounce, vertex.branch, print_vector(vertex.wo),
+                                   print_vector(vertex.throughput));
+    if (!vertex.is_escape) text += surface_text(vertex, scene);
+    text += emission_text(vertex.emission);
+    if (vertex.light) text += light_text(*vertex.light);
+    if (vertex.roulette) text += roulette_text(*vertex.roulette);
+    for (const ScatterRecord& direction : vertex.scattered) text += direction_text(direction);
+    return text;
+}
+
+Json emission_json(const EmissionRecord& emission) {
+    return {{"radiance", vector_json(emission.radiance)},
+            {"weight", emission.weight},
+            {"light_pdf", emission.light_pdf_sa},
+            {"contribution", vector_json(emission.contribution)}};
+}
+
+Json light_json(const LightRecord& light) {
+    return {{"position", light.position ? vector_json(*light.position) : Json()},
+            {"triangle", light.position ? Json(light.primitive) : Json()},
+            {"wi", vector_json(light.wi)},
+            {"pdf", light.pdf_sa},
+            {"scatter_pdf", light.scatter_pdf_sa},
+            {"weight", light.weight},
+            {"visible", light.is_visible},
+            {"unoccluded", vector_json(light.unoccluded)},
+            {"contribution", vector_json(light.contribution)}};
+}
+
+Json direction_json(const ScatterRecord& direction) {
+    return {{"branch", direction.branch},
+            {"next", direction.next},
+            {"technique", name_of(direction.technique)},
+            {"wi", vector_json(direction.wi)},
+            {"pdf", direction.pdf_sa},
+            {"bsdf_pdf", direction.bsdf_pdf_sa},
+            {"field_pdf", direction.field_pdf_sa},
+            {"bsdf_cos", vector_json(direction.bsdf_cos)},
+            {"throughput", vector_json(direction.throughput)}};
+}
+
+Json surface_json(const VertexRecord& vertex, const SceneDescription& scene) {
+    return {{"position", vector_json(vertex.position)},
+            {"geometric_normal", vector_json(vertex.geometric_normal)},
+            {"shading_normal", vector_json(vertex.shading_normal)},
+            {"distance", vertex.distance},
+            {"triangle", vertex.primitive},
+            {"material", scene.materials[vertex.material].name},
+            {"albedo", vector_json(vertex.albedo)},
+            {"delta_probability", vertex.delta_probability},
+            {"volume", vertex.volume == kNoVolume ? Json() : Json(vertex.volume)},
+            {"bsdf_fraction", vertex.bsdf_fraction}};
+}
+
+Json vertex_json(const VertexRecord& vertex, const SceneDescription& scene) {
+    Json json{{"parent", vertex.parent < 0 ? Json() : Json(vertex.parent)},
+              {"branch", vertex.branch},
+              {"bounce", vertex.bounce},
+              {"wo", vector_json(vertex.wo)},
+              {"throughput", vector_json(vertex.throughput)},
+              {"surface", vertex.is_escape ? Json() : surface_json(vertex, scene)},
+              {"emission", emission_json(vertex.emission)},
+              {"light", vertex.light ? light_json(*vertex.light) : Json()},
+              {"roulette", Json()},
+              {"scattered", Json::array()},
+              {"contribution", vector_json(vertex.contribution())}};
+    if (vertex.roulette)
+        json["roulette"] = {{"estimate", vertex.roulette->estimate},
+                            {"expected_branches", vertex.roulette->expected_branches},
+                            {"branches", vertex.roulette->branches}};
+    for (const ScatterRecord& direction : vertex.scattered) json["scattered"].push_back(direction_json(direction));
+    return json;
+}
+
+}  // namespace
+
+std::string path_text(const TracedPath& traced) {
+    const PathRecord& path = traced.path;
+    const auto width = static_cast<std::uint32_t>(traced.settings.width);
+    std::string text =
+        fmt::format("pixel {},{}, sample {}, seed {}, {}{}\n", path.pixel % width, path.pixel / width, traced.sample,
+                    traced.settings.seed, info_of(traced.settings.method).name, path.is_guided ? ", guided" : "");
+    for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+        text += fmt::format("vertex {}{}", i, vertex_text(path.vertices[i], traced.scene));
+        for (const BranchEnd& end : path.ends)
+            if (end.vertex == i)
+                text += fmt::format("  end         of branch {}: {}\n", end.branch, ending_text(end.reason));
+    }
+    return text + fmt::format("radiance {}; segments {}, shadow rays {}, branches {}\n", print_vector(path.radiance),
+                              path.segments, path.shadow_rays, path.ends.size());
+}
+
+Json path_json(const TracedPath& traced) {
+    const PathRecord& path = traced.path;
+    const auto width = static_cast<std::uint32_t>(traced.settings.width);
+    Json json{{"method", info_of(traced.settings.method).name},
+              {"guided", path.is_guided},
+              {"seed", traced.settings.seed},
+              {"pixel", {path.pixel % width, path.pixel / width}},
+              {"sample", traced.sample},
+              {"eye", vector_json(path.eye)},
+              {"radiance", vector_json(path.radiance)},
+              {"segments", path.segments},
+              {"shadow_rays", path.shadow_rays},
+              {"vertices", Json::array()},
+              {"ends", Json::array()}};
+    for (const VertexRecord& vertex : path.vertices) json["vertices"].push_back(vertex_json(vertex, traced.scene));
+    for (const BranchEnd& end : path.ends)
+        json["ends"].push_back({{"branch", end.branch}, {"vertex", end.vertex}, {"reason", name_of(end.reason)}});
+    return json;
+}
+
+}  // namespace pl
