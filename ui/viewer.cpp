@@ -90,7 +90,7 @@ Layout Viewer::current_layout() const {
     int height = 0;
     SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
     return make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels * model_.window().ui_scale,
-                       model_.window().panels, model_.window().accuracy, model_.selection().volume() != kNoVolume);
+                       model_.window().panels, model_.selection().volume() != kNoVolume);
 }
 
 RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
@@ -101,7 +101,7 @@ RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
         int height = 0;
         SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
         const Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height),
-                                          kFontPixels * display_.ui_scale(), true, true, false);
+                                          kFontPixels * display_.ui_scale(), {}, false);
         const ImageSize size = fit_image(layout.view, settings.width, settings.height);
         settings.width = size.width;
         settings.height = size.height;

@@ -69,8 +69,8 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
     case ActionId::CellsFainter: step_opacity(display, -kOpacityStep); return true;
     case ActionId::CellsStronger: step_opacity(display, kOpacityStep); return true;
     case ActionId::Hemisphere: window.hemisphere = !window.hemisphere; return true;
-    case ActionId::Accuracy: window.accuracy = !window.accuracy; return true;
-    case ActionId::HidePanels: window.panels = !window.panels; return true;
+    case ActionId::Accuracy: window.panels.accuracy = !window.panels.accuracy; return true;
+    case ActionId::HidePanels: window.panels.shown = !window.panels.shown; return true;
     case ActionId::Help: window.help = !window.help; return true;
     case ActionId::FullScreen: window.requests.full_screen = true; return true;
     case ActionId::ScreenshotWithPanels: window.requests.window_shot = true; return true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ui/draw/direction_disc.h"
+#include "ui/draw/layout.h"
 #include "ui/plot/plot_drag.h"
 
 namespace pl {
@@ -29,8 +30,7 @@ struct WindowRequests {
 };
 
 struct WindowState {
-    bool panels = true;
-    bool accuracy = true;  ///< the panel with the plot
+    PanelChoice panels;
     bool help = false;
     bool hemisphere = true;     ///< of the selected volume, in the picture
     bool values_shown = false;  ///< the pixel tab shows values of the picture

@@ -101,7 +101,7 @@ constexpr std::array kValues{
           [](const ViewerModel&) {
               return std::string(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) ? "open" : "closed");
           }},
-    Value{"accuracy", [](const ViewerModel& m) { return word(m.window().accuracy); }},
+    Value{"accuracy", [](const ViewerModel& m) { return word(m.window().panels.accuracy); }},
     Value{"runs", [](const ViewerModel& m) { return fmt::format("{}", m.comparison().accuracy().runs().size()); }},
     Value{"points", point_count},
     Value{"plotted",
@@ -126,7 +126,7 @@ constexpr std::array kValues{
     Value{"cells", [](const ViewerModel& m) { return word(m.display().cells()); }},
     Value{"hemisphere", [](const ViewerModel& m) { return word(m.window().hemisphere); }},
     Value{"help", [](const ViewerModel& m) { return word(m.window().help); }},
-    Value{"panels", [](const ViewerModel& m) { return word(m.window().panels); }},
+    Value{"panels", [](const ViewerModel& m) { return word(m.window().panels.shown); }},
     Value{"moving", [](const ViewerModel& m) { return word(m.camera().is_moving()); }},
     Value{"busy", [](const ViewerModel& m) { return word(m.busy()); }},
     Value{"volume", [](const ViewerModel& m) { return fmt::format("{}", m.selection().volume()); }},
