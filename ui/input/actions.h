@@ -47,6 +47,8 @@ enum class ActionId {
     Turns,
     MakeReference,
     HidePanels,
+    FoldSettings,
+    FoldRight,
     Help,
     SelfTest,
     FullScreen,

@@ -10,6 +10,7 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
         if (layout.right.width > 0.0f) draw_knowledge_panel(model, layout, hovered);
         if (layout.accuracy.height > 0.0f) draw_accuracy_panel(model, layout);
         draw_status_bar(model, layout);
+        draw_borders(model, layout);
     }
     if (plan.at_image) draw_hemisphere(model, image);
     draw_comparison(model, plan);
