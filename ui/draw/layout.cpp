@@ -11,6 +11,7 @@ constexpr float kLeftEm = 18.0f;
 constexpr float kRightEm = 25.0f;
 constexpr float kSmallestLeftEm = 16.0f;
 constexpr float kSmallestRightEm = 18.0f;
+constexpr float kReadableRightEm = 24.0f;  ///< all titles of the tabs
 constexpr float kGoodViewEm = 36.0f;
 constexpr float kSmallestViewEm = 18.0f;
 constexpr float kAccuracyShare = 0.66f;       ///< of the height at the right
@@ -29,10 +30,18 @@ struct Widths {
     float right;
 };
 
+/// The least width of the right side that a drag can give, with `room` for panels and picture.
+float least_chosen_right(float room, float em) {
+    const float most = room - (kSmallestLeftEm + kSmallestViewEm) * em;
+    return std::clamp(most, kSmallestRightEm * em, kReadableRightEm * em);
+}
+
 /// `room` is the width of the window without borders.
 Widths panel_widths(float room, float em, const PanelChoice& choice) {
     const float least_left = choice.settings ? kSmallestLeftEm * em : 0.0f;
-    const float least_right = choice.right ? kSmallestRightEm * em : 0.0f;
+    float least_right = 0.0f;
+    const bool is_automatic = choice.settings_em == 0.0f && choice.right_em == 0.0f;
+    if (choice.right) least_right = is_automatic ? kSmallestRightEm * em : least_chosen_right(room, em);
     const auto chosen = [&](float size_em, float least, float others) {
         return std::clamp(size_em * em, least, std::max(room - others - kSmallestViewEm * em, least));
     };
@@ -99,14 +108,15 @@ Layout make_layout(float width, float height, float em, const PanelChoice& choic
 PanelChoice drag_border(PanelChoice choice, Border border, Vec2f pointer, const Layout& layout, float em) {
     const float spare = std::max(layout.clear.width - kSmallestViewEm * em, 0.0f);
     const float half = 0.5f * layout.settings_border.width;
-    const auto chosen = [&](float pixels, float now, float least_em) {
-        return std::clamp(pixels, least_em * em, std::max(now + spare, least_em * em)) / em;
+    const auto chosen = [&](float pixels, float now, float least) {
+        return std::clamp(pixels, least, std::max(now + spare, least)) / em;
     };
     if (border == Border::Settings) {
-        choice.settings_em = chosen(pointer.x - half, layout.left.width, kSmallestLeftEm);
+        choice.settings_em = chosen(pointer.x - half, layout.left.width, kSmallestLeftEm * em);
     } else if (border == Border::Right) {
+        const float room = layout.menu.width - 4.0f * half;
         const float now = layout.menu.width - layout.right_border.x - layout.right_border.width;
-        choice.right_em = chosen(layout.menu.width - pointer.x - half, now, kSmallestRightEm);
+        choice.right_em = chosen(layout.menu.width - pointer.x - half, now, least_chosen_right(room, em));
     } else {
         const float room = layout.right.height + layout.accuracy.height;
         const float below = layout.accuracy.y + layout.accuracy.height - pointer.y - half;

@@ -82,6 +82,12 @@ std::vector<Action> actions_after_methods() {
         {FoldRight, Group::Window, "F7", "fold or open tabs and accuracy panel", {at(SDL_SCANCODE_F7)}},
         {FullScreen, Group::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
         {Help, Group::Window, "F1 or ?", "this list", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
+        {SwitchLayout, Group::Window, "F3", "layout: Explore or Research", {at(SDL_SCANCODE_F3)}},
+        {ResetWindow,
+         Group::Window,
+         "Ctrl+F3",
+         "reset the window, and forget what is remembered of it",
+         {at(SDL_SCANCODE_F3, kCtrl)}},
         {SelfTest, Group::Window, "F2", "self test of all back ends", {at(SDL_SCANCODE_F2)}},
         {Cancel, Group::Window, "Esc", "close, cancel or deselect", {at(SDL_SCANCODE_ESCAPE)}},
 

@@ -51,6 +51,8 @@ enum class ActionId {
     FoldRight,
     Help,
     SelfTest,
+    SwitchLayout,
+    ResetWindow,
     FullScreen,
     Reload,
     Screenshot,

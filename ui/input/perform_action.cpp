@@ -46,6 +46,10 @@ void toggle_accuracy(PanelChoice& panels) {
     panels.right = true;
 }
 
+void switch_layout(WindowState& window) {
+    window.layout = window.layout == WindowLayout::Explore ? WindowLayout::Research : WindowLayout::Explore;
+}
+
 /// Each function does a part of the actions; false for the others.
 bool perform_render_action(ViewerModel& model, ActionId id) {
     RenderControls& render = model.render();
@@ -80,6 +84,8 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
     case ActionId::FoldSettings: window.panels.settings = !window.panels.settings; return true;
     case ActionId::FoldRight: window.panels.right = !window.panels.right; return true;
     case ActionId::Help: window.help = !window.help; return true;
+    case ActionId::SwitchLayout: switch_layout(window); return true;
+    case ActionId::ResetWindow: window.requests.reset = true; return true;
     case ActionId::FullScreen: window.requests.full_screen = true; return true;
     case ActionId::ScreenshotWithPanels: window.requests.window_shot = true; return true;
     case ActionId::Quit: window.requests.quit = true; return true;

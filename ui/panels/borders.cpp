@@ -86,12 +86,11 @@ int draw_border(ViewerModel& model, const Layout& layout, const BorderLook& look
     const float length = look.is_upright() ? look.place.height : look.place.width;
     if (length <= 0.0f) return -1;
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetColorU32(ImGuiCol_MenuBarBg));
     begin_fixed_window(look.label, look.place, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleColor();
-    ImGui::PopStyleVar(3);
+    ImGui::PopStyleVar(2);
     const float arrow = std::min(em(kArrowEm), length / static_cast<float>(folds.size() + 1));
     const float arrows = arrow * static_cast<float>(folds.size());
     const float first = std::round(0.5f * (length - arrows));

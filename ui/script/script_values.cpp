@@ -9,6 +9,7 @@
 #include "core/scene/needed_effects.h"
 #include "ui/draw/imgui_compat.h"
 #include "ui/model/viewer_model.h"
+#include "ui/model/window_memory.h"
 
 namespace pl {
 namespace {
@@ -127,6 +128,7 @@ constexpr std::array kValues{
     Value{"hemisphere", [](const ViewerModel& m) { return word(m.window().hemisphere); }},
     Value{"help", [](const ViewerModel& m) { return word(m.window().help); }},
     Value{"panels", [](const ViewerModel& m) { return word(m.window().panels.shown); }},
+    Value{"layout", [](const ViewerModel& m) { return std::string(name_of(m.window().layout)); }},
     Value{"settings_panel", [](const ViewerModel& m) { return word(m.window().panels.settings); }},
     Value{"right_side", [](const ViewerModel& m) { return word(m.window().panels.right); }},
     Value{"tabs", [](const ViewerModel& m) { return word(m.window().panels.tabs); }},

@@ -74,7 +74,7 @@ TEST_CASE("Layout: chosen sizes are taken, as far as picture and text have room"
             const Layout layout = make_layout(width, 720.0f * em / 16.0f, em, choice, false);
             CAPTURE(width, chosen);
             CHECK(layout.left.width >= 16.0f * em);
-            CHECK(layout.right.width >= 18.0f * em);
+            CHECK(layout.right.width >= 24.0f * em);  // the titles of the tabs
             CHECK(layout.clear.width >= 18.0f * em);
             CHECK(layout.view.width == layout.clear.width);
             CHECK(layout.right.height >= 8.0f * em);
