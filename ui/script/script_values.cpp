@@ -128,6 +128,12 @@ constexpr std::array kValues{
     Value{"hemisphere", [](const ViewerModel& m) { return word(m.window().hemisphere); }},
     Value{"help", [](const ViewerModel& m) { return word(m.window().help); }},
     Value{"panels", [](const ViewerModel& m) { return word(m.window().panels.shown); }},
+    Value{"window",
+          [](const ViewerModel&) {
+              const ImVec2 size = ImGui::GetIO().DisplaySize;
+              return fmt::format("{:.0f}x{:.0f}", size.x, size.y);
+          }},
+    Value{"ui_scale", [](const ViewerModel& m) { return fmt::format("{}", m.window().ui_scale); }},
     Value{"layout", [](const ViewerModel& m) { return std::string(name_of(m.window().layout)); }},
     Value{"settings_panel", [](const ViewerModel& m) { return word(m.window().panels.settings); }},
     Value{"right_side", [](const ViewerModel& m) { return word(m.window().panels.right); }},
