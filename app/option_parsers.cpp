@@ -212,6 +212,11 @@ void parse_ui_scale(Options& options, const std::string& text) {
     options.ui_scale = static_cast<float>(parse_real(text, 0.75, 2.0));
 }
 
+void parse_remember(Options& options, const std::string& text) {
+    if (text.empty()) fail_value("a folder, or off", text);
+    options.remember = text;
+}
+
 void parse_picture_size(Options& options, const std::string& text) {
     const glm::ivec2 size = parse_size(text);
     options.width = size.x;

@@ -31,6 +31,7 @@ void parse_time_limit(Options& options, const std::string& text);
 void parse_target_error(Options& options, const std::string& text);
 void parse_window(Options& options, const std::string& text);
 void parse_ui_scale(Options& options, const std::string& text);
+void parse_remember(Options& options, const std::string& text);
 void parse_picture_size(Options& options, const std::string& text);
 void parse_lookup(Options& options, const std::string& text);
 void parse_learning_rate(Options& options, const std::string& text);

@@ -93,6 +93,7 @@ struct Options {
     bool no_progress = false;
 
     std::string script;     ///< viewer: file of scripted input
+    std::string remember;   ///< viewer: folder for the window's state, or "off"; empty: by the system, off with a script
     std::string ui_trace;   ///< viewer: file of frame times
     bool software = false;  ///< viewer: no graphics card
     std::optional<glm::ivec2> window;

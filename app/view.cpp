@@ -68,6 +68,8 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
     viewer.window.ui_scale = options.ui_scale;
     viewer.software = options.software;
     viewer.font = find_assets_dir() / "fonts" / "roboto-medium-latin.ttf";
+    viewer.remember = options.remember.empty() ? options.script.empty() : options.remember != "off";
+    if (viewer.remember) viewer.remember_folder = options.remember;
     if (!options.script.empty()) viewer.script = options.script;
     if (!options.ui_trace.empty()) viewer.ui_trace = options.ui_trace;
     return viewer;

@@ -13,6 +13,7 @@
 #include "ui/compare/compare_layer.h"
 #include "ui/draw/style.h"
 #include "ui/input/input_router.h"
+#include "ui/model/remembered_window.h"
 #include "ui/script/script_player.h"
 #include "ui/script/ui_trace.h"
 #include "ui/window/draw_interface.h"
@@ -36,11 +37,42 @@ double thread_seconds() {
     return static_cast<double>(time.tv_sec) + 1.0e-9 * static_cast<double>(time.tv_nsec);
 }
 
+/// Empty: nothing is remembered.
+std::filesystem::path memory_file(const ViewerOptions& options) {
+    if (!options.remember) return "";
+    std::filesystem::path folder = options.remember_folder;
+    if (folder.empty()) {
+        char* const system_folder = SDL_GetPrefPath("pathlight", "pathlight");
+        if (system_folder == nullptr) return "";  // no home
+        folder = system_folder;
+        SDL_free(system_folder);
+    }
+    return folder / "viewer.json";
+}
+
+/// Scripts see all of the window.
+WindowMemory first_memory(const ViewerOptions& options) {
+    WindowMemory memory;
+    if (options.script) memory.layout = WindowLayout::Research;
+    return memory;
+}
+
+/// Options have priority over what is remembered.
+WindowOptions window_options(WindowOptions options, const WindowMemory& memory) {
+    if (options.ui_scale == 0.0f) options.ui_scale = memory.ui_scale;
+    return options;
+}
+
+std::optional<WindowPlace> first_place(const WindowOptions& options, const WindowMemory& memory) {
+    return options.width > 0 ? std::nullopt : memory.place;
+}
+
 /// The window, its panels and the model behind them.
 class Viewer {
 public:
     Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene, double load_seconds);
     void run();
+    void remember();
     void print_trace();
 
 private:
@@ -52,10 +84,13 @@ private:
     std::optional<HoveredPixel> hovered_pixel() const;
     void show();
     void answer_requests();
+    WindowMemory memory_now() const;
+    void reset_window();
     Layout current_layout() const;
     RenderSettings first_settings(const SceneDescription& scene) const;
 
     const ViewerOptions& options_;
+    RememberedWindow memory_;
     Display display_;
     Gui gui_;
     ImageLayer image_layer_;
@@ -73,10 +108,14 @@ private:
 };
 
 Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene, double load_seconds)
-    : options_(options), display_("pathlight", options.window, options.software),
+    : options_(options), memory_(memory_file(options), first_memory(options)),
+      display_("pathlight", window_options(options.window, memory_.last()),
+               first_place(options.window, memory_.last()), options.software),
       gui_(display_, options.font, display_.ui_scale()), image_layer_(display_.renderer()),
       compare_layer_(display_.renderer()), input_(display_.window()),
       model_(options, scene, first_settings(*scene), load_seconds) {
+    restore(memory_.last(), model_);
+    if (!memory_.problem().empty()) model_.messages().say(MessageLevel::Warning, memory_.problem());
     model_.window().ui_scale = display_.ui_scale();
     if (options.script) script_.emplace(load_script(*options.script), display_.window());
     if (options.ui_trace) trace_.emplace(*options.ui_trace);
@@ -90,7 +129,7 @@ Layout Viewer::current_layout() const {
     int height = 0;
     SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
     return make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels * model_.window().ui_scale,
-                       model_.window().panels, model_.window().accuracy, model_.selection().volume() != kNoVolume);
+                       model_.window().panels, model_.selection().volume() != kNoVolume);
 }
 
 RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
@@ -101,7 +140,7 @@ RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
         int height = 0;
         SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
         const Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height),
-                                          kFontPixels * display_.ui_scale(), true, true, false);
+                                          kFontPixels * display_.ui_scale(), memory_.last().panels, false);
         const ImageSize size = fit_image(layout.view, settings.width, settings.height);
         settings.width = size.width;
         settings.height = size.height;
@@ -122,6 +161,7 @@ void Viewer::run() {
         const double moved = script_ ? ScriptPlayer::kFrameSeconds : std::min(delta, kLongestDelta);
         model_.camera().fly(input_.move_keys(), moved);
         trace_inputs();
+        memory_.update(memory_now(), now - start_, model_.messages());
         const std::uint64_t serial = model_.frame() != nullptr ? model_.frame()->serial : 0;
         if (!pacing_.needs_redraw(now, serial, activity())) continue;
 
@@ -207,6 +247,7 @@ std::optional<HoveredPixel> Viewer::hovered_pixel() const {
 void Viewer::answer_requests() {
     WindowRequests& requests = model_.window().requests;
     if (std::exchange(requests.full_screen, false)) display_.toggle_full_screen();
+    if (std::exchange(requests.reset, false)) reset_window();
     if (std::exchange(requests.fit_size, false)) {
         const RenderSettings settings = model_.render().settings();
         const ImageSize size = fit_image(layout_.view, settings.width, settings.height);
@@ -216,6 +257,28 @@ void Viewer::answer_requests() {
         title_ = std::move(title);
         display_.set_title(title_);
     }
+}
+
+/// A size or scale from the command line is for this run only.
+WindowMemory Viewer::memory_now() const {
+    WindowMemory memory = memory_of(model_, memory_.last());
+    if (options_.window.width == 0) memory.place = display_.place(memory.place);
+    if (model_.window().ui_scale != display_.ui_scale()) memory.ui_scale = model_.window().ui_scale;
+    return memory;
+}
+
+void Viewer::reset_window() {
+    const WindowMemory first = first_memory(options_);
+    display_.reset();
+    restore(first, model_);
+    model_.window().panels.shown = true;
+    model_.window().ui_scale = display_.ui_scale();
+    memory_.forget(first, model_.messages().now(), model_.messages());
+}
+
+void Viewer::remember() {
+    if (const std::string failure = memory_.finish(memory_now()); !failure.empty())
+        std::fprintf(stderr, "pathlight: warning: %s\n", failure.c_str());
 }
 
 void Viewer::show() {
@@ -253,6 +316,7 @@ int run_viewer(const ViewerOptions& options) {
     }
     Viewer viewer(options, std::move(scene), load_seconds);
     viewer.run();
+    viewer.remember();
     viewer.print_trace();
     return 0;
 }

@@ -26,6 +26,10 @@ constexpr auto kProgramOptions = std::to_array<OptionSpec>({
     {.name = "ui-scale", .flags = "--ui-scale", .value = "N", .group = kViewer,
      .help = "Size of text and controls, 0.75 to 2 (default: by the screen)",
      .commands = CommandSet(Command::View), .parse = parse_ui_scale},
+    {.name = "remember", .flags = "--remember", .value = "FOLDER|off", .group = kViewer,
+     .help = "Where the window's size, layout and displays are remembered (default: the system's folder for "
+             "settings; off with --script)",
+     .commands = CommandSet(Command::View), .parse = parse_remember},
     {.name = "software", .flags = "--software", .value = "", .group = kViewer,
      .help = "Draw the window without a graphics card",
      .commands = CommandSet(Command::View), .parse = parse_flag<&Options::software>},

@@ -96,6 +96,41 @@ TEST_CASE("the window opens with the settings of the command line") {
     CHECK(result.code == 0);
 }
 
+TEST_CASE("the window is remembered between starts, and options have priority") {
+    const TempDir folder;
+    const auto run = [&](const std::string& script, Arguments more = {}) {
+        write_all(folder / "script", script);
+        Arguments arguments{"view", "cornell", "--script", "script", "--software", "--size", "32x24", "--spp", "2"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run_program(
+            arguments, {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
+        CAPTURE(script, result.err);
+        REQUIRE(result.code == 0);
+        return result.err;
+    };
+    const Arguments here{"--remember", "state"};
+    run("1 tap F3\n2 tap F6\n3 tap ]\n4 resize 1000 700\n8 tap H\n10 quit\n", here);
+    CHECK_THAT(read_all(folder / "state/viewer.json"), contains("\"layout\": \"explore\"") && contains("1000"));
+    // A picture is as the command line says.
+    run("1 expect layout == explore\n1 expect settings_panel == no\n1 expect hemisphere == no\n"
+        "1 expect exposure == 0\n1 expect window == 1000x700\n2 quit\n",
+        here);
+    run("1 expect window == 800x600\n1 expect ui_scale == 1.5\n2 quit\n",
+        {"--remember", "state", "--window", "800x600", "--ui-scale", "1.5"});
+    run("1 expect window == 1000x700\n1 expect ui_scale == 1\n2 tap F3 ctrl\n4 expect settings_panel == yes\n"
+        "4 expect layout == research\n4 expect window == 1440x900\n5 quit\n",
+        here);
+    CHECK_FALSE(std::filesystem::exists(folder / "state/viewer.json"));
+    // Without the option a script has no memory.
+    run("1 tap F6\n2 quit\n");
+    CHECK_FALSE(std::filesystem::exists(folder / "state/viewer.json"));
+    // Faults of the file are messages.
+    write_all(folder / "state/viewer.json", "{");
+    run("1 expect message ~ as at a first start\n1 expect settings_panel == yes\n2 quit\n", here);
+    write_all(folder / "file", "no folder");
+    CHECK_THAT(run("1 tap F6\n2 quit\n", {"--remember", "file"}), contains("the window is not remembered"));
+}
+
 TEST_CASE("the window shows a scene without light by the default light, or black on request") {
     const TempDir folder;
     write_all(folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

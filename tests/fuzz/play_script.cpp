@@ -78,7 +78,7 @@ public:
         int width = 0, height = 0;
         SDL_GetWindowSize(window_, &width, &height);
         return make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels, model.window().panels,
-                           model.window().accuracy, model.selection().volume() != kNoVolume);
+                           model.selection().volume() != kNoVolume);
     }
     void frame(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan) {
         ImGui_ImplSDL2_NewFrame();

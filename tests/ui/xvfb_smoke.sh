@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 2
 
-"$program" view cornell --backend cpu --size 192x192 --window 1280x720 &
+"$program" view cornell --backend cpu --size 192x192 --window 1280x720 --remember "$work" &
 viewer=$!
 fail() {
     echo "FAILED: $*"

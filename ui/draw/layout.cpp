@@ -11,44 +11,126 @@ constexpr float kLeftEm = 18.0f;
 constexpr float kRightEm = 25.0f;
 constexpr float kSmallestLeftEm = 16.0f;
 constexpr float kSmallestRightEm = 18.0f;
+constexpr float kReadableRightEm = 24.0f;  ///< all titles of the tabs
 constexpr float kGoodViewEm = 36.0f;
 constexpr float kSmallestViewEm = 18.0f;
 constexpr float kAccuracyShare = 0.66f;       ///< of the height at the right
 constexpr float kSmallAccuracyShare = 0.45f;  ///< beside a tab with discs
-constexpr float kBarEm = 1.75f;               ///< height of menu and status bar
+constexpr float kSmallestTabsEm = 8.0f;
+constexpr float kSmallestAccuracyEm = 10.0f;
+constexpr float kBarEm = 1.75f;  ///< height of menu and status bar
+constexpr float kBorderEm = 0.5f;
 /// A picture that fills more than this share of the view is not stretched: stretching blurs.
 constexpr float kNearlyFull = 0.95f;
 
+float border_pixels(float em) { return std::round(kBorderEm * em); }
+
+struct Widths {
+    float left;
+    float right;
+};
+
+/// The least width of the right side that a drag can give, with `room` for panels and picture.
+float least_chosen_right(float room, float em) {
+    const float most = room - (kSmallestLeftEm + kSmallestViewEm) * em;
+    return std::clamp(most, kSmallestRightEm * em, kReadableRightEm * em);
+}
+
+/// `room` is the width of the window without borders.
+Widths panel_widths(float room, float em, const PanelChoice& choice) {
+    const float least_left = choice.settings ? kSmallestLeftEm * em : 0.0f;
+    float least_right = 0.0f;
+    const bool is_automatic = choice.settings_em == 0.0f && choice.right_em == 0.0f;
+    if (choice.right) least_right = is_automatic ? kSmallestRightEm * em : least_chosen_right(room, em);
+    const auto chosen = [&](float size_em, float least, float others) {
+        return std::clamp(size_em * em, least, std::max(room - others - kSmallestViewEm * em, least));
+    };
+    const bool keeps_left = choice.settings && choice.settings_em > 0.0f;
+    const bool keeps_right = choice.right && choice.right_em > 0.0f;
+    const float first_left = keeps_left ? chosen(choice.settings_em, least_left, least_right) : least_left;
+    const float good_view = kGoodViewEm * em;
+    float right = std::clamp(room - first_left - good_view, least_right, std::max(kRightEm * em, least_right));
+    if (keeps_right) right = chosen(choice.right_em, least_right, first_left);
+    if (!choice.right) right = 0.0f;
+    float left = first_left;
+    if (choice.settings && !keeps_left) left = std::clamp(room - right - good_view, least_left, kLeftEm * em);
+    const float most = std::max(0.5f * room, 0.0f);
+    return {std::min(std::round(left), most), std::min(std::round(right), most)};
+}
+
+/// Height of the accuracy panel, if both parts of the right side are open.
+float accuracy_height(float height, float em, const PanelChoice& choice, bool detail) {
+    const float standard = detail ? kSmallAccuracyShare : kAccuracyShare;
+    const float share = choice.accuracy_share > 0.0f ? choice.accuracy_share : standard;
+    const float least = std::min(kSmallestAccuracyEm * em, 0.5f * height);
+    const float most = height - std::min(kSmallestTabsEm * em, 0.5f * height);
+    return std::round(std::clamp(share * height, least, std::max(most, least)));
+}
+
+/// Splits `side`, whose height is that of tabs, border and accuracy panel.
+void split_right_side(Layout& layout, const Rect& side, float em, const PanelChoice& choice, bool detail) {
+    const float border = std::min(border_pixels(em), side.height);
+    const float room = side.height - border;
+    const bool has_tabs = choice.tabs || !choice.accuracy;
+    float below = has_tabs ? 0.0f : room;
+    if (choice.accuracy && has_tabs) below = accuracy_height(room, em, choice, detail);
+    const float above = room - below;
+    if (has_tabs) layout.right = {side.x, side.y, side.width, above};
+    layout.accuracy_border = {side.x, side.y + above, side.width, border};
+    if (choice.accuracy) layout.accuracy = {side.x, side.y + above + border, side.width, below};
+}
+
 }  // namespace
 
-Layout make_layout(float width, float height, float em, bool panels, bool accuracy, bool detail) {
+Layout make_layout(float width, float height, float em, const PanelChoice& choice, bool detail) {
     Layout layout;
-    layout.panels = panels;
+    layout.panels = choice.shown;
     layout.view = {0.0f, 0.0f, width, height};
     layout.clear = layout.view;
-    if (!panels) return layout;
+    if (!choice.shown) return layout;
 
     const float bar = std::round(kBarEm * em);
     const float middle = std::max(height - 2.0f * bar, 1.0f);
-    const float spare = width - (kSmallestLeftEm + kSmallestRightEm + kGoodViewEm) * em;
-    const float right = std::round(std::clamp(kSmallestRightEm * em + spare, kSmallestRightEm * em, kRightEm * em));
-    const float rest = spare - (right - kSmallestRightEm * em);
-    const float left = std::round(std::clamp(kSmallestLeftEm * em + rest, kSmallestLeftEm * em, kLeftEm * em));
+    const float border = std::min(border_pixels(em), 0.25f * width);
+    const auto [left, right] = panel_widths(width - 2.0f * border, em, choice);
     layout.menu = {0.0f, 0.0f, width, bar};
     layout.status = {0.0f, height - bar, width, bar};
-    const float left_shown = std::min(left, 0.5f * width);
-    const float right_shown = std::min(right, 0.5f * width);
-    layout.left = {0.0f, bar, left_shown, middle};
-    layout.right = {width - right_shown, bar, right_shown, middle};
-    if (accuracy) {
-        const float below = std::round((detail ? kSmallAccuracyShare : kAccuracyShare) * middle);
-        layout.right.height = middle - below;
-        layout.accuracy = {width - right_shown, bar + middle - below, right_shown, below};
-    }
-    layout.clear = {left_shown, bar, width - left_shown - right_shown, middle};
+    if (choice.settings) layout.left = {0.0f, bar, left, middle};
+    layout.settings_border = {left, bar, border, middle};
+    layout.right_border = {width - right - border, bar, border, middle};
+    if (choice.right) split_right_side(layout, {width - right, bar, right, middle}, em, choice, detail);
+    layout.clear = {left + border, bar, width - left - right - 2.0f * border, middle};
     const bool floating = layout.clear.width < kSmallestViewEm * em;
     layout.view = floating ? Rect{0.0f, bar, width, middle} : layout.clear;
     return layout;
+}
+
+PanelChoice drag_border(PanelChoice choice, Border border, Vec2f pointer, const Layout& layout, float em) {
+    const float spare = std::max(layout.clear.width - kSmallestViewEm * em, 0.0f);
+    const float half = 0.5f * layout.settings_border.width;
+    const auto chosen = [&](float pixels, float now, float least) {
+        return std::clamp(pixels, least, std::max(now + spare, least)) / em;
+    };
+    if (border == Border::Settings) {
+        choice.settings_em = chosen(pointer.x - half, layout.left.width, kSmallestLeftEm * em);
+    } else if (border == Border::Right) {
+        const float room = layout.menu.width - 4.0f * half;
+        const float now = layout.menu.width - layout.right_border.x - layout.right_border.width;
+        choice.right_em = chosen(layout.menu.width - pointer.x - half, now, least_chosen_right(room, em));
+    } else {
+        const float room = layout.right.height + layout.accuracy.height;
+        const float below = layout.accuracy.y + layout.accuracy.height - pointer.y - half;
+        constexpr float kLeastShare = 0.01f;  // 0 is automatic
+        choice.accuracy_share = std::clamp(below / std::max(room, 1.0f), kLeastShare, 1.0f);
+    }
+    return choice;
+}
+
+PanelChoice free_border(PanelChoice choice, Border border) {
+    if (border == Border::Settings) choice.settings_em = 0.0f;
+    if (border == Border::Right) choice.right_em = 0.0f;
+    if (border == Border::Accuracy) choice.accuracy_share = 0.0f;
+    return choice;
 }
 
 Rect place_image(const Rect& view, int width, int height) {

@@ -5,20 +5,48 @@
 
 namespace pl {
 
+/// Panels that are open, and their sizes as the user chose them; a size of 0 is automatic.
+struct PanelChoice {
+    bool shown = true;            ///< false hides every panel and bar
+    bool settings = true;         ///< the panel at the left
+    bool right = true;            ///< tabs and accuracy panel
+    bool tabs = true;             ///< open in any case without the accuracy panel
+    bool accuracy = true;         ///< error against time, below the tabs
+    float settings_em = 0.0f;     ///< widths in multiples of the font's height
+    float right_em = 0.0f;        ///< in the same way
+    float accuracy_share = 0.0f;  ///< of the height at the right, in [0, 1]
+
+    friend bool operator==(const PanelChoice&, const PanelChoice&) = default;
+};
+
+/// Borders that can be dragged.
+enum class Border { Settings, Right, Accuracy };
+
 struct Layout {
     Rect menu;
-    Rect left;      ///< settings
-    Rect right;     ///< tabs: volume, material, effects, pixel, statistics, log
-    Rect accuracy;  ///< error against time, below that; empty if it is closed
+    Rect left;      ///< settings; empty if folded
+    Rect right;     ///< tabs: volume, material, effects, pixel, statistics, log; empty if folded
+    Rect accuracy;  ///< error against time, below that; empty if folded
     Rect status;
-    Rect view;   ///< available to the picture
-    Rect clear;  ///< the part of it that no panel covers
+    Rect settings_border;  ///< beside the settings
+    Rect right_border;     ///< beside tabs and accuracy panel
+    Rect accuracy_border;  ///< between these two; empty if the right side is folded
+    Rect view;             ///< available to the picture
+    Rect clear;            ///< the part of it that no panel covers
     bool panels = true;
 };
 
-/// All in pixels; `em` is the font size. In a window too narrow for panels and picture the panels float over it.
-/// `detail`: the tabs have more to show, and get more than half of the height beside the accuracy panel.
-Layout make_layout(float width, float height, float em, bool panels, bool accuracy, bool detail);
+/// All in pixels; `em` is the font size. Chosen sizes are limited to those at which no text is cut. In a window too
+/// narrow for panels and picture the panels float over it. `detail`: the tabs have more to show, and get more than half
+/// of the height beside the accuracy panel unless another share was chosen.
+Layout make_layout(float width, float height, float em, const PanelChoice& choice, bool detail);
+
+/// The choice after its border was dragged to the pointer. Neither the picture nor the panel on the other side of the
+/// picture becomes too small.
+PanelChoice drag_border(PanelChoice choice, Border border, Vec2f pointer, const Layout& layout, float em);
+
+/// The choice with the automatic size of the panel at this border.
+PanelChoice free_border(PanelChoice choice, Border border);
 
 /// The largest rectangle with the shape of a picture of width x height in the middle of `view`. A picture that is
 /// somewhat smaller than the view is shown pixel by pixel.

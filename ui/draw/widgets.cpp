@@ -71,10 +71,12 @@ void cover_zero(const char* word) {
 void begin_fixed_window(const char* name, const Rect& place, int extra_flags) {
     ImGui::SetNextWindowPos({place.x, place.y});
     ImGui::SetNextWindowSize({place.width, place.height});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
     ImGui::Begin(name, nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | extra_flags);
+    ImGui::PopStyleVar();
 }
 
 void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32 color) {

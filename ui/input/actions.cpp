@@ -78,8 +78,16 @@ std::vector<Action> actions_after_methods() {
         {MakeReference, Group::Compare, "Ctrl+R", "render the reference, or continue it", {sign(SDLK_r, kCtrl)}},
 
         {HidePanels, Group::Window, "Tab", "hide or show the panels", {at(SDL_SCANCODE_TAB)}},
+        {FoldSettings, Group::Window, "F6", "fold or open the settings", {at(SDL_SCANCODE_F6)}},
+        {FoldRight, Group::Window, "F7", "fold or open tabs and accuracy panel", {at(SDL_SCANCODE_F7)}},
         {FullScreen, Group::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
         {Help, Group::Window, "F1 or ?", "this list", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
+        {SwitchLayout, Group::Window, "F3", "layout: Explore or Research", {at(SDL_SCANCODE_F3)}},
+        {ResetWindow,
+         Group::Window,
+         "Ctrl+F3",
+         "reset the window, and forget what is remembered of it",
+         {at(SDL_SCANCODE_F3, kCtrl)}},
         {SelfTest, Group::Window, "F2", "self test of all back ends", {at(SDL_SCANCODE_F2)}},
         {Cancel, Group::Window, "Esc", "close, cancel or deselect", {at(SDL_SCANCODE_ESCAPE)}},
 
@@ -112,6 +120,7 @@ constexpr std::array kMouseActions{
     MouseAction{"left click", "select the radiance volume and the material"},
     MouseAction{"wheel on plot", "zoom; dragging pans, a double click fits"},
     MouseAction{"drag on axis", "pictures at equal time, at equal error; right click: off"},
+    MouseAction{"drag on border", "size of the panel; a double click makes it automatic, the arrow folds it"},
     MouseAction{"drop a file", "open an .obj or .json scene, or a saved .field"},
 };
 

@@ -40,6 +40,16 @@ void step_exposure(DisplayControls& display, float step) {
     display.set_exposure(display.settings().exposure_ev + step);
 }
 
+/// Behind a folded right side it would change unseen.
+void toggle_accuracy(PanelChoice& panels) {
+    panels.accuracy = !panels.right || !panels.accuracy;
+    panels.right = true;
+}
+
+void switch_layout(WindowState& window) {
+    window.layout = window.layout == WindowLayout::Explore ? WindowLayout::Research : WindowLayout::Explore;
+}
+
 /// Each function does a part of the actions; false for the others.
 bool perform_render_action(ViewerModel& model, ActionId id) {
     RenderControls& render = model.render();
@@ -69,9 +79,13 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
     case ActionId::CellsFainter: step_opacity(display, -kOpacityStep); return true;
     case ActionId::CellsStronger: step_opacity(display, kOpacityStep); return true;
     case ActionId::Hemisphere: window.hemisphere = !window.hemisphere; return true;
-    case ActionId::Accuracy: window.accuracy = !window.accuracy; return true;
-    case ActionId::HidePanels: window.panels = !window.panels; return true;
+    case ActionId::Accuracy: toggle_accuracy(window.panels); return true;
+    case ActionId::HidePanels: window.panels.shown = !window.panels.shown; return true;
+    case ActionId::FoldSettings: window.panels.settings = !window.panels.settings; return true;
+    case ActionId::FoldRight: window.panels.right = !window.panels.right; return true;
     case ActionId::Help: window.help = !window.help; return true;
+    case ActionId::SwitchLayout: switch_layout(window); return true;
+    case ActionId::ResetWindow: window.requests.reset = true; return true;
     case ActionId::FullScreen: window.requests.full_screen = true; return true;
     case ActionId::ScreenshotWithPanels: window.requests.window_shot = true; return true;
     case ActionId::Quit: window.requests.quit = true; return true;

@@ -1,7 +1,11 @@
 // The look of the window: panels, overlays, scale. Nothing in it reaches the rendering.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "ui/draw/direction_disc.h"
+#include "ui/draw/layout.h"
 #include "ui/plot/plot_drag.h"
 
 namespace pl {
@@ -20,23 +24,31 @@ struct PlotState {
     Rect frame;              ///< the rectangle of its curves
 };
 
+/// How much of the settings and displays is shown.
+enum class WindowLayout {
+    Explore,   ///< what a newcomer needs
+    Research,  ///< everything
+};
+
 /// Requests of keys and panels to the window itself; the window clears them.
 struct WindowRequests {
     bool full_screen = false;
     bool window_shot = false;
     bool quit = false;
+    bool reset = false;     ///< everything as at a first start
     bool fit_size = false;  ///< sets the largest picture that fits into the window
 };
 
 struct WindowState {
-    bool panels = true;
-    bool accuracy = true;  ///< the panel with the plot
+    WindowLayout layout = WindowLayout::Research;
+    PanelChoice panels;
     bool help = false;
     bool hemisphere = true;     ///< of the selected volume, in the picture
     bool values_shown = false;  ///< the pixel tab shows values of the picture
     float ui_scale = 1.0f;
     CellDisplay cell_display;
     PlotState plot;
+    std::vector<std::string> recent{};  ///< names of scenes, the newest first
     WindowRequests requests;
 };
 

@@ -35,8 +35,11 @@ void draw_menu_bar(ViewerModel& model, const Layout& layout) {
         draw_group(model, ActionGroup::Fly);
         draw_group(model, ActionGroup::Window);
         const std::string title = model.title();
-        ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(title.c_str()).x - em(1.0f));
-        ImGui::TextDisabled("%s", title.c_str());
+        const float start = ImGui::GetWindowWidth() - ImGui::CalcTextSize(title.c_str()).x - em(1.0f);
+        if (start > ImGui::GetCursorPosX()) {  // a narrow window has it in its title bar only
+            ImGui::SameLine(start);
+            ImGui::TextDisabled("%s", title.c_str());
+        }
         ImGui::EndMenuBar();
     }
     ImGui::End();

@@ -19,6 +19,8 @@ void draw_settings_panel(ViewerModel& model, const Layout& layout);
 void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered);
 void draw_accuracy_panel(ViewerModel& model, const Layout& layout);
 void draw_status_bar(ViewerModel& model, const Layout& layout);
+/// The borders between panels and picture: dragged they change sizes, their arrows fold the panels.
+void draw_borders(ViewerModel& model, const Layout& layout);
 
 // Tabs of the right panel.
 void draw_volume_tab(ViewerModel& model);

@@ -9,6 +9,7 @@
 #include "core/scene/needed_effects.h"
 #include "ui/draw/imgui_compat.h"
 #include "ui/model/viewer_model.h"
+#include "ui/model/window_memory.h"
 
 namespace pl {
 namespace {
@@ -109,7 +110,7 @@ constexpr std::array kValues{
           [](const ViewerModel&) {
               return std::string(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) ? "open" : "closed");
           }},
-    Value{"accuracy", [](const ViewerModel& m) { return word(m.window().accuracy); }},
+    Value{"accuracy", [](const ViewerModel& m) { return word(m.window().panels.accuracy); }},
     Value{"runs", [](const ViewerModel& m) { return fmt::format("{}", m.comparison().accuracy().runs().size()); }},
     Value{"points", point_count},
     Value{"plotted",
@@ -134,7 +135,21 @@ constexpr std::array kValues{
     Value{"cells", [](const ViewerModel& m) { return word(m.display().cells()); }},
     Value{"hemisphere", [](const ViewerModel& m) { return word(m.window().hemisphere); }},
     Value{"help", [](const ViewerModel& m) { return word(m.window().help); }},
-    Value{"panels", [](const ViewerModel& m) { return word(m.window().panels); }},
+    Value{"panels", [](const ViewerModel& m) { return word(m.window().panels.shown); }},
+    Value{"window",
+          [](const ViewerModel&) {
+              const ImVec2 size = ImGui::GetIO().DisplaySize;
+              return fmt::format("{:.0f}x{:.0f}", size.x, size.y);
+          }},
+    Value{"ui_scale", [](const ViewerModel& m) { return fmt::format("{}", m.window().ui_scale); }},
+    Value{"layout", [](const ViewerModel& m) { return std::string(name_of(m.window().layout)); }},
+    Value{"settings_panel", [](const ViewerModel& m) { return word(m.window().panels.settings); }},
+    Value{"right_side", [](const ViewerModel& m) { return word(m.window().panels.right); }},
+    Value{"tabs", [](const ViewerModel& m) { return word(m.window().panels.tabs); }},
+    Value{"settings_em", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().panels.settings_em); }},
+    Value{"right_em", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().panels.right_em); }},
+    Value{"accuracy_share",
+          [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().panels.accuracy_share); }},
     Value{"moving", [](const ViewerModel& m) { return word(m.camera().is_moving()); }},
     Value{"busy", [](const ViewerModel& m) { return word(m.busy()); }},
     Value{"volume", [](const ViewerModel& m) { return fmt::format("{}", m.selection().volume()); }},

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <vector>
 
 #include <fmt/format.h>
 #include <SDL.h>
@@ -43,6 +44,19 @@ Screen first_screen() {
     return screen;
 }
 
+std::vector<ScreenArea> all_screens() {
+    std::vector<ScreenArea> screens;
+    if (shows_nothing(SDL_GetCurrentVideoDriver())) return screens;
+    for (int i = 0; i < SDL_GetNumVideoDisplays(); ++i) {
+        SDL_Rect usable{};
+        if (SDL_GetDisplayUsableBounds(i, &usable) == 0) screens.push_back({usable.x, usable.y, usable.w, usable.h});
+    }
+    return screens;
+}
+
+/// Wayland tells no window where it is.
+bool knows_positions() { return std::strcmp(SDL_GetCurrentVideoDriver(), "wayland") != 0; }
+
 }  // namespace
 
 VideoSubsystem::VideoSubsystem() {
@@ -62,8 +76,14 @@ VideoSubsystem::VideoSubsystem() {
 
 VideoSubsystem::~VideoSubsystem() { SDL_QuitSubSystem(SDL_INIT_VIDEO); }
 
-Display::Display(const std::string& title, const WindowOptions& options, bool software)
+Display::Display(const std::string& title, const WindowOptions& options, const std::optional<WindowPlace>& place,
+                 bool software)
     : plan_(plan_window(options, first_screen())) {
+    if (place) {
+        place_ = place_on_screens(*place, all_screens());
+        plan_.width = place_->width;
+        plan_.height = place_->height;
+    }
     // A driver or renderer named in the environment has priority.
     const bool probe = !software && !is_set("SDL_RENDER_DRIVER") && !is_set("SDL_FRAMEBUFFER_ACCELERATION") &&
                        !shows_nothing(SDL_GetCurrentVideoDriver());
@@ -82,7 +102,8 @@ Display::Display(const std::string& title, const WindowOptions& options, bool so
         opened = open(title, true);
     }
     if (!opened) throw Error(ErrorKind::Unavailable, fmt::format("cannot open a window: {}", SDL_GetError()));
-    SDL_SetWindowMinimumSize(window_, 640, 400);
+    SDL_SetWindowMinimumSize(window_, kLeastWindowWidth, kLeastWindowHeight);
+    if (place_ && place_->maximized) SDL_MaximizeWindow(window_);
     set_window_icon(window_);
 }
 
@@ -91,7 +112,9 @@ Display::~Display() { close(); }
 bool Display::open(const std::string& title, bool software) {
     close();
     constexpr int kAnywhere = static_cast<int>(SDL_WINDOWPOS_CENTERED_MASK);
-    window_ = SDL_CreateWindow(title.c_str(), kAnywhere, kAnywhere, plan_.width, plan_.height, SDL_WINDOW_RESIZABLE);
+    const bool is_placed = place_ && knows_positions();
+    window_ = SDL_CreateWindow(title.c_str(), is_placed ? place_->x : kAnywhere, is_placed ? place_->y : kAnywhere,
+                               plan_.width, plan_.height, SDL_WINDOW_RESIZABLE);
     if (window_ == nullptr) return false;
     const auto flags =
         static_cast<Uint32>(software ? SDL_RENDERER_SOFTWARE : SDL_RENDERER_ACCELERATED | SDL_RENDERER_PRESENTVSYNC);
@@ -123,6 +146,27 @@ void Display::set_title(const std::string& title) { SDL_SetWindowTitle(window_, 
 void Display::toggle_full_screen() {
     const bool is_full = (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
     SDL_SetWindowFullscreen(window_, is_full ? 0u : static_cast<Uint32>(SDL_WINDOW_FULLSCREEN_DESKTOP));
+}
+
+void Display::reset() {
+    SDL_SetWindowFullscreen(window_, 0);
+    SDL_RestoreWindow(window_);
+    plan_ = plan_window({}, first_screen());
+    SDL_SetWindowSize(window_, plan_.width, plan_.height);
+    constexpr int kCentered = static_cast<int>(SDL_WINDOWPOS_CENTERED_MASK);
+    SDL_SetWindowPosition(window_, kCentered, kCentered);
+}
+
+std::optional<WindowPlace> Display::place(const std::optional<WindowPlace>& before) const {
+    const Uint32 flags = SDL_GetWindowFlags(window_);
+    if ((flags & (SDL_WINDOW_FULLSCREEN | SDL_WINDOW_MINIMIZED)) != 0) return before;
+    WindowPlace now;
+    SDL_GetWindowPosition(window_, &now.x, &now.y);
+    SDL_GetWindowSize(window_, &now.width, &now.height);
+    if ((flags & SDL_WINDOW_MAXIMIZED) == 0) return now;
+    if (before) now = *before;
+    now.maximized = true;
+    return now;
 }
 
 ScreenPixels Display::read_pixels() const {

@@ -1,6 +1,7 @@
 // The window and its renderer.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "ui/window/window_plan.h"
@@ -26,7 +27,9 @@ public:
 class Display {
 public:
     /// Throws Error(Unavailable).
-    Display(const std::string& title, const WindowOptions& options, bool software);
+    /// Opens at `place`, corrected for the screens of now; in the middle and by `options` without one.
+    Display(const std::string& title, const WindowOptions& options, const std::optional<WindowPlace>& place,
+            bool software);
     ~Display();
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
@@ -41,6 +44,10 @@ public:
 
     void set_title(const std::string& title);
     void toggle_full_screen();
+    /// Size, place and scale as by themselves.
+    void reset();
+    /// Of the window now. In full screen and minimized that is `before`.
+    std::optional<WindowPlace> place(const std::optional<WindowPlace>& before) const;
     /// The pixels drawn since the last present; slow.
     ScreenPixels read_pixels() const;
 
@@ -51,6 +58,7 @@ private:
 
     VideoSubsystem video_;
     WindowPlan plan_;
+    std::optional<WindowPlace> place_;
     SDL_Window* window_ = nullptr;
     SDL_Renderer* renderer_ = nullptr;
     std::string name_;

@@ -6,10 +6,11 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
                     const std::optional<HoveredPixel>& hovered) {
     if (layout.panels) {
         draw_menu_bar(model, layout);
-        draw_settings_panel(model, layout);
-        draw_knowledge_panel(model, layout, hovered);
+        if (layout.left.width > 0.0f) draw_settings_panel(model, layout);
+        if (layout.right.width > 0.0f) draw_knowledge_panel(model, layout, hovered);
         if (layout.accuracy.height > 0.0f) draw_accuracy_panel(model, layout);
         draw_status_bar(model, layout);
+        draw_borders(model, layout);
     }
     if (plan.at_image) draw_hemisphere(model, image);
     draw_comparison(model, plan);

@@ -29,7 +29,37 @@ int fit(float wanted, float usable) {
     return static_cast<int>(std::round(usable > 0.0f ? std::min(wanted, usable) : wanted));
 }
 
+int overlap(int a, int a_size, int b, int b_size) {
+    return std::max(std::min(a + a_size, b + b_size) - std::max(a, b), 0);
+}
+
+/// Whether the upper edge is on the screen, over a length that a pointer can grab.
+bool can_be_grabbed(const WindowPlace& place, const ScreenArea& screen) {
+    constexpr int kLeastGrip = 64;
+    return place.y >= screen.y && place.y + kLeastGrip <= screen.y + screen.height &&
+           overlap(place.x, place.width, screen.x, screen.width) >= kLeastGrip;
+}
+
+long long shared_pixels(const WindowPlace& place, const ScreenArea& screen) {
+    return static_cast<long long>(overlap(place.x, place.width, screen.x, screen.width)) *
+           overlap(place.y, place.height, screen.y, screen.height);
+}
+
 }  // namespace
+
+WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> screens) {
+    wanted.width = std::max(wanted.width, kLeastWindowWidth);
+    wanted.height = std::max(wanted.height, kLeastWindowHeight);
+    if (screens.empty()) return wanted;
+    const ScreenArea& screen = *std::ranges::max_element(
+        screens, {}, [&](const ScreenArea& area) { return shared_pixels(wanted, area); });
+    wanted.width = std::min(wanted.width, screen.width);
+    wanted.height = std::min(wanted.height, screen.height);
+    if (can_be_grabbed(wanted, screen)) return wanted;
+    wanted.x = std::clamp(wanted.x, screen.x, screen.x + screen.width - wanted.width);
+    wanted.y = std::clamp(wanted.y, screen.y, screen.y + screen.height - wanted.height);
+    return wanted;
+}
 
 WindowPlan plan_window(const WindowOptions& options, const Screen& screen) {
     const float scale = options.ui_scale > 0.0f ? options.ui_scale : scale_for(screen);

@@ -1,6 +1,8 @@
 // Size of the window and scale of its text on a screen.
 #pragma once
 
+#include <span>
+
 #include "ui/viewer.h"
 
 namespace pl {
@@ -18,7 +20,35 @@ struct WindowPlan {
     float ui_scale;
 };
 
-/// Largest scale of text and controls.
+/// A window on the desktop, in its coordinates.
+struct WindowPlace {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    bool maximized = false;  ///< the others are those before
+
+    friend bool operator==(const WindowPlace&, const WindowPlace&) = default;
+};
+
+/// The usable part of one of several screens.
+struct ScreenArea {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+/// Smallest window in which all panels can be reached.
+inline constexpr int kLeastWindowWidth = 640;
+inline constexpr int kLeastWindowHeight = 400;
+
+/// The place itself if its upper edge can be grabbed on one of the screens; else the nearest place inside the screen
+/// that it overlaps most, the first one if none. No larger than that screen.
+WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> screens);
+
+/// Smallest and largest scale of text and controls.
+inline constexpr float kLeastUiScale = 0.75f;
 inline constexpr float kMostUiScale = 2.0f;
 
 /// The scale grows in halves with the density of the screen, as long as the panels have room; the window is

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "tests/support/catch.hpp"
 #include "ui/window/window_plan.h"
 
@@ -47,4 +49,26 @@ TEST_CASE("Window plan: sizes and scales that were asked for are taken") {
     CHECK(scaled.ui_scale == 1.25f);
     CHECK(scaled.width == 1280);
     CHECK(scaled.height == 675);
+}
+
+TEST_CASE("Window plan: a remembered place is corrected for the screens that are there") {
+    const ScreenArea first{0, 24, 1920, 1056};
+    const ScreenArea second{1920, 0, 1280, 1024};
+    const std::array both{first, second};
+    const WindowPlace on_second{2000, 100, 1000, 700, false};
+    CHECK(place_on_screens(on_second, both) == on_second);
+    // Its screen is gone.
+    CHECK(place_on_screens(on_second, {&first, 1}) == WindowPlace{920, 100, 1000, 700, false});
+    CHECK(place_on_screens({-5000, -5000, 1000, 700, true}, both) == WindowPlace{0, 24, 1000, 700, true});
+    // Partly outside, with an edge to grab: as it was.
+    const WindowPlace partly{-800, 300, 1000, 700, false};
+    CHECK(place_on_screens(partly, both) == partly);
+    // Its upper edge is above the screen.
+    CHECK(place_on_screens({100, -300, 1000, 700, false}, {&first, 1}).y == 24);
+    // Larger than any screen, or too small to use.
+    const WindowPlace huge = place_on_screens({-10, 30, 9000, 9000, false}, {&first, 1});
+    CHECK(huge.width == 1920);
+    CHECK(huge.height == 1056);
+    CHECK(place_on_screens({10, 30, 1, 1, false}, both).width == 640);
+    CHECK(place_on_screens(on_second, {}) == on_second);
 }
