@@ -102,8 +102,8 @@ TEST_CASE("the window is remembered between starts, and options have priority") 
         write_all(folder / "script", script);
         Arguments arguments{"view", "cornell", "--script", "script", "--software", "--size", "32x24", "--spp", "2"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const ProgramResult result = run_program(
-            arguments, {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
+        const ProgramResult result =
+            run_program(arguments, {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
         CAPTURE(script, result.err);
         REQUIRE(result.code == 0);
         return result.err;

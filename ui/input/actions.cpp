@@ -91,6 +91,7 @@ std::vector<Action> actions_after_methods() {
         {SelfTest, Group::Window, "F2", "self test of all back ends", {at(SDL_SCANCODE_F2)}},
         {Cancel, Group::Window, "Esc", "close, cancel or deselect", {at(SDL_SCANCODE_ESCAPE)}},
 
+        {Open, Group::File, "Ctrl+O", "open a scene", {sign(SDLK_o, kCtrl)}},
         {Reload, Group::File, "F5", "reload the scene", {at(SDL_SCANCODE_F5)}},
         {Screenshot, Group::File, "F12", "save the picture as PNG", {at(SDL_SCANCODE_F12)}},
         {ScreenshotWithPanels,

@@ -54,6 +54,7 @@ enum class ActionId {
     SwitchLayout,
     ResetWindow,
     FullScreen,
+    Open,
     Reload,
     Screenshot,
     ScreenshotWithPanels,

@@ -111,6 +111,7 @@ bool perform_compare_action(ViewerModel& model, ActionId id) {
 bool perform_file_action(ViewerModel& model, ActionId id) {
     Files& files = model.files();
     switch (id) {
+    case ActionId::Open: model.open_dialog().toggle(); return true;
     case ActionId::Reload: model.scene().reload(); return true;
     case ActionId::Screenshot: files.pictures().save_png(); return true;
     case ActionId::Save: files.pictures().save_exr_and_png(); return true;

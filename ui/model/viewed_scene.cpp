@@ -1,5 +1,6 @@
 #include "ui/model/viewed_scene.h"
 
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,13 +9,29 @@
 #include "core/scene/pack_scene.h"
 
 namespace pl {
+namespace {
+
+/// Means the same in every working directory.
+std::string lasting_name(const std::string& name) {
+    const std::filesystem::path path(name);
+    return path.has_extension() ? std::filesystem::absolute(path).lexically_normal().string() : name;
+}
+
+}  // namespace
 
 ViewedScene::ViewedScene(const ModelServices& services, CameraMotion& camera, Selection& selection,
                          std::shared_ptr<const SceneDescription> scene)
     : messages_(services.messages), link_(services.link), camera_(camera), selection_(selection),
       name_(services.options.scene_name), materials_(scene), knobs_(scene->knobs),
       loader_(services, [this](const LoadOrder& order, std::shared_ptr<const SceneDescription> loaded,
-                               const std::string& failure) { finish(order, std::move(loaded), failure); }) {}
+                               const std::string& failure) { finish(order, std::move(loaded), failure); }) {
+    recent_.add(lasting_name(name_));
+}
+
+void ViewedScene::remember(const std::vector<std::string>& recent) {
+    recent_.set(recent);
+    recent_.add(lasting_name(name_));
+}
 
 KnobValues ViewedScene::turned(const std::vector<KnobDescription>& knobs) {
     KnobValues values;
@@ -68,6 +85,7 @@ void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescr
     selection_.drop_material();
     materials_.open(scene);
     name_ = order.scene.name;
+    recent_.add(lasting_name(name_));
     camera_.open(scene->camera, bounds_of(*scene).diagonal(), order.reason == LoadReason::Reload);
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.say(MessageLevel::Info, fmt::format("opened {}: {} triangles", name_, scene->triangles.size()));

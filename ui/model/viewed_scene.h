@@ -8,6 +8,7 @@
 
 #include "ui/model/camera_motion.h"
 #include "ui/model/edited_materials.h"
+#include "ui/model/recent_files.h"
 #include "ui/model/scene_loader.h"
 #include "ui/model/selection.h"
 #include "ui/model/services.h"
@@ -31,6 +32,11 @@ public:
     void reload();
     /// Another scene with its own camera, its knobs at their defaults. If it cannot be read, the old one stays.
     void open(const std::string& name);
+
+    /// The scenes opened so far, files by their absolute paths.
+    const RecentFiles& recent() const { return recent_; }
+    /// Those of sessions before; the scene that is open stays in front.
+    void remember(const std::vector<std::string>& recent);
 
     /// The values are the wanted ones, which the picture follows.
     const std::vector<KnobDescription>& knobs() const { return knobs_; }
@@ -64,6 +70,7 @@ private:
     std::string name_;
     EditedMaterials materials_;
     std::vector<KnobDescription> knobs_;
+    RecentFiles recent_;
     SceneLoader loader_;
 };
 

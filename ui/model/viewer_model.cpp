@@ -31,7 +31,8 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       references_({options, messages_, jobs_, link_}, render_, scene_),
       comparison_(link_, messages_, render_, references_), diagnostics_(link_, messages_, render_),
       self_test_({options, messages_, jobs_, link_}),
-      files_({options, messages_, jobs_, link_}, scene_, render_, display_) {
+      files_({options, messages_, jobs_, link_}, scene_, render_, display_),
+      open_dialog_({options, messages_, jobs_, link_}, files_) {
     if (options.field) link_.worker().submit(EditLearned{options.field});
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.note(MessageLevel::Info,
@@ -79,6 +80,8 @@ std::string ViewerModel::title() const {
 void ViewerModel::cancel() {
     if (window_.help)
         window_.help = false;
+    else if (open_dialog_.is_shown())
+        open_dialog_.is_shown() = false;
     else if (self_test_.is_shown() && self_test_.run().is_running())
         self_test_.stop();
     else if (self_test_.is_shown())

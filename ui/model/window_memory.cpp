@@ -11,7 +11,8 @@ namespace pl {
 namespace {
 
 constexpr std::array<const char*, 2> kLayoutNames{"explore", "research"};
-constexpr std::array<const char*, kErrorMetricCount> kMetricNames{"relmse", "relmse-trimmed", "mse", "smape", "noise"};
+constexpr std::array<const char*, kErrorMetricCount> kMetricNames{"relmse", "relmse-trimmed", "mse", "smape",
+                                                                  "noise"};
 constexpr std::array<const char*, 2> kAxisNames{"seconds", "samples"};
 constexpr std::size_t kMostRecent = 100;
 
@@ -179,7 +180,7 @@ WindowMemory memory_of(const ViewerModel& model, const WindowMemory& before) {
     memory.coarser_in_motion = model.display().low_resolution();
     const AccuracyModel& accuracy = model.comparison().accuracy();
     memory.plot = {accuracy.wanted_metric(), accuracy.kind().axis};
-    memory.recent = window.recent;
+    memory.recent = model.scene().recent().names();
     return memory;
 }
 
@@ -188,7 +189,7 @@ void restore(const WindowMemory& memory, ViewerModel& model) {
     window.layout = memory.layout;
     window.panels = memory.panels;
     window.hemisphere = memory.hemisphere;
-    window.recent = memory.recent;
+    model.scene().remember(memory.recent);
     model.display().set_cells_opacity(memory.tint_opacity);
     model.display().set_low_resolution(memory.coarser_in_motion);
     model.comparison().accuracy().set_metric(memory.plot.metric);

@@ -23,6 +23,9 @@ void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePl
 /// The dialog of the self test: a button, and the checks as they finish.
 void draw_self_test(ViewerModel& model, const Layout& layout);
 
+/// The dialog that opens scenes: known ones, recent ones, and files.
+void draw_open_dialog(ViewerModel& model, const Layout& layout);
+
 /// All keys, from the table that dispatches them.
 void draw_help(ViewerModel& model, const Layout& layout);
 

@@ -154,7 +154,6 @@ constexpr std::array kValues{
     Value{"busy", [](const ViewerModel& m) { return word(m.busy()); }},
     Value{"volume", [](const ViewerModel& m) { return fmt::format("{}", m.selection().volume()); }},
     Value{"inspected", [](const ViewerModel& m) { return word(m.selection().inspection() != nullptr); }},
-    Value{"scene", [](const ViewerModel& m) { return m.scene().name(); }},
     Value{"eye", [](const ViewerModel& m) { return vector_text(m.render().settings().camera.eye); }},
     Value{"eye_z", [](const ViewerModel& m) { return fmt::format("{}", m.render().settings().camera.eye.z); }},
     Value{"target", [](const ViewerModel& m) { return vector_text(m.render().settings().camera.target); }},
@@ -220,6 +219,9 @@ constexpr std::array kValues{
     Value{"effect_pairs", measured_pairs},
     Value{"edited",
           [](const ViewerModel& m) { return fmt::format("{}", m.scene().materials().edited_names().size()); }},
+    Value{"scene", [](const ViewerModel& m) { return m.scene().name(); }},
+    Value{"dialog", [](const ViewerModel& m) { return word(m.open_dialog().is_shown()); }},
+    Value{"folder", [](const ViewerModel& m) { return m.open_dialog().listing().folder.string(); }},
     Value{"knobs", [](const ViewerModel& m) { return knob_text(m.scene().knobs()); }},
     Value{"shown_knobs",
           [](const ViewerModel& m) {

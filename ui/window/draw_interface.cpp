@@ -17,6 +17,7 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
     if (layout.panels) draw_badges(model, layout, plan);
     draw_toasts(model, layout, plan);
     draw_self_test(model, layout);
+    draw_open_dialog(model, layout);
     draw_help(model, layout);
 }
 
