@@ -10,9 +10,9 @@
 
 #include "core/io/json_file.h"
 #include "ui/model/display_controls.h"
+#include "ui/model/window_place.h"
 #include "ui/model/window_state.h"
 #include "ui/plot/run_lines.h"
-#include "ui/window/window_plan.h"
 
 namespace pl {
 
