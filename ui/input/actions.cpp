@@ -82,6 +82,7 @@ std::vector<Action> actions_after_methods() {
         {FoldRight, Group::Window, "F7", "fold or open tabs and accuracy panel", {at(SDL_SCANCODE_F7)}},
         {FullScreen, Group::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
         {Help, Group::Window, "F1 or ?", "this list", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
+        {Tour, Group::Window, "F4", "guided tour: begin, leave or continue", {at(SDL_SCANCODE_F4)}},
         {SwitchLayout, Group::Window, "F3", "layout: Explore or Research", {at(SDL_SCANCODE_F3)}},
         {ResetWindow,
          Group::Window,

@@ -51,6 +51,7 @@ enum class ActionId {
     FoldRight,
     Help,
     SelfTest,
+    Tour,
     SwitchLayout,
     ResetWindow,
     FullScreen,

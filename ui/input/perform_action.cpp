@@ -50,6 +50,14 @@ void switch_layout(WindowState& window) {
     window.layout = window.layout == WindowLayout::Explore ? WindowLayout::Research : WindowLayout::Explore;
 }
 
+void toggle_tour(ViewerModel& model) {
+    const GuidedTour::Phase phase = model.tour().phase();
+    if (phase == GuidedTour::Phase::Off || phase == GuidedTour::Phase::Offered)
+        model.tour().begin(model);
+    else
+        model.tour().leave();
+}
+
 /// Each function does a part of the actions; false for the others.
 bool perform_render_action(ViewerModel& model, ActionId id) {
     RenderControls& render = model.render();
@@ -103,6 +111,7 @@ bool perform_compare_action(ViewerModel& model, ActionId id) {
     case ActionId::Turns: comparison.set_turns(!comparison.in_turns()); return true;
     case ActionId::MakeReference: model.references().make(); return true;
     case ActionId::SelfTest: model.self_test().is_shown() = !model.self_test().is_shown(); return true;
+    case ActionId::Tour: toggle_tour(model); return true;
     case ActionId::Cancel: model.cancel(); return true;
     default: return false;
     }

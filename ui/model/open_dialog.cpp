@@ -38,6 +38,11 @@ FolderListing list_folder(const std::filesystem::path& folder) {
     return listing;
 }
 
+void OpenDialog::update() {
+    gallery_.set_shown(is_shown_);
+    gallery_.update();
+}
+
 void OpenDialog::toggle() {
     is_shown_ = !is_shown_;
     if (is_shown_) browse(listing_.folder.empty() ? std::filesystem::path(".") : listing_.folder);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ui/model/files.h"
+#include "ui/model/scene_gallery.h"
 
 namespace pl {
 
@@ -22,7 +23,10 @@ FolderListing list_folder(const std::filesystem::path& folder);
 class OpenDialog {
 public:
     OpenDialog(const ModelServices& services, Files& files)
-        : options_(services.options), jobs_(services.jobs), files_(files) {}
+        : options_(services.options), jobs_(services.jobs), files_(files), gallery_(services) {}
+
+    /// Once per frame of the window.
+    void update();
 
     bool& is_shown() { return is_shown_; }
     bool is_shown() const { return is_shown_; }
@@ -30,6 +34,8 @@ public:
     void toggle();
 
     const std::vector<std::string>& scenes() const { return options_.scenes; }
+    SceneGallery& gallery() { return gallery_; }
+    const SceneGallery& gallery() const { return gallery_; }
     const FolderListing& listing() const { return listing_; }
     /// Looks into another folder on the helper thread. If it cannot be read, the old one stays, with a message.
     void browse(const std::filesystem::path& folder);
@@ -45,6 +51,7 @@ private:
     const ViewerOptions& options_;
     Jobs& jobs_;
     Files& files_;
+    SceneGallery gallery_;
     bool is_shown_ = false;
     std::string choice_;
     FolderListing listing_;

@@ -8,6 +8,7 @@
 
 #include "ui/model/camera_motion.h"
 #include "ui/model/edited_materials.h"
+#include "ui/model/file_watch.h"
 #include "ui/model/recent_files.h"
 #include "ui/model/scene_loader.h"
 #include "ui/model/selection.h"
@@ -19,6 +20,10 @@ class ViewedScene {
 public:
     ViewedScene(const ModelServices& services, CameraMotion& camera, Selection& selection,
                 std::shared_ptr<const SceneDescription> scene);
+
+    /// Once per frame of the window: loads the scene again after one of its files has changed. Camera, knobs and edited
+    /// materials stay; if the files cannot be read, the old scene does.
+    void update();
 
     /// As load_scene takes it.
     const std::string& name() const { return name_; }
@@ -32,6 +37,9 @@ public:
     void reload();
     /// Another scene with its own camera, its knobs at their defaults. If it cannot be read, the old one stays.
     void open(const std::string& name);
+
+    /// Whether another scene is being loaded.
+    bool is_opening() const;
 
     /// The scenes opened so far, files by their absolute paths.
     const RecentFiles& recent() const { return recent_; }
@@ -56,12 +64,11 @@ public:
 
 private:
     static KnobValues turned(const std::vector<KnobDescription>& knobs);
-    bool is_opening() const;
     void load(LoadOrder order);
     void load_knobs() { load({{name_, turned(knobs_)}, LoadReason::Knobs}); }
     void finish(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene, const std::string& failure);
     void adopt(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene);
-    void adopt_knobs(std::shared_ptr<const SceneDescription> scene);
+    void adopt_again(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene);
 
     Messages& messages_;
     RenderLink& link_;
@@ -72,6 +79,7 @@ private:
     std::vector<KnobDescription> knobs_;
     RecentFiles recent_;
     SceneLoader loader_;
+    FileWatch watch_;
 };
 
 }  // namespace pl

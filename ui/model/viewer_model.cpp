@@ -48,6 +48,8 @@ void ViewerModel::update(double seconds) {
     messages_.set_time(seconds);
     camera_.update(seconds);
     link_.update();
+    scene_.update();
+    open_dialog_.update();
     files_.pictures().update();
     link_.worker().set_values_wanted(window_.values_shown || files_.pictures().is_waiting());
     references_.update();
@@ -60,6 +62,7 @@ void ViewerModel::update(double seconds) {
     diagnostics_.update();
     self_test_.update();
     jobs_.update();
+    tour_.update(*this, seconds);
     messages_.drop_expired();
 }
 
@@ -92,6 +95,8 @@ void ViewerModel::cancel() {
         references_.stop();
     else if (diagnostics_.is_searching() || diagnostics_.map())
         diagnostics_.toggle();
+    else if (selection_.volume() == kNoVolume && tour_.phase() != GuidedTour::Phase::Off)
+        tour_.leave();
     else if (selection_.volume() != kNoVolume || comparison_.state().mode == CompareMode::Off)
         selection_.deselect();
     else

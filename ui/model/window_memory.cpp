@@ -148,6 +148,7 @@ void write_memory(const WindowMemory& memory, Json& document) {
     document["plot"] = {{"metric", kMetricNames[static_cast<std::size_t>(memory.plot.metric)]},
                         {"axis", kAxisNames[static_cast<std::size_t>(memory.plot.axis)]}};
     document["recent"] = memory.recent;
+    document["tour"] = {{"step", memory.tour_step}, {"answered", memory.is_tour_answered}};
 }
 
 WindowMemory memory_in(const Json& document, const WindowMemory& first, const std::filesystem::path& path) {
@@ -166,6 +167,9 @@ WindowMemory memory_in(const Json& document, const WindowMemory& first, const st
     plot.read("metric", memory.plot.metric, kMetricNames);
     plot.read("axis", memory.plot.axis, kAxisNames);
     file.read("recent", memory.recent);
+    const Members tour = file.object("tour");
+    tour.read("step", memory.tour_step, 0, static_cast<int>(tour_steps().size()) - 1);
+    tour.read("answered", memory.is_tour_answered);
     return memory;
 }
 
@@ -181,6 +185,8 @@ WindowMemory memory_of(const ViewerModel& model, const WindowMemory& before) {
     const AccuracyModel& accuracy = model.comparison().accuracy();
     memory.plot = {accuracy.wanted_metric(), accuracy.kind().axis};
     memory.recent = model.scene().recent().names();
+    memory.tour_step = model.tour().step();
+    memory.is_tour_answered = model.tour().is_answered();
     return memory;
 }
 
@@ -190,6 +196,7 @@ void restore(const WindowMemory& memory, ViewerModel& model) {
     window.panels = memory.panels;
     window.hemisphere = memory.hemisphere;
     model.scene().remember(memory.recent);
+    model.tour().remember(memory.tour_step, memory.is_tour_answered);
     model.display().set_cells_opacity(memory.tint_opacity);
     model.display().set_low_resolution(memory.coarser_in_motion);
     model.comparison().accuracy().set_metric(memory.plot.metric);

@@ -29,6 +29,8 @@ struct WindowMemory {
     bool coarser_in_motion = true;
     CurveKind plot;
     std::vector<std::string> recent{};
+    int tour_step = 0;              ///< of the guided tour, where it continues
+    bool is_tour_answered = false;  ///< it is not offered again
 
     friend bool operator==(const WindowMemory&, const WindowMemory&) = default;
 };

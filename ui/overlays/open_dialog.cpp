@@ -1,7 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
+#include <fmt/format.h>
+
+#include "ui/draw/gui_memory.h"
+#include "ui/draw/picture_textures.h"
 #include "ui/draw/widgets.h"
 #include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
@@ -9,31 +14,64 @@
 namespace pl {
 namespace {
 
-/// A line that a click chooses and a double click opens.
-void draw_choice(OpenDialog& dialog, const std::string& name, const std::string& shown) {
-    const bool clicked =
-        ImGui::Selectable(shown.c_str(), dialog.choice() == name, ImGuiSelectableFlags_AllowDoubleClick);
-    note_place(("open: " + shown).c_str());
+/// After a Selectable that a click chooses and a double click opens.
+void answer_click(OpenDialog& dialog, const std::string& name, bool clicked) {
     if (!clicked) return;
     dialog.choice() = name;
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) dialog.open(name);
 }
 
-void draw_scenes(OpenDialog& dialog, ImVec2 size) {
+void draw_choice(OpenDialog& dialog, const std::string& name, const std::string& shown, const char* place) {
+    ImGui::PushID(name.c_str());
+    const bool clicked =
+        ImGui::Selectable(shown.c_str(), dialog.choice() == name, ImGuiSelectableFlags_AllowDoubleClick);
+    note_place((place + shown).c_str());
+    answer_click(dialog, name, clicked);
+    ImGui::PopID();
+}
+
+/// A picture with its name below, in the rectangle from `low` to `high`.
+void draw_picture(const std::string& name, const std::shared_ptr<const ByteImage>& picture, ImVec2 low, ImVec2 high) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 corner{high.x, high.y - ImGui::GetTextLineHeight() - em(0.2f)};
+    SDL_Texture* const texture = picture ? gui_memory().textures->of(picture) : nullptr;
+    if (texture != nullptr)
+        list.AddImage(to_texture_id(texture), low, corner);
+    else
+        list.AddRectFilled(low, corner, colors::kBadge);
+    list.AddText({low.x, corner.y + em(0.1f)}, colors::kText, name.c_str());
+}
+
+/// All known scenes, as many in a row as fit.
+void draw_gallery(OpenDialog& dialog, ImVec2 size) {
     ImGui::BeginChild("scenes", size, true);
-    faint_text("Scenes");
-    for (const std::string& name : dialog.scenes()) draw_choice(dialog, name, name);
+    const float gap = em(0.6f);
+    const float room = ImGui::GetContentRegionAvail().x;
+    const int columns = std::max(static_cast<int>((room + gap) / (em(8.0f) + gap)), 1);
+    const float width = std::floor((room + gap) / static_cast<float>(columns) - gap);
+    const float height = std::floor(0.75f * width) + ImGui::GetTextLineHeight() + em(0.2f);
+    int column = 0;
+    for (const std::string& name : dialog.scenes()) {
+        ImGui::PushID(name.c_str());
+        if (column > 0) ImGui::SameLine(0.0f, gap);
+        const ImVec2 low = ImGui::GetCursorScreenPos();
+        const bool clicked = ImGui::Selectable("##scene", dialog.choice() == name,
+                                               ImGuiSelectableFlags_AllowDoubleClick, {width, height});
+        note_place(("open: " + name).c_str());
+        draw_picture(name, dialog.gallery().picture(name), low, {low.x + width, low.y + height});
+        answer_click(dialog, name, clicked);
+        column = (column + 1) % columns;
+        ImGui::PopID();
+    }
     ImGui::EndChild();
 }
 
 void draw_recent(OpenDialog& dialog, const RecentFiles& recent, ImVec2 size) {
     ImGui::BeginChild("recent", size, true);
-    faint_text("Recent");
+    faint_text("Opened last");
     for (const std::string& name : recent.names()) {
-        ImGui::PushID(name.c_str());
-        draw_choice(dialog, name, std::filesystem::path(name).filename().string());
+        draw_choice(dialog, name, std::filesystem::path(name).filename().string(), "recent: ");
         tooltip(name.c_str());
-        ImGui::PopID();
     }
     ImGui::EndChild();
 }
@@ -46,7 +84,8 @@ void draw_files(OpenDialog& dialog, ImVec2 size) {
     if (ImGui::Selectable("../")) entered = listing.folder.parent_path();
     for (const std::string& name : listing.folders)
         if (ImGui::Selectable((name + "/").c_str())) entered = listing.folder / name;
-    for (const std::string& name : listing.files) draw_choice(dialog, (listing.folder / name).string(), name);
+    for (const std::string& name : listing.files)
+        draw_choice(dialog, (listing.folder / name).string(), name, "file: ");
     if (listing.files.empty()) faint_text("no .obj, .json or .field here");
     ImGui::EndChild();
     if (!entered.empty()) dialog.browse(entered);
@@ -66,6 +105,16 @@ void draw_field(OpenDialog& dialog) {
     note_place("open: button");
 }
 
+void draw_hint(const OpenDialog& dialog) {
+    if (dialog.gallery().is_working())
+        faint_text(
+            fmt::format("Rendering pictures of the scenes, {} of {}; the picture in the window rests meanwhile.",
+                        dialog.gallery().size(), dialog.scenes().size())
+                .c_str());
+    else
+        faint_text("A double click or Enter opens, Esc closes. Files can also be dropped on the window.");
+}
+
 }  // namespace
 
 void draw_open_dialog(ViewerModel& model, const Layout& layout) {
@@ -74,14 +123,16 @@ void draw_open_dialog(ViewerModel& model, const Layout& layout) {
     begin_dialog("Open a scene", dialog.is_shown(), layout, em(54.0f));
     const float height = std::clamp(screen_size(layout).y - em(12.0f), em(8.0f), em(27.0f));
     const float gap = ImGui::GetStyle().ItemSpacing.x;
-    const float width = ImGui::GetContentRegionAvail().x - 2.0f * gap;
-    draw_scenes(dialog, {0.25f * width, height});
+    const float width = ImGui::GetContentRegionAvail().x - gap;
+    draw_gallery(dialog, {0.6f * width, height});
     ImGui::SameLine();
-    draw_recent(dialog, model.scene().recent(), {0.25f * width, height});
-    ImGui::SameLine();
-    draw_files(dialog, {0.0f, height});
+    ImGui::BeginGroup();
+    const float part = 0.4f * (height - ImGui::GetStyle().ItemSpacing.y);
+    draw_recent(dialog, model.scene().recent(), {0.4f * width, part});
+    draw_files(dialog, {0.4f * width, height - part - ImGui::GetStyle().ItemSpacing.y});
+    ImGui::EndGroup();
     draw_field(dialog);
-    faint_text("A double click or Enter opens, Esc closes. Files can also be dropped on the window.");
+    draw_hint(dialog);
     ImGui::End();
 }
 

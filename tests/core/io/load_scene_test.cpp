@@ -43,6 +43,15 @@ TEST_CASE("Corpus: files to be refused") {
     }
 }
 
+TEST_CASE("A scene names the files that it was read from, and those that are missing") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+    const auto obj = folder.write("a.obj", "mtllib m.mtl\nmtllib none.mtl\nusemtl wall\n" + kTriangle);
+    const auto json = folder.write("s.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj"})");
+    const std::vector<std::filesystem::path> expected{obj, folder.path() / "m.mtl", folder.path() / "none.mtl", json};
+    CHECK(load_scene(json.string(), "").files == expected);
+}
+
 TEST_CASE("A file without light opens with the default light, and says so") {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nKe 0 0 0\nnewmtl lamp\nKe 1 1 1\n");
