@@ -13,17 +13,17 @@ enum Step { kSplit, kPick, kDisc, kKnob, kFly, kPays, kStepCount };
 
 constexpr std::array<TourStep, kStepCount> kSteps{{
     {"One scene, two methods, the same time",
-     "Light enters this room through the gap of a door. Both halves of the picture have had the same time: the left "
+     "Light enters this room through the gap of a door. Both halves of the picture get the same time: the left "
      "one by "
      "Reinforcement, which learns while it renders, the right one by Default, which does not.",
      "Drag the line between the halves.", "split line"},
-    {"Points remember the light",
+    {"Where light comes from",
      "The surfaces are divided among radiance volumes. Each one learns from which directions light arrives.",
      "Click the floor or a wall in the picture.", TourStep::kPicture},
     {"The directions of one volume",
-     "The disc has a cell for every direction above the surface: its middle is straight up, its rim along the "
-     "surface. "
-     "Bright cells are those of bright light, as learned so far; paths leave through them more often.",
+     "The disc has a cell for every direction above the surface; its middle points straight away from the surface, "
+     "its rim along it. Bright cells are those of bright light, as learned so far; paths leave through them more "
+     "often.",
      "Point at a bright cell, and see its ray in the picture.", "learned disc"},
     {"Another scene is learned anew",
      "The knob moves the door. That is another scene: the pictures and all that was learned begin again.",

@@ -302,6 +302,14 @@ void draw_window_displays(ViewerModel& model) {
     bool low = model.display().low_resolution();
     if (toggle_row("Coarser while moving", "Lowers the resolution in motion to keep the frame rate.", &low))
         model.display().set_low_resolution(low);
+    bool preview = model.display().preview();
+    ImGui::BeginDisabled(!low);
+    if (toggle_row("Preview while moving",
+                   "For Default without light samples, whose first samples are single dots: the learned radiance map "
+                   "if there is one, else light samples. A badge names it; no sample of it comes to the picture.",
+                   &preview))
+        model.display().set_preview(preview);
+    ImGui::EndDisabled();
     int scale = static_cast<int>(std::lround((model.window().ui_scale - 0.75f) / 0.25f));
     if (choice_row("UI scale", "Size of text and controls.", &scale,
                    "75 %\000100 %\000125 %\000150 %\000175 %\000200 %\000"))

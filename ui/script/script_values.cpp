@@ -181,6 +181,10 @@ constexpr std::array kValues{
           }},
     Value{"shown_backend",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.backend.name; }); }},
+    Value{"shown_preview",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return std::string(name_of(f.preview)); });
+          }},
     Value{"shown_light",
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return std::string(name_of(f.facts.light)); });

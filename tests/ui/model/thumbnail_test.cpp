@@ -31,7 +31,7 @@ TEST_CASE("Thumbnail: its name follows from light and camera, not from names") {
     CHECK(thumbnail_name(scene) != name);
 }
 
-TEST_CASE("Thumbnail: a file is read as it was written; damaged ones and other pictures are not") {
+TEST_CASE("Thumbnail: a file is read as it was written, damaged ones and other pictures are not") {
     const TemporaryFolder folder;
     const auto file = folder.path() / "a.png";
     CHECK_FALSE(read_thumbnail(file));
@@ -50,7 +50,7 @@ TEST_CASE("Thumbnail: a file is read as it was written; damaged ones and other p
     CHECK_FALSE(read_thumbnail(file));
 }
 
-TEST_CASE("Thumbnail: rendered in its size; nothing if it is stopped") {
+TEST_CASE("Thumbnail: rendered in its size, nothing if it is stopped") {
     const FakeDevices devices;
     StopFlag stop{false};
     const auto picture = render_thumbnail(small_scene(), devices.maker(), &stop);
