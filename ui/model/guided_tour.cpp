@@ -43,6 +43,11 @@ bool is_same_view(const CameraDescription& a, const CameraDescription& b) {
     return a.eye == b.eye && a.target == b.target;
 }
 
+/// Whether the scene of the window is rendered at the full size.
+bool is_at_rest(const ViewerModel& model) {
+    return model.status().picture != 0 && model.status().scene->source == model.scene().materials().file()->source;
+}
+
 }  // namespace
 
 std::span<const TourStep> tour_steps() { return kSteps; }
@@ -58,15 +63,12 @@ void GuidedTour::offer() {
 
 void GuidedTour::begin(ViewerModel& model) {
     is_answered_ = true;
-    if (model.scene().name() == kScene) {
-        prepare(model);
-        return;
-    }
     phase_ = Phase::Opening;
-    model.scene().open(kScene);
+    if (model.scene().name() != kScene) model.scene().open(kScene);
 }
 
-/// Everything that the steps point at is visible.
+/// Everything that the steps point at is visible, and both methods begin with nothing: coarse passes of a camera that has just
+/// come to rest would have trained the field on no clock.
 void GuidedTour::prepare(ViewerModel& model) {
     PanelChoice& panels = model.window().panels;
     panels.shown = panels.settings = panels.right = panels.tabs = panels.accuracy = true;
@@ -75,6 +77,7 @@ void GuidedTour::prepare(ViewerModel& model) {
     render.set_view(View::Beauty);
     render.set_next_event(false);
     render.set_method(learning_method());
+    render.forget();
     model.selection().deselect();
     model.comparison().set_turns(true);
     model.comparison().set_mode(CompareMode::Split);
@@ -118,9 +121,9 @@ bool GuidedTour::is_done(const ViewerModel& model) const {
 void GuidedTour::update(ViewerModel& model, double seconds) {
     const bool is_in_scene = model.scene().name() == kScene;
     if (phase_ == Phase::Opening) {
-        if (is_in_scene)
+        if (is_in_scene && is_at_rest(model))
             prepare(model);
-        else if (!model.scene().is_opening())
+        else if (!is_in_scene && !model.scene().is_opening())
             leave();  // a message says why the scene cannot be opened
     }
     if (phase_ != Phase::Running) return;

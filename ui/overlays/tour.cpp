@@ -80,7 +80,8 @@ void draw_card(ViewerModel& model, Phase phase) {
 void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan) {
     const Phase phase = model.tour().phase();
     if (phase == Phase::Off) return;
-    if (phase == Phase::Running) {
+    const bool is_covered = model.open_dialog().is_shown() || model.window().help || model.self_test().is_shown();
+    if (phase == Phase::Running && !is_covered) {
         const Rect place = place_of(tour_steps()[static_cast<std::size_t>(model.tour().step())], image);
         draw_frame(place);
     }

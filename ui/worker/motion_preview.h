@@ -10,8 +10,8 @@ namespace pl {
 class MotionPreview {
 public:
     /// After the motion the last preview stays until the picture has this many passes or seconds of work.
-    static constexpr std::uint32_t kEnoughPasses = 8;
-    static constexpr double kEnoughSeconds = 0.5;
+    static constexpr std::uint32_t kEnoughPasses = 16;
+    static constexpr double kEnoughSeconds = 2.0;
 
     /// The best one for a film in motion. None for films that guide, sample lights or trace no paths. The learned radiance
     /// map if a method has learned; light samples only if none has, because switching them empties all fields.
