@@ -7,7 +7,7 @@
 #   b  the whole benchmark with a million triangles, times by events, profiler counters, long parity, switches in the viewer
 #   c  variants of the kernels, initcheck, random settings for the rest of the time
 # FOLDER is an unpacked kit (pack_for_device.sh), by default that of this script; results go to ./results by default. --rehearsal:
-# without a GPU, by the programs of FOLDER/standin, on small pictures.
+# without a GPU, by the programs FOLDER/standin/*_on_host, on small pictures.
 # Exit code: 0 all steps passed, 1 a step failed, 2 usage, 4 no device.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -30,15 +30,15 @@ done
 [[ $chosen == [abc] ]] || usage
 kit=$(cd "$kit" && pwd) || exit 2
 [[ $results == /* ]] || results=$PWD/$results
-programs=$kit${rehearsal:+/standin}
-[[ -x $programs/pathlight ]] || { echo "run_on_device.sh: no program $programs/pathlight" >&2; exit 2; }
+programs=$kit${rehearsal:+/standin} suffix=${rehearsal:+_on_host}
+pathlight=$programs/pathlight$suffix
+[[ -x $pathlight ]] || { echo "run_on_device.sh: no program $pathlight" >&2; exit 2; }
 
 # shellcheck source=steps.sh
 source "$here/steps.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export PATHLIGHT_ASSETS=$kit/assets SDL_VIDEODRIVER=dummy
-pathlight=$programs/pathlight
 
 # Sizes for a device, and for a rehearsal on a CPU.
 if [[ -z $rehearsal ]]; then
@@ -99,9 +99,9 @@ stage_a() {
     done
     sanitize memcheck
     sanitize synccheck
-    step parity 120 "$programs/device_parity" "${parity_a[@]}"
-    step compare 200 "$programs/compare_backends" "${compare_options[@]}"
-    step bench 100 "$programs/cuda_bench" "${bench_a[@]}"
+    step parity 120 "$programs/device_parity$suffix" "${parity_a[@]}"
+    step compare 200 "$programs/compare_backends$suffix" "${compare_options[@]}"
+    step bench 100 "$programs/cuda_bench$suffix" "${bench_a[@]}"
 }
 
 # profile STEP METHOD: one launch of trace_paths; the clocks stay as they are.
@@ -121,11 +121,11 @@ profile() {
 }
 
 stage_b() {
-    step bench 180 "$programs/cuda_bench" "${bench_b[@]}"
-    step times 60 "$programs/kernel_times" "${times_options[@]}"
+    step bench 180 "$programs/cuda_bench$suffix" "${bench_b[@]}"
+    step times 60 "$programs/kernel_times$suffix" "${times_options[@]}"
     profile profile-default default
     profile profile-reinforcement reinforcement
-    step parity-long 200 "$programs/device_parity" "${parity_b[@]}"
+    step parity-long 200 "$programs/device_parity$suffix" "${parity_b[@]}"
     step switches 60 "$here/time_switches.sh" "$pathlight" "$work"
 }
 
@@ -137,11 +137,11 @@ stage_c() {
         step "variant-$name-compare" 60 "$variant/compare_backends" "${compare_options[@]}" --scenes cornell,door
         step "variant-$name-bench" 60 "$variant/cuda_bench" "${bench_c[@]}"
     done
-    step variant-none-bench 60 "$programs/cuda_bench" "${bench_c[@]}"
+    step variant-none-bench 60 "$programs/cuda_bench$suffix" "${bench_c[@]}"
     sanitize initcheck
     local rest=$(($(seconds_left) - 30))
     if [[ -n $rehearsal ]] || ((rest < random_least)); then rest=$random_least; fi
-    step random $((rest + 30)) "$programs/compare_backends" --random --seed "${RANDOM_SEED:-1}" --seconds "$rest"
+    step random $((rest + 30)) "$programs/compare_backends$suffix" --random --seed "${RANDOM_SEED:-1}" --seconds "$rest"
 }
 
 begin_stage "$chosen" "$results" 470
