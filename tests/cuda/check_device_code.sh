@@ -80,59 +80,6 @@ kernel() { awk -v tag="ILj$2E" '/\.entry /{inside = index($0, tag) > 0} inside' 
 # count FILE BITS PATTERN: in how many lines it occurs
 count() { kernel "$1" "$2" | grep -cE -- "$3" || true; }
 
-# Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 63 lobes too, 2047 all. Philox' key schedule and its
-# first multiplier count the draws; doubles count the traversals; rounding down only images and maps need. Smooth
-# normals are recognized by their square roots: the rest of their code is less than the difference of two compilations.
-measure() {
-    local file=$1 bits
-    shift
-    size=() draws=() doubles=() floors=() roots=()
-    for bits in "$@"; do
-        size[bits]=$(kernel "$file" "$bits" | grep -cE $'^\t(@!?%p[0-9]+ )?[a-z]')
-        draws[bits]=$(count "$file" "$bits" '-766435501|3528531795')
-        doubles[bits]=$(count "$file" "$bits" '(add|sub|mul|div|sqrt)[a-z.]*\.f64')
-        roots[bits]=$(count "$file" "$bits" 'sqrt\.')
-        floors[bits]=$(count "$file" "$bits" 'cvt\.rmi\.')
-    done
-}
-check_rules() {
-    local file
-    for file in "${files[@]}"; do
-        expect "fused multiply-adds in $file" "$(grep -c 'fma\.' "$work/$file.ptx" || true)" -eq 0
-        expect "atomic sums of floats in $file" "$(grep -cE '(atom|red)[a-z0-9_.]*\.b?f(16|32|64)' "$work/$file.ptx" || true)" -eq 0
-    done
-    for file in "${pictures[@]}"; do
-        measure "$file" 0 4 7 63 2047
-        expect "$file: instructions without and with light samples" "${size[0]}" -lt "${size[4]}"
-        expect "$file: roots without and with normals and environment" "${roots[4]}" -lt "${roots[7]}"
-        expect "$file: instructions without and with lobes" "${size[7]}" -lt "${size[63]}"
-        expect "$file: instructions with some and all effects" "${size[63]}" -lt "${size[2047]}"
-        expect "$file: random numbers without and with light samples" "${draws[0]}" -lt "${draws[4]}"
-        expect "$file: random numbers for normals and environment" "${draws[4]}" -eq "${draws[7]}"
-        expect "$file: random numbers without and with lobes" "${draws[7]}" -lt "${draws[63]}"
-        expect "$file: double operations without and with shadow rays" "$((2 * doubles[0]))" -eq "${doubles[4]}"
-        expect "$file: double operations for one ray" "${doubles[0]}" -le 9
-        expect "$file: double operations for normals, environment and lobes" "${doubles[4]}" -eq "${doubles[63]}"
-        expect "$file: roundings down without images" "${floors[63]}" -eq "${floors[0]}"
-        expect "$file: roundings down with images" "${floors[2047]}" -gt "${floors[63]}"
-    done
-    for file in "${learners[@]}"; do
-        measure "$file" 0 7 2047
-        expect "$file: instructions with none and some effects" "${size[0]}" -lt "${size[7]}"
-        expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[2047]}"
-        expect "$file: double operations without and with shadow rays" "$((2 * doubles[0]))" -eq "${doubles[7]}"
-        expect "$file: roundings down without images" "${floors[7]}" -eq "${floors[0]}"
-    done
-    for file in "${paths[@]}"; do
-        expect "$file: double divisions and roots" "$(count "$file" 2047 '(div|sqrt)[a-z.]*\.f64')" -eq 0
-    done
-    expect "default: aggregated records" "$(count default 2047 'match\.')" -eq 0
-    if [[ $mode != quick ]]; then
-        expect "precomputed: aggregated records" "$(count precomputed 2047 'match\.')" -eq 0
-        expect "reinforcement: aggregated records" "$(count reinforcement 0 'match\.')" -gt 0
-    fi
-}
-
 kernel_names='trace_paths|show_view|refine_film|mark_borders|volume_values|add_samples|set_samples|read_film|read_halves|show_film|largest_value|run_step'
 step_names='absorb_samples|update_means|weigh_row|build_row_choice|absorb_light_samples|move_mixture|move_reach|build_row'
 # Of a mangled name in text: kernel and its set or step.
@@ -156,30 +103,32 @@ registers() {
             printf "%-14s %-14s %-16s %9d %6d %6d\n", file, name, set, registers, stack, spills
         }' "$work/$1.log"
 }
-# machine_code FILE: kernel, its set or step, and how many instructions it has of some kinds: loads from global memory by bits,
-# loads and stores of the stack, votes, shuffles, matches of lanes, atomics with and without a result
+# machine_code FILE: kernel, its set or step, and how many instructions it has of some kinds: loads by bits (ld16: 16 or fewer) but for
+# those of the stack, of these the generic ones, which look up their address space; loads and stores of the stack; votes, shuffles,
+# matches of lanes; atomics with and without a result
 machine_code() {
     "$disassembler" -c "$work/$1.cubin" | awk -v file="$1" -v kernel_names="$kernel_names" -v step_names="$step_names" "$name_functions"'
         function count(kind) { ++counts[kind] }
         function finish() {
             if (name == "") return
             printf "%-14s %-14s %-20s", file, name, set
-            for (i = 1; i <= kinds; ++i) printf " %6d", counts[kind_names[i]]
+            for (i = 1; i <= kinds; ++i) printf kind_names[i] == "generic" ? " %7d" : " %6d", counts[kind_names[i]]
             print ""
             split("", counts)
         }
-        BEGIN { kinds = split("all ldg128 ldg64 ldg32 ldg16 ldl stl vote shfl match atom red", kind_names, " ") }
+        BEGIN { kinds = split("all ld128 ld64 ld32 ld16 generic ldl stl vote shfl match atom red", kind_names, " ") }
         /^\t\.section\t\.text\./ { finish(); name_kernel($0); next }
         match($0, /^ +\/\*[0-9a-f]+\*\/ +/) {
             count("all")
             instruction = substr($0, RLENGTH + 1)
             sub(/^@!?U?P[0-9T]+ +/, "", instruction)
             sub(/[ ;].*/, "", instruction)
-            if (instruction ~ /^LDG/) {
-                if (instruction ~ /\.128/) count("ldg128")
-                else if (instruction ~ /\.64/) count("ldg64")
-                else if (instruction ~ /\.[US](8|16)/) count("ldg16")
-                else count("ldg32")
+            if (instruction ~ /^LDG?\./) {
+                if (instruction ~ /\.128/) count("ld128")
+                else if (instruction ~ /\.64/) count("ld64")
+                else if (instruction ~ /\.[US](8|16)/) count("ld16")
+                else count("ld32")
+                if (instruction ~ /^LD\./) count("generic")
             }
             else if (instruction ~ /^LDL/) count("ldl")
             else if (instruction ~ /^STL/) count("stl")
@@ -210,12 +159,60 @@ compare() {
     fi
 }
 
-if [[ $mode != machine ]]; then
-    check_rules
-    compare "$table" registers "$(printf '%-14s %-14s %-16s %9s %6s %6s' file kernel 'effects or step' registers stack spills)"
+machine_head=$(printf '%-14s %-14s %-20s %6s %6s %6s %6s %6s %7s %6s %6s %6s %6s %6s %6s %6s' file kernel 'effects or step' all ld128 \
+    ld64 ld32 ld16 generic ldl stl vote shfl match atom red)
+if [[ -n $disassembler ]]; then compare "$machine_table" machine_code "$machine_head"; fi
+if [[ $mode == machine ]]; then exit $((failures > 0)); fi
+
+for file in "${files[@]}"; do
+    expect "fused multiply-adds in $file" "$(grep -c 'fma\.' "$work/$file.ptx" || true)" -eq 0
+    expect "atomic sums of floats in $file" "$(grep -cE '(atom|red)[a-z0-9_.]*\.b?f(16|32|64)' "$work/$file.ptx" || true)" -eq 0
+done
+# Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 63 lobes too, 2047 all. Philox' key schedule and its
+# first multiplier count the draws; doubles count the traversals; rounding down only images and maps need. Smooth
+# normals are recognized by their square roots: the rest of their code is less than the difference of two compilations.
+measure() {
+    local file=$1 bits
+    shift
+    size=() draws=() doubles=() floors=() roots=()
+    for bits in "$@"; do
+        size[bits]=$(kernel "$file" "$bits" | grep -cE $'^\t(@!?%p[0-9]+ )?[a-z]')
+        draws[bits]=$(count "$file" "$bits" '-766435501|3528531795')
+        doubles[bits]=$(count "$file" "$bits" '(add|sub|mul|div|sqrt)[a-z.]*\.f64')
+        roots[bits]=$(count "$file" "$bits" 'sqrt\.')
+        floors[bits]=$(count "$file" "$bits" 'cvt\.rmi\.')
+    done
+}
+for file in "${pictures[@]}"; do
+    measure "$file" 0 4 7 63 2047
+    expect "$file: instructions without and with light samples" "${size[0]}" -lt "${size[4]}"
+    expect "$file: roots without and with normals and environment" "${roots[4]}" -lt "${roots[7]}"
+    expect "$file: instructions without and with lobes" "${size[7]}" -lt "${size[63]}"
+    expect "$file: instructions with some and all effects" "${size[63]}" -lt "${size[2047]}"
+    expect "$file: random numbers without and with light samples" "${draws[0]}" -lt "${draws[4]}"
+    expect "$file: random numbers for normals and environment" "${draws[4]}" -eq "${draws[7]}"
+    expect "$file: random numbers without and with lobes" "${draws[7]}" -lt "${draws[63]}"
+    expect "$file: double operations without and with shadow rays" "$((2 * doubles[0]))" -eq "${doubles[4]}"
+    expect "$file: double operations for one ray" "${doubles[0]}" -le 9
+    expect "$file: double operations for normals, environment and lobes" "${doubles[4]}" -eq "${doubles[63]}"
+    expect "$file: roundings down without images" "${floors[63]}" -eq "${floors[0]}"
+    expect "$file: roundings down with images" "${floors[2047]}" -gt "${floors[63]}"
+done
+for file in "${learners[@]}"; do
+    measure "$file" 0 7 2047
+    expect "$file: instructions with none and some effects" "${size[0]}" -lt "${size[7]}"
+    expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[2047]}"
+    expect "$file: double operations without and with shadow rays" "$((2 * doubles[0]))" -eq "${doubles[7]}"
+    expect "$file: roundings down without images" "${floors[7]}" -eq "${floors[0]}"
+done
+for file in "${paths[@]}"; do
+    expect "$file: double divisions and roots" "$(count "$file" 2047 '(div|sqrt)[a-z.]*\.f64')" -eq 0
+done
+expect "default: aggregated records" "$(count default 2047 'match\.')" -eq 0
+if [[ $mode != quick ]]; then
+    expect "precomputed: aggregated records" "$(count precomputed 2047 'match\.')" -eq 0
+    expect "reinforcement: aggregated records" "$(count reinforcement 0 'match\.')" -gt 0
 fi
-if [[ -n $disassembler ]]; then
-    compare "$machine_table" machine_code "$(printf '%-14s %-14s %-20s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s' \
-        file kernel 'effects or step' all ldg128 ldg64 ldg32 ldg16 ldl stl vote shfl match atom red)"
-fi
+
+compare "$table" registers "$(printf '%-14s %-14s %-16s %9s %6s %6s' file kernel 'effects or step' registers stack spills)"
 exit $((failures > 0))

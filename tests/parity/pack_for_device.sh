@@ -87,9 +87,11 @@ cp -r "$root/assets/scenes" "$kit/assets/"
 cp "$here"/{run_on_device.sh,steps.sh,check_libraries.sh,time_switches.sh,device_tables.py} "$kit/"
 {
     echo "commit=$(git -C "$root" rev-parse HEAD)$(git -C "$root" diff --quiet HEAD || echo ' with changes')"
-    echo "nvcc=$(sed -n 's/^CMAKE_CUDA_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt" | xargs -I{} {} --version | sed -n 's/.*release \([0-9.]*\),.*/\1/p')"
+    nvcc=$(sed -n 's/^CMAKE_CUDA_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
+    echo "nvcc=$("$nvcc" --version | sed -n 's/.*release \([0-9.]*\),.*/\1/p')"
 } >"$kit/KIT"
-tar -C "$work" --sort=name --owner=0 --group=0 --mtime=@0 -cf - kit | xz -T0 -6 >"$output"
+# A dictionary as large as the archive: the programs have the same device code.
+tar -C "$work" --sort=name --owner=0 --group=0 --mtime=@0 -cf - kit | xz --lzma2=preset=3,dict=512MiB >"$output"
 
 bytes=$(stat -c %s "$output")
 echo "$output: $((bytes / 1024)) KiB, $(find "$kit/lib" -type f | wc -l) libraries, unpacked $(du -sm "$kit" | cut -f1) MiB"

@@ -48,7 +48,7 @@ if [[ -z $rehearsal ]]; then
     bench_c=(--seconds 0.3 --sizes 512x512,1920x1080)
     times_options=(--scenes cornell,staircase)
     parity_a=('~[merge]') parity_b=('[merge]')
-    profiled=(--spp 256 --size 1920x1080) launches_skipped=30 random_least=120
+    profiled=(--spp 512 --size 1920x1080) launches_skipped=30 random_least=120
 else
     compare_options=(--side 12 --passes 2 --volumes 20 --scenes cornell,door)
     bench_a=(--seconds 0.01 --sizes 16x16 --volumes 0)
@@ -116,7 +116,7 @@ profile() {
     metrics+=,smsp__inst_executed.sum,smsp__thread_inst_executed.sum
     metrics+=,l1tex__data_pipe_lsu_wavefronts.sum,smsp__inst_executed_op_global_red.sum
     step "$1" 60 ncu --clock-control none --csv --metrics "$metrics" --kernel-name regex:trace_paths \
-        --launch-skip "$launches_skipped" --launch-count 1 --kill yes "$pathlight" render cornell --backend cuda \
+        --launch-skip "$launches_skipped" --launch-count 1 "$pathlight" render cornell --backend cuda \
         --method "$2" --nee on "${profiled[@]}" --quiet --no-progress -o "$work/profile.pfm"
 }
 
