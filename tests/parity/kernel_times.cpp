@@ -95,6 +95,7 @@ void time_case(const Case& timed, const Options& options) {
 }
 
 void run(const Options& options) {
+    (void)make_cuda_backend();  // without a device, its error says why
     const DeviceCeiling ceiling = measure_ceiling(options.megabytes);
     Record("ceiling")
         .field("lane_instructions_per_s", ceiling.lane_instructions_per_second)

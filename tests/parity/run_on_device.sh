@@ -42,7 +42,7 @@ export PATHLIGHT_ASSETS=$kit/assets SDL_VIDEODRIVER=dummy
 
 # Sizes for a device, and for a rehearsal on a CPU.
 if [[ -z $rehearsal ]]; then
-    compare_options=(--side 128 --passes 16)
+    compare_options=(--side 128 --passes 16) compare_c=("${compare_options[@]}" --scenes cornell,door)
     bench_a=(--seconds 0.2 --sizes 512x512,1920x1080 --volumes 0)
     bench_b=(--seconds 0.6 --ball-rows 501)
     bench_c=(--seconds 0.3 --sizes 512x512,1920x1080)
@@ -50,7 +50,7 @@ if [[ -z $rehearsal ]]; then
     parity_a=('~[merge]') parity_b=('[merge]')
     profiled=(--spp 512 --size 1920x1080) launches_skipped=30 random_least=120
 else
-    compare_options=(--side 12 --passes 2 --volumes 20 --scenes cornell,door)
+    compare_options=(--side 12 --passes 2 --volumes 20 --scenes cornell,door) compare_c=("${compare_options[@]}")
     bench_a=(--seconds 0.01 --sizes 16x16 --volumes 0)
     bench_b=(--seconds 0.01 --sizes 16x16 --volumes 50 --ball-rows 20)
     bench_c=("${bench_a[@]}")
@@ -131,10 +131,10 @@ stage_b() {
 
 stage_c() {
     local variant name
-    for variant in "$kit"/variants/*/; do
+    for variant in "$kit"/variants/*; do
         [[ -d $variant ]] || continue
         name=$(basename "$variant")
-        step "variant-$name-compare" 60 "$variant/compare_backends" "${compare_options[@]}" --scenes cornell,door
+        step "variant-$name-compare" 60 "$variant/compare_backends" "${compare_c[@]}"
         step "variant-$name-bench" 60 "$variant/cuda_bench" "${bench_c[@]}"
     done
     step variant-none-bench 60 "$programs/cuda_bench$suffix" "${bench_c[@]}"
