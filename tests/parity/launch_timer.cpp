@@ -66,7 +66,7 @@ const char* name_of(Work work) {
 
 LaunchTimer::Event LaunchTimer::record_event(cudaStream_t stream) {
     cudaEvent_t event = nullptr;
-    cuda::check(cudaEventCreate(&event), "creating an event");
+    cuda::check(cudaEventCreateWithFlags(&event, 0), "creating an event");
     Event owner(event);
     cuda::check(cudaEventRecord(event, stream), "recording an event");
     return owner;

@@ -9,12 +9,12 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 here=$root/tests/parity
 most_bytes=$((64 * 1024 * 1024))
 
-build=$root/build/kit output=$PWD/kit.tar.xz variants=yes
+build=$root/build/kit output=$PWD/kit.tar.xz with_variants=yes
 while (($#)); do
     case $1 in
         --build) build=$(realpath -m "${2:?}"); shift ;;
         --output) output=$(realpath -m "${2:?}"); shift ;;
-        --no-variants) variants= ;;
+        --no-variants) with_variants= ;;
         *) sed -n '2,7p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//' >&2; exit 2 ;;
     esac
     shift
@@ -28,6 +28,11 @@ mkdir -p "$kit"/{lib,standin,assets}
 compared=(compare_backends cuda_bench)
 programs=("${compared[@]}" device_parity kernel_times)
 
+# variants: the lines of variants.txt
+variants() { grep -E '^[a-z]' "$here/variants.txt" || true; }
+# All variants share the build folder: what one of them sets is unset before the next.
+read -ra unset <<<"$(variants | grep -oE -- '-D[A-Za-z0-9_]+' | sort -u | sed 's/^-D/-U/' | tr '\n' ' ')"
+
 # make_programs CMAKE_OPTIONS -- TARGET...: configures the build folder for the device and builds targets
 make_programs() {
     local options=()
@@ -36,10 +41,9 @@ make_programs() {
         shift
     done
     shift
-    # Variants share the folder: what one of them sets, the others unset.
     cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DPL_TESTS=ON -DPL_CUDA=ON \
-        -DCMAKE_CUDA_ARCHITECTURES=90-real -DPL_CUDA_LINE_INFO=ON -DPL_CUDA_DEFINITIONS= -DCMAKE_CUDA_FLAGS= "${options[@]}" \
-        --log-level=WARNING >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
+        -DCMAKE_CUDA_ARCHITECTURES=90-real -DPL_CUDA_LINE_INFO=ON "${unset[@]}" "${options[@]}" --log-level=WARNING \
+        >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
     cmake --build "$build" --target "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
 }
 
@@ -63,9 +67,8 @@ install_libraries() {
     done
 }
 
-if [[ -n $variants ]]; then
+if [[ -n $with_variants ]]; then
     while read -r name options; do
-        [[ $name == [a-z]* ]] || continue
         echo "variant $name: $options"
         read -ra options <<<"$options"
         make_programs "${options[@]}" -- "${compared[@]}"
@@ -73,7 +76,7 @@ if [[ -n $variants ]]; then
         for program in "${compared[@]}"; do
             install_program "$build/kit/$program" "$kit/variants/$name" ../../lib
         done
-    done <"$here/variants.txt"
+    done < <(variants)
 fi
 make_programs -- pathlight pathlight_on_host "${programs[@]}" "${programs[@]/%/_on_host}"
 install_program "$build/pathlight" "$kit" lib

@@ -252,6 +252,7 @@ cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned
     return called("cudaStreamWaitEvent");
 }
 
+cudaError_t cudaEventCreateWithFlags(cudaEvent_t* event, unsigned) { return cudaEventCreate(event); }
 cudaError_t cudaEventCreate(cudaEvent_t* event) {
     const cudaError_t code = called("cudaEventCreate");
     if (code != cudaSuccess) return code;
