@@ -109,27 +109,28 @@ faults_fail_the_stage() {
     shows "$before" "$kit"
 }
 
-# Time limits are those of steps.sh itself, so that the test need not wait for those of a stage.
+# Steps that never end, by steps.sh itself, so that the test need not wait for the limits of a stage.
 late_steps_fail() {
-    local before=$problems
+    local before=$problems late=$work/late
+    mkdir "$late"
     (
         # shellcheck source=steps.sh
         source "$root/tests/parity/steps.sh"
-        begin_stage x "$work/late/results" 4
-        step first 2 echo done
-        step hangs 1 bash -c 'echo started; sleep 60'
-        step ignores-term 1 bash -c 'trap "" TERM; sleep 60 & wait; sleep 60'
-        step last 5 true
+        begin_stage x "$late/results" 600
+        step first 600 echo done
+        step hangs 5 bash -c 'echo started; exec sleep 1000'
+        step ignores-term 1 bash -c 'trap "" TERM; while :; do sleep 1; done'
+        deadline=$SECONDS
+        step last 600 true
         end_stage
-    ) >"$work/late-output" 2>&1
+    ) >"$late/output" 2>&1
     expect "late steps: exit code" 1 "$?"
-    mkdir -p "$work/late" && cp "$work/late-output" "$work/late/output"
-    expect "late steps: a step before" ok "$(status "$work/late" x first)"
-    expect "late steps: time limit" "timeout: limit 1 s" "$(status "$work/late" x hangs)"
-    expect "late steps: output before the limit" 1 "$(grep -c '^started' "$work/late/results/stage-x.log")"
-    expect "late steps: killed" "timeout: limit 1 s" "$(status "$work/late" x ignores-term)"
-    expect "late steps: no time left" "late: the stage has no time left" "$(status "$work/late" x last)"
-    shows "$before" "$work/late"
+    expect "late steps: a step before" ok "$(status "$late" x first)"
+    expect "late steps: time limit" "timeout: limit 5 s" "$(status "$late" x hangs)"
+    expect "late steps: output before the limit" 1 "$(grep -c '^started' "$late/results/stage-x.log")"
+    expect "late steps: killed" "timeout: limit 1 s" "$(status "$late" x ignores-term)"
+    expect "late steps: no time left" "late: the stage has no time left" "$(status "$late" x last)"
+    shows "$before" "$late"
 }
 
 no_device_ends_the_stage() {

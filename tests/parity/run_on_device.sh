@@ -50,6 +50,7 @@ if [[ -z $rehearsal ]]; then
     parity_a=('~[merge]') parity_b=('[merge]')
     profiled=(--spp 512 --size 1920x1080) launches_skipped=30 random_least=120
 else
+    time_scale=10
     compare_options=(--side 12 --passes 2 --volumes 20 --scenes cornell,door) compare_c=("${compare_options[@]}")
     bench_a=(--seconds 0.01 --sizes 16x16 --volumes 0)
     bench_b=(--seconds 0.01 --sizes 16x16 --volumes 50 --ball-rows 20)

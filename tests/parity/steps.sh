@@ -7,10 +7,13 @@
 #
 # Summary lines: step, status, seconds, note, separated by tabs. Status: ok; failed (exit code in the note), crashed (signal in the
 # note), timeout; late (the stage had no time left for it); missing (a tool). All but ok and missing fail the stage.
+#
+# All time limits are multiplied by time_scale: a rehearsal may run beside other work.
+time_scale=1
 
 begin_stage() {
     stage=$1 log=$2/stage-$1.log summary=$2/stage-$1.tsv stage_start=$EPOCHREALTIME
-    deadline=$((SECONDS + $3)) failures=0 missing=0
+    deadline=$((SECONDS + time_scale * $3)) failures=0 missing=0
     mkdir -p "$2" && : >"$log" && printf 'step\tstatus\tseconds\tnote\n' >"$summary"
 }
 
@@ -34,7 +37,7 @@ record() {
 seconds_left() { echo $((deadline - SECONDS)); }
 
 step() {
-    local name=$1 limit=$2 start=$EPOCHREALTIME code seconds
+    local name=$1 limit=$((time_scale * $2)) start=$EPOCHREALTIME code seconds
     shift 2
     if (($(seconds_left) < 1)); then
         record "$name" late 0 "the stage has no time left"
