@@ -38,7 +38,22 @@ struct Row {
     bool next_event = false;
     Size size;
     FieldSettings field{};
+    std::uint32_t most_samples = 1;  ///< per pixel and launch
 };
+
+/// Whether sessions render several samples per pixel in one call, and so the back end in one launch.
+template <class AnySession>
+concept RendersSeveral = requires(AnySession& session, FilmSlot slot) {
+    session.advance(slot, nullptr, 4u);
+};
+
+template <class AnySession>
+void advance(AnySession& session, FilmSlot slot, [[maybe_unused]] std::uint32_t most_samples) {
+    if constexpr (RendersSeveral<AnySession>)
+        session.advance(slot, nullptr, most_samples);
+    else
+        session.advance(slot);
+}
 
 double median(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -57,17 +72,20 @@ void measure(const std::shared_ptr<const SceneDescription>& scene, const Row& ro
     settings.field = row.field;
     Session session(make_cuda_backend(), scene, settings);
     const FilmSlot slot = slot_of(settings);
-    while (session.passes(slot) < 16) session.advance(slot);  // launch sizes and tables settle
+    while (session.passes(slot) < 16 * row.most_samples)
+        advance(session, slot, row.most_samples);  // launch sizes settle
     const PassCounters before = session.summary(slot).counters;
+    const std::uint32_t first = session.passes(slot);
     std::vector<double> passes;
     const Stopwatch watch;
     while (passes.size() < 9 || watch.seconds() < seconds) {
-        const Stopwatch pass;
-        session.advance(slot);
-        passes.push_back(pass.seconds());
+        const std::uint32_t done = session.passes(slot);
+        const Stopwatch call;
+        advance(session, slot, row.most_samples);
+        passes.push_back(call.seconds() / static_cast<double>(session.passes(slot) - done));
     }
     const PassCounters after = session.summary(slot).counters;
-    const double count = static_cast<double>(passes.size());
+    const double count = static_cast<double>(session.passes(slot) - first);
     const double pass = median(passes);
     parity::Record("bench")
         .field("scene", row.scene)
@@ -75,7 +93,8 @@ void measure(const std::shared_ptr<const SceneDescription>& scene, const Row& ro
         .field("method", info_of(row.method).name)
         .field("nee", row.next_event ? "on" : "off")
         .field("size", fmt::format("{}x{}", row.size.width, row.size.height))
-        .field("passes", passes.size())
+        .field("passes", count)
+        .field("most_samples", row.most_samples)
         .field("ms_per_pass", 1.0e3 * pass)
         .field("paths_per_s", static_cast<double>(after.paths - before.paths) / count / pass)
         .field("segments_per_s", static_cast<double>(after.path.segments - before.path.segments) / count / pass);
@@ -109,11 +128,22 @@ void measure_lookups(const std::shared_ptr<const SceneDescription>& scene, Size 
     measure(scene, row, options.seconds);
 }
 
+void measure_launches(const std::shared_ptr<const SceneDescription>& scene, Size size, double seconds) {
+    for (const MethodId method : {MethodId::Default, MethodId::Precomputed})
+        for (const std::uint32_t samples : {1u, 4u, 16u})
+            measure(scene,
+                    {.scene = "cornell", .label = "launch", .method = method, .size = size, .most_samples = samples},
+                    seconds);
+}
+
 void run(const Options& options) {
     parity::Record("device").field("name", make_cuda_backend()->info().device);
     const auto cornell = std::make_shared<const SceneDescription>(load_scene("cornell", find_assets_dir()));
     for (const std::string& size : options.sizes)
         measure_methods(cornell, "cornell", parse_size(size), options.seconds);
+    if constexpr (RendersSeveral<Session>)
+        for (const std::string& size : {options.sizes.front(), options.sizes.back()})
+            measure_launches(cornell, parse_size(size), options.seconds);
     if (options.volumes > 0) measure_lookups(cornell, parse_size(options.sizes.front()), options);
     if (options.ball_rows == 0) return;
     const test::TemporaryFolder folder;

@@ -2,7 +2,7 @@
 """Turns the results of run_on_device.sh into the tables of README.md and docs/cuda.md, as Markdown on standard output.
 
 Usage: device_tables.py RESULTS [SECTION...]   RESULTS is a folder with stage-a.log, stage-b.log, stage-c.log, as many as there are;
-sections: steps, parity, goals, speed, ratios, parts, kernels, profile, switches, variants; default: all.
+sections: steps, parity, goals, speed, ratios, launches, parts, kernels, profile, switches, variants; default: all.
 
 A figure is printed only if a record of the results holds it or the records that it is computed from; else "not measured".
 Exit code: 0 printed, 2 usage, 3 no results or a line that is no record.
@@ -145,6 +145,16 @@ def ratios(results):
         ("linear search / tree", ratio(tree, linear, "segments_per_s"))])
 
 
+def launches(results):
+    """Several samples per pixel in a launch, against one."""
+    rows = results.all("bench", row="launch")
+    one = {(r["step"], r["size"], r["method"]): r for r in rows if r["most_samples"] == "1"}
+    cells = [(r["size"], method_name(r), r["most_samples"], number(r, "ms_per_pass", digits=3),
+              ratio(r, one.get((r["step"], r["size"], r["method"])), "ms_per_pass"))
+             for r in rows if not r["step"].startswith("variant-")]
+    return table(("size", "method", "samples a launch at most", "ms/pass", "times one"), cells) if cells else MISSING
+
+
 def parts(results):
     rows = []
     for passes in results.all("passes"):
@@ -212,7 +222,8 @@ def variants(results):
     return table(("variant", "size", "method", "ms/pass", "times the default build"), rows) if rows else MISSING
 
 
-SECTIONS = {f.__name__: f for f in (steps, parity, goals, speed, ratios, parts, kernels, profile, switches, variants)}
+SECTIONS = {f.__name__: f for f in (steps, parity, goals, speed, ratios, launches, parts, kernels, profile, switches,
+                                    variants)}
 
 
 def main(arguments):

@@ -35,7 +35,7 @@ class DeviceTables(unittest.TestCase):
         self.assertNotIn("rehearsal", tables_of(RUN).stdout)
 
     def test_without_records_no_figure_is_printed(self):
-        for section in ("goals", "speed", "ratios", "parts", "kernels", "profile", "switches", "variants"):
+        for section in ("goals", "speed", "ratios", "launches", "parts", "kernels", "profile", "switches", "variants"):
             text = tables_of(RUN, section).stdout.split("\n## ", 1)[1]
             self.assertIn("not measured", text, section)
             if section != "goals":  # which has the figures that are asked for
@@ -59,6 +59,12 @@ class DeviceTables(unittest.TestCase):
             "kernels").stdout
         self.assertIn("| c | add_samples | 2 | 4.000 | 25 % of a copy |", text)
         self.assertIn("| 10.000 | 500 lane instructions a segment at most |", text)
+
+    def test_several_samples_a_launch_are_compared_with_one(self):
+        row = "@bench\tscene=cornell\trow=launch\tmethod=default\tnee=off\tsize=8x8\tpasses=9\tmost_samples={}\t" \
+              "ms_per_pass={}\tpaths_per_s=1\tsegments_per_s=1\n"
+        text = tables_of(RUN + row.format(1, 4) + row.format(16, 3), "launches").stdout
+        self.assertIn("| 8x8 | default | 16 | 3.000 | 0.75 |", text)
 
     def test_cases_that_differ_are_listed(self):
         text = tables_of(RUN + "@compare\tcase=door default\tresult=differs\tfilm_values=3\tfilm_share=0.25\t"
