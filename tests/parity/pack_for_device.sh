@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# pack_for_device.sh [--build FOLDER] [--output FILE] [--no-variants]: makes kit.tar.xz, all that a machine with a GPU needs to run
+# pack_for_device.sh [--build FOLDER] [--output FILE] [--no-variants]: makes build/kit.tar.xz, all that a machine with a GPU needs to run
 # run_on_device.sh, below 64 MiB: programs for sm_90 with line information, stripped; the same programs with the host stand-in; the
 # shared libraries of both, found by RPATH, without those of the C library and the compiler; scenes; scripts; variants of the
 # kernels (variants.txt). FOLDER is a build folder, made if it is not there; default build/kit. Needs nvcc and patchelf.
@@ -9,7 +9,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 here=$root/tests/parity
 most_bytes=$((64 * 1024 * 1024))
 
-build=$root/build/kit output=$PWD/kit.tar.xz with_variants=yes
+build=$root/build/kit output=$root/build/kit.tar.xz with_variants=yes
 while (($#)); do
     case $1 in
         --build) build=$(realpath -m "${2:?}"); shift ;;

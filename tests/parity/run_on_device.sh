@@ -48,7 +48,7 @@ if [[ -z $rehearsal ]]; then
     bench_c=(--seconds 0.3 --sizes 512x512,1920x1080)
     times_options=(--scenes cornell,staircase)
     parity_a=('~[merge]') parity_b=('[merge]')
-    profiled=(--spp 512 --size 1920x1080) launches_skipped=30 random_least=120
+    profiled=(--spp 512 --size 1920x1080) launches_skipped=30
 else
     time_scale=10
     compare_options=(--side 12 --passes 2 --volumes 20 --scenes cornell,door) compare_c=("${compare_options[@]}")
@@ -58,7 +58,7 @@ else
     times_options=(--scenes cornell --width 16 --height 16 --passes 2 --megabytes 1)
     parity_a=('An update with the same training samples is equal to the bit')
     parity_b=('The same seed gives the same bits on the device')
-    profiled=(--spp 2 --size 16x16) launches_skipped=0 random_least=2
+    profiled=(--spp 2 --size 16x16) launches_skipped=0
 fi
 
 # picture STEP SECONDS ARGUMENTS...: renders on the device
@@ -141,7 +141,7 @@ stage_c() {
     step variant-none-bench 60 "$programs/cuda_bench$suffix" "${bench_c[@]}"
     sanitize initcheck
     local rest=$(($(seconds_left) - 30))
-    if [[ -n $rehearsal ]] || ((rest < random_least)); then rest=$random_least; fi
+    if [[ -n $rehearsal ]] || ((rest < 2)); then rest=2; fi
     step random $((rest + 30)) "$programs/compare_backends$suffix" --random --seed "${RANDOM_SEED:-1}" --seconds "$rest"
 }
 
