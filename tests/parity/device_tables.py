@@ -2,12 +2,14 @@
 """Turns the results of run_on_device.sh into the tables of README.md and docs/cuda.md, as Markdown on standard output.
 
 Usage: device_tables.py RESULTS [SECTION...]   RESULTS is a folder with stage-a.log, stage-b.log, stage-c.log, as many as there are;
-sections: steps, parity, goals, speed, ratios, launches, parts, kernels, profile, switches, variants; default: all.
+sections: steps, parity, goals, speed, ratios, launches, parts, kernels, profile, ceilings, switches,
+variants; default: all.
 
 A figure is printed only if a record of the results holds it or the records that it is computed from; else "not measured".
 Exit code: 0 printed, 2 usage, 3 no results or a line that is no record.
 """
 import csv
+import re
 import statistics
 import sys
 from pathlib import Path
@@ -36,7 +38,7 @@ class Results:
         step = ""
         for number, line in enumerate(log.read_text(errors="replace").splitlines(), 1):
             if not line.startswith("@"):
-                if step.startswith("profile-") and line.startswith('"'):
+                if step.startswith(("profile-", "ceilings")) and line.startswith('"'):
                     self.profiles.setdefault(step, []).append(line)
                 continue
             kind, *fields = line[1:].split("\t")
@@ -195,13 +197,31 @@ def profile(results):
     """Counters of the profiler, whose output is CSV: one line per metric of the launch."""
     columns = {step: {row["Metric Name"]: f"{row['Metric Value']} {row['Metric Unit']}".strip()
                       for row in csv.DictReader(lines) if "Metric Name" in row}
-               for step, lines in results.profiles.items()}
+               for step, lines in results.profiles.items() if step != "ceilings"}
     columns = {step: values for step, values in columns.items() if values}
     if not columns:
         return MISSING
     names = list(dict.fromkeys(name for values in columns.values() for name in values))
     return table(["counter"] + [step.removeprefix("profile-") for step in columns],
                  [[f"`{name}`"] + [values.get(name, MISSING) for values in columns.values()] for name in names])
+
+
+def ceilings(results):
+    """Shares of the ceilings as the profiler has them: for each kernel its longest launch."""
+    launches = {}
+    for row in csv.DictReader(results.profiles.get("ceilings", [])):
+        launch = launches.setdefault(row["ID"], {"kernel": re.search(r"(\w+)[<(]", row["Kernel Name"] + "(")[1]})
+        launch[row["Metric Name"]] = row["Metric Value"], row["Metric Unit"]
+    names = ("gpu__time_duration.sum", "sm__throughput.avg.pct_of_peak_sustained_elapsed",
+             "gpu__compute_memory_throughput.avg.pct_of_peak_sustained_elapsed")
+    longest = {}
+    for launch in launches.values():
+        before = longest.setdefault(launch["kernel"], launch)
+        if float(launch[names[0]][0].replace(",", "")) > float(before[names[0]][0].replace(",", "")):
+            longest[launch["kernel"]] = launch
+    rows = [[kernel] + [" ".join(launch.get(name, (MISSING, ""))).strip() for name in names]
+            for kernel, launch in longest.items()]
+    return table(("kernel", "time", "arithmetic, of the peak", "memory, of the peak"), rows) if rows else MISSING
 
 
 def switches(results):
@@ -222,8 +242,8 @@ def variants(results):
     return table(("variant", "size", "method", "ms/pass", "times the default build"), rows) if rows else MISSING
 
 
-SECTIONS = {f.__name__: f for f in (steps, parity, goals, speed, ratios, launches, parts, kernels, profile, switches,
-                                    variants)}
+SECTIONS = {f.__name__: f for f in (steps, parity, goals, speed, ratios, launches, parts, kernels, profile, ceilings,
+                                    switches, variants)}
 
 
 def main(arguments):

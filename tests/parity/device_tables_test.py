@@ -35,7 +35,7 @@ class DeviceTables(unittest.TestCase):
         self.assertNotIn("rehearsal", tables_of(RUN).stdout)
 
     def test_without_records_no_figure_is_printed(self):
-        for section in ("goals", "speed", "ratios", "launches", "parts", "kernels", "profile", "switches", "variants"):
+        for section in ("goals", "speed", "ratios", "launches", "parts", "kernels", "profile", "ceilings", "switches", "variants"):
             text = tables_of(RUN, section).stdout.split("\n## ", 1)[1]
             self.assertIn("not measured", text, section)
             if section != "goals":  # which has the figures that are asked for
@@ -81,6 +81,17 @@ class DeviceTables(unittest.TestCase):
             '"0","trace_paths","smsp__inst_executed.sum","inst","1,234"\n', "profile").stdout
         self.assertIn("| `sm__warps_active.avg.pct_of_peak_sustained_active` | 43.5 % |", text)
         self.assertIn("| `smsp__inst_executed.sum` | 1,234 inst |", text)
+
+    def test_shares_of_the_peaks_are_those_of_the_longest_launch(self):
+        head = '"ID","Kernel Name","Metric Name","Metric Unit","Metric Value"\n'
+        row = '"{}","void pl::cuda::<unnamed>::run_step<&pl::f>(View)","{}","{}","{}"\n'
+        text = tables_of(
+            RUN + "@begin\tstep=ceilings\tlimit=60\tcommand=ncu\n" + head +
+            row.format(0, "gpu__time_duration.sum", "ns", "900") +
+            row.format(0, "sm__throughput.avg.pct_of_peak_sustained_elapsed", "%", "1.5") +
+            row.format(1, "gpu__time_duration.sum", "ns", "1,200") +
+            row.format(1, "sm__throughput.avg.pct_of_peak_sustained_elapsed", "%", "2.5"), "ceilings").stdout
+        self.assertIn("| run_step | 1,200 ns | 2.5 % | not measured |", text)
 
     def test_broken_results_are_refused(self):
         broken = tables_of(RUN + "@bench\tscene\n")

@@ -75,7 +75,7 @@ sanitize() {
     local small=(render --backend cuda --spp 2 --size 24x24 --no-progress -o "$work/sanitizer.pfm")
     local checker=(compute-sanitizer --tool "$tool" --error-exitcode 9)
     for method in default precomputed reinforcement; do
-        step "$tool-$method" 60 "${checker[@]}" "$pathlight" "${small[@]}" door --method "$method" --nee on --volumes 20 --bins 16
+        step "$tool-$method" 60 "${checker[@]}" "$pathlight" "${small[@]}" door --method "$method" --nee on --guiding always --volumes 20 --bins 16
     done
     step "$tool-view" 60 "${checker[@]}" "$pathlight" "${small[@]}" cornell --view voronoi
 }
@@ -105,27 +105,33 @@ stage_a() {
     step bench 100 "$programs/cuda_bench$suffix" "${bench_a[@]}"
 }
 
-# profile STEP METHOD: one launch of trace_paths; the clocks stay as they are.
+# profile STEP METHOD METRICS KERNELS SKIP COUNT: so many launches of the kernels of a pattern; the clocks stay as they are.
 profile() {
     needs "$1" ncu || return 0
-    local metrics=gpu__time_duration.sum
-    metrics+=,sm__throughput.avg.pct_of_peak_sustained_elapsed
-    metrics+=,gpu__compute_memory_throughput.avg.pct_of_peak_sustained_elapsed
+    step "$1" 60 ncu --clock-control none --csv --metrics "$3" --kernel-name "regex:$4" --launch-skip "$5" --launch-count "$6" \
+        "$pathlight" render cornell --backend cuda --method "$2" --nee on --guiding always "${profiled[@]}" --quiet --no-progress \
+        -o "$work/profile.pfm"
+}
+profile_kernels() {
+    local ceilings=gpu__time_duration.sum
+    ceilings+=,sm__throughput.avg.pct_of_peak_sustained_elapsed
+    ceilings+=,gpu__compute_memory_throughput.avg.pct_of_peak_sustained_elapsed
+    local metrics=$ceilings
     metrics+=,smsp__issue_active.avg.pct_of_peak_sustained_active
     metrics+=,sm__warps_active.avg.pct_of_peak_sustained_active
     metrics+=,smsp__thread_inst_executed_per_inst_executed.ratio
     metrics+=,smsp__inst_executed.sum,smsp__thread_inst_executed.sum
     metrics+=,l1tex__data_pipe_lsu_wavefronts.sum,smsp__inst_executed_op_global_red.sum
-    step "$1" 60 ncu --clock-control none --csv --metrics "$metrics" --kernel-name regex:trace_paths \
-        --launch-skip "$launches_skipped" --launch-count 1 "$pathlight" render cornell --backend cuda \
-        --method "$2" --nee on "${profiled[@]}" --quiet --no-progress -o "$work/profile.pfm"
+    profile profile-default default "$metrics" trace_paths "$launches_skipped" 1
+    profile profile-reinforcement reinforcement "$metrics" trace_paths "$launches_skipped" 1
+    # Two passes and more, so that every kernel is among them.
+    profile ceilings reinforcement "$ceilings" . "$((10 * launches_skipped))" 32
 }
 
 stage_b() {
     step bench 180 "$programs/cuda_bench$suffix" "${bench_b[@]}"
     step times 60 "$programs/kernel_times$suffix" "${times_options[@]}"
-    profile profile-default default
-    profile profile-reinforcement reinforcement
+    profile_kernels
     step parity-long 200 "$programs/device_parity$suffix" "${parity_b[@]}"
     step switches 60 "$here/time_switches.sh" "$pathlight" "$work"
 }
