@@ -86,6 +86,7 @@ if(PL_CUDA_BUILT)
     set(PL_CUDA_FLAGS -fmad=false --expt-relaxed-constexpr -diag-suppress=20012,445 -Xcompiler=-Wall,-Wextra,-ffp-contract=off)
     add_library(pl_cuda_options INTERFACE)
     target_compile_options(pl_cuda_options INTERFACE
+        "$<$<AND:$<COMPILE_LANGUAGE:CUDA>,$<BOOL:${PL_CUDA_LINE_INFO}>>:-lineinfo>"
         "$<$<COMPILE_LANGUAGE:CUDA>:${PL_CUDA_FLAGS}>"
         "$<$<AND:$<COMPILE_LANGUAGE:CUDA>,$<BOOL:${PL_WERROR}>>:-Werror=all-warnings>")
 endif()

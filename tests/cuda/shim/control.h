@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include "tests/cuda/shim/cuda_runtime.h"
@@ -22,6 +23,11 @@ void set_threads(int threads);
 /// Makes the call with this name ("cudaMalloc", "cudaLaunchKernel", ...) fail after `successes` further successful
 /// calls. After a lasting failure every later call fails, too, as after an error in a kernel.
 void fail(const std::string& call, cudaError_t code, int successes = 0, bool lasting = false);
+
+/// Called around every launch, copy and clear, when it is queued. `kernel` is null for copies and clears, `bytes` 0 for launches.
+using Observer = std::function<void(const void* kernel, std::size_t bytes, Queue* stream)>;
+/// Sets the observers until the next reset; empty ones end them.
+void observe(Observer before, Observer after);
 
 /// Number of objects not yet released.
 std::size_t device_bytes();

@@ -32,8 +32,8 @@ enum cudaError_t {
     cudaErrorIllegalAddress = 700,
     cudaErrorLaunchFailure = 719,
 };
-enum cudaMemcpyKind { cudaMemcpyHostToDevice = 1, cudaMemcpyDeviceToHost = 2 };
-enum cudaDeviceAttr { cudaDevAttrMultiProcessorCount = 16 };
+enum cudaMemcpyKind { cudaMemcpyHostToDevice = 1, cudaMemcpyDeviceToHost = 2, cudaMemcpyDeviceToDevice = 3 };
+enum cudaDeviceAttr { cudaDevAttrClockRate = 13, cudaDevAttrMultiProcessorCount = 16 };
 inline constexpr unsigned cudaStreamNonBlocking = 1;
 
 struct cudaDeviceProp {
@@ -47,8 +47,8 @@ struct cudaFuncAttributes {};
 namespace pl::shim {
 struct Queue;
 struct Mark;
-/// Queues a launch. `thread` is called once per thread of the grid.
-cudaError_t launch(dim3 grid, dim3 block, Queue* queue, std::function<void()> thread);
+/// Queues a launch of a kernel. `thread` is called once per thread of the grid.
+cudaError_t launch(const void* kernel, dim3 grid, dim3 block, Queue* queue, std::function<void()> thread);
 }  // namespace pl::shim
 
 using cudaStream_t = pl::shim::Queue*;
@@ -72,6 +72,7 @@ cudaError_t cudaStreamDestroy(cudaStream_t stream);
 cudaError_t cudaStreamSynchronize(cudaStream_t stream);
 cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned flags);
 cudaError_t cudaEventCreate(cudaEvent_t* event);
+cudaError_t cudaEventCreateWithFlags(cudaEvent_t* event, unsigned flags);
 cudaError_t cudaEventDestroy(cudaEvent_t event);
 cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream);
 cudaError_t cudaEventSynchronize(cudaEvent_t event);
@@ -91,5 +92,6 @@ cudaError_t cudaLaunchKernel(void (*kernel)(Parameters...), dim3 grid, dim3 bloc
         return std::tuple<Parameters...>{*static_cast<Parameters*>(arguments[I])...};
     }
     (std::index_sequence_for<Parameters...>{});
-    return pl::shim::launch(grid, block, stream, [kernel, values] { std::apply(kernel, values); });
+    return pl::shim::launch(reinterpret_cast<const void*>(kernel), grid, block, stream,
+                            [kernel, values] { std::apply(kernel, values); });
 }
