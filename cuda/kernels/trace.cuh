@@ -42,7 +42,9 @@ __device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathSt
 
 /// The set of features as bits, since the launch stubs of nvcc cannot name a FeatureSet.
 template <std::uint32_t kFeatureBits, Method M, class Paths>
-__global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup, M method, Paths paths) {
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    trace_paths(const __grid_constant__ TraceSetup setup, const __grid_constant__ M method,
+                const __grid_constant__ Paths paths) {
     const BvhIntersector intersector{setup.scene};
     const PathContext<M> context{setup.scene, method, setup.path};
     PassCounters counters;
