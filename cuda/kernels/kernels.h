@@ -21,6 +21,14 @@ struct PathRange {
     std::uint32_t end = 0;
 };
 
+/// Memory for the paths that a launch leaves unfinished, at most one per thread; the same thread of the next launch resumes it.
+struct Parking {
+    void* states = nullptr;                     ///< the kernel's PathState. [thread]
+    std::uint8_t* is_waiting = nullptr;         ///< [thread]
+    std::uint32_t most_segments = 0xffffffffu;  ///< of a thread in one launch; only with memory for paths
+    std::uint32_t resumes = 0;                  ///< 1: paths wait there
+};
+
 /// Arguments common to the kernels that trace paths. Persistent threads claim paths until the range is exhausted.
 struct TraceSetup {
     SceneView scene;
@@ -28,13 +36,15 @@ struct TraceSetup {
     PathRange range;
     std::uint32_t* claimed = nullptr;  ///< number of paths claimed; cleared before the launch
     PassCounters* counters = nullptr;  ///< incremented
+    Parking parking{};
 };
 
-/// Camera paths, one per pixel of a subset. Element 0 of `radiance` belongs to the first pixel of the launch.
+/// Camera paths of one or several passes, numbered pass by pass. Element 0 of `radiance` belongs to the first path of the launch.
 struct PixelPaths {
     Camera camera;
-    PixelGrid grid;
-    std::uint32_t first = 0;  ///< number within the subset
+    PixelGrid grid;              ///< of the first pass
+    std::uint32_t first = 0;     ///< number of the first path
+    std::uint32_t per_pass = 1;  ///< paths of a pass: the pixels of the subset
     PixelSubset subset{};
     Span<Vec3f> radiance;
 };
@@ -45,7 +55,7 @@ struct ProbePaths {
     ProbeStratum stratum;
 };
 
-/// A view of the first surface; `first` and `radiance` as in PixelPaths.
+/// A view of the first surface; element 0 of `radiance` belongs to the pixel `first`.
 struct ViewSetup {
     SceneView scene;
     ViewContext context;
@@ -93,7 +103,7 @@ struct FilmTotals {
     std::uint64_t second_weight = 0;  ///< of the second half; set by kReadHalves
 };
 
-/// The samples of a launch. Pixels that see a lamp are known by the launches before it in the stream.
+/// The samples of a launch in one pass. Pixels that see a lamp are known by the launches before it in the stream.
 struct LaunchSamples {
     Span<const Vec3f> radiance;
     std::uint32_t first = 0;  ///< number of the first one within the subset

@@ -39,6 +39,9 @@ struct Machine {
     bool lasting = false;
     bool broken = false;
     int launches = 0;
+    unsigned flags = 0;
+    bool has_context = false;
+    std::function<void(int)> on_launch;
 };
 
 Machine machine;
@@ -117,12 +120,16 @@ int live_objects() {
     return static_cast<int>(device_memory.size() + host_memory.size() + queues.size() + marks.size());
 }
 int launches() { return machine.launches; }
+unsigned device_flags() { return machine.flags; }
+bool has_context() { return machine.has_context; }
+void on_launch(std::function<void(int)> call) { machine.on_launch = std::move(call); }
 
 cudaError_t launch(dim3 grid, dim3 block, Queue* queue, std::function<void()> thread) {
     const cudaError_t code = called("cudaLaunchKernel");
     if (code != cudaSuccess) return code;
     if (grid.x == 0 || block.x == 0 || block.x > 1024) return cudaErrorInvalidValue;
     ++machine.launches;
+    if (machine.on_launch) machine.on_launch(machine.launches);
     queue->work.push_back([=, thread = std::move(thread)] { run_grid(grid, block, thread); });
     return cudaSuccess;
 }
@@ -141,8 +148,8 @@ const char* cudaGetErrorString(cudaError_t code) {
     case cudaErrorNoKernelImageForDevice: return "no kernel image is available for execution on the device";
     case cudaErrorIllegalAddress: return "an illegal memory access was encountered";
     case cudaErrorLaunchFailure: return "unspecified launch failure";
+    default: return "unknown error";
     }
-    return "unknown error";
 }
 const char* cudaGetErrorName(cudaError_t code) { return code == cudaSuccess ? "cudaSuccess" : "cudaErrorOfTheShim"; }
 cudaError_t cudaGetLastError() { return machine.broken ? machine.failure : cudaSuccess; }
@@ -159,7 +166,15 @@ cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr, int) {
     *value = 2;
     return cudaSuccess;
 }
+cudaError_t cudaSetDeviceFlags(unsigned flags) {
+    const cudaError_t code = called("cudaSetDeviceFlags");
+    if (code == cudaSuccess) machine.flags = flags;
+    return code;
+}
 cudaError_t cudaFuncGetAttributes(cudaFuncAttributes*, const void*) {
+    const cudaError_t code = called("cudaFuncGetAttributes");
+    if (code != cudaSuccess) return code;
+    machine.has_context = true;
     return machine.code_fits ? cudaSuccess : cudaErrorNoKernelImageForDevice;
 }
 
@@ -239,8 +254,8 @@ cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned
     return called("cudaStreamWaitEvent");
 }
 
-cudaError_t cudaEventCreate(cudaEvent_t* event) {
-    const cudaError_t code = called("cudaEventCreate");
+cudaError_t cudaEventCreateWithFlags(cudaEvent_t* event, unsigned) {
+    const cudaError_t code = called("cudaEventCreateWithFlags");
     if (code != cudaSuccess) return code;
     *event = new Mark;
     marks.insert(*event);
