@@ -4,8 +4,13 @@ namespace pl::cuda {
 
 /// Whether a path may have more segments than a launch traces.
 bool PathLauncher::may_wait(const PathSettings& path) const {
-    const std::uint64_t branches = path.split_threshold < kInfinity ? kMostBranches : 1u;
+    const std::uint64_t branches = splits_paths(path) ? kMostBranches : 1u;
     return std::uint64_t{path.max_depth} * branches > most_segments_;
+}
+
+void* PathLauncher::forks(std::size_t bytes) {
+    if (forks_.bytes() < bytes) forks_ = DeviceMemory(bytes);
+    return forks_.data();
 }
 
 Parking PathLauncher::parking(std::uint32_t threads, std::size_t state_bytes, bool resumes) {

@@ -36,6 +36,7 @@ struct TraceSetup {
     PathRange range;
     std::uint32_t* claimed = nullptr;  ///< number of paths claimed; cleared before the launch
     PassCounters* counters = nullptr;  ///< incremented
+    void* forks = nullptr;             ///< the kernel's ForkMemory, null if paths are not split. [thread]
     Parking parking{};
 };
 

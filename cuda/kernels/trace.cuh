@@ -44,6 +44,9 @@ __device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathSt
     const std::uint32_t taken = claim(*setup.claimed);
     if (taken >= setup.range.end - setup.range.first) return false;
     state = begin<F, M>(paths, setup.path, setup.range.first + taken);
+    if constexpr (SplittingMethod<M>)
+        keep_forks(state,
+                   setup.forks != nullptr ? static_cast<ForkMemory<M>*>(setup.forks) + thread_number() : nullptr);
     return true;
 }
 
