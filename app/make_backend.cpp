@@ -45,7 +45,8 @@ std::string why_no_cuda() {
         (void)make_cuda_backend();
         return "";
     } catch (const Error& error) {
-        return error.what();
+        const std::string text = error.what();
+        return text.substr(text.starts_with("CUDA: ") ? 6 : 0);
     }
 }
 

@@ -13,6 +13,12 @@
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/method_list.h"
 
+/// Blocks of a kernel that traces paths that a processor is to hold at least, by which the compiler limits registers; 0: as many as
+/// the registers leave room for. Set by the option of this name of the build, so that a device can decide.
+#ifndef PL_CUDA_RESIDENT_BLOCKS
+#define PL_CUDA_RESIDENT_BLOCKS 0
+#endif
+
 namespace pl::cuda {
 
 /// Path numbers of one launch: [first, end).
@@ -33,7 +39,7 @@ struct Parking {
 struct TraceSetup {
     SceneView scene;
     PathSettings path;
-    PathRange range;
+    PathRange range{};
     std::uint32_t* claimed = nullptr;  ///< number of paths claimed; cleared before the launch
     PassCounters* counters = nullptr;  ///< incremented
     void* forks = nullptr;             ///< the kernel's ForkMemory, null if paths are not split. [thread]
@@ -86,7 +92,7 @@ struct EmissionSetup {
     SceneView scene;
     EmissionContext context;
     FilmView film;
-    PathRange range;
+    PathRange range{};
     PassCounters* counters = nullptr;
 };
 using EmissionKernel = void (*)(EmissionSetup);

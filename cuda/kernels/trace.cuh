@@ -54,7 +54,9 @@ __device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathSt
 /// them one by one.
 template <FeatureSet F, class M>
 __device__ inline void* parking_place(const Parking& parking) {
-    return static_cast<std::byte*>(parking.states) + std::size_t{thread_number()} * sizeof(PathState<F, M>);
+    using State = PathState<F, M>;
+    std::byte* place = static_cast<std::byte*>(parking.states) + std::size_t{thread_number()} * sizeof(State);
+    return __builtin_assume_aligned(place, alignof(State));
 }
 
 /// The path that this thread left in the last launch, if there may be one, or else the next of the range. Returns false if there
@@ -78,7 +80,7 @@ __device__ inline void park(const Parking& parking, const PathState<F, M>& state
 
 /// The set of features as bits, since the launch stubs of nvcc cannot name a FeatureSet.
 template <std::uint32_t kFeatureBits, Method M, class Paths>
-__global__ void __launch_bounds__(kThreadsPerBlock)
+__global__ void __launch_bounds__(kThreadsPerBlock, PL_CUDA_RESIDENT_BLOCKS)
     trace_paths(const __grid_constant__ TraceSetup setup, const __grid_constant__ M method,
                 const __grid_constant__ Paths paths) {
     const BvhIntersector intersector{setup.scene};

@@ -134,11 +134,11 @@ TEST_CASE("Only an opened device has a context, in which waiting threads sleep")
     CHECK(cuda_unavailable_reason().empty());
     CHECK(cuda_devices().size() == 1);
     CHECK_FALSE(shim::has_context());
-    open_device();
+    cuda::open_device();
     CHECK(shim::has_context());
     CHECK(shim::device_flags() == cudaDeviceScheduleBlockingSync);
 
     shim::set_code_fits(false);
-    CHECK_THROWS_WITH(open_device(), contains("no code for the first device"));
+    CHECK_THROWS_WITH(cuda::open_device(), contains("no code for the first device"));
     shim::reset();
 }
