@@ -55,7 +55,7 @@ DeviceLine cuda_line(const CudaDevice& device, const std::string& reason) {
 
 int run_devices(const CommandLine&, Console& console) {
     tell(cpu_line(), console);
-    const std::string reason = cuda_unavailable_reason();
+    const std::string reason = why_no_cuda();
     const std::vector<CudaDevice> devices = cuda_devices();
     if (devices.empty())
         tell({.backend = "cuda", .device = "", .extent = "", .reason = reason, .numbers = {{"threads", nullptr}}},

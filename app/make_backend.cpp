@@ -21,16 +21,33 @@ std::unique_ptr<RenderBackend> cuda_if_possible() {
 
 }  // namespace
 
+std::string backend_name(const std::string& name) {
+    if (name == "cpu") return name;
+    const std::string reason = cuda_unavailable_reason();
+    if (name == "auto") return reason.empty() ? "cuda" : "cpu";
+    if (!reason.empty())
+        throw Error(ErrorKind::Unavailable,
+                    "--backend cuda: " + reason + "; 'pathlight devices' lists what there is");
+    return name;
+}
+
 std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads) {
-    if (name == "cuda") {
-        if (const std::string reason = cuda_unavailable_reason(); !reason.empty())
-            throw Error(ErrorKind::Unavailable,
-                        "--backend cuda: " + reason + "; 'pathlight devices' lists what there is");
-        return make_cuda_backend();
-    }
-    if (name == "auto")
+    if (backend_name(name) == "cuda") {
+        if (name == "cuda") return make_cuda_backend();
         if (auto cuda = cuda_if_possible()) return cuda;
+    }
     return make_cpu_backend({.threads = threads});
+}
+
+std::string why_no_cuda() {
+    if (const std::string reason = cuda_unavailable_reason(); !reason.empty()) return reason;
+    try {
+        (void)make_cuda_backend();
+        return "";
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        return text.substr(text.starts_with("CUDA: ") ? 6 : 0);
+    }
 }
 
 std::vector<std::string> available_backends() {

@@ -9,9 +9,16 @@
 
 namespace pl {
 
+/// The back end, "cpu" or "cuda", that make_backend() is going to make, as far as can be told in no time: by whether there is a
+/// device, not by whether it works. Throws as make_backend().
+std::string backend_name(const std::string& name);
+
 /// "auto" takes CUDA if it is available, else the CPU; "cpu" and "cuda" insist. `threads` 0: all. Throws
 /// Error(Unavailable) with the reason.
 std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads);
+
+/// Reason why CUDA does not work, empty if it does. Creates a context.
+std::string why_no_cuda();
 
 /// Names of the back ends that make_backend() can make on this machine.
 std::vector<std::string> available_backends();

@@ -21,7 +21,7 @@ public:
     RunOutcome run(ProgressDisplay& progress) {
         EndedBy end = limit_met(false);
         while (end == EndedBy::Nothing) {
-            const Progress done = session_.advance(slot_, interrupt_.flag());
+            const Progress done = session_.advance(slot_, interrupt_.flag(), most_passes());
             if (done == Progress::Stopped) return {EndedBy::Interruption, watch_.seconds()};
             end = limit_met(done == Progress::Rendered);
             if (end == EndedBy::Nothing && interrupt_.raised()) end = EndedBy::Interruption;
@@ -39,6 +39,14 @@ private:
         if (session_.passes(slot_) >= options_.spp_limit()) return EndedBy::Spp;
         const auto limit = options_.time_limit_seconds;
         return limit && watch_.seconds() >= *limit ? EndedBy::TimeLimit : EndedBy::Nothing;
+    }
+
+    /// Passes until the next one after which a limit is looked at; times are, whenever the back end has rendered as many as it
+    /// takes at once.
+    std::uint32_t most_passes() const {
+        if (target_ != nullptr) return 1;
+        const std::uint32_t passes = session_.passes(slot_);
+        return passes < options_.spp_limit() ? options_.spp_limit() - passes : 1;
     }
 
     /// Empty before there are volumes.

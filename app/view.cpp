@@ -5,7 +5,6 @@
 #if PL_VIEWER
 
 #include <algorithm>
-#include <mutex>
 #include <thread>
 
 #include <fmt/format.h>
@@ -80,21 +79,15 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
     return viewer;
 }
 
-/// Makes back ends for the viewer. The first one is made at once, so that its absence is told before a window opens.
+/// Makes back ends for the viewer, in its worker: the context of a device takes up to a second, in which the window is there already.
+/// That there is no device is told before a window opens.
 class ViewerBackends {
 public:
     explicit ViewerBackends(const Options& options)
-        : threads_(viewer_threads(options.threads)), first_(make_backend(options.backend, threads_)),
-          first_name_(first_->info().name) {}
+        : threads_(viewer_threads(options.threads)), first_name_(backend_name(options.backend)) {}
 
     const std::string& first_name() const { return first_name_; }
-    std::unique_ptr<RenderBackend> make(const std::string& name) {
-        {
-            const std::lock_guard lock(mutex_);
-            if (name == first_name_ && first_) return std::move(first_);
-        }
-        return make_backend(name, threads_);
-    }
+    std::unique_ptr<RenderBackend> make(const std::string& name) const { return make_backend(name, threads_); }
     BackendChoices choices() const {
         BackendChoice cuda{.name = "cuda", .device = "", .unavailable = cuda_unavailable_reason()};
         if (cuda.unavailable.empty()) cuda.device = cuda_devices().front().name;
@@ -103,8 +96,6 @@ public:
 
 private:
     int threads_;
-    std::mutex mutex_;
-    std::unique_ptr<RenderBackend> first_;  ///< until it is asked for
     std::string first_name_;
 };
 

@@ -84,7 +84,12 @@ if(PL_CUDA_BUILT)
     # -fmad=false: no contraction, as on the host. Suppressed diagnostics: 20012, annotations on defaulted functions in GLM;
     # 445, a template parameter that only the body of a lambda uses.
     set(PL_CUDA_FLAGS -fmad=false --expt-relaxed-constexpr -diag-suppress=20012,445 -Xcompiler=-Wall,-Wextra,-ffp-contract=off)
+    # Variants of the kernels among which only a device can decide; see docs/cuda.md.
+    set(PL_CUDA_AGGREGATE_ATOMICS ON CACHE BOOL "threads of a warp add up training samples before they are added to memory")
+    set(PL_CUDA_RESIDENT_BLOCKS 0 CACHE STRING "blocks of a tracing kernel that a processor holds at least; 0: no limit of registers")
     add_library(pl_cuda_options INTERFACE)
+    target_compile_definitions(pl_cuda_options INTERFACE PL_CUDA_AGGREGATE_ATOMICS=$<BOOL:${PL_CUDA_AGGREGATE_ATOMICS}>
+        PL_CUDA_RESIDENT_BLOCKS=${PL_CUDA_RESIDENT_BLOCKS})
     target_compile_options(pl_cuda_options INTERFACE
         "$<$<AND:$<COMPILE_LANGUAGE:CUDA>,$<BOOL:${PL_CUDA_LINE_INFO}>>:-lineinfo>"
         "$<$<COMPILE_LANGUAGE:CUDA>:${PL_CUDA_FLAGS}>"

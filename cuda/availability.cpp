@@ -3,6 +3,7 @@
 #include <cuda_runtime.h>
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "cuda/kernels/kernels.h"
 #include "cuda/runtime/check.h"
 
@@ -25,12 +26,7 @@ std::string cuda_unavailable_reason() {
     if (code == cudaErrorInsufficientDriver) return "no NVIDIA driver, or one older than this build's CUDA";
     if (code == cudaErrorNoDevice || (code == cudaSuccess && count == 0)) return "the driver shows no device";
     if (code != cudaSuccess) return fmt::format("{} ({})", cudaGetErrorString(code), cudaGetErrorName(code));
-    cudaFuncAttributes attributes;
-    const cudaError_t kernel = cudaFuncGetAttributes(&attributes, reinterpret_cast<const void*>(cuda::kAddSamples));
-    (void)cudaGetLastError();
-    if (kernel == cudaSuccess) return "";
-    return fmt::format("this build has no code for the first device: {} ({})", cudaGetErrorString(kernel),
-                       cudaGetErrorName(kernel));
+    return "";
 }
 
 std::vector<CudaDevice> cuda_devices() {
@@ -46,3 +42,19 @@ std::vector<CudaDevice> cuda_devices() {
 }
 
 }  // namespace pl
+
+namespace pl::cuda {
+
+void open_device() {
+    check(cudaSetDeviceFlags(cudaDeviceScheduleBlockingSync), "choosing how to wait for the device");
+    cudaFuncAttributes attributes;
+    const cudaError_t code = cudaFuncGetAttributes(&attributes, reinterpret_cast<const void*>(kAddSamples));
+    if (code == cudaErrorNoKernelImageForDevice || code == cudaErrorInvalidDeviceFunction) {
+        (void)cudaGetLastError();
+        throw Error(ErrorKind::Unavailable, fmt::format("CUDA: this build has no code for the first device: {} ({})",
+                                                        cudaGetErrorString(code), cudaGetErrorName(code)));
+    }
+    check(code, "creating a context");
+}
+
+}  // namespace pl::cuda

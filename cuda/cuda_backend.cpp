@@ -1,6 +1,5 @@
 #include "cuda/cuda_backend.h"
 
-#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -8,8 +7,7 @@
 
 #include "cuda/availability.h"
 #include "cuda/device_films.h"
-#include "cuda/launch_size.h"
-#include "cuda/runtime/launch.h"
+#include "cuda/path_launcher.h"
 
 namespace pl::cuda {
 namespace {
@@ -18,21 +16,17 @@ using DeviceScene = SceneStorage<DeviceArray>;
 using DeviceVolumes = VolumeStorage<DeviceArray>;
 using DeviceField = FieldArrays<DeviceArray>;
 
-int processors_of_device() {
-    int count = 0;
-    check(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, 0), "asking for the number of processors");
-    return count;
-}
-
 class CudaBackend final : public RenderBackend {
 public:
-    CudaBackend() : device_(cuda_devices().at(0)), processors_(processors_of_device()) {}
+    explicit CudaBackend(const CudaOptions& options)
+        : device_(cuda_devices().at(0)), launcher_(stream_, options.most_segments) {}
 
     BackendInfo info() const override {
         return {.name = "cuda", .device = device_.name, .intersector = scene_ ? "bvh" : "none", .threads = 0};
     }
 
     void upload_scene(std::shared_ptr<const HostScene> scene) override {
+        launcher_.forget();
         scene_.reset();
         DeviceScene uploaded;
         zip(*scene, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });
@@ -41,6 +35,7 @@ public:
     }
 
     void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
+        launcher_.forget();
         fields_ = {};
         volumes_ = {};
         zip(*volumes, volumes_, [&](const auto& from, auto& to) { to.upload(from, stream_); });
@@ -51,6 +46,7 @@ public:
     void upload_field(MethodId method, HostField field) override {
         if (volumes_.normals.size() == 0)
             throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
+        launcher_.forget();
         DeviceField uploaded;
         zip_fields(field, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });
         stream_.wait("uploading a field");
@@ -66,7 +62,10 @@ public:
     }
     bool has_field(MethodId method) const override { return fields_[index_of(method)].has_value(); }
 
-    void reset_film(FilmSlot slot, int width, int height) override { films_.reset(slot, width, height, stream_); }
+    void reset_film(FilmSlot slot, int width, int height) override {
+        launcher_.forget();
+        films_.reset(slot, width, height, stream_);
+    }
     FilmReading read_film(FilmSlot slot) const override { return films_.read(slot, stream_); }
     FilmReading read_halves(FilmSlot slot) const override { return films_.read_halves(slot, stream_); }
     std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const override {
@@ -99,23 +98,20 @@ private:
     ShownField shown_field(const FilmSlot& slot);
     Span<const float> volume_values(const FilmSlot& slot);
 
-    /// Calls launch_range() on successive ranges of [first, end). Polls `stop` between launches.
-    template <class LaunchRange>
-    PassCounters run_launches(LaunchSize& size, std::uint32_t first, std::uint32_t end, const StopFlag* stop,
-                              LaunchRange&& launch_range);
-
     template <class M, class Paths>
-    void launch_paths(void (*kernel)(TraceSetup, M, Paths), const PathSettings& path, PathRange range,
-                      const M& method, const Paths& paths);
-    void launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels);
-    void launch_view(const PassRequest& request, const ViewContext& context, const PixelPaths& pixels);
+    void launch_paths(void (*kernel)(TraceSetup, M, Paths), const PathSettings& path, const M& method,
+                      const Paths& paths) {
+        launcher_.launch_paths(kernel, {.scene = existing_scene().view(), .path = path}, method, paths);
+    }
+    void launch_picture(const PassRequest& request, const PixelPaths& pixels);
+    void launch_view(const PassRequest& request, const ViewContext& context, PathRange range);
+    void use_samples(const PassRequest& request, PathRange range, const FilmView& film);
+    void use_pass(const PassRequest& request, PathRange pixels, std::uint32_t offset, const FilmView& film);
     void refine_launch(const PassRequest& request, PathRange range, const FilmView& film);
 
     CudaDevice device_;
-    int processors_ = 1;
     Stream stream_;
-    Event launched_;
-    Event finished_;
+    PathLauncher launcher_;
     std::optional<DeviceScene> scene_;
     DeviceVolumes volumes_;
     FieldShape shape_;
@@ -123,62 +119,28 @@ private:
     DeviceFilms films_;
     DeviceArray<float> volume_values_;  ///< of the latest heat map
     DeviceArray<Vec3f> samples_;        ///< radiance of the paths of one launch
-    DeviceArray<std::uint32_t> claimed_{1};
-    DeviceArray<PassCounters> counters_{1};
-    PinnedMemory read_counters_{sizeof(PassCounters)};
     std::array<LaunchSize, FilmSlot::kCount> picture_sizes_;
     LaunchSize probe_size_;
 };
 
-template <class LaunchRange>
-PassCounters CudaBackend::run_launches(LaunchSize& size, std::uint32_t first, std::uint32_t end, const StopFlag* stop,
-                                       LaunchRange&& launch_range) {
-    PassCounters total;
-    while (first < end && !(stop != nullptr && *stop)) {
-        const std::uint32_t count = size.next(end - first);
-        counters_.clear(stream_);
-        launched_.record(stream_);
-        launch_range(PathRange{first, first + count});
-        finished_.record(stream_);
-        copy_to_host(read_counters_.data(), counters_.data(), sizeof(PassCounters), stream_);
-        stream_.wait("tracing paths");
-        total += *static_cast<const PassCounters*>(read_counters_.data());
-        size.observe(count, finished_.milliseconds_since(launched_));
-        first += count;
-    }
-    return total;
-}
-
-template <class M, class Paths>
-void CudaBackend::launch_paths(void (*kernel)(TraceSetup, M, Paths), const PathSettings& path, PathRange range,
-                               const M& method, const Paths& paths) {
-    claimed_.clear(stream_);
-    const TraceSetup setup{.scene = existing_scene().view(),
-                           .path = path,
-                           .range = range,
-                           .claimed = claimed_.data(),
-                           .counters = counters_.data()};
-    const std::uint32_t blocks = std::min(resident_blocks(kernel, processors_), blocks_for(range.end - range.first));
-    launch(kernel, blocks, stream_, "trace_paths", setup, method, paths);
-}
-
-void CudaBackend::launch_picture(const PassRequest& request, PathRange range, const PixelPaths& pixels) {
+void CudaBackend::launch_picture(const PassRequest& request, const PixelPaths& pixels) {
     const MethodId id = request.method();
     const AnyFieldView field = info_of(id).uses_field ? learned_field(id) : AnyFieldView{};
     with_method_kernel(id, request.learning, request.path.next_event != 0, [&]<int kEntry>() {
         IntegratorAt<kEntry> method;
         configure_method(method, field, request.mixture, request.learning);
-        launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, range, method, pixels);
+        launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, method, pixels);
     });
 }
 
-void CudaBackend::launch_view(const PassRequest& request, const ViewContext& context, const PixelPaths& pixels) {
-    launch(kViewKernels[covering_set(request.features)], blocks_for(pixels.radiance.count), stream_, "show_view",
+void CudaBackend::launch_view(const PassRequest& request, const ViewContext& context, PathRange range) {
+    const std::uint32_t count = range.end - range.first;
+    launch(kViewKernels[covering_set(request.features)], blocks_for(count), stream_, "show_view",
            ViewSetup{.scene = existing_scene().view(),
                      .context = context,
-                     .first = pixels.first,
-                     .radiance = pixels.radiance,
-                     .counters = counters_.data()});
+                     .first = range.first,
+                     .radiance = {samples_.data(), count},
+                     .counters = launcher_.counters()});
 }
 
 PassCounters CudaBackend::run_pass(const PassRequest& request) {
@@ -190,32 +152,54 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
                               .camera = request.camera,
                               .settings = request.path,
                               .grid = grid};
-    const AddSamplesKernel add = is_heat_map(request.slot.view) ? kSetSamples : kAddSamples;
     LaunchSize& size = picture_sizes_[static_cast<std::size_t>(request.slot.index())];
-    const std::uint32_t end = std::min(request.end_pixel, request.subset.count(film.pixels.count));
-    const bool refines =
-        is_picture && request.use != SampleUse::Trial && has_visible_emission(existing_scene().view());
-    return run_launches(size, request.first_pixel, end, request.stop, [&](PathRange range) {
+    const std::uint32_t per_pass = request.subset.count(film.pixels.count);
+    const std::uint32_t passes = size.passes(per_pass, request.most_passes);
+    const std::uint32_t end = passes > 1 ? passes * per_pass : std::min(request.end_pixel, per_pass);
+    const auto trace = [&](PathRange range) {
         const std::uint32_t count = range.end - range.first;
         if (samples_.size() < count) samples_ = DeviceArray<Vec3f>(count);
-        const PixelPaths pixels{.camera = request.camera,
-                                .grid = grid,
-                                .first = range.first,
-                                .subset = request.subset,
-                                .radiance = {samples_.data(), count}};
-        if (is_picture)
-            launch_picture(request, range, pixels);
-        else
-            launch_view(request, context, pixels);
-        launch(add, blocks_for(count), stream_, "add_samples", film,
-               LaunchSamples{.radiance = pixels.radiance,
-                             .first = range.first,
-                             .pass = request.sample,
-                             .subset = request.subset,
-                             .use = request.use,
-                             .counters = counters_.data()});
-        if (refines) refine_launch(request, range, film);
-    });
+        if (!is_picture) return launch_view(request, context, range);
+        launch_picture(request, {.camera = request.camera,
+                                 .grid = grid,
+                                 .first = range.first,
+                                 .per_pass = per_pass,
+                                 .subset = request.subset,
+                                 .radiance = {samples_.data(), count}});
+    };
+    return launcher_.run({request.slot.index(), request.sample, request.use}, size, {request.first_pixel, end},
+                         request.stop, request.path, trace,
+                         [&](PathRange range) { use_samples(request, range, film); });
+}
+
+/// Puts the samples of a launch to their use, pass by pass.
+void CudaBackend::use_samples(const PassRequest& request, PathRange range, const FilmView& film) {
+    const std::uint32_t per_pass = request.subset.count(film.pixels.count);
+    for (std::uint32_t first = range.first; first < range.end;) {
+        const std::uint32_t pass = first / per_pass;
+        const std::uint32_t end = std::min(range.end, (pass + 1) * per_pass);
+        PassRequest one = request;
+        one.sample += pass;
+        one.passes += pass;
+        use_pass(one, {first - pass * per_pass, end - pass * per_pass}, first - range.first, film);
+        first = end;
+    }
+}
+
+/// The same for some pixels of one pass, whose samples begin at `offset`.
+void CudaBackend::use_pass(const PassRequest& request, PathRange pixels, std::uint32_t offset, const FilmView& film) {
+    const std::uint32_t count = pixels.end - pixels.first;
+    launch(is_heat_map(request.slot.view) ? kSetSamples : kAddSamples, blocks_for(count), stream_, "add_samples",
+           film,
+           LaunchSamples{.radiance = {samples_.data() + offset, count},
+                         .first = pixels.first,
+                         .pass = request.sample,
+                         .subset = request.subset,
+                         .use = request.use,
+                         .counters = launcher_.counters()});
+    const bool refines = request.slot.view == View::Beauty && request.use != SampleUse::Trial &&
+                         has_visible_emission(existing_scene().view());
+    if (refines) refine_launch(request, pixels, film);
 }
 
 /// Refines the emission in the samples that a launch has added.
@@ -226,7 +210,7 @@ void CudaBackend::refine_launch(const PassRequest& request, PathRange range, con
         .context = {request.camera, request.path, {film.width, film.height, request.sample}, request.passes},
         .film = film,
         .range = range,
-        .counters = counters_.data()};
+        .counters = launcher_.counters()};
     const std::size_t features = covering_set(request.features);
     if (request.passes == kMarkingPass && range.first == 0 && !scene.lights.empty())
         launch(kBorderKernels[features], blocks_for(scene.lights.count), stream_, "mark_borders", setup);
@@ -237,11 +221,13 @@ PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
     const ProbePaths paths{.field = std::get<TableField>(learned_field(request.method)),
                            .stratum = {request.sample, request.strata_side}};
     const auto kernel = kProbeKernels[covering_set(request.features)];
-    return run_launches(probe_size_, request.first_probe, probe_count(paths.field), request.stop,
-                        [&](PathRange range) { launch_paths(kernel, request.path, range, ProbeMethod{}, paths); });
+    return launcher_.run(
+        {.sample = request.sample}, probe_size_, {request.first_probe, probe_count(paths.field)}, request.stop,
+        request.path, [&](PathRange) { launch_paths(kernel, request.path, ProbeMethod{}, paths); }, [](PathRange) {});
 }
 
 void CudaBackend::update_field(MethodId method) {
+    launcher_.forget();
     const TableUpdateView field = update_view(shape_, std::get<TableStorage<DeviceArray>>(existing_field(method)));
     const std::uint32_t volumes = field.mean_radiance.count;
     for (const UpdateStep& step : kUpdateSteps) {
@@ -279,10 +265,11 @@ Span<const float> CudaBackend::volume_values(const FilmSlot& slot) {
 
 namespace pl {
 
-std::unique_ptr<RenderBackend> make_cuda_backend() {
+std::unique_ptr<RenderBackend> make_cuda_backend(const CudaOptions& options) {
     const std::string reason = cuda_unavailable_reason();
     if (!reason.empty()) throw Error(ErrorKind::Unavailable, "CUDA: " + reason);
-    return std::make_unique<cuda::CudaBackend>();
+    cuda::open_device();
+    return std::make_unique<cuda::CudaBackend>(options);
 }
 
 }  // namespace pl

@@ -18,6 +18,11 @@ public:
     /// Number of paths of the next launch. Includes all of `remaining` if less than half a launch would be left over.
     std::uint32_t next(std::uint32_t remaining) const { return remaining < size_ + size_ / 2 ? remaining : size_; }
 
+    /// Number of passes of `paths` paths each, at least one, that make up a launch.
+    std::uint32_t passes(std::uint32_t paths, std::uint32_t most) const {
+        return std::clamp(size_ / std::max(paths, 1u), 1u, std::max(most, 1u));
+    }
+
     /// Adapts the size to a finished launch, by a factor of at most 4, so that an interruption of the device has no
     /// lasting effect.
     void observe(std::uint32_t paths, float milliseconds) {

@@ -9,7 +9,7 @@ std::string cuda_unavailable_reason() { return std::string("not built: ") + PL_C
 
 std::vector<CudaDevice> cuda_devices() { return {}; }
 
-std::unique_ptr<RenderBackend> make_cuda_backend() {
+std::unique_ptr<RenderBackend> make_cuda_backend(const CudaOptions&) {
     throw Error(ErrorKind::Unavailable, "CUDA: " + cuda_unavailable_reason());
 }
 

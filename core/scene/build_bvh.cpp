@@ -5,11 +5,14 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
 namespace pl {
 namespace {
 
 constexpr int kBinCount = 16;
-constexpr std::uint32_t kMaxLeafSize = 4;
 /// Cost of visiting an inner node, in triangle tests.
 constexpr double kNodeCost = 1.0;
 
@@ -201,6 +204,9 @@ private:
 }  // namespace
 
 Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles) {
+    if (triangles.count > kMaxBvhTriangles)
+        throw Error(ErrorKind::Input, fmt::format("bounding volume hierarchy: expected at most {} triangles, got {}",
+                                                  kMaxBvhTriangles, triangles.count));
     return BvhBuilder(positions, triangles).build();
 }
 

@@ -156,6 +156,17 @@ void pack_looks(const SceneDescription& scene, HostScene& packed) {
     pack_light_tree(packed);
 }
 
+/// The triangles of the leaves in their order.
+std::vector<BvhTriangle> leaf_triangles(const Bvh& bvh, const HostScene& packed) {
+    std::vector<BvhTriangle> triangles;
+    triangles.reserve(bvh.primitives.size());
+    for (const std::uint32_t primitive : bvh.primitives) {
+        const Triangle& t = packed.triangles[primitive];
+        triangles.push_back({packed.positions[t.v0], primitive, packed.positions[t.v1], packed.positions[t.v2]});
+    }
+    return triangles;
+}
+
 /// The coordinate axis with the largest angle to a direction.
 Vec3d farthest_axis(Vec3d direction) {
     const Vec3d a = glm::abs(direction);
@@ -191,7 +202,7 @@ HostScene pack_scene(const SceneDescription& scene) {
     pack_normals(scene, packed);
     Bvh bvh = build_bvh(view_of(std::as_const(packed.positions)), view_of(std::as_const(packed.triangles)));
     packed.bvh_nodes = std::move(bvh.nodes);
-    packed.bvh_primitives = std::move(bvh.primitives);
+    packed.bvh_triangles = leaf_triangles(bvh, packed);
     pack_looks(scene, packed);
     return packed;
 }
@@ -204,7 +215,7 @@ HostScene repack_materials(const SceneDescription& scene, const HostScene& packe
     repacked.normals = packed.normals;
     repacked.triangle_normals = packed.triangle_normals;
     repacked.bvh_nodes = packed.bvh_nodes;
-    repacked.bvh_primitives = packed.bvh_primitives;
+    repacked.bvh_triangles = packed.bvh_triangles;
     pack_looks(scene, repacked);
     return repacked;
 }

@@ -29,7 +29,7 @@ struct SceneStorage {
     Array<float> map_row_cdf;
     Array<float> map_column_cdf;
     Array<BvhNode> bvh_nodes;
-    Array<std::uint32_t> bvh_primitives;
+    Array<BvhTriangle> bvh_triangles;
     float light_power = 0.0f;
     Vec3f environment{0.0f};
     std::uint32_t has_holes = 0;
@@ -59,7 +59,7 @@ struct SceneStorage {
                 .light_tree = {.nodes = view_of(light_nodes),
                                .of_light = view_of(light_places),
                                .clusters = view_of(light_clusters)},
-                .bvh = {.nodes = view_of(bvh_nodes), .primitives = view_of(bvh_primitives)},
+                .bvh = {.nodes = view_of(bvh_nodes), .triangles = view_of(bvh_triangles)},
                 .light_power = light_power,
                 .environment = environment,
                 .far_lights = far,
@@ -93,7 +93,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.map_row_cdf, to.map_row_cdf);
     fn(from.map_column_cdf, to.map_column_cdf);
     fn(from.bvh_nodes, to.bvh_nodes);
-    fn(from.bvh_primitives, to.bvh_primitives);
+    fn(from.bvh_triangles, to.bvh_triangles);
     to.light_power = from.light_power;
     to.environment = from.environment;
     to.has_holes = from.has_holes;

@@ -45,7 +45,9 @@ using StopFlag = std::atomic<bool>;
 /// End of a range without bound.
 inline constexpr std::uint32_t kToTheLast = 0xffffffffu;
 
-/// One sample for every pixel of a film from `first_pixel` up to, but not including, `end_pixel`.
+/// One sample for every pixel of a film from `first_pixel` up to, but not including, `end_pixel`. A request for a whole pass may
+/// allow several: the back end then renders as many as suit it, one after the other, as if each had been requested. What has
+/// been rendered is a prefix of their pixels, pass by pass, of PassCounters::paths pixels.
 struct PassRequest {
     FilmSlot slot;
     bool is_guided = true;  ///< false: directions by the BSDF alone, by the kernel of the baseline method
@@ -60,6 +62,7 @@ struct PassRequest {
     PassWeights weights{};
     std::uint32_t first_pixel = 0;
     std::uint32_t end_pixel = kToTheLast;
+    std::uint32_t most_passes = 1;
     SampleUse use = SampleUse::Film;
     PixelSubset subset{};  ///< with a step above 1, `first_pixel` and `end_pixel` number its pixels
     const StopFlag* stop = nullptr;

@@ -50,9 +50,10 @@ PathSettings path_settings(const RenderSettings& settings, MethodId method) {
 }
 
 PathSettings at_pass(PathSettings path, std::uint64_t passes) {
-    if (passes < kPassesBeforeSplitting) path.split_threshold = kInfinity;
+    if (has_early_settings(passes)) path.split_threshold = kInfinity;
     return path;
 }
+bool has_early_settings(std::uint64_t passes) { return passes < kPassesBeforeSplitting; }
 
 PassWeights pass_weights(const RenderSettings& settings, MethodId method) {
     if (!info_of(method).learns) return {};

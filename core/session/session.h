@@ -20,7 +20,7 @@ namespace pl {
 /// Outcome of one call of Session::advance.
 enum class Progress {
     Precomputed,  ///< a slice of the radiance map; the film has not changed
-    Rendered,     ///< one more sample per pixel
+    Rendered,     ///< one more sample per pixel, or several
     Stopped,      ///< the stop flag was seen; the next call resumes there
 };
 
@@ -47,8 +47,9 @@ public:
     void apply(const SessionEdit& edit);
 
     /// Does the next piece of work on a film: a slice of precomputation if the method still needs it, else one sample for
-    /// every pixel, followed by an update of the field if the method learns.
-    Progress advance(FilmSlot slot, const StopFlag* stop = nullptr);
+    /// every pixel, followed by an update of the field if the method learns. Up to `most_passes` of these if the back end renders
+    /// several at once and nothing but samples changes between them: the same bits as one after the other.
+    Progress advance(FilmSlot slot, const StopFlag* stop = nullptr, std::uint32_t most_passes = 1);
     /// Does the work before the path of one pixel in the next pass, for pass_replay(): a slice of precomputation if the method still
     /// needs it, else the choice of guidance and, within the first pass of a learner, the parts before the pixel's with their
     /// updates. Rendered: the path is the next to be traced in the pixel's part. advance() completes the pass. The film must not
@@ -126,10 +127,12 @@ private:
     void prepare_pass(FilmSlot slot);
     bool needs_precompute(FilmSlot slot) const;
     Progress precompute_slice(FilmSlot slot, const StopFlag* stop);
-    Progress render_slot(FilmSlot slot, const StopFlag* stop);
-    Progress render_pass(FilmSlot slot, const StopFlag* stop);
+    Progress render_slot(FilmSlot slot, const StopFlag* stop, std::uint32_t most_passes = 1);
+    Progress render_passes(FilmSlot slot, const StopFlag* stop, std::uint32_t most);
+    std::uint32_t equal_passes(FilmSlot slot, std::uint32_t most) const;
+    void finish_pass(FilmSlot slot);
     bool render_parts_before(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop);
-    void render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop);
+    void render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop, std::uint32_t most_passes = 1);
     PassRequest pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const;
     bool chooses_guiding(FilmSlot slot) const;
     bool choose_guiding(FilmSlot slot, const StopFlag* stop);

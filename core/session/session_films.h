@@ -16,7 +16,7 @@ struct FilmProgress {
     FilmOrigin origin{};
     bool is_allocated = false;
     std::uint32_t passes = 0;      ///< complete ones
-    std::uint32_t next_pixel = 0;  ///< first pixel that the running pass has not rendered
+    std::uint32_t next_pixel = 0;  ///< number of pixels that the running pass has rendered
     PassCounters counters{};
     double render_seconds = 0.0;
     double learn_seconds = 0.0;

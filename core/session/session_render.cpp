@@ -16,7 +16,7 @@ bool is_power_of_two(std::uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 
 }  // namespace
 
-Progress Session::advance(FilmSlot slot, const StopFlag* stop) {
+Progress Session::advance(FilmSlot slot, const StopFlag* stop, std::uint32_t most_passes) {
     prepare_film(slot);
     const ViewInfo& view = info_of(slot.view);
     if (needs_precompute(slot)) return precompute_slice(slot, stop);
@@ -24,7 +24,7 @@ Progress Session::advance(FilmSlot slot, const StopFlag* stop) {
         const Progress learned = render_slot({slot.method, View::Beauty}, stop);
         if (learned == Progress::Stopped) return learned;
     }
-    return render_slot(slot, stop);
+    return render_slot(slot, stop, most_passes);
 }
 
 Progress Session::advance_to_path(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop) {
@@ -97,10 +97,10 @@ std::uint32_t Session::probe_count() const {
     return static_cast<std::uint32_t>(placement_.count()) * static_cast<std::uint32_t>(placement_.bins());
 }
 
-Progress Session::render_slot(FilmSlot slot, const StopFlag* stop) {
+Progress Session::render_slot(FilmSlot slot, const StopFlag* stop, std::uint32_t most_passes) {
     begin_film(slot);
     prepare_pass(slot);
-    return render_pass(slot, stop);
+    return render_passes(slot, stop, most_passes);
 }
 
 void Session::prepare_pass(FilmSlot slot) {
@@ -113,18 +113,32 @@ void Session::prepare_pass(FilmSlot slot) {
         backend_->reset_film(slot, settings_.width, settings_.height);
 }
 
-/// The rest of a pass, in parts.
-Progress Session::render_pass(FilmSlot slot, const StopFlag* stop) {
+/// The rest of a pass, in parts, or several whole passes.
+Progress Session::render_passes(FilmSlot slot, const StopFlag* stop, std::uint32_t most) {
     FilmProgress& state = films_[slot];
     if (state.next_pixel == 0 && !choose_guiding(slot, stop)) return Progress::Stopped;
     if (!render_parts_before(slot, pixel_count() - 1, stop)) return Progress::Stopped;
-    render_part(slot, pixel_count(), stop);
+    render_part(slot, pixel_count(), stop, equal_passes(slot, most));
     if (state.next_pixel < pixel_count()) return Progress::Stopped;
-    state.next_pixel = 0;
-    measure_guiding(slot);
-    ++state.passes;
-    if (learns_from(slot)) finish_learning_pass(slot);
+    for (; state.next_pixel >= pixel_count(); state.next_pixel -= pixel_count()) finish_pass(slot);
     return Progress::Rendered;
+}
+
+/// The number of passes from the present one on, at most `most`, between which nothing changes but the number of the sample.
+std::uint32_t Session::equal_passes(FilmSlot slot, std::uint32_t most) const {
+    const FilmProgress& state = films_[slot];
+    if (slot.view != View::Beauty || state.next_pixel > 0 || chooses_guiding(slot)) return 1;
+    if (!learns_from(slot)) return most;
+    if (has_early_settings(field(slot.method).passes)) return 1;
+    std::uint32_t passes = 1;
+    while (passes < most && !is_updated_after(state.passes + passes)) ++passes;
+    return passes;
+}
+
+void Session::finish_pass(FilmSlot slot) {
+    measure_guiding(slot);
+    ++films_[slot].passes;
+    if (learns_from(slot)) finish_learning_pass(slot);
 }
 
 /// The parts of a pass that end before a pixel, each with its update. Returns false if it was stopped.
@@ -163,7 +177,7 @@ PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag
             .stop = stop};
 }
 
-void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop) {
+void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop, std::uint32_t most_passes) {
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
     FieldProgress& learned = field(slot.method);
@@ -171,6 +185,7 @@ void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop
     PassRequest request = pass_request(slot, state.is_guided ? slot.method : baseline_method(), stop);
     request.first_pixel = state.next_pixel;
     request.end_pixel = end;
+    request.most_passes = most_passes;
     if (chooses_guiding(slot) && state.passes >= kFewestBeforeVariance) request.use = SampleUse::Measured;
     const PassCounters counters = backend_->run_pass(request);
     state.render_seconds += watch.seconds();

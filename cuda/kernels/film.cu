@@ -7,7 +7,8 @@ namespace {
 
 /// Separate from the tracing kernels, which thereby need no double-precision arithmetic (slow on most devices), and
 /// so that neighboring threads write neighboring pixels.
-__global__ void __launch_bounds__(kThreadsPerBlock) add_samples(FilmView film, LaunchSamples samples) {
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    add_samples(const __grid_constant__ FilmView film, const __grid_constant__ LaunchSamples samples) {
     const std::uint32_t i = thread_number();
     VarianceSums sums;
     if (i < samples.radiance.count)
@@ -19,12 +20,14 @@ __global__ void __launch_bounds__(kThreadsPerBlock) add_samples(FilmView film, L
     add_up(totals.samples, sums.samples);
 }
 
-__global__ void __launch_bounds__(kThreadsPerBlock) set_samples(FilmView film, LaunchSamples samples) {
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    set_samples(const __grid_constant__ FilmView film, const __grid_constant__ LaunchSamples samples) {
     const std::uint32_t i = thread_number();
     if (i < samples.radiance.count) (void)replace_sample(film, samples.first + i, samples.radiance[i], samples.pass);
 }
 
-__global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Span<Vec3f> means, FilmTotals* totals) {
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    read_film(const __grid_constant__ FilmView film, Span<Vec3f> means, FilmTotals* totals) {
     const std::uint32_t i = thread_number();
     FilmTotals own;
     if (i < film.pixels.count) {
@@ -37,7 +40,8 @@ __global__ void __launch_bounds__(kThreadsPerBlock) read_film(FilmView film, Spa
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock)
-    read_halves(FilmView film, Span<Vec3f> first, Span<Vec3f> second, std::uint64_t* second_weight) {
+    read_halves(const __grid_constant__ FilmView film, Span<Vec3f> first, Span<Vec3f> second,
+                std::uint64_t* second_weight) {
     const std::uint32_t i = thread_number();
     std::uint64_t own = 0;
     if (i < film.pixels.count) {
@@ -50,12 +54,14 @@ __global__ void __launch_bounds__(kThreadsPerBlock)
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock)
-    show_film(FilmView film, FrameStyle style, ToneCodes codes, Span<std::uint32_t> pixels) {
+    show_film(const __grid_constant__ FilmView film, const __grid_constant__ FrameStyle style,
+              const __grid_constant__ ToneCodes codes, Span<std::uint32_t> pixels) {
     const std::uint32_t i = thread_number();
     if (i < pixels.count) pixels[i] = frame_pixel(mean_or_nan(film.pixels[i]), style, codes);
 }
 
-__global__ void __launch_bounds__(kThreadsPerBlock) largest_value(FilmView film, std::uint32_t* bits) {
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    largest_value(const __grid_constant__ FilmView film, std::uint32_t* bits) {
     const std::uint32_t i = thread_number();
     raise_to(*bits, i < film.pixels.count ? std::bit_cast<std::uint32_t>(range_value(film.pixels[i])) : 0u);
 }

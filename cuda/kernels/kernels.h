@@ -1,4 +1,6 @@
-// Arguments and dispatch tables of the kernels: their interface to host code.
+// Arguments and dispatch tables of the kernels: their interface to host code. Kernels take structures as
+// `const __grid_constant__`, which are read where the launch put them: else each thread would copy to its stack those whose
+// address is taken, and would read through them as memory of unknown kind.
 #pragma once
 
 #include <array>
@@ -11,6 +13,12 @@
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/method_list.h"
 
+/// Blocks of a kernel that traces paths that a processor is to hold at least, by which the compiler limits registers; 0: as many as
+/// the registers leave room for. Set by the option of this name of the build, so that a device can decide.
+#ifndef PL_CUDA_RESIDENT_BLOCKS
+#define PL_CUDA_RESIDENT_BLOCKS 0
+#endif
+
 namespace pl::cuda {
 
 /// Path numbers of one launch: [first, end).
@@ -19,20 +27,31 @@ struct PathRange {
     std::uint32_t end = 0;
 };
 
+/// Memory for the paths that a launch leaves unfinished, at most one per thread; the same thread of the next launch resumes it.
+struct Parking {
+    void* states = nullptr;                     ///< the kernel's PathState. [thread]
+    std::uint8_t* is_waiting = nullptr;         ///< [thread]
+    std::uint32_t most_segments = 0xffffffffu;  ///< of a thread in one launch; only with memory for paths
+    std::uint32_t resumes = 0;                  ///< 1: paths wait there
+};
+
 /// Arguments common to the kernels that trace paths. Persistent threads claim paths until the range is exhausted.
 struct TraceSetup {
     SceneView scene;
     PathSettings path;
-    PathRange range;
+    PathRange range{};
     std::uint32_t* claimed = nullptr;  ///< number of paths claimed; cleared before the launch
     PassCounters* counters = nullptr;  ///< incremented
+    void* forks = nullptr;             ///< the kernel's ForkMemory, null if paths are not split. [thread]
+    Parking parking{};
 };
 
-/// Camera paths, one per pixel of a subset. Element 0 of `radiance` belongs to the first pixel of the launch.
+/// Camera paths of one or several passes, numbered pass by pass. Element 0 of `radiance` belongs to the first path of the launch.
 struct PixelPaths {
     Camera camera;
-    PixelGrid grid;
-    std::uint32_t first = 0;  ///< number within the subset
+    PixelGrid grid;              ///< of the first pass
+    std::uint32_t first = 0;     ///< number of the first path
+    std::uint32_t per_pass = 1;  ///< paths of a pass: the pixels of the subset
     PixelSubset subset{};
     Span<Vec3f> radiance;
 };
@@ -43,7 +62,7 @@ struct ProbePaths {
     ProbeStratum stratum;
 };
 
-/// A view of the first surface; `first` and `radiance` as in PixelPaths.
+/// A view of the first surface; element 0 of `radiance` belongs to the pixel `first`.
 struct ViewSetup {
     SceneView scene;
     ViewContext context;
@@ -73,7 +92,7 @@ struct EmissionSetup {
     SceneView scene;
     EmissionContext context;
     FilmView film;
-    PathRange range;
+    PathRange range{};
     PassCounters* counters = nullptr;
 };
 using EmissionKernel = void (*)(EmissionSetup);
@@ -91,7 +110,7 @@ struct FilmTotals {
     std::uint64_t second_weight = 0;  ///< of the second half; set by kReadHalves
 };
 
-/// The samples of a launch. Pixels that see a lamp are known by the launches before it in the stream.
+/// The samples of a launch in one pass. Pixels that see a lamp are known by the launches before it in the stream.
 struct LaunchSamples {
     Span<const Vec3f> radiance;
     std::uint32_t first = 0;  ///< number of the first one within the subset

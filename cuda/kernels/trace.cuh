@@ -1,7 +1,10 @@
 // The main loop on a device. Threads are persistent: one that finishes a path starts the next of the range while the
-// other threads of its warp continue theirs, so that long paths do not leave a warp idle ("regeneration").
+// other threads of its warp continue theirs, so that long paths do not leave a warp idle ("regeneration"). A thread that has traced
+// as many segments as a launch may parks its path, see PathLauncher.
 // [Novak et al. 2010, "Path Regeneration for Interactive Path Tracing"]
 #pragma once
+
+#include <cstring>
 
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/integrator/trace_path.h"
@@ -13,8 +16,11 @@ namespace pl::cuda {
 
 template <FeatureSet F, class M>
 __device__ inline PathState<F, M> begin(const PixelPaths& paths, const PathSettings& settings, std::uint32_t number) {
-    const Vec4f start = pixel_start(settings, number, paths.grid.sample);
-    return begin_path<F, M>(paths.camera, paths.grid, paths.subset.pixel(number), start);
+    const std::uint32_t pass = number / paths.per_pass;
+    const std::uint32_t in_pass = number - pass * paths.per_pass;
+    const PixelGrid grid{paths.grid.width, paths.grid.height, paths.grid.sample + pass};
+    return begin_path<F, M>(paths.camera, grid, paths.subset.pixel(in_pass),
+                            pixel_start(settings, in_pass, grid.sample));
 }
 template <FeatureSet F, class M>
 __device__ inline PathState<F, M> begin(const ProbePaths& paths, const PathSettings& settings, std::uint32_t probe) {
@@ -23,7 +29,8 @@ __device__ inline PathState<F, M> begin(const ProbePaths& paths, const PathSetti
 
 template <FeatureSet F, class M>
 __device__ inline void finish(const PixelPaths& paths, const PathState<F, M>& state, MethodCounters&) {
-    paths.radiance[paths.subset.number(state.pixel) - paths.first] = state.radiance;
+    const std::uint32_t pass = state.sample - paths.grid.sample;
+    paths.radiance[pass * paths.per_pass + paths.subset.number(state.pixel) - paths.first] = state.radiance;
 }
 template <FeatureSet F>
 __device__ inline void finish(const ProbePaths& paths, const PathState<F, ProbeMethod>& state,
@@ -37,24 +44,60 @@ __device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathSt
     const std::uint32_t taken = claim(*setup.claimed);
     if (taken >= setup.range.end - setup.range.first) return false;
     state = begin<F, M>(paths, setup.path, setup.range.first + taken);
+    if constexpr (SplittingMethod<M>)
+        keep_forks(state,
+                   setup.forks != nullptr ? static_cast<ForkMemory<M>*>(setup.forks) + thread_number() : nullptr);
     return true;
+}
+
+/// Where this thread leaves its path. Copied as bytes: nvcc 13 copies twice the size of a state with empty members, when it copies
+/// them one by one.
+template <FeatureSet F, class M>
+__device__ inline void* parking_place(const Parking& parking) {
+    using State = PathState<F, M>;
+    std::byte* place = static_cast<std::byte*>(parking.states) + std::size_t{thread_number()} * sizeof(State);
+    return __builtin_assume_aligned(place, alignof(State));
+}
+
+/// The path that this thread left in the last launch, if there may be one, or else the next of the range. Returns false if there
+/// is none.
+template <FeatureSet F, class M, class Paths>
+__device__ inline bool next_path(const TraceSetup& setup, const Paths& paths, bool resumes, PathState<F, M>& state) {
+    if (resumes && setup.parking.is_waiting[thread_number()] != 0) {
+        std::memcpy(static_cast<void*>(&state), parking_place<F, M>(setup.parking), sizeof state);
+        return true;
+    }
+    return start(setup, paths, state);
+}
+
+/// Leaves the path of this thread, if it has one, to the next launch.
+template <FeatureSet F, class M>
+__device__ inline void park(const Parking& parking, const PathState<F, M>& state, bool active) {
+    if (parking.states == nullptr) return;
+    parking.is_waiting[thread_number()] = active ? 1 : 0;
+    if (active) std::memcpy(parking_place<F, M>(parking), static_cast<const void*>(&state), sizeof state);
 }
 
 /// The set of features as bits, since the launch stubs of nvcc cannot name a FeatureSet.
 template <std::uint32_t kFeatureBits, Method M, class Paths>
-__global__ void __launch_bounds__(kThreadsPerBlock) trace_paths(TraceSetup setup, M method, Paths paths) {
+__global__ void __launch_bounds__(kThreadsPerBlock, PL_CUDA_RESIDENT_BLOCKS)
+    trace_paths(const __grid_constant__ TraceSetup setup, const __grid_constant__ M method,
+                const __grid_constant__ Paths paths) {
     const BvhIntersector intersector{setup.scene};
     const PathContext<M> context{setup.scene, method, setup.path};
     PassCounters counters;
     PathState<FeatureSet{kFeatureBits}, M> state;
-    bool active = start(setup, paths, state);
-    while (active) {
-        const PathStatus status = trace_segment<FeatureSet{kFeatureBits}>(context, intersector, state, counters.path);
+    PathStatus status = PathStatus::Finished;
+    bool resumes = setup.parking.resumes != 0;
+    while (counters.path.segments < setup.parking.most_segments) {
+        if (status == PathStatus::Finished && !next_path(setup, paths, resumes, state)) break;
+        resumes = false;
+        status = trace_segment<FeatureSet{kFeatureBits}>(context, intersector, state, counters.path);
         if (status == PathStatus::Continues) continue;
         count_path(counters, state.radiance, is_valid_radiance(state.radiance));
         finish(paths, state, counters.path.method);
-        active = start(setup, paths, state);
     }
+    park(setup.parking, state, status == PathStatus::Continues);
     add_up(*setup.counters, counters);
 }
 

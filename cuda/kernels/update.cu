@@ -7,7 +7,8 @@ namespace {
 
 /// One launch per step, since a step reads results of the previous one for other cells of the same volume.
 template <auto kStep>
-__global__ void __launch_bounds__(kThreadsPerBlock) run_step(TableUpdateView field, std::uint32_t count) {
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    run_step(const __grid_constant__ TableUpdateView field, std::uint32_t count) {
     const std::uint32_t i = thread_number();
     if (i < count) kStep(field, i);
 }

@@ -6,7 +6,7 @@ namespace pl::cuda {
 namespace {
 
 template <std::uint32_t kFeatureBits>
-__global__ void __launch_bounds__(kThreadsPerBlock) show_view(ViewSetup setup) {
+__global__ void __launch_bounds__(kThreadsPerBlock) show_view(const __grid_constant__ ViewSetup setup) {
     const BvhIntersector intersector{setup.scene};
     const std::uint32_t i = thread_number();
     PassCounters counters;
@@ -22,7 +22,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(ViewSetup setup) {
 }
 
 template <std::uint32_t kFeatureBits>
-__global__ void __launch_bounds__(kThreadsPerBlock) refine_film(EmissionSetup setup) {
+__global__ void __launch_bounds__(kThreadsPerBlock) refine_film(const __grid_constant__ EmissionSetup setup) {
     const BvhIntersector intersector{setup.scene};
     const std::uint32_t pixel = setup.range.first + thread_number();
     SingleRays<FeatureSet{kFeatureBits}, BvhIntersector> rays{setup.scene, intersector};
@@ -34,7 +34,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) refine_film(EmissionSetup se
 }
 
 template <std::uint32_t kFeatureBits>
-__global__ void __launch_bounds__(kThreadsPerBlock) mark_borders(EmissionSetup setup) {
+__global__ void __launch_bounds__(kThreadsPerBlock) mark_borders(const __grid_constant__ EmissionSetup setup) {
     const BvhIntersector intersector{setup.scene};
     const std::uint32_t light = thread_number();
     SingleRays<FeatureSet{kFeatureBits}, BvhIntersector> rays{setup.scene, intersector};
@@ -46,7 +46,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) mark_borders(EmissionSetup s
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock)
-    volume_values(TableUpdateView field, View view, Span<float> values) {
+    volume_values(const __grid_constant__ TableUpdateView field, View view, Span<float> values) {
     const std::uint32_t volume = thread_number();
     if (volume < values.count) values[volume] = volume_value(TableVolumeSummary{field}, volume, view);
 }

@@ -30,6 +30,12 @@ inline std::uint32_t blocks_for(std::uint32_t count) {
     return static_cast<std::uint32_t>((std::uint64_t{count} + kThreadsPerBlock - 1) / kThreadsPerBlock);
 }
 
+inline int processors_of_device() {
+    int count = 0;
+    check(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, 0), "asking for the number of processors");
+    return count;
+}
+
 /// Number of blocks that fill the device, for kernels with persistent threads.
 template <class... Parameters>
 std::uint32_t resident_blocks(void (*kernel)(Parameters...), int processors) {

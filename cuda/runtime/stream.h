@@ -28,10 +28,10 @@ private:
     cudaStream_t handle_ = nullptr;
 };
 
-/// A CUDA event.
+/// A CUDA event. Threads that wait for it sleep.
 class Event {
 public:
-    Event() { check(cudaEventCreate(&handle_), "creating an event"); }
+    Event() { check(cudaEventCreateWithFlags(&handle_, cudaEventBlockingSync), "creating an event"); }
     ~Event() {
         if (handle_ != nullptr) (void)cudaEventDestroy(handle_);
     }

@@ -123,7 +123,7 @@ void measure(const std::string& name, int threads) {
                 load_seconds, pack_seconds, build_seconds, embree_seconds);
     std::printf("  memory %.1f bytes per triangle, of them %.1f hierarchy (without Embree's own)\n",
                 static_cast<double>(bytes_of(*scene)) / static_cast<double>(scene->triangles.size()),
-                static_cast<double>(bvh.nodes.size() * sizeof(BvhNode) + bvh.primitives.size() * 4) /
+                static_cast<double>(bvh.nodes.size() * sizeof(BvhNode) + bvh.primitives.size() * sizeof(BvhTriangle)) /
                     static_cast<double>(scene->triangles.size()));
     Race race(description, scene, loop, threads);
     race.run();

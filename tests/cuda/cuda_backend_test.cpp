@@ -19,8 +19,26 @@ using namespace pl::test;
 
 namespace {
 
-Session make_cuda_session(const SceneDescription& scene, const RenderSettings& settings) {
-    return Session(make_cuda_backend(), std::make_shared<const SceneDescription>(scene), settings);
+Session make_cuda_session(const SceneDescription& scene, const RenderSettings& settings,
+                          const CudaOptions& options = {}) {
+    return Session(make_cuda_backend(options), std::make_shared<const SceneDescription>(scene), settings);
+}
+
+/// Launches so short that most paths have to wait for the next one.
+constexpr CudaOptions kShortLaunches{.most_segments = 2};
+
+/// Renders `passes` passes, as many at once as the back end takes. The stop flag is set at every `interval`th launch, if it is
+/// not 0.
+State render_at_once(Session session, std::uint32_t passes, int interval = 0) {
+    StopFlag stop = false;
+    shim::on_launch([&](int launch) { stop = interval > 0 && launch % interval == 0; });
+    const FilmSlot slot = slot_of(session);
+    while (session.passes(slot) < passes) {
+        session.advance(slot, &stop, passes - session.passes(slot));
+        stop = false;
+    }
+    shim::on_launch({});
+    return state_of(session);
 }
 
 std::vector<std::uint32_t> pixels_of(const DisplayFrame& frame) {
@@ -189,6 +207,60 @@ TEST_CASE("Launches of any size, stopped and resumed, give the same bits") {
     CHECK(session.passes(slot_of(session)) == 0);
     render_passes(session, 2);
     CHECK(same_state(state_of(session), expected));
+}
+
+TEST_CASE("Paths that wait for the next launch have the bits of the CPU back end, also when they are stopped there") {
+    for (const SceneDescription& scene : {shipped_scene("door"), every_effect()})
+        for (const Estimator estimator : kEstimators) {
+            INFO(scene.name << ", " << estimator);
+            const RenderSettings settings = small_settings(scene, estimator, 31, 23);
+            const State expected = render(make_session(scene, settings), 6);
+            for (const int interval : {0, 3, 1}) {
+                shim::reset();
+                CHECK(same_state(render_at_once(make_cuda_session(scene, settings, kShortLaunches), 6, interval),
+                                 expected));
+            }
+            const int many = shim::launches();
+            shim::reset();
+            render_at_once(make_cuda_session(scene, settings), 6);
+            CHECK(many > shim::launches());
+        }
+    CHECK(shim::live_objects() == 0);
+}
+
+TEST_CASE("Paths that wait are traced anew where another film came between, and pictures keep their bits") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene, {MethodId::Default, true}, 31, 23);
+    const State expected = render(make_session(scene, settings), 2);
+    Session session = make_cuda_session(scene, settings, kShortLaunches);
+    StopFlag stop = false;
+    shim::on_launch([&](int) { stop = true; });
+    CHECK(session.advance(slot_of(session), &stop) == Progress::Stopped);
+    shim::on_launch({});
+    render_passes(session, {MethodId::Default, View::Normal}, 1);
+    render_passes(session, 2);
+    CHECK(same_state(state_of(session), expected));
+}
+
+TEST_CASE("Several passes at once have the bits of single ones, in fewer launches") {
+    constexpr std::uint32_t kPasses = 40;  // learners update less often than every pass after the first sixteen
+    const SceneDescription scene = shipped_scene("cornell");
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        RenderSettings settings = small_settings(scene, estimator, 31, 23);
+        const State expected = render(make_session(scene, settings), kPasses);
+        for (const int interval : {0, 7}) {
+            shim::reset();
+            CHECK(same_state(render_at_once(make_cuda_session(scene, settings), kPasses, interval), expected));
+        }
+        shim::reset();
+        render_at_once(make_cuda_session(scene, settings), kPasses);
+        const int at_once = shim::launches();
+        shim::reset();
+        render(make_cuda_session(scene, settings), kPasses);
+        CHECK(at_once < shim::launches());
+    }
 }
 
 TEST_CASE("A field moves to the device and back in mid-learning without changing a bit") {

@@ -40,9 +40,9 @@ std::string use(const SceneDescription& scene, const RenderSettings& settings) {
 }
 
 constexpr const char* kCalls[] = {
-    "cudaMalloc",           "cudaMallocHost",        "cudaMemcpyAsync",     "cudaMemsetAsync",
-    "cudaLaunchKernel",     "cudaEventCreate",       "cudaEventRecord",     "cudaStreamCreateWithFlags",
-    "cudaEventElapsedTime", "cudaStreamSynchronize", "cudaStreamWaitEvent", "cudaEventSynchronize",
+    "cudaMalloc",           "cudaMallocHost",           "cudaMemcpyAsync",     "cudaMemsetAsync",
+    "cudaLaunchKernel",     "cudaEventCreateWithFlags", "cudaEventRecord",     "cudaStreamCreateWithFlags",
+    "cudaEventElapsedTime", "cudaStreamSynchronize",    "cudaStreamWaitEvent", "cudaEventSynchronize",
 };
 
 }  // namespace
@@ -83,6 +83,22 @@ TEST_CASE("Without a device the back end says why") {
     }
     shim::reset();
     CHECK_THAT(text, contains("CUDA: ") && contains("driver"));
+}
+
+TEST_CASE("After a fault of a kernel the program has to be restarted, and every retry says so") {
+    const SceneDescription scene = shipped_scene("furnace");
+    const RenderSettings settings = small_settings(scene);
+    for (const cudaError_t fault : {cudaErrorIllegalAddress, cudaErrorLaunchTimeout, cudaErrorLaunchFailure}) {
+        shim::reset();
+        shim::fail("cudaStreamSynchronize", fault, 5, true);
+        CHECK_THAT(use(scene, settings), contains("restart the program to use the GPU again"));
+        const std::string again = use(scene, settings);
+        CHECK_THAT(again, contains("restart the program") && !contains("no code for the first device"));
+    }
+    shim::reset();
+    shim::fail("cudaMalloc", cudaErrorMemoryAllocation);
+    CHECK_THAT(use(scene, settings), !contains("restart"));
+    shim::reset();
 }
 
 TEST_CASE("The CPU takes over: the field is kept if it can be fetched, else learned anew") {

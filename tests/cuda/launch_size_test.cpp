@@ -48,3 +48,11 @@ TEST_CASE("One odd measurement changes little, and small launches teach nothing"
     size.observe(100, 50.0f);
     CHECK(size.next(0xffffffffu) == before);
 }
+
+TEST_CASE("Small pictures have several passes in a launch, large ones one") {
+    const LaunchSize size;
+    CHECK(size.passes(LaunchSize::kFirst / 8, 100) == 8);
+    CHECK(size.passes(LaunchSize::kFirst / 8, 3) == 3);
+    CHECK(size.passes(LaunchSize::kFirst + 1, 100) == 1);
+    CHECK(size.passes(0, 0) == 1);
+}

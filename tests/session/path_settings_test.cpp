@@ -33,8 +33,14 @@ TEST_CASE("Path settings: with light samples only the rule that follows the fiel
 TEST_CASE("Path settings: the first passes of a field split no paths") {
     const PathSettings path = path_settings({}, MethodId::Reinforcement);
     REQUIRE(path.split_threshold == 2.0f);
-    for (const std::uint64_t pass : {0u, 3u}) CHECK(at_pass(path, pass).split_threshold == kInfinity);
-    for (const std::uint64_t pass : {4u, 100u}) CHECK(at_pass(path, pass).split_threshold == 2.0f);
+    for (const std::uint64_t pass : {0u, 3u}) {
+        CHECK(at_pass(path, pass).split_threshold == kInfinity);
+        CHECK(has_early_settings(pass));
+    }
+    for (const std::uint64_t pass : {4u, 100u}) {
+        CHECK(at_pass(path, pass).split_threshold == 2.0f);
+        CHECK_FALSE(has_early_settings(pass));
+    }
     CHECK(at_pass(path, 0).roulette_threshold == path.roulette_threshold);
 }
 

@@ -2,6 +2,8 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+
 #include "core/base/timer.h"
 #include "ui/worker/answers.h"
 
@@ -178,16 +180,26 @@ void RenderLoop::render() {
     const Stopwatch watch;
     const bool is_whole = !is_coarse() && size_.is_whole();
     trial_.begin_pass(*session_, slot(), is_whole);
-    const Progress progress = session_->advance(slot(), inbox_.stop_flag());
+    const std::uint32_t before = passes();
+    const Progress progress = session_->advance(slot(), inbox_.stop_flag(), is_whole ? most_passes() : 1);
     trial_.end_pass(*session_, slot(), backends_.current(), progress);
     if (progress == Progress::Rendered) {
         if (passes() == 1) frames_.ask();
-        size_.observe(watch.seconds());
+        size_.observe(watch.seconds() / std::max(1u, passes() - before));
     }
     if (is_whole && recorder_.observe(*session_, slot())) outbox_.set_runs(recorder_.runs());
     if (turns_) turns_->count(*session_, shown_.view);
     update_status();
     if (now_.once.steps > 0 || limit_reached() || now_.paused) frames_.ask();
+}
+
+/// Passes that may be rendered at once: one where each is looked at, or has to come soon.
+std::uint32_t RenderLoop::most_passes() const {
+    constexpr std::uint32_t kMostAtOnce = 16;
+    const bool is_watched = now_.moving || now_.paused || now_.once.steps > 0 || turns_ || now_.trial;
+    if (is_watched || passes() == 0) return 1;
+    if (now_.limits.spp == 0) return kMostAtOnce;
+    return now_.limits.spp > passes() ? std::min(now_.limits.spp - passes(), kMostAtOnce) : 1;
 }
 
 void RenderLoop::answer_questions() {

@@ -54,6 +54,7 @@ private:
     void publish();
     bool wants_pass() const;
     bool limit_reached() const;
+    std::uint32_t most_passes() const;
     bool is_publishing_due() const;
     bool holds_frames_back() const;
 

@@ -3,6 +3,8 @@
 // use select() instead of branches and the same operations in the same order, so their bits agree.
 #pragma once
 
+#include <cstring>
+
 #include "core/kernel/base/math.h"
 
 namespace pl {
@@ -11,6 +13,17 @@ namespace pl {
 template <class Mask, class T>
 PL_INLINE T select(Mask mask, T yes, T no) {
     return mask ? yes : no;
+}
+
+/// Four neighboring numbers; on a device one load.
+struct alignas(16) FourFloats {
+    float v[4];
+};
+/// `values` is aligned to 16 bytes.
+PL_INLINE FourFloats load_four(const float* values) {
+    FourFloats four;
+    std::memcpy(&four, __builtin_assume_aligned(values, sizeof four), sizeof four);
+    return four;
 }
 
 /// Scalars.
@@ -33,9 +46,17 @@ struct One {
     static PL_INLINE Real power(Real x, float p) { return pl::power(x, p); }
     static PL_INLINE bool any(Mask mask) { return mask; }
     static PL_INLINE Real load(const float* values, Int index) { return values[index]; }
-    /// Number of the `count` ascending values from values[first] on that are not above x.
+    /// Number of the `count` ascending values from values[first] on that are not above x. If `count` is a multiple of 4, so is
+    /// `first`, and `values` is aligned to 16 bytes.
     static PL_INLINE Int count_not_above(const float* values, Int first, int count, Real x) {
         Int index = 0;
+        if (count % 4 == 0) {
+            for (int i = 0; i < count; i += 4) {
+                const FourFloats four = load_four(values + first + i);
+                for (const float value : four.v) index += value <= x ? 1 : 0;
+            }
+            return index;
+        }
         for (int i = 0; i < count; ++i) index += values[first + i] <= x ? 1 : 0;
         return index;
     }

@@ -1,5 +1,5 @@
-// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_ASSERT. Besides atomics.h the only file of
-// core/kernel that tests compiler macros.
+// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_ASSERT, arithmetic for bounds. Besides atomics.h the only
+// file of core/kernel that tests compiler macros.
 #pragma once
 
 #ifdef __FAST_MATH__
@@ -22,3 +22,35 @@
 #else
 #define PL_ASSERT(condition) ((condition) ? (void)0 : __builtin_trap())
 #endif
+
+namespace pl {
+
+/// Arithmetic for conservative bounds, whose slack covers either rounding: the bits differ between back ends, so nothing that
+/// decides a bit of a picture may use it. No operand is NaN.
+///
+/// a b + c with one or two roundings, whose errors are at most an ulp. On a device it is rounded down: a mode that no
+/// contraction has, by which the check of the device code recognizes it.
+PL_HD inline float bound_multiply_add(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+    return __fmaf_rd(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+/// One instruction each: a comparison that chooses would be two on a device, the function a call on some hosts.
+PL_HD inline float bound_min(float a, float b) {
+#if defined(__CUDA_ARCH__)
+    return fminf(a, b);
+#else
+    return b < a ? b : a;
+#endif
+}
+PL_HD inline float bound_max(float a, float b) {
+#if defined(__CUDA_ARCH__)
+    return fmaxf(a, b);
+#else
+    return a < b ? b : a;
+#endif
+}
+
+}  // namespace pl

@@ -6,99 +6,151 @@
 
 namespace pl {
 
-/// Inner node: `count` is 0 and the children are nodes `first` and `first + 1`. Leaf: `count` entries of
-/// BvhView::primitives from `first` on.
-struct BvhNode {
+/// Most triangles of a leaf, and the bits that hold their number.
+inline constexpr std::uint32_t kMaxLeafSize = 4;
+inline constexpr std::uint32_t kLeafBits = 3;
+static_assert(kMaxLeafSize < (1u << kLeafBits));
+
+/// Most triangles of a hierarchy: the numbers of its nodes, up to twice as many, fit a NodeReference.
+inline constexpr std::uint32_t kMaxBvhTriangles = 1u << (31 - kLeafBits);
+
+/// Children or triangles of a node in one word: `first`, and `count` in the lower bits.
+struct NodeReference {
+    std::uint32_t bits;  ///< not initialized, since stacks of references would be, too
+
+    PL_HD std::uint32_t first() const { return bits >> kLeafBits; }
+    PL_HD std::uint32_t count() const { return bits & ((1u << kLeafBits) - 1u); }
+};
+
+/// Inner node: `count` is 0 and the children are nodes `first` and `first + 1`. Leaf: `count` entries of BvhView::triangles from
+/// `first` on. Aligned, like BvhTriangle, so that a device reads 16 bytes at once; for that a node has to be copied whole.
+struct alignas(16) BvhNode {
     Vec3f low{kInfinity};
     std::uint32_t first = 0;
     Vec3f high{-kInfinity};
     std::uint32_t count = 0;
+
+    PL_HD NodeReference reference() const { return {(first << kLeafBits) | count}; }
 };
 static_assert(sizeof(BvhNode) == 32);
+
+/// A triangle of a leaf with its corners, so that they are found without its entry in SceneView::triangles.
+struct alignas(16) BvhTriangle {
+    Vec3f p0{0.0f};
+    std::uint32_t primitive = kNoPrimitive;
+    alignas(16) Vec3f p1{0.0f};
+    alignas(16) Vec3f p2{0.0f};
+};
+static_assert(sizeof(BvhTriangle) == 48);
 
 /// build_bvh() keeps the depth below this bound, so the traversal stack cannot overflow.
 inline constexpr int kMaxBvhDepth = 64;
 
 struct BvhView {
-    Span<const BvhNode> nodes;  ///< root first; empty for an empty scene
-    Span<const std::uint32_t> primitives;
+    Span<const BvhNode> nodes;          ///< root first; empty for an empty scene
+    Span<const BvhTriangle> triangles;  ///< in the order of the leaves
 };
 
-/// A ray prepared for slab tests.
+/// A ray prepared for slab tests: the planes x = low - slack and x = high + slack are crossed at the distances
+/// low inverse_direction + at_low and high inverse_direction + at_high.
 struct BoxRay {
-    Vec3f origin;
     Vec3f inverse_direction;
-    float slack;  ///< distance by which boxes are enlarged
+    Vec3f at_low;
+    Vec3f at_high;
 };
 
-/// The triangle test displaces corners by up to 8 roundoffs of their distance across the ray and its distance by 10;
-/// a slab distance has 3. Boxes enlarged by 32 roundoffs of the largest distance in the scene cover the sum, so no
-/// box with the closest hit is skipped and traversal agrees bit by bit with a test of all triangles. (The bound does
-/// not cover triangles without area, which loaders remove: of rays aimed at them about one in 1e6 differs.)
+/// Boxes are enlarged by a slack s on all sides, so that no box with the closest hit is skipped and traversal agrees bit by bit
+/// with a test of all triangles. With u the roundoff, A the largest component of the origin o, R that of the scene's corners seen
+/// from it, d the direction and D its largest component:
+///   - The triangle test displaces corners by up to 8 u R across the ray and its distance by 10: a hit at the distance t lies in
+///     the box enlarged by 18 u R on each axis, low - 18 u R <= o + t d <= high + 18 u R.
+///   - The distance of a plane is computed as t' = (low i + a)(1 + e) with i = (1 + e) / d and a = -(o + s)(1 + e)^2 i, where
+///     each e is another one of at most u; the last is at most 2 u, and the product low i has one more unless it is fused. So t' d
+///     differs from q = low - o - s by at most 3 u |q| + u |low| + 2 u |o + s| <= u (4 R + 3 A + 5 s).
+///   - A component of the direction below 2^-40 D is set to that, which keeps its inverse finite and moves the point at t by less
+///     than 2^-40 (R + 18 u R).
+/// The test then passes if s >= u (22 R + 3 A) (1 + 8 u) + 2^-39 R. The rest of 32 R + 4 A is for the rounding of s and R.
+/// (The bound does not cover triangles without area, which loaders remove: of rays aimed at them about one in 1e6 differs.)
+PL_HD inline float box_slack(float reach, float origin) { return kRoundoff * (32.0f * reach + 4.0f * origin); }
+
+/// `size`: a bound on the coordinates.
+PL_HD inline BoxRay make_box_ray(const Ray& ray, float size, float slack) {
+    constexpr float kLeastComponent = 0x1p-40f;
+    const Vec3f components = absolute(ray.direction);
+    const float least = kLeastComponent * max_component(components);
+    BoxRay box;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float inverse = 1.0f / std::copysign(max_of(components[axis], least), ray.direction[axis]);
+        // Distances beyond the range of float: every box passes.
+        const bool is_bounded = 4.0f * size * std::fabs(inverse) < kInfinity;
+        box.inverse_direction[axis] = is_bounded ? inverse : 0.0f;
+        box.at_low[axis] = is_bounded ? -(ray.origin[axis] + slack) * inverse : -kInfinity;
+        box.at_high[axis] = is_bounded ? -(ray.origin[axis] - slack) * inverse : kInfinity;
+    }
+    return box;
+}
 PL_HD inline BoxRay make_box_ray(const BvhNode& root, const Ray& ray) {
-    const Vec3f reach = glm::max(absolute(root.low - ray.origin), absolute(root.high - ray.origin));
-    const Vec3f d = ray.direction;
-    return {ray.origin, {1.0f / d.x, 1.0f / d.y, 1.0f / d.z}, 32.0f * kRoundoff * max_component(reach)};
+    const float reach = max_component(glm::max(absolute(root.low - ray.origin), absolute(root.high - ray.origin)));
+    const float origin = max_component(absolute(ray.origin));
+    return make_box_ray(ray, reach + origin, box_slack(reach, origin));
 }
 
 /// Conservative slab test: false positives only. Returns the entry distance, or infinity if the ray misses the box or
-/// enters it beyond `t_max`.
-PL_HD inline float intersect_box(const BvhNode& node, const BoxRay& ray, float t_max) {
+/// enters it beyond `t_max`. `multiply_add` is bound_multiply_add(), but for tests of either rounding.
+template <class MultiplyAdd>
+PL_HD inline float intersect_box(const BvhNode& node, const BoxRay& ray, float t_max,
+                                 const MultiplyAdd& multiply_add) {
     float entry = 0.0f;
     float exit = t_max;
     for (int axis = 0; axis < 3; ++axis) {
-        const float t0 = (node.low[axis] - ray.origin[axis] - ray.slack) * ray.inverse_direction[axis];
-        const float t1 = (node.high[axis] - ray.origin[axis] + ray.slack) * ray.inverse_direction[axis];
-        // 0 * infinity is NaN: the origin lies on a slab parallel to the ray, which does not narrow the interval.
-        if (t0 != t0 || t1 != t1) continue;
-        const float near = min_of(t0, t1);
-        const float far = max_of(t0, t1);
-        if (near > entry) entry = near;
-        if (far < exit) exit = far;
+        const float t0 = multiply_add(node.low[axis], ray.inverse_direction[axis], ray.at_low[axis]);
+        const float t1 = multiply_add(node.high[axis], ray.inverse_direction[axis], ray.at_high[axis]);
+        entry = bound_max(entry, bound_min(t0, t1));
+        exit = bound_min(exit, bound_max(t0, t1));
     }
     return entry <= exit ? entry : kInfinity;
 }
-
-/// A ray with a NaN or infinite component hits nothing, but passes every slab test: it is rejected in advance.
-PL_HD inline bool is_finite(const Ray& ray) {
-    const Vec3f sum = absolute(ray.origin) + absolute(ray.direction);
-    return sum.x + sum.y + sum.z < kInfinity;
+PL_HD inline float intersect_box(const BvhNode& node, const BoxRay& ray, float t_max) {
+    return intersect_box(node, ray, t_max, [](float a, float b, float c) { return bound_multiply_add(a, b, c); });
 }
 
-/// Visits the triangles of all leaves that the ray may enter, nearer children first. `visit(primitive, best)` updates
+/// A ray with a NaN or infinite component, or without a direction, hits nothing, but passes every slab test: it is rejected in
+/// advance.
+PL_HD inline bool can_hit(const Ray& ray) {
+    const Vec3f size = absolute(ray.direction);
+    const Vec3f sum = absolute(ray.origin) + size;
+    return sum.x + sum.y + sum.z < kInfinity && max_component(size) > 0.0f;
+}
+
+/// Visits the triangles of all leaves that the ray may enter, nearer children first. `visit(triangle, best)` updates
 /// the closest hit and returns true to stop. Nodes beyond the closest hit are culled.
 template <class Visit>
 PL_HD inline void traverse(const BvhView& bvh, const Ray& ray, Hit& best, Visit&& visit) {
-    if (bvh.nodes.empty() || !is_finite(ray)) return;
-    const BoxRay box_ray = make_box_ray(bvh.nodes[0], ray);
-    std::uint32_t stack[kMaxBvhDepth];
+    if (bvh.nodes.empty() || !can_hit(ray)) return;
+    const BvhNode root = bvh.nodes[0];
+    const BoxRay box_ray = make_box_ray(root, ray);
+    if (intersect_box(root, box_ray, best.t) == kInfinity) return;
+    NodeReference stack[kMaxBvhDepth];
     int depth = 0;
-    std::uint32_t current = 0;
-    if (intersect_box(bvh.nodes[0], box_ray, best.t) == kInfinity) return;
+    NodeReference current = root.reference();
     while (true) {
-        const BvhNode& node = bvh.nodes[current];
-        if (node.count > 0) {
-            for (std::uint32_t i = 0; i < node.count; ++i)
-                if (visit(bvh.primitives[node.first + i], best)) return;
+        if (current.count() > 0) {
+            for (std::uint32_t i = 0; i < current.count(); ++i) {
+                const BvhTriangle triangle = bvh.triangles[current.first() + i];
+                if (visit(triangle, best)) return;
+            }
         } else {
-            std::uint32_t near = node.first;
-            std::uint32_t far = node.first + 1;
-            float near_t = intersect_box(bvh.nodes[near], box_ray, best.t);
-            float far_t = intersect_box(bvh.nodes[far], box_ray, best.t);
-            if (far_t < near_t) {
-                const std::uint32_t node_swap = near;
-                near = far;
-                far = node_swap;
-                const float t_swap = near_t;
-                near_t = far_t;
-                far_t = t_swap;
-            }
-            if (far_t != kInfinity) {
+            const BvhNode left = bvh.nodes[current.first()];
+            const BvhNode right = bvh.nodes[current.first() + 1];
+            const float left_t = intersect_box(left, box_ray, best.t);
+            const float right_t = intersect_box(right, box_ray, best.t);
+            const bool is_right_near = right_t < left_t;
+            if (bound_max(left_t, right_t) != kInfinity) {
                 PL_ASSERT(depth < kMaxBvhDepth);
-                stack[depth++] = far;
+                stack[depth++] = is_right_near ? left.reference() : right.reference();
             }
-            if (near_t != kInfinity) {
-                current = near;
+            if (bound_min(left_t, right_t) != kInfinity) {
+                current = is_right_near ? right.reference() : left.reference();
                 continue;
             }
         }

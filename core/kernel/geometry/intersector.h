@@ -17,8 +17,9 @@ concept Intersector = requires(const T& intersector, const Ray& ray) {
 };
 
 /// Traverses SceneView::bvh.
-struct BvhIntersector {
-    SceneView scene;
+class BvhIntersector {
+public:
+    PL_HD explicit BvhIntersector(const SceneView& scene) : bvh_(scene.bvh) {}
 
     PL_HD Hit closest_hit(const Ray& ray) const { return find(ray, false); }
     PL_HD bool occluded(const Ray& ray) const { return find(ray, true).found(); }
@@ -27,15 +28,15 @@ private:
     PL_HD Hit find(const Ray& ray, bool any) const {
         Hit best{.t = ray.t_max};
         const ScalarRaySpace space = make_ray_space(ray);
-        traverse(scene.bvh, ray, best, [&](std::uint32_t primitive, Hit& hit) {
-            if (primitive == ray.source || primitive == ray.target) return false;
-            const Triangle& triangle = scene.triangles[primitive];
-            intersect_triangle(space, scene.positions[triangle.v0], scene.positions[triangle.v1],
-                               scene.positions[triangle.v2], primitive, hit);
+        traverse(bvh_, ray, best, [&](const BvhTriangle& triangle, Hit& hit) {
+            if (triangle.primitive == ray.source || triangle.primitive == ray.target) return false;
+            intersect_triangle(space, triangle.p0, triangle.p1, triangle.p2, triangle.primitive, hit);
             return any && hit.found();
         });
         return best;
     }
+
+    BvhView bvh_;
 };
 static_assert(Intersector<BvhIntersector>);
 

@@ -121,7 +121,7 @@ struct FoundVolume {
 class NearestWord {
 public:
     PL_HD void consider(const KdTreeView& tree, std::uint32_t number, Vec3f position) {
-        const KdNode& node = tree.nodes[number];
+        const KdNode node = tree.nodes[number];
         const float d2 = squared_distance(position, node.position);
         const std::uint64_t word = std::uint64_t{std::bit_cast<std::uint32_t>(d2)} << 32 | node.volume;
         node_ = word < word_ ? number : node_;

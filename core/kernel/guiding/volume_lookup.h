@@ -18,8 +18,9 @@ enum class Lookup : std::uint32_t { KdTree, Linear, Grid };
 /// Cosine of the largest angle between the normals of a surface point and of the volume that serves it.
 inline constexpr float kMinNormalCosine = 0.8f;
 
-/// A volume as the search tree stores it; `axis` splits the node's range of the array.
-struct KdNode {
+/// A volume as the search tree stores it; `axis` splits the node's range of the array. Aligned, so that a device reads it by 16
+/// bytes.
+struct alignas(16) KdNode {
     Vec3f position;
     std::uint32_t volume;
     Vec3f normal;
@@ -88,6 +89,9 @@ struct NearestSeveral {
     PL_HD float limit() const { return found == Count ? distance2[Count - 1] : kInfinity; }
 };
 
+/// A component by its number; by comparisons, because indexed vectors come to the stack of a device.
+PL_HD inline float component_of(Vec3f v, std::uint32_t axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
+
 /// Offers to `result` every volume that may belong to it. Subtrees are skipped only if they lie strictly beyond the
 /// limit, so that ties are not missed: the plane distance never exceeds the computed distance of a point behind it,
 /// because subtraction, multiplication and addition of non-negative numbers round monotonically.
@@ -95,28 +99,33 @@ template <class Result>
 PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f normal, Result& result) {
     struct Range {
         std::uint32_t low, high;
-        float plane_distance2;
     };
+    // Ranges on the far side of the node before or behind them; those behind it with their ends swapped. None is empty.
     Range stack[kMaxKdDepth];
     int depth = 0;
-    Range range{0, tree.nodes.count, 0.0f};
+    Range range{0, tree.nodes.count};
     while (true) {
-        if (range.low < range.high && !(range.plane_distance2 > result.limit())) {
+        while (range.low < range.high) {
             const std::uint32_t middle = range.low + (range.high - range.low) / 2;
             const KdNode& node = tree.nodes[middle];
             result.consider(node, position, normal);
-            const int axis = static_cast<int>(node.axis);
-            const float delta = position[axis] - node.position[axis];
-            const Range below{range.low, middle, delta * delta};
-            const Range above{middle + 1, range.high, delta * delta};
+            const Range below{range.low, middle};
+            const Range above{middle + 1, range.high};
+            const bool is_below = component_of(position, node.axis) - component_of(node.position, node.axis) < 0.0f;
+            const Range far = is_below ? above : below;
             PL_ASSERT(depth < kMaxKdDepth);
-            stack[depth++] = delta < 0.0f ? above : below;
-            range = delta < 0.0f ? below : above;
-            range.plane_distance2 = 0.0f;
-            continue;
+            if (far.low < far.high) stack[depth++] = is_below ? Range{far.high, far.low} : far;
+            range = is_below ? below : above;
         }
-        if (depth == 0) return;
-        range = stack[--depth];
+        float delta = 0.0f;
+        do {
+            if (depth == 0) return;
+            const Range far = stack[--depth];
+            const bool is_above = far.low > far.high;
+            range = is_above ? Range{far.high, far.low} : far;
+            const KdNode& node = tree.nodes[is_above ? range.low - 1 : range.high];
+            delta = component_of(position, node.axis) - component_of(node.position, node.axis);
+        } while (delta * delta > result.limit());
     }
 }
 

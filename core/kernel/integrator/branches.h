@@ -29,12 +29,14 @@ struct Fork {
     Vertex vertex;
 };
 
+/// The forks are kept outside of the path's state, which so stays small: few paths are split, and on a device each thread has only
+/// little memory of its own.
 template <class Vertex>
 struct Branches {
     std::uint32_t number = 0;   ///< of the current branch
     std::uint32_t waiting = 0;  ///< branches at all forks
     std::uint32_t forks = 0;
-    Fork<Vertex> stack[kMostForks];
+    Fork<Vertex>* stack = nullptr;  ///< kMostForks, given by keep_forks(); not used unless paths are split
 
     /// Most branches that may continue from the current vertex.
     PL_HD std::uint32_t room() const { return forks < kMostForks ? kMostBranches - number - waiting : 1u; }
@@ -58,5 +60,13 @@ template <class M>
 struct BranchesOf {};
 template <SplittingMethod M>
 struct BranchesOf<M> : Branches<typename M::Vertex> {};
+
+/// Memory for the forks of a path, which its driver provides.
+template <class M>
+struct ForkMemory {};
+template <SplittingMethod M>
+struct ForkMemory<M> {
+    Fork<typename M::Vertex> forks[kMostForks];
+};
 
 }  // namespace pl

@@ -90,6 +90,13 @@ struct PathState {
     }
 };
 
+/// Gives a path that begins the memory for its forks. Null: it is not split.
+template <FeatureSet F, class M>
+PL_HD inline void keep_forks(PathState<F, M>& state, [[maybe_unused]] ForkMemory<M>* memory) {
+    if constexpr (SplittingMethod<M>) state.branches.stack = memory != nullptr ? memory->forks : nullptr;
+}
+PL_HD inline bool splits_paths(const PathSettings& settings) { return settings.split_threshold < kInfinity; }
+
 /// A light sample that contributes if nothing occludes it.
 template <class M>
 struct ShadowRequest {

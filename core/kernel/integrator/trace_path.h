@@ -31,6 +31,8 @@ PL_HD inline PathStatus trace_segment(const PathContext<M>& context, const I& in
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline void trace_path(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
                              PathCounters& counters) {
+    ForkMemory<M> forks;
+    keep_forks(state, &forks);
     PathStatus status = PathStatus::Continues;
     while (status == PathStatus::Continues) status = trace_segment<F>(context, intersector, state, counters);
 }

@@ -12,14 +12,14 @@
 
 namespace pl {
 
-/// Corner indices into SceneView::positions, counter-clockwise seen from the front.
-struct Triangle {
+/// Corner indices into SceneView::positions, counter-clockwise seen from the front. Aligned, so that a device reads it at once.
+struct alignas(16) Triangle {
     std::uint32_t v0, v1, v2;
     std::uint32_t material;
 };
 
 /// Bounds on the origins of rays that start on a triangle; derived in core/scene/triangle_planes.h.
-struct TrianglePlane {
+struct alignas(16) TrianglePlane {
     Vec3f normal;          ///< unit, on the front side
     float position_error;  ///< distance to offset ray origins from the plane
     float edge_margin;     ///< smallest barycentric weight of a ray origin

@@ -58,8 +58,8 @@ PL_HD inline SurfacePoint with_shading_normal(const SceneView& scene, SurfacePoi
 
 /// Point at barycentric weights `b` of a triangle, seen from `wo`; the shading normal is the geometric normal.
 PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
-    const Triangle& triangle = scene.triangles[primitive];
-    const TrianglePlane& plane = scene.planes[primitive];
+    const Triangle triangle = scene.triangles[primitive];
+    const TrianglePlane plane = scene.planes[primitive];
     SurfacePoint point;
     point.position =
         b.x * scene.positions[triangle.v0] + b.y * scene.positions[triangle.v1] + b.z * scene.positions[triangle.v2];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/base/error.h"
 #include "core/base/host_array.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
@@ -189,4 +190,8 @@ TEST_CASE("The first split separates clusters") {
     const BvhNode& right = bvh.nodes[bvh.nodes[0].first + 1];
     CHECK(left.high.x < -8.0f);
     CHECK(right.low.x > 8.0f);
+}
+
+TEST_CASE("More triangles than references can number are refused before any is read") {
+    CHECK_THROWS_AS(build_bvh({}, Span<const Triangle>{nullptr, kMaxBvhTriangles + 1}), Error);
 }

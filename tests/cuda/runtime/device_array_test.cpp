@@ -119,8 +119,6 @@ TEST_CASE("The reason why CUDA is unusable is told in words") {
     CHECK(cuda_devices()[0].name == "host shim");
     CHECK(cuda_devices()[0].major == 9);
 
-    shim::set_code_fits(false);
-    CHECK_THAT(cuda_unavailable_reason(), contains("no code for the first device"));
     shim::set_devices(0);
     CHECK_THAT(cuda_unavailable_reason(), contains("no device"));
     shim::set_devices(0, cudaErrorNoDevice);
@@ -128,5 +126,19 @@ TEST_CASE("The reason why CUDA is unusable is told in words") {
     shim::set_devices(1, cudaErrorInsufficientDriver);
     CHECK_THAT(cuda_unavailable_reason(), contains("driver"));
     CHECK(cuda_devices().empty());
+    shim::reset();
+}
+
+TEST_CASE("Only an opened device has a context, in which waiting threads sleep") {
+    shim::reset();
+    CHECK(cuda_unavailable_reason().empty());
+    CHECK(cuda_devices().size() == 1);
+    CHECK_FALSE(shim::has_context());
+    cuda::open_device();
+    CHECK(shim::has_context());
+    CHECK(shim::device_flags() == cudaDeviceScheduleBlockingSync);
+
+    shim::set_code_fits(false);
+    CHECK_THROWS_WITH(cuda::open_device(), contains("no code for the first device"));
     shim::reset();
 }

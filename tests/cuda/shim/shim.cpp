@@ -41,6 +41,9 @@ struct Machine {
     int launches = 0;
     Observer before{};
     Observer after{};
+    unsigned flags = 0;
+    bool has_context = false;
+    std::function<void(int)> on_launch;
 };
 
 Machine machine;
@@ -130,12 +133,16 @@ void observe(Observer before, Observer after) {
     machine.before = std::move(before);
     machine.after = std::move(after);
 }
+unsigned device_flags() { return machine.flags; }
+bool has_context() { return machine.has_context; }
+void on_launch(std::function<void(int)> call) { machine.on_launch = std::move(call); }
 
 cudaError_t launch(const void* kernel, dim3 grid, dim3 block, Queue* queue, std::function<void()> thread) {
     const cudaError_t code = called("cudaLaunchKernel");
     if (code != cudaSuccess) return code;
     if (grid.x == 0 || block.x == 0 || block.x > 1024) return cudaErrorInvalidValue;
     ++machine.launches;
+    if (machine.on_launch) machine.on_launch(machine.launches);
     enqueue(*queue, kernel, 0, [=, thread = std::move(thread)] { run_grid(grid, block, thread); });
     return cudaSuccess;
 }
@@ -154,8 +161,8 @@ const char* cudaGetErrorString(cudaError_t code) {
     case cudaErrorNoKernelImageForDevice: return "no kernel image is available for execution on the device";
     case cudaErrorIllegalAddress: return "an illegal memory access was encountered";
     case cudaErrorLaunchFailure: return "unspecified launch failure";
+    default: return "unknown error";
     }
-    return "unknown error";
 }
 const char* cudaGetErrorName(cudaError_t code) { return code == cudaSuccess ? "cudaSuccess" : "cudaErrorOfTheShim"; }
 cudaError_t cudaGetLastError() { return machine.broken ? machine.failure : cudaSuccess; }
@@ -172,7 +179,15 @@ cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int) {
     *value = attribute == cudaDevAttrClockRate ? 1000000 : 2;  // kHz
     return cudaSuccess;
 }
+cudaError_t cudaSetDeviceFlags(unsigned flags) {
+    const cudaError_t code = called("cudaSetDeviceFlags");
+    if (code == cudaSuccess) machine.flags = flags;
+    return code;
+}
 cudaError_t cudaFuncGetAttributes(cudaFuncAttributes*, const void*) {
+    const cudaError_t code = called("cudaFuncGetAttributes");
+    if (code != cudaSuccess) return code;
+    machine.has_context = true;
     return machine.code_fits ? cudaSuccess : cudaErrorNoKernelImageForDevice;
 }
 
@@ -252,9 +267,8 @@ cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned
     return called("cudaStreamWaitEvent");
 }
 
-cudaError_t cudaEventCreateWithFlags(cudaEvent_t* event, unsigned) { return cudaEventCreate(event); }
-cudaError_t cudaEventCreate(cudaEvent_t* event) {
-    const cudaError_t code = called("cudaEventCreate");
+cudaError_t cudaEventCreateWithFlags(cudaEvent_t* event, unsigned) {
+    const cudaError_t code = called("cudaEventCreateWithFlags");
     if (code != cudaSuccess) return code;
     *event = new Mark;
     marks.insert(*event);

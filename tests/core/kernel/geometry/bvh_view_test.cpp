@@ -149,7 +149,107 @@ void check_against_all(int rays) {
     }
 }
 
+/// A hit, and a box that the triangle test may have found it in: its distance from the box is as large as the derivation of
+/// box_slack() allows.
+struct BoxCase {
+    BvhNode box;
+    Ray ray;
+    double t;
+};
+
+Vec3f hard_direction(Uniforms& random) {
+    Vec3f direction = random.direction();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (random.below(4) != 0) continue;
+        const float sign = random.below(2) == 0 ? 1.0f : -1.0f;
+        const float small[] = {0.0f, 1e-40f, std::exp2(-static_cast<float>(20 + random.below(40)))};
+        direction[axis] = sign * small[random.below(3)];
+    }
+    if (direction == Vec3f{0.0f}) direction.y = 1.0f;
+    return std::exp2(static_cast<float>(random.below(81)) - 40.0f) * direction;
+}
+
+/// The largest float that is not above x, or the smallest not below.
+float rounded(double x, bool up) {
+    const auto nearest = static_cast<float>(x);
+    if (up) return static_cast<double>(nearest) < x ? next_float_up(nearest) : nearest;
+    return static_cast<double>(nearest) > x ? next_float_down(nearest) : nearest;
+}
+
+BoxCase hard_box(Uniforms& random) {
+    const auto scale = [&](std::uint32_t most) { return std::exp2(static_cast<float>(random.below(most)) - 8.0f); };
+    BoxCase result;
+    result.ray.origin = scale(24) * random.cube(-1, 1);
+    if (random.below(8) == 0) result.ray.origin[static_cast<int>(random.below(3))] = 0.0f;
+    result.ray.direction = hard_direction(random);
+    result.ray.t_max = random.between(0.5f, 1.0f) * scale(24) / max_component(absolute(result.ray.direction));
+    result.t = static_cast<double>(result.ray.t_max);
+    const Vec3d moved = result.t * Vec3d{result.ray.direction};
+    const double reach = glm::max(std::fabs(moved.x), glm::max(std::fabs(moved.y), std::fabs(moved.z)));
+    const double off = 0.999 * 18.0 * static_cast<double>(kRoundoff) * reach;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double x = static_cast<double>(result.ray.origin[axis]) + moved[axis];
+        const float size = random.below(3) == 0 ? 0.0f : scale(12) * random.next();
+        float& low = result.box.low[axis];
+        float& high = result.box.high[axis];
+        switch (random.below(3)) {
+        case 0:
+            low = rounded(x + off, false);
+            high = low + size;
+            break;
+        case 1:
+            high = rounded(x - off, true);
+            low = high - size;
+            break;
+        default:
+            low = rounded(x - static_cast<double>(size) * static_cast<double>(random.next()), false);
+            high = rounded(x + static_cast<double>(size), true);
+        }
+    }
+    return result;
+}
+
+/// How often the test misses a box by a slack of `share` times the present one, and the arithmetic of a back end.
+template <class MultiplyAdd>
+int missed_boxes(float share, MultiplyAdd multiply_add) {
+    Uniforms random(5);
+    int missed = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const BoxCase hit = hard_box(random);
+        const Vec3f reach = glm::max(absolute(hit.box.low - hit.ray.origin), absolute(hit.box.high - hit.ray.origin));
+        const float origin = max_component(absolute(hit.ray.origin));
+        const float slack = share * box_slack(max_component(reach), origin);
+        const BoxRay ray = make_box_ray(hit.ray, max_component(reach) + origin, slack);
+        missed += intersect_box(hit.box, ray, hit.ray.t_max, multiply_add) <= hit.ray.t_max ? 0 : 1;
+    }
+    return missed;
+}
+
 }  // namespace
+
+TEST_CASE("No box with a hit is missed, by the roundings of host and device; half the slack would not do") {
+    const auto on_host = [](float a, float b, float c) { return bound_multiply_add(a, b, c); };
+    // Fused and rounded down: one of the two floats around the exact value, here any one of two that bracket it.
+    Uniforms random(6);
+    const auto on_device = [&](float a, float b, float c) {
+        const float nearest = std::fma(a, b, c);
+        return random.below(2) == 0 ? nearest : next_float_down(nearest);
+    };
+    CHECK(missed_boxes(1.0f, on_host) == 0);
+    CHECK(missed_boxes(1.0f, on_device) == 0);
+    CHECK(missed_boxes(0.5f, on_host) > 100);
+    CHECK(missed_boxes(0.5f, on_device) > 100);
+}
+
+TEST_CASE("Boxes pass where distances are beyond the range of numbers, and rays without a direction hit nothing") {
+    BvhNode box;
+    box.low = Vec3f{1e30f};
+    box.high = Vec3f{2e30f};
+    const Ray ray{.origin = Vec3f{-1e30f, 1.5e30f, 1.5e30f}, .direction = {1e-30f, 0.0f, 0.0f}};
+    CHECK(intersect_box(box, make_box_ray(box, ray), kInfinity) == 0.0f);
+    CHECK(can_hit(ray));
+    CHECK_FALSE(can_hit({.origin = Vec3f{0.0f}, .direction = Vec3f{0.0f}}));
+}
 
 TEST_CASE("The hierarchy agrees with all triangles for 2e4 rays a scene") { check_against_all(20000); }
 
