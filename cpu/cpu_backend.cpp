@@ -196,7 +196,8 @@ private:
                 .setup = make_setup(request.path, pixels, nullptr),
                 .tracer = *tracer_,
                 .context = {request.camera, request.path, {film.width, film.height, request.sample}, request.passes},
-                .film = film});
+                .film = film,
+                .subset = request.subset});
     }
 
     PassCounters run_view(const PassSetup& setup, const PassRequest& request) {

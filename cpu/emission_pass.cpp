@@ -48,9 +48,9 @@ PassCounters run_emission_pass(const EmissionPass& pass) {
             return mark_lamp_borders<F>(pass.context, scene, tracer, pass.film, light);
         });
     }
-    ChunkQueue pixels = pass.setup.chunks(pass.film.pixels.count);
-    trace_all(pixels, [&](BatchedRays<F>& tracer, std::uint32_t pixel) {
-        return refine_emission<F>(pass.context, scene, tracer, pass.film, pixel);
+    ChunkQueue pixels = pass.setup.chunks(pass.subset.count(pass.film.pixels.count));
+    trace_all(pixels, [&](BatchedRays<F>& tracer, std::uint32_t number) {
+        return refine_emission<F>(pass.context, scene, tracer, pass.film, pass.subset.pixel(number));
     });
     PassCounters counters;
     counters.path.emission_rays = rays;

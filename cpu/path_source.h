@@ -1,6 +1,7 @@
 // The source of a thread's paths: claimed chunks of path numbers, and the random numbers of each path's vertex 0.
 #pragma once
 
+#include "core/kernel/film/sample_variance.h"
 #include "cpu/number_batch.h"
 #include "cpu/parallel_for.h"
 
@@ -15,6 +16,7 @@ struct StartKey {
     Stream stream = Stream::Picture;
     Purpose purpose = Purpose::Pixel;
     std::uint32_t sample = 0;
+    PixelSubset subset{};  ///< path numbers are numbers of its pixels
 };
 
 /// Claims chunks of the shared queue for one thread.
@@ -39,7 +41,7 @@ private:
         if (chunk_.empty()) return false;
         first_ = chunk_.begin;
         for (std::uint32_t i = 0; i < kPathChunk; ++i) {
-            counters_[i / kGroupSize].pixel[i % kGroupSize] = first_ + i;
+            counters_[i / kGroupSize].pixel[i % kGroupSize] = key_.subset.pixel(first_ + i);
             counters_[i / kGroupSize].sample[i % kGroupSize] = key_.sample;
         }
         kernels_.draw({key_.seed, key_.stream, key_.purpose}, counters_, numbers_, kGroups);

@@ -4,14 +4,13 @@
 #include "core/kernel/film/sample_variance.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/session/backend.h"
+#include "cpu/path_source.h"
 
 namespace pl {
 
 /// One path per pixel of a subset; adds its radiance to a film.
 template <FeatureSet F, class M>
 struct PictureWork {
-    static constexpr Purpose kStartPurpose = Purpose::Pixel;
-
     Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
@@ -19,7 +18,9 @@ struct PictureWork {
     PixelSubset subset{};
 
     std::uint32_t count() const { return subset.count(film.pixels.count); }
-    std::uint32_t start_sample() const { return sequence_of(sample); }
+    StartKey start_key(const PathSettings& path) const {
+        return {path.seed, path.stream, Purpose::Pixel, sequence_of(sample), subset};
+    }
     PathState<F, M> begin(std::uint32_t number, Vec4f start) const {
         const std::uint32_t pixel = subset.pixel(number);
         __builtin_prefetch(&film.pixels[pixel], 1);  // films exceed the cache
@@ -33,13 +34,13 @@ struct PictureWork {
 /// One probe per cell of every volume; adds its radiance to a table.
 template <FeatureSet F>
 struct ProbeWork {
-    static constexpr Purpose kStartPurpose = Purpose::Probe;
-
     TableView field;
     ProbeStratum stratum;
 
     std::uint32_t count() const { return probe_count(field); }
-    std::uint32_t start_sample() const { return stratum.index; }
+    StartKey start_key(const PathSettings& path) const {
+        return {path.seed, path.stream, Purpose::Probe, stratum.index};
+    }
     PathState<F, ProbeMethod> begin(std::uint32_t probe, Vec4f u) const {
         return begin_probe<F>(field, probe, stratum, u);
     }

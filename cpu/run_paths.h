@@ -33,13 +33,13 @@ struct PassSetup {
     }
 };
 
-/// A set of paths numbered from 0: creates their first rays and stores their radiance. start_sample() is the sample
-/// number of their random numbers at vertex 0; finish() returns true if the sample is valid.
+/// A set of paths numbered from 0: creates their first rays and stores their radiance. start_key() decides their random
+/// numbers at vertex 0; finish() returns true if the sample is valid.
 template <class W, FeatureSet F, class M>
-concept PathWork = requires(const W& work, std::uint32_t number, Vec4f u, const PathState<F, M>& state,
-                            PassCounters& counters) {
+concept PathWork = requires(const W& work, const PathSettings& path, std::uint32_t number, Vec4f u,
+                            const PathState<F, M>& state, PassCounters& counters) {
     { work.count() } -> std::same_as<std::uint32_t>;
-    { work.start_sample() } -> std::same_as<std::uint32_t>;
+    { work.start_key(path) } -> std::same_as<StartKey>;
     { work.begin(number, u) } -> std::same_as<PathState<F, M>>;
     { work.finish(state, counters) } -> std::same_as<bool>;
 };
@@ -295,7 +295,7 @@ PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& me
     SharedByThreads<M> shared(method);
     std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));
     run_on_threads(setup.threads, [&](int thread) {
-        PathSource source(queue, {setup.path.seed, setup.path.stream, W::kStartPurpose, work.start_sample()});
+        PathSource source(queue, work.start_key(setup.path));
         PathBatch<F, M, I, W> batch(setup, intersector, method, work, shared);
         counters[static_cast<std::size_t>(thread)] = batch.run(source);
     });

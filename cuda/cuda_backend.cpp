@@ -210,6 +210,7 @@ void CudaBackend::refine_launch(const PassRequest& request, PathRange range, con
         .context = {request.camera, request.path, {film.width, film.height, request.sample}, request.passes},
         .film = film,
         .range = range,
+        .subset = request.subset,
         .counters = launcher_.counters()};
     const std::size_t features = covering_set(request.features);
     if (request.passes == kMarkingPass && range.first == 0 && !scene.lights.empty())

@@ -1,25 +1,32 @@
 #include "core/session/guiding_choice.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+
+#include "core/kernel/film/sample_variance.h"
 
 namespace pl {
 namespace {
 
-/// Passes before which the two trials run. The estimator of the variance needs earlier ones.
+/// Rounds of the warm-up after which it may end: with a clear gain, with a loss, in any case. Below a gain of 1 guiding is given a
+/// chance, because fields still get better.
+constexpr std::uint32_t kRoundsForGain = kFewestBeforeVariance + 2;
+constexpr std::uint32_t kRoundsForLoss = kFewestBeforeVariance + 4;
+constexpr std::uint32_t kMostWarmUpRounds = kFewestBeforeVariance + 6;
+constexpr double kClearGain = 1.5;
+constexpr double kLeastEarlyGain = 0.8;
+/// Rounds after which a field that another film interrupts is trusted.
+constexpr std::uint32_t kRoundsOfTrust = 4;
+
+/// Passes before which the baseline is measured in a film that had no warm-up, and first pass after which it decides.
 constexpr std::uint32_t kFirstTrial = kFewestBeforeVariance;
 constexpr std::uint32_t kSecondTrial = kFirstTrial + 2;
-/// First pass after which guiding may be given up: the field has learned a little, and a few passes are measured. Two passes
-/// earlier saves 1 % of 128 passes, but gives up fields that would have paid (docs/notebook/2026-11-23-guiding-choice.md).
-constexpr std::uint32_t kFirstDecision = kSecondTrial + 1;
-/// Weight of the guided passes before the newest one: their variances fall while a field learns, and are noisy.
-constexpr double kKept = 0.8;
-/// Gain below which guiding is given up, early and later, and above which it is taken up again. Below 1 at first: fields still
-/// get better.
-constexpr double kLeastEarlyGain = 0.8;
 constexpr std::uint32_t kEarlyPasses = 16;
+/// Gain below which guiding is given up later, and above which it is taken up again.
 constexpr double kLeastGain = 0.9;
 constexpr double kReturningGain = 1.0;
+/// Weight of the guided passes before the newest one: their variances fall while a field learns, and are noisy.
+constexpr double kKept = 0.8;
 
 }  // namespace
 
@@ -44,36 +51,93 @@ double PathCosts::of_path(const PassCounters& counters) const {
     return work / static_cast<double>(std::max<std::uint64_t>(counters.paths, 1));
 }
 
-bool GuidingChoice::is_trial_due(std::uint32_t pass) const {
-    return (pass == kFirstTrial && trials_ == 0) || (pass == kSecondTrial && trials_ == 1);
+void PathEfficiency::add(const PassCounters& counters, const PathCosts& costs) {
+    const auto samples = static_cast<double>(counters.variance.samples);
+    const auto paths = static_cast<double>(counters.paths);
+    variance_ += counters.variance.mean() * samples;
+    samples_ += samples;
+    cost_ += costs.of_path(counters) * paths;
+    paths_ += paths;
 }
 
-bool GuidingChoice::guides(std::uint32_t pass) const {
-    return pays_ || lost_ + loss_per_pass_ <= kExploration * static_cast<double>(pass);
+void PathEfficiency::fade(double share) {
+    variance_ *= share;
+    samples_ *= share;
+    cost_ *= share;
+    paths_ *= share;
 }
 
-void GuidingChoice::measure_trial(const PassCounters& trial) {
-    baseline_ += trial;
-    ++trials_;
+Trial GuidingChoice::warm_up_round() const {
+    return {.is_guided = true, .is_baseline = rounds_ >= kFewestBeforeVariance};
 }
 
-void GuidingChoice::measure_guided(std::uint32_t pass, const PassCounters& counters, const PathCosts& costs) {
-    if (trials_ == 0) return;
-    variance_ = kKept * variance_ + counters.variance.mean();
-    cost_ = kKept * cost_ + costs.of_path(counters);
-    weight_ = kKept * weight_ + 1.0;
-    lost_ += loss_per_pass_;
-    if (pass < kFirstDecision) return;
-    const double variance_ratio = variance_ / (weight_ * baseline_.variance.mean());
-    const double cost_ratio = cost_ / (weight_ * costs.of_path(baseline_));
-    if (!(variance_ratio > 0.0) || !(variance_ratio * cost_ratio < std::numeric_limits<double>::infinity())) return;
-    gain_ = 1.0 / (variance_ratio * cost_ratio);
-    // By a guided pass among many others the variance of the mean times its cost grows by as many of them.
-    const double loss = std::max(variance_ratio + cost_ratio - 2.0, 0.0);
-    if (loss_per_pass_ == 0.0 && lost_ == 0.0) lost_ = loss * static_cast<double>(pass);
-    loss_per_pass_ = loss;
+void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters& baseline, const PathCosts& costs,
+                                  double share) {
+    ++rounds_;
+    guided_.fade(kKept);
+    guided_.add(guided, costs);
+    baseline_.add(baseline, costs);
+    predict();
+    count_cost(share);
+    if (baseline.paths > 0) spent_ += share;
+    // Without a measurable variance of either the field is trusted: the baseline may have found no light at all.
+    const double gain = gain_.value_or(1.0);
+    if (rounds_ >= kRoundsForGain && gain >= kClearGain) belief_ = true;
+    if (rounds_ >= kRoundsForLoss && gain < kLeastEarlyGain) belief_ = false;
+    if (rounds_ >= kMostWarmUpRounds) belief_ = gain >= kLeastEarlyGain;
+}
+
+Trial GuidingChoice::trial_before(std::uint32_t pass) const {
+    if (pass < kFewestBeforeVariance || last_trial_ == pass) return {};
+    if (!pays()) return {.is_guided = spent_ + trial_cost_ <= kExploration * static_cast<double>(pass)};
+    const bool is_due =
+        (pass == kFirstTrial && baseline_trials_ == 0) || (pass == kSecondTrial && baseline_trials_ == 1);
+    return {.is_baseline = is_due && rounds_ == 0};
+}
+
+void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& guided, const PassCounters& baseline,
+                                  const PathCosts& costs, double share) {
+    last_trial_ = pass;
+    baseline_.add(baseline, costs);
+    if (baseline.paths > 0) ++baseline_trials_;
+    if (guided.paths == 0) return;
+    guided_.fade(kKept);
+    guided_.add(guided, costs);
+    predict();
+    count_cost(share);
+    decide(pass);
+}
+
+void GuidingChoice::count_cost(double share) {
+    trial_cost_ = share * (baseline_.is_measured() ? guided_.cost() / baseline_.cost() : 1.0);
+    spent_ += trial_cost_;
+}
+
+void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, const PathCosts& costs) {
+    if (pass < kFewestBeforeVariance) return;
+    if (pays()) guided_.fade(kKept);
+    (pays() ? guided_ : baseline_).add(counters, costs);
+    predict();
+    if (pass > kSecondTrial) decide(pass);
+}
+
+void GuidingChoice::predict() {
+    if (!guided_.is_measured() || !baseline_.is_measured()) return;
+    const double gain = baseline_.variance() * baseline_.cost() / (guided_.variance() * guided_.cost());
+    if (gain > 0.0 && std::isfinite(gain)) gain_ = gain;
+}
+
+void GuidingChoice::decide(std::uint32_t pass) {
+    if (!gain_) return;
     const double least = pass < kEarlyPasses ? kLeastEarlyGain : kLeastGain;
-    pays_ = *gain_ >= (pays_ ? least : kReturningGain);
+    belief_ = *gain_ >= (pays() ? least : kReturningGain);
+}
+
+GuidingChoice GuidingChoice::restarted() const {
+    GuidingChoice choice;
+    choice.belief_ = belief_;
+    if (rounds_ >= kRoundsOfTrust) choice.trust_field();
+    return choice;
 }
 
 }  // namespace pl

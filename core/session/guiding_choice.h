@@ -1,7 +1,7 @@
-// The choice between guided passes and passes of the baseline method for one film, by their efficiency: one over variance
-// times cost. Variances are measured by the passes themselves; costs are counts of work times constants, never a clock, so
-// that a picture can be reproduced. The principle is that of Grittmann et al. 2022, "Efficiency-Aware Multiple Importance
-// Sampling for Bidirectional Rendering Algorithms", for whole passes.
+// The choice between guided paths and paths of the baseline method for the passes of one film, by their efficiency: one over
+// variance times cost. Variances are measured by paths; costs are counts of work times constants, never a clock, so that a picture
+// can be reproduced. The principle is that of Grittmann et al. 2022, "Efficiency-Aware Multiple Importance Sampling for
+// Bidirectional Rendering Algorithms", for whole passes.
 #pragma once
 
 #include <cstddef>
@@ -31,38 +31,79 @@ struct PathCosts {
     double of_path(const PassCounters& counters) const;
 };
 
-class GuidingChoice {
+/// Variance and cost of the paths of one method: sums over passes, of which newer ones may weigh more.
+class PathEfficiency {
 public:
-    /// Whether a trial, some paths of the baseline method that do not come to the film, is due before the pass of this number.
-    bool is_trial_due(std::uint32_t pass) const;
-    /// Whether the pass of this number is guided. Where guiding does not pay, some passes are still guided, to learn and to
-    /// measure again: as few as lose kExploration of the efficiency of all.
-    bool guides(std::uint32_t pass) const;
+    void add(const PassCounters& counters, const PathCosts& costs);
+    /// Reduces the weight of the passes so far to this share.
+    void fade(double share);
 
-    void measure_trial(const PassCounters& trial);
-    /// After a complete pass that was not guided.
-    void measure_unguided(const PassCounters& counters) { baseline_ += counters; }
-    /// After the complete guided pass of this number; the first ones are not measured.
-    void measure_guided(std::uint32_t pass, const PassCounters& counters, const PathCosts& costs);
-
-    /// Predicted equal-time factor of guiding over the baseline. Empty before the first decision.
-    std::optional<double> gain() const { return gain_; }
-    /// Whether passes are guided from now on, as far as is known.
-    bool pays() const { return pays_; }
+    bool is_measured() const { return samples_ > 0.0; }
+    double variance() const { return variance_ / samples_; }  ///< of a path's sample; NaN before the first
+    double cost() const { return cost_ / paths_; }            ///< of a path; NaN before the first
 
 private:
-    /// Share of all passes that may be lost to guided ones where guiding does not pay.
+    double variance_ = 0.0;
+    double samples_ = 0.0;  ///< measured ones
+    double cost_ = 0.0;
+    double paths_ = 0.0;
+};
+
+/// Paths of a part of the pixels that never come to the picture: they train the field or measure a method.
+struct Trial {
+    bool is_guided = false;
+    bool is_baseline = false;
+
+    bool is_due() const { return is_guided || is_baseline; }
+    friend bool operator==(Trial, Trial) = default;
+};
+
+class GuidingChoice {
+public:
+    /// Whether rounds of trials are due before the first pass: for a field that is unknown.
+    bool is_warming_up() const { return !belief_; }
+    std::uint32_t rounds() const { return rounds_; }
+    /// The trial of the next round. The samples of guided ones must form the film that variances are measured against.
+    Trial warm_up_round() const;
+    /// `share`: paths of each kind in the trial, over those of a pass.
+    void measure_round(const PassCounters& guided, const PassCounters& baseline, const PathCosts& costs,
+                       double share);
+
+    /// Whether passes are guided from now on, as far as is known.
+    bool pays() const { return belief_.value_or(true); }
+    /// The trial that is due before the pass of this number: of the baseline while its variance is unknown in this film; where
+    /// guiding does not pay, guided ones, as few as cost kExploration of all passes, the warm-up included.
+    Trial trial_before(std::uint32_t pass) const;
+    void measure_trial(std::uint32_t pass, const PassCounters& guided, const PassCounters& baseline,
+                       const PathCosts& costs, double share);
+    /// After the complete pass of this number.
+    void measure_pass(std::uint32_t pass, const PassCounters& counters, const PathCosts& costs);
+
+    /// The choice for another film with the same field: what is known is kept until it is measured again.
+    GuidingChoice restarted() const;
+    /// Guides from the first pass on, by a field that has learned before.
+    void trust_field() { belief_ = belief_.value_or(true); }
+
+    /// Predicted equal-time factor of guiding over the baseline. Empty before the first decision of this film.
+    std::optional<double> gain() const { return belief_ ? gain_ : std::nullopt; }
+
+private:
+    /// Share of all passes that may be spent on guided trials where guiding does not pay.
     static constexpr double kExploration = 0.02;
 
-    PassCounters baseline_{};  ///< of all trials and unguided passes
-    std::uint32_t trials_ = 0;
-    double variance_ = 0.0;  ///< weighted sum over guided passes, newer ones weigh more
-    double cost_ = 0.0;      ///< likewise, of a path
-    double weight_ = 0.0;
-    double loss_per_pass_ = 0.0;  ///< passes of the baseline that a guided one costs more than it brings
-    double lost_ = 0.0;           ///< likewise, of all passes so far
+    void predict();
+    void count_cost(double share);
+    void decide(std::uint32_t pass);
+
+    PathEfficiency guided_;
+    PathEfficiency baseline_;
+    std::uint32_t rounds_ = 0;                 ///< of the warm-up
+    std::uint32_t baseline_trials_ = 0;        ///< after it
+    std::optional<std::uint32_t> last_trial_;  ///< number of the pass after it
+    double spent_ = 0.0;                       ///< on rounds and guided trials, in passes of the baseline
+    double trial_cost_ = 0.0;                  ///< likewise, on the last guided one
     std::optional<double> gain_;
-    bool pays_ = true;
+    std::optional<bool> belief_;  ///< whether guiding pays
 };
 
 }  // namespace pl

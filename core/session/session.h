@@ -135,8 +135,14 @@ private:
     void render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop, std::uint32_t most_passes = 1);
     PassRequest pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const;
     bool chooses_guiding(FilmSlot slot) const;
+    bool warms_up(FilmSlot slot) const;
     bool choose_guiding(FilmSlot slot, const StopFlag* stop);
-    bool run_trial(FilmSlot slot, const StopFlag* stop);
+    bool warm_up(FilmSlot slot, const StopFlag* stop);
+    bool run_trial(FilmSlot slot, Trial trial, const StopFlag* stop);
+    bool run_trial_paths(FilmSlot slot, bool is_guided, const StopFlag* stop);
+    void finish_trial(FilmSlot slot);
+    PassRequest trial_request(FilmSlot slot, bool is_guided, const StopFlag* stop) const;
+    std::uint32_t trial_step() const;
     void measure_guiding(FilmSlot slot);
     PathCosts path_costs(FilmSlot slot) const;
     std::uint32_t end_of_part(FilmSlot slot) const;

@@ -27,6 +27,7 @@ void Session::ensure_tables(MethodId method) {
 
 void Session::clear_tables() {
     fields_.fill(FieldProgress{});
+    films_.forget_guiding();
     placement_.undo_refinement();
     if (placement_.is_placed()) backend_->upload_volumes(placement_.volumes(), placement_.shape());
 }
@@ -73,6 +74,7 @@ void Session::import_field(LearnedField learned) {
     fields_.fill(FieldProgress{});
     field(learned.method) = learned.progress;
     clear_films();
+    films_.forget_guiding();
 }
 
 }  // namespace pl

@@ -1,6 +1,13 @@
 #include "core/session/session_films.h"
 
+#include <algorithm>
+
 namespace pl {
+namespace {
+
+void clear_film(FilmProgress& film) { film = FilmProgress{.guiding = film.guiding.restarted()}; }
+
+}  // namespace
 
 void SessionFilms::begin(FilmSlot slot, const FilmOrigin& before) {
     FilmOrigin& origin = (*this)[slot].origin;
@@ -12,15 +19,21 @@ void SessionFilms::begin(FilmSlot slot, const FilmOrigin& before) {
 
 void SessionFilms::clear() {
     ++generation_;
-    films_.fill(FilmProgress{});
-    for (ParkedBackend& parked : parked_) parked.films.fill(FilmProgress{});
+    std::ranges::for_each(films_, clear_film);
+    for (ParkedBackend& parked : parked_) std::ranges::for_each(parked.films, clear_film);
+}
+
+void SessionFilms::forget_guiding() {
+    for (FilmProgress& film : films_) film.guiding = {};
+    for (ParkedBackend& parked : parked_)
+        for (FilmProgress& film : parked.films) film.guiding = {};
 }
 
 void SessionFilms::clear(View view) {
     for (const MethodInfo& method : all_methods()) {
         const FilmSlot slot{method.id, view};
-        (*this)[slot] = FilmProgress{};
-        for (ParkedBackend& parked : parked_) parked.films[static_cast<std::size_t>(slot.index())] = FilmProgress{};
+        clear_film((*this)[slot]);
+        for (ParkedBackend& parked : parked_) clear_film(parked.films[static_cast<std::size_t>(slot.index())]);
     }
 }
 

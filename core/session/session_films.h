@@ -11,6 +11,12 @@
 
 namespace pl {
 
+/// Progress of a trial, see GuidingChoice: guided paths first.
+struct TrialProgress {
+    PassCounters guided{};
+    PassCounters baseline{};
+};
+
 /// Progress of one film.
 struct FilmProgress {
     FilmOrigin origin{};
@@ -25,6 +31,7 @@ struct FilmProgress {
     bool is_guided = true;    ///< the pass under way, or the last one; of methods without a field, too
     PassCounters measured{};  ///< of the pass under way
     std::uint32_t unguided_passes = 0;
+    TrialProgress trial{};
     std::uint64_t trial_paths = 0;
     std::vector<std::uint32_t> switches{};  ///< passes by which guiding begins or ends; the first pass is guided
 };
@@ -45,8 +52,10 @@ public:
     /// Gives a film its origin before the first work on it, precomputation included. `before`: state at that moment,
     /// whether the field is warm, and seconds on the clocks.
     void begin(FilmSlot slot, const FilmOrigin& before);
-    /// Clears all films, including those of parked back ends.
+    /// Clears all films, including those of parked back ends. What is known of guiding by their methods is kept.
     void clear();
+    /// Forgets it, because fields are replaced or cleared.
+    void forget_guiding();
     /// Clears the films of one view, of all methods.
     void clear(View view);
 

@@ -7,8 +7,13 @@
 namespace pl {
 namespace {
 
-/// Paths of a trial: enough for a rough variance, and little beside the passes of a picture.
-constexpr std::uint32_t kTrialPaths = 8192;
+/// Paths of a trial, at least: enough for a rough variance, and for a field that has learned from a few of them to show whether it
+/// will pay (docs/notebook/2026-11-24-warm-up.md).
+constexpr std::uint32_t kTrialPaths = 16384;
+/// Pixels that share a path of a trial, at most: a larger picture has time for more of them.
+constexpr std::uint32_t kLargestStep = 64;
+/// Pixels that share a path of a trial from which on a warm-up is cheap beside the passes: from pictures of 256 x 256 pixels on.
+constexpr std::uint32_t kStepForWarmUp = 4;
 
 }  // namespace
 
@@ -18,49 +23,108 @@ bool Session::chooses_guiding(FilmSlot slot) const {
            info_of(slot.method).uses_field;
 }
 
+/// Smaller pictures learn and measure by their first passes: a warm-up would cost as many.
+bool Session::warms_up(FilmSlot slot) const { return chooses_guiding(slot) && trial_step() >= kStepForWarmUp; }
+
+/// Number of pixels that share a path of a trial.
+std::uint32_t Session::trial_step() const { return std::clamp(pixel_count() / kTrialPaths, 1u, kLargestStep); }
+
 PathCosts Session::path_costs(FilmSlot slot) const {
     return PathCosts::of(scene_.packed()->triangles.size(), needed_features(slot));
 }
 
-/// Decides about the pass that begins. Returns false if the trial before it was stopped: it is repeated as a whole.
+/// Decides about the pass that begins. Returns false if the trials before it were stopped: the next call resumes them.
 bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
     if (!chooses_guiding(slot)) return true;
     FilmProgress& state = films_[slot];
-    if (state.guiding.is_trial_due(state.passes) && !run_trial(slot, stop)) return false;
+    const bool knows = info_of(slot.method).learns && field(slot.method).passes > 0;
+    if (knows || !warms_up(slot)) state.guiding.trust_field();
+    if (state.guiding.is_warming_up() && !warm_up(slot, stop)) return false;
+    const Trial trial = state.guiding.trial_before(state.passes);
+    if (trial.is_due()) {
+        if (!run_trial(slot, trial, stop)) return false;
+        state.guiding.measure_trial(state.passes, state.trial.guided, state.trial.baseline, path_costs(slot),
+                                    1.0 / trial_step());
+        finish_trial(slot);
+    }
     state.measured = {};
-    const bool is_guided = state.guiding.guides(state.passes);
+    const bool is_guided = state.guiding.pays();
     if (is_guided != state.is_guided) state.switches.push_back(state.passes);
     state.is_guided = is_guided;
     return true;
 }
 
-/// Measures the variance of the baseline method against the film so far, with random numbers of its own. Its samples never
-/// come to the film, however they turn out: a choice by their values would be a bias.
-bool Session::run_trial(FilmSlot slot, const StopFlag* stop) {
+/// Trains an unknown field and measures both methods, before the first pass, by paths in a film that is cleared afterwards. Since
+/// the picture has none of these samples, the choice is independent of it. Returns false if it was stopped.
+bool Session::warm_up(FilmSlot slot, const StopFlag* stop) {
+    FilmProgress& state = films_[slot];
+    while (state.guiding.is_warming_up()) {
+        if (!run_trial(slot, state.guiding.warm_up_round(), stop)) return false;
+        state.guiding.measure_round(state.trial.guided, state.trial.baseline, path_costs(slot), 1.0 / trial_step());
+        finish_trial(slot);
+    }
+    backend_->reset_film(slot, settings_.width, settings_.height);
+    return true;
+}
+
+bool Session::run_trial(FilmSlot slot, Trial trial, const StopFlag* stop) {
+    return (!trial.is_guided || run_trial_paths(slot, true, stop)) &&
+           (!trial.is_baseline || run_trial_paths(slot, false, stop));
+}
+
+/// Traces the rest of a trial's paths of one kind. Returns false if it was stopped.
+bool Session::run_trial_paths(FilmSlot slot, bool is_guided, const StopFlag* stop) {
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
-    PassRequest request = pass_request(slot, baseline_method(), stop);
-    request.path.stream = Stream::Trial;
-    request.use = SampleUse::Trial;
-    request.subset.step = std::max(1u, pixel_count() / kTrialPaths);
+    PassCounters& done = is_guided ? state.trial.guided : state.trial.baseline;
+    PassRequest request = trial_request(slot, is_guided, stop);
+    const std::uint32_t end = request.subset.count(pixel_count());
+    request.first_pixel = static_cast<std::uint32_t>(done.paths);
+    if (request.first_pixel == end) return true;
     const PassCounters counters = backend_->run_pass(request);
-    state.render_seconds += watch.seconds();
+    done += counters;
     state.trial_paths += counters.paths;
-    if (counters.paths < request.subset.count(pixel_count())) return false;
-    state.guiding.measure_trial(counters);
-    return true;
+    FieldProgress& learned = field(slot.method);
+    learned.records += counters.path.method.records;
+    learned.clamped_records += counters.path.method.clamped_records;
+    learned.lookup_misses += counters.path.method.lookup_misses;
+    state.learn_seconds += watch.seconds();
+    return done.paths == end;
+}
+
+/// Guided paths of the warm-up come to the film, because they are measured against it; all others leave it as it is.
+PassRequest Session::trial_request(FilmSlot slot, bool is_guided, const StopFlag* stop) const {
+    const FilmProgress& state = films_[slot];
+    const bool is_warm_up = state.guiding.is_warming_up();
+    PassRequest request = pass_request(slot, is_guided ? slot.method : baseline_method(), stop);
+    request.path.stream = is_warm_up ? Stream::WarmUp : Stream::Trial;
+    request.use = is_warm_up && is_guided ? SampleUse::Measured : SampleUse::Trial;
+    // Outside of the warm-up the baseline has two trials, of half as many paths each.
+    request.subset.step = trial_step() * (is_guided || is_warm_up ? 1 : 2);
+    if (is_warm_up) {
+        request.sample = state.guiding.rounds();
+        request.passes = state.guiding.rounds() + 1;
+    } else {
+        request.subset.phase = state.passes % request.subset.step;
+    }
+    return request;
+}
+
+/// The field learns from a trial at once.
+void Session::finish_trial(FilmSlot slot) {
+    const Stopwatch watch;
+    FilmProgress& state = films_[slot];
+    if (state.trial.guided.paths > 0 && info_of(slot.method).learns) backend_->update_field(slot.method);
+    state.trial = {};
+    state.learn_seconds += watch.seconds();
 }
 
 /// Measures the pass that has ended.
 void Session::measure_guiding(FilmSlot slot) {
     if (!chooses_guiding(slot)) return;
     FilmProgress& state = films_[slot];
-    if (state.is_guided) {
-        state.guiding.measure_guided(state.passes, state.measured, path_costs(slot));
-    } else {
-        state.guiding.measure_unguided(state.measured);
-        ++state.unguided_passes;
-    }
+    state.guiding.measure_pass(state.passes, state.measured, path_costs(slot));
+    if (!state.is_guided) ++state.unguided_passes;
 }
 
 std::optional<GuidingStatus> Session::guiding_status(FilmSlot slot) const {

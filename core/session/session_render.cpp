@@ -54,7 +54,7 @@ void Session::ensure_film(FilmSlot slot) {
     FilmProgress& state = films_[slot];
     if (state.is_allocated) return;
     backend_->reset_film(slot, settings_.width, settings_.height);
-    state = FilmProgress{.origin = state.origin};
+    state = FilmProgress{.origin = state.origin, .guiding = state.guiding};
     state.is_allocated = true;
 }
 
@@ -152,7 +152,7 @@ bool Session::render_parts_before(FilmSlot slot, std::uint32_t pixel, const Stop
 }
 
 std::uint32_t Session::end_of_part(FilmSlot slot) const {
-    if (!learns_from(slot) || field(slot.method).passes > 0) return pixel_count();
+    if (!learns_from(slot) || warms_up(slot) || field(slot.method).passes > 0) return pixel_count();
     return end_of_first_part(films_[slot].next_pixel, pixel_count(), static_cast<std::uint32_t>(placement_.count()));
 }
 
@@ -173,7 +173,7 @@ PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag
             .learning = settings_.field.learning,
             .sample = sample,
             .passes = state.passes + 1,
-            .weights = learns_from(slot) ? pass_weights(settings_, slot.method) : PassWeights{},
+            .weights = learns_from(slot) && !warms_up(slot) ? pass_weights(settings_, slot.method) : PassWeights{},
             .stop = stop};
 }
 

@@ -52,7 +52,7 @@ struct GuidingStatus {
     bool pays = true;            ///< the next passes are guided, as far as is known
     std::optional<double> gain;  ///< predicted equal-time factor; empty before it is measured
     std::uint32_t unguided_passes = 0;
-    std::uint64_t trial_paths = 0;  ///< of the baseline method, which are no part of the picture
+    std::uint64_t trial_paths = 0;  ///< of the warm-up and of trials, which are no part of the picture
 };
 
 struct Snapshot {

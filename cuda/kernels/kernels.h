@@ -92,7 +92,8 @@ struct EmissionSetup {
     SceneView scene;
     EmissionContext context;
     FilmView film;
-    PathRange range{};
+    PathRange range{};  ///< numbers of pixels of the subset
+    PixelSubset subset{};
     PassCounters* counters = nullptr;
 };
 using EmissionKernel = void (*)(EmissionSetup);

@@ -17,10 +17,9 @@ namespace pl::cuda {
 template <FeatureSet F, class M>
 __device__ inline PathState<F, M> begin(const PixelPaths& paths, const PathSettings& settings, std::uint32_t number) {
     const std::uint32_t pass = number / paths.per_pass;
-    const std::uint32_t in_pass = number - pass * paths.per_pass;
+    const std::uint32_t pixel = paths.subset.pixel(number - pass * paths.per_pass);
     const PixelGrid grid{paths.grid.width, paths.grid.height, paths.grid.sample + pass};
-    return begin_path<F, M>(paths.camera, grid, paths.subset.pixel(in_pass),
-                            pixel_start(settings, in_pass, grid.sample));
+    return begin_path<F, M>(paths.camera, grid, pixel, pixel_start(settings, pixel, grid.sample));
 }
 template <FeatureSet F, class M>
 __device__ inline PathState<F, M> begin(const ProbePaths& paths, const PathSettings& settings, std::uint32_t probe) {

@@ -24,12 +24,12 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(const __grid_const
 template <std::uint32_t kFeatureBits>
 __global__ void __launch_bounds__(kThreadsPerBlock) refine_film(const __grid_constant__ EmissionSetup setup) {
     const BvhIntersector intersector{setup.scene};
-    const std::uint32_t pixel = setup.range.first + thread_number();
+    const std::uint32_t number = setup.range.first + thread_number();
     SingleRays<FeatureSet{kFeatureBits}, BvhIntersector> rays{setup.scene, intersector};
     PassCounters counters;
-    if (pixel < setup.range.end)
-        counters.path.emission_rays =
-            refine_emission<FeatureSet{kFeatureBits}>(setup.context, setup.scene, rays, setup.film, pixel);
+    if (number < setup.range.end)
+        counters.path.emission_rays = refine_emission<FeatureSet{kFeatureBits}>(
+            setup.context, setup.scene, rays, setup.film, setup.subset.pixel(number));
     add_up(*setup.counters, counters);
 }
 

@@ -104,6 +104,20 @@ TEST_CASE("A film that guiding is given up in has the bits of the CPU back end, 
     }
 }
 
+TEST_CASE("A warm-up and the film after it have the bits of the CPU back end") {
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true}, 256, 256);
+    settings.guiding = GuidingRule::Paying;
+    Session expected = make_session(scene, settings);
+    render_passes(expected, 1);
+    shim::reset();
+    shim::set_threads(3);
+    Session got = make_cuda_session(scene, settings);
+    render_passes(got, 1);
+    CHECK(same_state(state_of(got), state_of(expected)));
+    CHECK(got.guiding_status(slot_of(got))->gain == expected.guiding_status(slot_of(expected))->gain);
+}
+
 TEST_CASE("Every view gives the bits of the CPU back end") {
     shim::reset();
     for (const SceneDescription& scene : {shipped_scene("cornell"), every_effect()})

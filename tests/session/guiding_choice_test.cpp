@@ -1,6 +1,10 @@
 // The choice between guided passes and those of the baseline, from measurements made up here.
 #include "core/session/guiding_choice.h"
 
+#include <utility>
+#include <vector>
+
+#include "core/kernel/film/sample_variance.h"
 #include "tests/support/catch.hpp"
 
 using namespace pl;
@@ -20,20 +24,51 @@ PassCounters counters_of(double variance, bool is_guided) {
     return counters;
 }
 
-/// Runs passes [0, count), whose baseline has variance 1 and guided ones that of variance_of(pass). Returns the guided ones.
+constexpr double kShare = 0.25;  ///< of a trial
+
+/// Runs rounds of the warm-up until it is over; the baseline has variance 1, guided paths that of variance_of(round).
 template <class VarianceOf>
-std::vector<std::uint32_t> run(GuidingChoice& choice, std::uint32_t count, VarianceOf&& variance_of) {
-    std::vector<std::uint32_t> guided;
-    for (std::uint32_t pass = 0; pass < count; ++pass) {
-        if (choice.is_trial_due(pass)) choice.measure_trial(counters_of(1.0, false));
-        if (choice.guides(pass)) {
-            guided.push_back(pass);
-            choice.measure_guided(pass, counters_of(variance_of(pass), true), kCosts);
-        } else {
-            choice.measure_unguided(counters_of(1.0, false));
-        }
+std::uint32_t warm_up(GuidingChoice& choice, VarianceOf&& variance_of) {
+    std::uint32_t rounds = 0;
+    for (; choice.is_warming_up() && rounds < 100; ++rounds) {
+        const Trial trial = choice.warm_up_round();
+        CHECK(trial.is_guided);
+        const PassCounters baseline = trial.is_baseline ? counters_of(1.0, false) : PassCounters{};
+        PassCounters guided = counters_of(variance_of(rounds), true);
+        if (rounds < kFewestBeforeVariance) guided.variance = {};
+        choice.measure_round(guided, baseline, kCosts, kShare);
     }
-    return guided;
+    return rounds;
+}
+
+struct Passes {
+    std::vector<std::uint32_t> guided;
+    std::vector<std::uint32_t> guided_trials;    ///< passes before which they are
+    std::vector<std::uint32_t> baseline_trials;  ///< likewise
+};
+
+/// Runs passes [0, count), whose baseline has variance 1 and guided ones that of variance_of(pass).
+template <class VarianceOf>
+Passes run(GuidingChoice& choice, std::uint32_t count, VarianceOf&& variance_of) {
+    Passes passes;
+    for (std::uint32_t pass = 0; pass < count; ++pass) {
+        const Trial trial = choice.trial_before(pass);
+        if (trial.is_guided) passes.guided_trials.push_back(pass);
+        if (trial.is_baseline) passes.baseline_trials.push_back(pass);
+        if (trial.is_due())
+            choice.measure_trial(pass, trial.is_guided ? counters_of(variance_of(pass), true) : PassCounters{},
+                                 trial.is_baseline ? counters_of(1.0, false) : PassCounters{}, kCosts, kShare);
+        const bool is_guided = choice.pays();
+        if (is_guided) passes.guided.push_back(pass);
+        choice.measure_pass(pass, counters_of(is_guided ? variance_of(pass) : 1.0, is_guided), kCosts);
+    }
+    return passes;
+}
+
+GuidingChoice trusting() {
+    GuidingChoice choice;
+    choice.trust_field();
+    return choice;
 }
 
 }  // namespace
@@ -53,54 +88,132 @@ TEST_CASE("Guiding choice: more triangles, lobes and light samples make guidance
     CHECK(share(12, {}) > share(12, features(Feature::NextEventEstimation)));
 }
 
-TEST_CASE("Guiding choice: two trials before the first decision, never again") {
+TEST_CASE("Guiding choice: a warm-up ends early with a clear gain or a loss") {
+    const auto rounds_with = [](double variance) {
+        GuidingChoice choice;
+        const std::uint32_t rounds = warm_up(choice, [&](std::uint32_t) { return variance; });
+        REQUIRE(choice.gain());
+        CHECK(*choice.gain() == Approx(1.0 / (variance * 1.5)));
+        return std::pair(rounds, choice.pays());
+    };
+    CHECK(rounds_with(0.4) == std::pair(5u, true));   // a gain of 1.67
+    CHECK(rounds_with(0.65) == std::pair(9u, true));  // 1.03
+    CHECK(rounds_with(0.8) == std::pair(9u, true));   // 0.83: fields get better
+    CHECK(rounds_with(1.0) == std::pair(7u, false));  // 0.67
+    CHECK(rounds_with(20.0) == std::pair(7u, false));
+}
+
+TEST_CASE("Guiding choice: nothing is told before the warm-up is over") {
     GuidingChoice choice;
-    std::vector<std::uint32_t> due;
-    for (std::uint32_t pass = 0; pass < 100; ++pass)
-        if (choice.is_trial_due(pass)) {
-            due.push_back(pass);
-            CHECK(choice.is_trial_due(pass));  // until it is complete
-            choice.measure_trial(counters_of(1.0, false));
-        }
-    CHECK(due == std::vector<std::uint32_t>{3, 5});
+    for (int round = 0; round < 4; ++round)
+        choice.measure_round(counters_of(0.4, true), counters_of(1.0, false), kCosts, kShare);
+    CHECK(choice.is_warming_up());
+    CHECK_FALSE(choice.gain());
+    CHECK(choice.pays());
+}
+
+TEST_CASE("Guiding choice: without a warm-up the baseline has two trials before the first decision, never again") {
+    GuidingChoice choice = trusting();
+    const Passes passes = run(choice, 100, [](std::uint32_t) { return 0.4; });
+    CHECK(passes.baseline_trials == std::vector<std::uint32_t>{3, 5});
+    CHECK(passes.guided_trials.empty());
+    GuidingChoice warm;
+    warm_up(warm, [](std::uint32_t) { return 0.4; });
+    CHECK(run(warm, 100, [](std::uint32_t) { return 0.4; }).baseline_trials.empty());
+}
+
+TEST_CASE("Guiding choice: a trial is due until it is measured, and one before a pass") {
+    GuidingChoice choice = trusting();
+    CHECK(choice.trial_before(3) == Trial{.is_baseline = true});
+    CHECK(choice.trial_before(3) == Trial{.is_baseline = true});
+    choice.measure_trial(3, {}, counters_of(1.0, false), kCosts, kShare);
+    CHECK_FALSE(choice.trial_before(3).is_due());
     CHECK_FALSE(choice.gain());
 }
 
 TEST_CASE("Guiding choice: guides as long as variance times cost is less") {
-    GuidingChoice choice;
-    CHECK(run(choice, 1000, [](std::uint32_t) { return 0.6; }).size() == 1000);
+    GuidingChoice choice = trusting();
+    CHECK(run(choice, 1000, [](std::uint32_t) { return 0.6; }).guided.size() == 1000);
     REQUIRE(choice.gain());
     CHECK(*choice.gain() == Approx(1.0 / (0.6 * 1.5)));
     CHECK(choice.pays());
 }
 
-TEST_CASE("Guiding choice: without a gain it loses a few per cent of the time, and still learns") {
-    for (const double variance : {0.8, 1.0, 2.0}) {
+TEST_CASE("Guiding choice: a film that begins guided gives up after seven passes with a loss, after sixteen if it is "
+          "small") {
+    GuidingChoice losing = trusting();
+    CHECK(run(losing, 30, [](std::uint32_t) { return 1.0; }).guided.size() == 7);
+    GuidingChoice late = trusting();
+    CHECK(run(late, 30, [](std::uint32_t) { return 0.8; }).guided.size() == 17);  // 0.83
+}
+
+TEST_CASE("Guiding choice: without a gain trials cost a few per cent of the time") {
+    for (const double variance : {1.0, 2.0}) {
         GuidingChoice choice;
-        const auto guided = run(choice, 2000, [&](std::uint32_t) { return variance; });
-        INFO(variance << ": " << guided.size());
+        const double rounds = warm_up(choice, [&](std::uint32_t) { return variance; });
+        const Passes passes = run(choice, 2000, [&](std::uint32_t) { return variance; });
+        INFO(variance << ": " << passes.guided_trials.size());
         CHECK_FALSE(choice.pays());
-        CHECK(guided.size() > 8);
-        // Samples of equal weight: time and variance of all passes, over those of as many of the baseline.
-        const double share = static_cast<double>(guided.size()) / 2000.0;
-        CHECK((1.0 + 0.5 * share) * (1.0 + (variance - 1.0) * share) < 1.03);
+        CHECK(passes.guided.empty());
+        CHECK(passes.guided_trials.size() > 20);
+        const double trials = static_cast<double>(passes.guided_trials.size());
+        CHECK(kShare * (1.5 * (rounds + trials) + rounds - kFewestBeforeVariance) < 0.025 * 2000.0);
     }
 }
 
 TEST_CASE("Guiding choice: a field that has become better is used again") {
     GuidingChoice choice;
-    const auto guided = run(choice, 4000, [](std::uint32_t pass) { return pass < 300 ? 0.8 : 0.2; });
-    CHECK(guided.size() > 2000);
+    warm_up(choice, [](std::uint32_t) { return 1.0; });
+    const Passes passes = run(choice, 4000, [](std::uint32_t pass) { return pass < 300 ? 1.0 : 0.2; });
+    CHECK(passes.guided.size() > 2000);
     CHECK(choice.pays());
     CHECK(*choice.gain() == Approx(1.0 / (0.2 * 1.5)).epsilon(0.01));
 }
 
-TEST_CASE("Guiding choice: a film without a measurable variance stays guided") {
+TEST_CASE("Guiding choice: passes of the baseline correct a variance that was measured too low") {
     GuidingChoice choice;
-    choice.measure_trial(counters_of(0.0, false));
-    for (std::uint32_t pass = 0; pass < 50; ++pass) {
-        CHECK(choice.guides(pass));
-        choice.measure_guided(pass, counters_of(0.0, true), kCosts);
+    warm_up(choice, [](std::uint32_t) { return 1.0; });
+    REQUIRE_FALSE(choice.pays());
+    for (std::uint32_t pass = 0; pass < 40; ++pass) choice.measure_pass(pass, counters_of(3.0, false), kCosts);
+    CHECK(choice.pays());
+}
+
+TEST_CASE("Guiding choice: a field without a measurable gain is trusted") {
+    // A picture without noise, and a baseline that has found no light.
+    for (const double variance : {0.0, 1.0}) {
+        GuidingChoice choice;
+        for (int round = 0; choice.is_warming_up() && round < 100; ++round)
+            choice.measure_round(counters_of(variance, true), counters_of(0.0, false), kCosts, kShare);
+        CHECK_FALSE(choice.is_warming_up());
+        CHECK(choice.pays());
+        CHECK_FALSE(choice.gain());
     }
-    CHECK_FALSE(choice.gain());
+}
+
+TEST_CASE("Guiding choice: another film keeps the decision and measures anew") {
+    GuidingChoice paid;
+    warm_up(paid, [](std::uint32_t) { return 0.4; });
+    GuidingChoice again = paid.restarted();
+    CHECK_FALSE(again.is_warming_up());
+    CHECK_FALSE(again.gain());
+    CHECK(run(again, 10, [](std::uint32_t) { return 0.4; }).baseline_trials == std::vector<std::uint32_t>{3, 5});
+    CHECK(again.gain());
+    GuidingChoice lost;
+    warm_up(lost, [](std::uint32_t) { return 1.0; });
+    GuidingChoice lost_again = lost.restarted();
+    lost_again.trust_field();  // it knows better
+    const Passes passes = run(lost_again, 10, [](std::uint32_t) { return 1.0; });
+    CHECK(passes.guided.empty());
+    CHECK(passes.guided_trials == std::vector<std::uint32_t>{3});
+    CHECK(lost_again.gain());
+}
+
+TEST_CASE("Guiding choice: a warm-up that another film interrupts counts once the field has learned a little") {
+    GuidingChoice choice;
+    for (int round = 0; round < 3; ++round) choice.measure_round(counters_of(1.0, true), {}, kCosts, kShare);
+    CHECK(choice.restarted().is_warming_up());
+    choice.measure_round(counters_of(1.0, true), counters_of(1.0, false), kCosts, kShare);
+    REQUIRE(choice.is_warming_up());
+    CHECK_FALSE(choice.restarted().is_warming_up());
+    CHECK(choice.restarted().pays());
 }

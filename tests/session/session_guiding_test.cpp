@@ -1,5 +1,5 @@
-// Sessions that give up guiding where it does not pay: the same bits for any threads and stops, trials leave no trace in the
-// film, and rare passes go on learning.
+// Sessions that give up guiding where it does not pay: the same bits for any threads and stops, trials and warm-ups leave no trace
+// in the film, and rare trials go on learning.
 #include "tests/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shipped_scenes.h"
@@ -12,6 +12,12 @@ using namespace pl::test;
 namespace {
 
 constexpr std::uint32_t kPasses = 40;
+
+/// Of the least size that has a warm-up.
+RenderSettings large_picture(RenderSettings settings) {
+    settings.width = settings.height = 256;
+    return settings;
+}
 
 }  // namespace
 
@@ -28,7 +34,7 @@ TEST_CASE("Guiding is given up where it changes nothing but the cost, by both gu
         CHECK(*status->gain > 0.5);
         CHECK_FALSE(status->pays);
         CHECK(status->unguided_passes > kPasses / 2);
-        CHECK(status->trial_paths == 2 * 40 * 40);
+        CHECK(status->trial_paths >= 40 * 40);  // two trials of half the pixels, then guided ones
         CHECK(session.snapshot(slot_of(session)).counters.paths == std::uint64_t{kPasses} * 40 * 40);
     }
 }
@@ -89,17 +95,85 @@ TEST_CASE("Threads and stops do not change a bit of a film that guiding was give
     CHECK(same_state(expected, state_of(stopped)));
 }
 
-TEST_CASE("A field goes on learning in the rare guided passes") {
+TEST_CASE("A field goes on learning from rare guided trials") {
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, settings_without_gain(scene, MethodId::Reinforcement));
+    const FilmSlot slot = slot_of(session);
     render_passes(session, kPasses);
     const std::uint64_t records = session.field_status(MethodId::Reinforcement)->records;
-    const std::uint32_t unguided = session.guiding_status(slot_of(session))->unguided_passes;
+    const GuidingStatus before = *session.guiding_status(slot);
     render_passes(session, 400);
+    const GuidingStatus after = *session.guiding_status(slot);
     CHECK(session.field_status(MethodId::Reinforcement)->records > records);
-    CHECK(session.guiding_status(slot_of(session))->unguided_passes > unguided + 300);
-    CHECK(session.field_status(MethodId::Reinforcement)->passes ==
-          kPasses + 400 - session.guiding_status(slot_of(session))->unguided_passes);
+    CHECK(after.trial_paths > before.trial_paths);
+    CHECK(after.unguided_passes == before.unguided_passes + 400);
+}
+
+TEST_CASE("A large picture that guiding does not pay in has every bit of the baseline's") {
+    constexpr std::uint32_t kFewPasses = 4;
+    const SceneDescription scene = shipped_scene("door");
+    Session plain = make_session(scene, large_picture(settings_without_gain(scene, MethodId::Default)));
+    render_passes(plain, kFewPasses);
+    for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
+        INFO(info_of(method).name);
+        Session session = make_session(scene, large_picture(settings_without_gain(scene, method)));
+        const FilmSlot slot = slot_of(session);
+        render_passes(session, kFewPasses);
+        const GuidingStatus status = *session.guiding_status(slot);
+        CHECK_FALSE(status.pays);
+        CHECK(status.unguided_passes == kFewPasses);
+        CHECK(status.trial_paths >= 7 * 16384);
+        CHECK(session.snapshot(slot).pixels == plain.snapshot(slot_of(plain)).pixels);
+        CHECK(session.snapshot(slot).counters.paths == std::uint64_t{kFewPasses} * 256 * 256);
+        CHECK(session.field_status(method)->records > 0);
+        CHECK_FALSE(session.pass_replay(slot).is_guided(0));
+    }
+}
+
+TEST_CASE(
+    "A large picture that guiding pays in is guided from its first pass on, by a field that the warm-up trained") {
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = large_picture(small_settings(scene, {MethodId::Reinforcement, true}));
+    settings.guiding = GuidingRule::Paying;
+    Session session = make_session(scene, settings);
+    const FilmSlot slot = slot_of(session);
+    render_passes(session, 1);
+    const GuidingStatus status = *session.guiding_status(slot);
+    CHECK(status.pays);
+    REQUIRE(status.gain);
+    CHECK(*status.gain > 0.8);
+    CHECK(status.unguided_passes == 0);
+    CHECK(status.trial_paths >= 5 * 16384);
+    CHECK(session.pass_replay(slot).is_guided(0));
+    CHECK(session.snapshot(slot).counters.paths == 256 * 256);
+    // Another camera needs no other warm-up.
+    CameraDescription camera = scene.camera;
+    camera.fov_deg *= 0.9f;
+    session.apply(EditCamera{camera});
+    render_passes(session, 2);
+    CHECK(session.guiding_status(slot)->trial_paths == 0);
+    CHECK(session.guiding_status(slot)->pays);
+    // A field that is forgotten does.
+    session.apply(EditForget{});
+    render_passes(session, 1);
+    CHECK(session.guiding_status(slot)->trial_paths >= 5 * 16384);
+}
+
+TEST_CASE("Threads and stops do not change a bit of a warm-up and of the film after it") {
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = large_picture(small_settings(scene, {MethodId::Reinforcement, true}));
+    settings.guiding = GuidingRule::Paying;
+    Session one = make_session(scene, settings);
+    render_passes(one, 2);
+    const State expected = state_of(one);
+    Session three = make_session(scene, settings, 3);
+    render_passes(three, 2);
+    CHECK(same_state(expected, state_of(three)));
+    Session stopped = make_session(scene, settings, 2);
+    for (int i = 0; stopped.passes(slot_of(stopped)) < 2; ++i)
+        advance_interrupted(stopped, 0.1f * static_cast<float>(i % 8));
+    CHECK(same_state(expected, state_of(stopped)));
+    CHECK(stopped.guiding_status(slot_of(stopped))->trial_paths == one.guiding_status(slot_of(one))->trial_paths);
 }
 
 TEST_CASE("A replay knows the passes that were not guided") {

@@ -19,8 +19,9 @@ enum class Purpose : std::uint32_t {
     Emission = 7,   ///< further camera rays for emission alone, see camera_emission.h
 };
 
-/// Independent families of random numbers: camera paths, probes, placement, trials and inspections never share one.
-enum class Stream : std::uint32_t { Picture = 0, Precompute = 1, Placement = 2, Trial = 3, Inspection = 4 };
+/// Independent families of random numbers: camera paths, probes, placement, trials, inspections and the warm-up of a field never
+/// share one.
+enum class Stream : std::uint32_t { Picture = 0, Precompute = 1, Placement = 2, Trial = 3, Inspection = 4, WarmUp = 5 };
 
 /// A 128-bit counter or block of random bits; `Word` is a 32-bit integer, or a vector of them.
 template <class Word>

@@ -36,13 +36,14 @@ enum class SampleUse : std::uint32_t {
     Trial,     ///< measured alone: the film does not change
 };
 
-/// Pixels of a pass that leaves out some: one of every `step`, at a place within them that varies.
+/// Pixels of a pass that leaves out some: one of every `step`, at a place within them that varies, and steps on with `phase`.
 struct PixelSubset {
     std::uint32_t step = 1;
+    std::uint32_t phase = 0;
 
     PL_HD std::uint32_t count(std::uint32_t pixels) const { return pixels / step; }
     PL_HD std::uint32_t pixel(std::uint32_t number) const {
-        return number * step + ((number * 0x9e3779b9u) >> 16) % step;
+        return number * step + (((number * 0x9e3779b9u) >> 16) + phase) % step;
     }
     PL_HD std::uint32_t number(std::uint32_t pixel) const { return pixel / step; }
 };

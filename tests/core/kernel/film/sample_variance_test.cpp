@@ -127,3 +127,14 @@ TEST_CASE("Pixel subset: one pixel of every step, each in a place of its own, an
         }
     }
 }
+
+TEST_CASE("Pixel subset: over as many phases as steps every pixel comes once") {
+    for (const std::uint32_t step : {2u, 7u, 31u}) {
+        std::vector<int> seen(20 * step, 0);
+        for (std::uint32_t phase = 0; phase < step; ++phase) {
+            const PixelSubset subset{step, phase};
+            for (std::uint32_t number = 0; number < subset.count(20 * step); ++number) ++seen[subset.pixel(number)];
+        }
+        CHECK(seen == std::vector<int>(20 * step, 1));
+    }
+}
