@@ -81,8 +81,8 @@ struct Options {
     std::optional<ScenePoint> at;
     std::optional<glm::ivec2> pixel;
     std::optional<std::uint32_t> sample;  ///< trace: number of the pixel's sample
-    bool truth = false;                 ///< inspect: also the light that reaches the volume
-    std::uint32_t truth_samples = 256;  ///< paths per cell for it
+    bool truth = false;                   ///< inspect: also the light that reaches the volume
+    std::uint32_t truth_samples = 256;    ///< paths per cell for it
 
     std::string stats_file;
     std::string diagnostics_file;  ///< render: picture of the places of diagnostics
@@ -92,8 +92,9 @@ struct Options {
     int verbosity = 0;
     bool no_progress = false;
 
-    std::string script;     ///< viewer: file of scripted input
-    std::string remember;   ///< viewer: folder for the window's state, or "off"; empty: by the system, off with a script
+    std::string script;  ///< viewer: file of scripted input
+    std::string
+        remember;  ///< viewer: folder for the window's state, or "off"; empty: by the system, off with a script
     std::string ui_trace;   ///< viewer: file of frame times
     bool software = false;  ///< viewer: no graphics card
     std::optional<glm::ivec2> window;

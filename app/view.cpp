@@ -24,10 +24,13 @@ int viewer_threads(int asked) {
     return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 
-/// The vertical axis of the command line belongs to the scene that it names, not to scenes opened later.
+/// Vertical axis and materials of the command line belong to the scene that it names, not to scenes opened later.
 LoadSettings load_settings_of(const SceneRequest& scene, const Options& opened) {
     LoadSettings settings{.knobs = scene.knobs, .default_light = opened.load.default_light};
-    if (scene.name == opened.scene) settings.up_axis = opened.load.up_axis;
+    if (scene.name == opened.scene) {
+        settings.up_axis = opened.load.up_axis;
+        settings.materials = opened.load.materials;
+    }
     return settings;
 }
 
@@ -36,6 +39,7 @@ std::string command_of(const ViewerPicture& picture, const Options& opened, cons
     const Options defaults = scene_defaults(picture.scene.name, *picture.description);
     Options shown = defaults;
     shown.load = load_settings_of(picture.scene, opened);
+    if (!picture.materials.empty()) shown.load.materials = picture.materials;
     shown.output = picture.description->source.stem().string() + ".png";
     shown.render = picture.settings;
     shown.display = picture.display;
@@ -59,6 +63,7 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
     viewer.display = options.display;
     viewer.limits = {.spp = options.spp.value_or(0), .seconds = options.time_limit_seconds.value_or(0.0)};
     viewer.scene_name = options.scene;
+    viewer.scenes = list_scenes(find_assets_dir());
     viewer.scene = loaded.scene;
     viewer.load_seconds = loaded.load_seconds;
     viewer.camera_from_scene = false;  // resolved already

@@ -91,6 +91,7 @@ if(PL_CUDA_BUILT)
     target_compile_definitions(pl_cuda_options INTERFACE PL_CUDA_AGGREGATE_ATOMICS=$<BOOL:${PL_CUDA_AGGREGATE_ATOMICS}>
         PL_CUDA_RESIDENT_BLOCKS=${PL_CUDA_RESIDENT_BLOCKS})
     target_compile_options(pl_cuda_options INTERFACE
+        "$<$<AND:$<COMPILE_LANGUAGE:CUDA>,$<BOOL:${PL_CUDA_LINE_INFO}>>:-lineinfo>"
         "$<$<COMPILE_LANGUAGE:CUDA>:${PL_CUDA_FLAGS}>"
         "$<$<AND:$<COMPILE_LANGUAGE:CUDA>,$<BOOL:${PL_WERROR}>>:-Werror=all-warnings>")
 endif()

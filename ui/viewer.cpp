@@ -114,12 +114,15 @@ Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescript
       gui_(display_, options.font, display_.ui_scale()), image_layer_(display_.renderer()),
       compare_layer_(display_.renderer()), input_(display_.window()),
       model_(options, scene, first_settings(*scene), load_seconds) {
+    model_.messages().note(MessageLevel::Info, "window drawn by " + display_.renderer_name());
     restore(memory_.last(), model_);
+    if (const auto file = memory_file(options); !file.empty())
+        model_.open_dialog().gallery().set_folder(file.parent_path() / "thumbnails");
     if (!memory_.problem().empty()) model_.messages().say(MessageLevel::Warning, memory_.problem());
     model_.window().ui_scale = display_.ui_scale();
+    if (options.remember && !options.script) model_.tour().offer();
     if (options.script) script_.emplace(load_script(*options.script), display_.window());
     if (options.ui_trace) trace_.emplace(*options.ui_trace);
-    model_.messages().note(MessageLevel::Info, "window drawn by " + display_.renderer_name());
     layout_ = current_layout();
     image_ = image_layer_.place(model_, layout_.view);
 }

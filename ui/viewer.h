@@ -52,14 +52,15 @@ struct SceneRequest {
 
 /// The settings of the viewer that a saved file or a command line repeats.
 struct ViewerPicture {
-    SceneRequest scene;   ///< with the knobs that are not at their defaults
+    SceneRequest scene;                                   ///< with the knobs that are not at their defaults
     std::shared_ptr<const SceneDescription> description;  ///< as loaded; never null
-    std::string backend;  ///< name as make_backend takes it
+    std::string backend;                                  ///< name as make_backend takes it
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
     std::uint32_t spp = 0;  ///< samples per pixel so far
     std::string field{};  ///< file with the learned field that a picture like this one continues from; empty for none
+    std::string materials{};  ///< file with the materials of the window; empty if they are those of the scene's files
     std::vector<std::string> edited_materials{};  ///< names of those that are not as in the scene's files
 };
 
@@ -100,7 +101,8 @@ struct ViewerOptions {
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
-    std::string scene_name;  ///< as load_scene takes it, at the start
+    std::string scene_name;             ///< as load_scene takes it, at the start
+    std::vector<std::string> scenes{};  ///< names that the dialog offers
     /// The scene if it is loaded already; otherwise it is loaded before the window opens.
     std::shared_ptr<const SceneDescription> scene;
     double load_seconds = 0.0;                  ///< of `scene`
@@ -113,10 +115,10 @@ struct ViewerOptions {
     std::filesystem::path font;  ///< .ttf; the built-in font if it is missing
     std::filesystem::path screenshot_dir = ".";
     std::filesystem::path reference_dir = "references";  ///< of stored references; found and made there
-    bool remember = true;                    ///< state of the window, between starts
-    std::filesystem::path remember_folder;   ///< of viewer.json; empty: the system's folder for such files
-    std::optional<std::filesystem::path> script;         ///< scripted input, see ui/script/script.h
-    std::optional<std::filesystem::path> ui_trace;       ///< one JSON object per UI frame; percentiles on stderr
+    bool remember = true;                                ///< state of the window, between starts
+    std::filesystem::path remember_folder;          ///< of viewer.json; empty: the system's folder for such files
+    std::optional<std::filesystem::path> script;    ///< scripted input, see ui/script/script.h
+    std::optional<std::filesystem::path> ui_trace;  ///< one JSON object per UI frame; percentiles on stderr
 
     /// In the order of the key that steps through them. One should be "cpu": it takes over when another fails.
     BackendChoices backends{{"cpu", "", ""}};

@@ -74,6 +74,11 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
     {.name = "knob", .flags = "--knob", .value = "NAME=VALUE", .group = kPicture,
      .help = "Set a knob of the scene; may be given several times ('info' lists them)",
      .commands = kWithScene, .repeatable = true, .parse = parse_knobs, .print = print_knobs},
+    {.name = "materials", .flags = "--materials", .value = "FILE", .group = kPicture,
+     .help = "JSON file with values of materials, as the viewer writes it when a command is copied; they replace those "
+             "of the scene",
+     .commands = kWithScene, .parse = [](Options& o, Text text) { o.load.materials = text; },
+     .print = [](const Options& o) { return o.load.materials.string(); }},
     {.name = "default-light", .flags = "--default-light", .value = "on|off", .group = kPicture,
      .help = "Light a scene that has no light with a sky and a soft sun (default on); no scene with a light changes",
      .commands = kWithScene, .in_scene_files = true,

@@ -14,6 +14,7 @@
 #include "core/io/obj.h"
 #include "core/io/scene_json.h"
 #include "core/io/scene_knobs.h"
+#include "core/io/scene_materials.h"
 #include "core/scene/default_light.h"
 #include "core/scene/up_axis.h"
 #include "core/scene/validate.h"
@@ -101,6 +102,9 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     }
     SceneDescription scene = load_file(path, asked);
     require_known_knobs(scene, asked.knobs);
+    if (!asked.materials.empty()) {
+        read_material_file(asked.materials, scene);
+    }
     validate_scene(scene);
     warn_of_missing_uvs(scene);
     const glm::vec3 up = usable_up(scene.camera);

@@ -1,6 +1,7 @@
 // Choices with which a scene is opened.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "core/scene/description.h"
@@ -8,9 +9,10 @@
 
 namespace pl {
 
-/// Where a choice is empty, the settings of the scene file decide.
+/// Where a choice is empty, the scene file decides.
 struct LoadSettings {
     KnobValues knobs{};
+    std::filesystem::path materials{};  ///< file of read_material_file(); empty for none
     std::optional<bool>
         default_light{};              ///< light a scene that has no light; on unless the scene file says otherwise
     std::optional<UpAxis> up_axis{};  ///< of default camera and default light; guessed unless it does

@@ -204,6 +204,7 @@ SceneDescription load_obj(const fs::path& path, MeshGroups* groups) {
     CheckedObj checked = check_obj(read_text_file(path), path);
     SceneDescription scene;
     scene.source = path;
+    scene.files = {path};
     scene.warnings = std::move(checked.warnings);
 
     Polygons input = parse(std::move(checked.text), checked.face_lines.size());

@@ -52,6 +52,7 @@ std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path&
             if (!seen.insert(name).second) {
                 continue;
             }
+            scene.files.push_back(path);
             if (!is_there(path)) {
                 missing.push_back(
                     fmt::format("{}: material file {} not found", place(obj, library.line), in_quotes(name)));

@@ -107,6 +107,7 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     MeshGroups groups;
     SceneDescription scene = load_obj(path.parent_path() / *obj, &groups);
     scene.source = path;
+    scene.files.push_back(path);
     scene.name = file.text("/name").value_or(path.stem().string());
     read_materials(file, scene);
     read_knobs(file, scene, groups, asked.knobs);

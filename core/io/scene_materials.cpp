@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/io/files.h"
+#include "core/io/json_file.h"
 #include "core/io/mtl_surface.h"
 #include "core/io/nearest_name.h"
 #include "core/io/surface_names.h"
@@ -14,6 +16,8 @@
 namespace pl {
 
 namespace {
+
+constexpr std::string_view kMaterialsSchema = "pathlight.materials/1";
 
 /// Radiance or emission: three finite numbers of at least 0.
 std::optional<glm::vec3> read_light(const JsonDocument& file, const std::string& pointer) {
@@ -150,6 +154,33 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
         read_surface(file, at, material);
         read_images(file, at, scene, material.textures);
     }
+}
+
+void read_material_file(const std::filesystem::path& path, SceneDescription& scene) {
+    const JsonDocument file(read_text_file(path), path);
+    file.object("", {"schema", "materials"});
+    const std::optional<std::string> schema = file.text("/schema");
+    if (schema != kMaterialsSchema) {
+        file.fail("/schema",
+                  fmt::format("expected \"{}\", got {}", kMaterialsSchema, schema ? "\"" + *schema + "\"" : "none"));
+    }
+    read_materials(file, scene);
+    scene.files.push_back(path);
+}
+
+void write_material_file(const std::filesystem::path& path, const std::vector<MaterialDescription>& materials) {
+    Json all = Json::object();
+    for (const MaterialDescription& material : materials) {
+        all[material.name] = {{"albedo", vector_json(material.albedo)},
+                              {"emission", vector_json(material.emission)},
+                              {"two_sided_emission", material.two_sided_emission},
+                              {"surface", kSurfaceNames[static_cast<std::size_t>(material.kind)]},
+                              {"roughness", material.roughness},
+                              {"ior", material.ior},
+                              {"specular", vector_json(material.specular)},
+                              {"transmission", vector_json(material.transmission)}};
+    }
+    write_json_file(path, {{"schema", kMaterialsSchema}, {"materials", std::move(all)}});
 }
 
 void read_environment(const JsonDocument& file, SceneDescription& scene) {

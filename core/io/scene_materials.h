@@ -18,6 +18,13 @@ namespace pl {
 /// See MaterialDescription. Throws Error(Input) with file and line.
 void read_materials(const JsonDocument& file, SceneDescription& scene);
 
+/// Reads a file of the schema "pathlight.materials/1" with the member `materials` as in scene files, applied after it.
+/// Throws Error(Input) with file and line.
+void read_material_file(const std::filesystem::path& path, SceneDescription& scene);
+
+/// Writes such a file with all values of these materials but their images. Throws Error(Runtime).
+void write_material_file(const std::filesystem::path& path, const std::vector<MaterialDescription>& materials);
+
 /// Reads `environment`:
 ///   radiance [r, g, b]; map (an image), scale, rotation_deg; sun { direction, radiance, angle_deg }
 /// Throws Error(Input) with file and line, also for an image that cannot be read, because the scene would be dark.

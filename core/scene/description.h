@@ -125,7 +125,8 @@ using KnobValues = std::vector<std::pair<std::string, float>>;
 /// Everything that decides the light transport of a scene, and its camera.
 struct SceneDescription {
     std::string name;
-    std::filesystem::path source;  ///< the file that was opened, for messages
+    std::filesystem::path source;              ///< the file that was opened, for messages
+    std::vector<std::filesystem::path> files;  ///< looked for by the loaders, without images, which have a `source`
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;

@@ -96,7 +96,8 @@ TEST_CASE("2: usage") {
         {{"trace", "cornell", "--sample", "0"}, "--pixel X,Y and --sample N"},
         {{"trace", "--pixel", "1,1", "--sample", "0"}, "needs a SCENE"},
         {{"trace", "cornell", "--pixel", "1,1", "--sample", "-1"}, "--sample: expected"},
-        {{"trace", "cornell", "--pixel", "0,8", "--sample", "0", "--size", "8x8"}, "--pixel: expected a pixel of 8x8"},
+        {{"trace", "cornell", "--pixel", "0,8", "--sample", "0", "--size", "8x8"},
+         "--pixel: expected a pixel of 8x8"},
         {{"inspect", "cornell", "--pixel", "1,1", "-o", folder / "x.exr"}, "expected .json, .csv or .png"},
     };
     for (const Wrong& wrong : wrongs) check_refused(2, wrong.arguments, wrong.message);

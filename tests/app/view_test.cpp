@@ -84,6 +84,27 @@ TEST_CASE("the command of a picture that began with a learned field continues fr
     CHECK_THAT(result.err + result.out, !contains("error"));
 }
 
+TEST_CASE("the copied command of a scene with edited materials makes the picture with a file of them") {
+    const TempDir folder;
+    const ProgramResult result = run_script(
+        folder, "1 wait shown_spp == 2\n1 tap P\n2 aim 0.5 0.92\n3 down left\n4 up left\n5 wait material == white\n"
+                "6 aim_at 0.5 0.5 Material\n7 down left\n8 up left\n10 aim_at 0.1 0.5 Color\n11 down left\n"
+                "12 aim_at 0.02 0.5 Color\n13 aim_at 0.0 0.5 Color\n14 up left\n15 expect edited == 1\n"
+                "16 wait moving == no\n17 wait shown_divider == 1\n18 wait state == done\n19 tap s ctrl\n"
+                "20 wait message ~ saved\n20 wait busy == no\n21 tap C ctrl\n22 wait message ~ "
+                "materials-0002.json\n23 quit\n");
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    const std::filesystem::path materials = only_file(folder, ".json");
+    REQUIRE_FALSE(materials.empty());
+    const std::string command = command_in(only_file(folder, ".png"));
+    const std::string edited = command + " --materials " + materials.filename().string() + " -o again.exr";
+    REQUIRE(run_shell(edited, {.folder = folder.path()}).code == 0);
+    CHECK((read_exr(folder / "again.exr").pixels == read_exr(only_file(folder, "default-0001.exr")).pixels));
+    REQUIRE(run_shell(command + " -o plain.exr", {.folder = folder.path()}).code == 0);
+    CHECK((read_exr(folder / "plain.exr").pixels != read_exr(folder / "again.exr").pixels));
+}
+
 TEST_CASE("the window opens with the settings of the command line") {
     const TempDir folder;
     const ProgramResult result = run_script(
@@ -102,8 +123,8 @@ TEST_CASE("the window is remembered between starts, and options have priority") 
         write_all(folder / "script", script);
         Arguments arguments{"view", "cornell", "--script", "script", "--software", "--size", "32x24", "--spp", "2"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const ProgramResult result = run_program(
-            arguments, {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
+        const ProgramResult result =
+            run_program(arguments, {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
         CAPTURE(script, result.err);
         REQUIRE(result.code == 0);
         return result.err;

@@ -1,23 +1,58 @@
-// cuda_bench [SECONDS]: the speed of the CUDA back end on the present device, as one table. Medians of passes;
-// each row runs about SECONDS (default 1). Linear search and tree are compared in the same run.
+// cuda_bench [OPTIONS]: the speed of the CUDA back end on the present device, by the host's clock, as records for device_tables.py
+// (record.h). Medians of passes. The lookups among 20 000 volumes are compared in the same run, and so are guided and unguided
+// segments.
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <cstdlib>
-#include <string>
-#include <vector>
+
+#include <CLI/CLI.hpp>
 
 #include "core/base/error.h"
+#include "core/base/timer.h"
 #include "core/io/load_scene.h"
 #include "core/session/session.h"
 #include "cuda/cuda_backend.h"
+#include "tests/parity/record.h"
+#include "tests/support/files/temporary_folder.h"
+#include "tests/support/scenes/bumpy_ball.h"
 
 using namespace pl;
 
 namespace {
 
-double now_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+struct Options {
+    double seconds = 1.0;
+    std::vector<std::string> sizes{"512x512", "1280x720", "1920x1080"};
+    std::size_t ball_rows = 0;
+    int volumes = 20000;
+};
+
+struct Size {
+    int width = 0;
+    int height = 0;
+};
+
+struct Row {
+    std::string scene;
+    std::string label;
+    MethodId method = MethodId::Default;
+    bool next_event = false;
+    Size size;
+    FieldSettings field{};
+    std::uint32_t most_samples = 1;  ///< per pixel and launch
+};
+
+/// Whether sessions render several samples per pixel in one call, and so the back end in one launch.
+template <class AnySession>
+concept RendersSeveral = requires(AnySession& session, FilmSlot slot) {
+    session.advance(slot, nullptr, 4u);
+};
+
+template <class AnySession>
+void advance(AnySession& session, FilmSlot slot, [[maybe_unused]] std::uint32_t most_samples) {
+    if constexpr (RendersSeveral<AnySession>)
+        session.advance(slot, nullptr, most_samples);
+    else
+        session.advance(slot);
 }
 
 double median(std::vector<double> values) {
@@ -25,85 +60,115 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-struct Row {
-    double milliseconds = 0.0;  ///< a pass and the update after it
-    double paths_per_second = 0.0;
-    double ns_per_segment = 0.0;
-};
-
-struct Size {
-    int width;
-    int height;
-};
-
-Row measure(const std::shared_ptr<const SceneDescription>& scene, MethodId method, bool next_event, Size size,
-            const FieldSettings& field, double seconds) {
+/// Measures a row for about so many seconds, at least 9 passes, and prints its record.
+void measure(const std::shared_ptr<const SceneDescription>& scene, const Row& row, double seconds) {
     RenderSettings settings;
-    settings.method = method;
-    settings.next_event = next_event;
-    settings.width = size.width;
-    settings.height = size.height;
+    settings.method = row.method;
+    settings.next_event = row.next_event;
+    settings.guiding = GuidingRule::Always;  // the kernel of the row's name runs
+    settings.width = row.size.width;
+    settings.height = row.size.height;
     settings.camera = scene->camera;
-    settings.field = field;
+    settings.field = row.field;
     Session session(make_cuda_backend(), scene, settings);
-    while (session.passes(slot_of(settings)) < 16)
-        session.advance(slot_of(settings));  // launch sizes and tables settle
-    const PassCounters before = session.snapshot(slot_of(settings)).counters;
+    const FilmSlot slot = slot_of(settings);
+    while (session.passes(slot) < 16 * row.most_samples)
+        advance(session, slot, row.most_samples);  // launch sizes settle
+    const PassCounters before = session.summary(slot).counters;
+    const std::uint32_t first = session.passes(slot);
     std::vector<double> passes;
-    const double end = now_seconds() + seconds;
-    while (passes.size() < 9 || now_seconds() < end) {
-        const double start = now_seconds();
-        session.advance(slot_of(settings));
-        passes.push_back(now_seconds() - start);
+    const Stopwatch watch;
+    while (passes.size() < 9 || watch.seconds() < seconds) {
+        const std::uint32_t done = session.passes(slot);
+        const Stopwatch call;
+        advance(session, slot, row.most_samples);
+        passes.push_back(call.seconds() / static_cast<double>(session.passes(slot) - done));
     }
-    const PassCounters after = session.snapshot(slot_of(settings)).counters;
-    const double count = static_cast<double>(passes.size());
+    const PassCounters after = session.summary(slot).counters;
+    const double count = static_cast<double>(session.passes(slot) - first);
     const double pass = median(passes);
-    return {.milliseconds = 1.0e3 * pass,
-            .paths_per_second = static_cast<double>(after.paths - before.paths) / count / pass,
-            .ns_per_segment = 1.0e9 * pass * count / static_cast<double>(after.path.segments - before.path.segments)};
+    parity::Record("bench")
+        .field("scene", row.scene)
+        .field("row", row.label)
+        .field("method", info_of(row.method).name)
+        .field("nee", row.next_event ? "on" : "off")
+        .field("size", fmt::format("{}x{}", row.size.width, row.size.height))
+        .field("passes", count)
+        .field("most_samples", row.most_samples)
+        .field("ms_per_pass", 1.0e3 * pass)
+        .field("paths_per_s", static_cast<double>(after.paths - before.paths) / count / pass)
+        .field("segments_per_s", static_cast<double>(after.path.segments - before.path.segments) / count / pass);
 }
 
-void print_row(const std::string& label, const Row& row) {
-    std::printf("| %-44s | %9.3f | %9.1f | %9.1f | %9.4f |\n", label.c_str(), row.milliseconds,
-                1.0e-6 * row.paths_per_second, 1.0e3 / row.ns_per_segment, row.ns_per_segment);
-    std::fflush(stdout);
+Size parse_size(const std::string& text) {
+    Size size;
+    if (std::sscanf(text.c_str(), "%dx%d", &size.width, &size.height) != 2 || size.width < 1 || size.height < 1)
+        throw Error(ErrorKind::Usage, "--sizes: expected WIDTHxHEIGHT, got '" + text + "'");
+    return size;
 }
 
-void run(double seconds) {
-    const auto backend = make_cuda_backend();
-    std::printf("device: %s\n\n| %-44s | ms/pass   | Mpaths/s  | Msegs/s   | ns/seg    |\n|---|---|---|---|---|\n",
-                backend->info().device.c_str(), "cornell");
-    const auto scene = std::make_shared<const SceneDescription>(load_scene("cornell", find_assets_dir()));
-    for (const Size size : {Size{512, 512}, Size{1280, 720}, Size{1920, 1080}})
-        for (const MethodInfo& method : all_methods())
-            for (const bool next_event : {false, true})
-                print_row(std::to_string(size.width) + "x" + std::to_string(size.height) + " " +
-                              std::string(method.name) + (next_event ? ", light samples" : ""),
-                          measure(scene, method.id, next_event, size, {}, seconds));
+void measure_methods(const std::shared_ptr<const SceneDescription>& scene, const std::string& name, Size size,
+                     double seconds) {
+    for (const MethodInfo& method : all_methods())
+        for (const bool next_event : {false, true})
+            measure(scene,
+                    {.scene = name, .label = "method", .method = method.id, .next_event = next_event, .size = size},
+                    seconds);
+}
 
-    FieldSettings many{.volumes = 20000, .budget_megabytes = 400.0};
-    const Row grid = measure(scene, MethodId::Reinforcement, false, {512, 512}, many, seconds);
-    many.lookup = Lookup::KdTree;
-    const Row tree = measure(scene, MethodId::Reinforcement, false, {512, 512}, many, seconds);
-    many.lookup = Lookup::Linear;
-    const Row linear = measure(scene, MethodId::Reinforcement, false, {512, 512}, many, seconds);
-    print_row("512x512 reinforcement, 20000 volumes, grid", grid);
-    print_row("512x512 reinforcement, 20000 volumes, tree", tree);
-    print_row("512x512 reinforcement, 20000 volumes, linear", linear);
-    const Row plain = measure(scene, MethodId::Default, false, {1920, 1080}, {}, seconds);
-    const Row guided = measure(scene, MethodId::Precomputed, false, {1920, 1080}, {}, seconds);
-    std::printf("\ntree / grid, time per segment: %.2f\n", tree.ns_per_segment / grid.ns_per_segment);
-    std::printf("linear search / tree, time per segment: %.1f\n", linear.ns_per_segment / tree.ns_per_segment);
-    std::printf("guided / default segment, 1920x1080: %.2f\n", guided.ns_per_segment / plain.ns_per_segment);
-    std::printf("default at 1920x1080: %.0f passes a second\n", 1.0e3 / plain.milliseconds);
+void measure_lookups(const std::shared_ptr<const SceneDescription>& scene, Size size, const Options& options) {
+    Row row{.scene = "cornell", .label = "grid", .method = MethodId::Reinforcement, .size = size};
+    row.field = {.volumes = options.volumes, .budget_megabytes = 400.0};
+    measure(scene, row, options.seconds);
+    row.label = "tree";
+    row.field.lookup = Lookup::KdTree;
+    measure(scene, row, options.seconds);
+    row.label = "linear";
+    row.field.lookup = Lookup::Linear;
+    measure(scene, row, options.seconds);
+}
+
+void measure_launches(const std::shared_ptr<const SceneDescription>& scene, Size size, double seconds) {
+    for (const MethodId method : {MethodId::Default, MethodId::Precomputed})
+        for (const std::uint32_t samples : {1u, 4u, 16u})
+            measure(scene,
+                    {.scene = "cornell", .label = "launch", .method = method, .size = size, .most_samples = samples},
+                    seconds);
+}
+
+void run(const Options& options) {
+    parity::Record("device").field("name", make_cuda_backend()->info().device);
+    const auto cornell = std::make_shared<const SceneDescription>(load_scene("cornell", find_assets_dir()));
+    for (const std::string& size : options.sizes)
+        measure_methods(cornell, "cornell", parse_size(size), options.seconds);
+    if constexpr (RendersSeveral<Session>)
+        for (const std::string& size : {options.sizes.front(), options.sizes.back()})
+            measure_launches(cornell, parse_size(size), options.seconds);
+    if (options.volumes > 0) measure_lookups(cornell, parse_size(options.sizes.front()), options);
+    if (options.ball_rows == 0) return;
+    const test::TemporaryFolder folder;
+    const auto ball = std::make_shared<const SceneDescription>(
+        load_scene(test::write_bumpy_ball(folder.path(), options.ball_rows).string(), find_assets_dir()));
+    measure_methods(ball, fmt::format("ball of {} triangles", ball->triangles.size()),
+                    parse_size(options.sizes.back()), options.seconds);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    Options options;
+    CLI::App app{"Speed of the CUDA back end"};
+    app.add_option("--seconds", options.seconds, "for each row")->check(CLI::PositiveNumber);
+    app.add_option("--sizes", options.sizes,
+                   "WIDTHxHEIGHT of the pictures; lookups have the first one, the ball the last")
+        ->delimiter(',');
+    app.add_option("--ball-rows", options.ball_rows, "rows of a ball of quads, 501 for a million triangles; 0: none")
+        ->check(CLI::Range(0, 2000));
+    app.add_option("--volumes", options.volumes, "of the comparison of lookups; 0: none")
+        ->check(CLI::Range(0, 1000000));
+    CLI11_PARSE(app, argc, argv);
     try {
-        run(argc > 1 ? std::atof(argv[1]) : 1.0);
+        run(options);
         return 0;
     } catch (const Error& error) {
         std::fprintf(stderr, "cuda_bench: %s\n", error.what());

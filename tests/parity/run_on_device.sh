@@ -1,134 +1,158 @@
 #!/usr/bin/env bash
-# run_on_device.sh [--built DIR] [RESULTS]: everything that needs a GPU, in under ten minutes: the parity suite, both back
-# ends' pictures bit by bit, a short run of each kernel under compute-sanitizer, the switch of back ends in the viewer, the
-# benchmark, and Nsight Compute's analysis of the kernels. Missing tools are left out, and named. Builds for the
-# present GPU, or takes programs that were built elsewhere: DIR is a build folder with pathlight, bin/device_parity,
-# bench/cuda_bench, and in lib/ the shared libraries that the machine lacks. Leaves one file, RESULTS (default cuda-results.md).
+# run_on_device.sh --stage a|b|c [--kit FOLDER] [--results FOLDER] [--rehearsal]: everything that needs a GPU, in three calls of at
+# most eight minutes each. Results are written as they come, so that a call that is cut off loses nothing: RESULTS/stage-X.tsv is
+# the summary, a line per step (steps.sh), RESULTS/stage-X.log all output, from which device_tables.py makes tables.
+#   a  libraries, devices, a picture per method, memcheck and synccheck, parity without its long cases, both back ends to the bit,
+#      a short benchmark
+#   b  the whole benchmark with a million triangles, times by events, profiler counters, long parity, switches in the viewer
+#   c  variants of the kernels, initcheck, random settings for the rest of the time
+# FOLDER is an unpacked kit (pack_for_device.sh), by default that of this script; results go to ./results by default. --rehearsal:
+# without a GPU, by the programs FOLDER/standin/*_on_host, on small pictures.
+# Exit code: 0 all steps passed, 1 a step failed, 2 usage, 4 no device.
 set -uo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/../.." || exit 2
-built=
-if [[ ${1-} == --built ]]; then
-    built=${2:?--built needs a folder}
-    shift 2
-fi
-results=${1:-cuda-results.md}
-arch=$(nvidia-smi --query-gpu=compute_cap --format=csv,noheader | head -1 | tr -d .)
-[[ $arch =~ ^[0-9]+$ ]] || { echo "no GPU: nvidia-smi names none" >&2; exit 4; }
-if [[ -n $built ]]; then
-    build=$built
-    export LD_LIBRARY_PATH=$PWD/$built/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} PATHLIGHT_ASSETS=$PWD/assets
-    [[ $built == /* ]] && LD_LIBRARY_PATH=${LD_LIBRARY_PATH#"$PWD/"}
-else
-    build=build/cuda-dev
-    cmake --preset cuda-dev -DCMAKE_CUDA_ARCHITECTURES="$arch" &&
-        cmake --build --preset cuda-dev --target device_parity cuda_bench pathlight || exit 1
-fi
-for program in pathlight bin/device_parity bench/cuda_bench; do
-    [[ -x $build/$program ]] || { echo "no program $build/$program" >&2; exit 2; }
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+
+usage() {
+    sed -n '2,12p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//' >&2
+    exit 2
+}
+chosen= kit=$here results=$PWD/results rehearsal=
+while (($#)); do
+    case $1 in
+        --stage) chosen=${2-}; shift ;;
+        --kit) kit=${2-}; shift ;;
+        --results) results=${2-}; shift ;;
+        --rehearsal) rehearsal=yes ;;
+        *) usage ;;
+    esac
+    shift || usage
 done
-pathlight=$(realpath "$build/pathlight")
+[[ $chosen == [abc] ]] || usage
+kit=$(cd "$kit" && pwd) || exit 2
+[[ $results == /* ]] || results=$PWD/$results
+programs=$kit${rehearsal:+/standin} suffix=${rehearsal:+_on_host}
+pathlight=$programs/pathlight$suffix
+[[ -x $pathlight ]] || { echo "run_on_device.sh: no program $pathlight" >&2; exit 2; }
+
+# shellcheck source=steps.sh
+source "$here/steps.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-failed=0
-section() { printf '\n## %s\n```\n' "$1"; }
-has() {
-    command -v "$1" >/dev/null && return
-    printf '\nNot there, so left out: %s\n' "$1"
-    return 1
-}
+export PATHLIGHT_ASSETS=$kit/assets SDL_VIDEODRIVER=dummy
 
-# picture BACKEND ARGUMENTS...: renders BACKEND.pfm
+# Sizes for a device, and for a rehearsal on a CPU.
+if [[ -z $rehearsal ]]; then
+    compare_options=(--side 128 --passes 16) compare_c=("${compare_options[@]}" --scenes cornell,door)
+    bench_a=(--seconds 0.2 --sizes 512x512,1920x1080 --volumes 0)
+    bench_b=(--seconds 0.6 --ball-rows 501)
+    bench_c=(--seconds 0.3 --sizes 512x512,1920x1080)
+    times_options=(--scenes cornell,staircase)
+    parity_a=('~[merge]') parity_b=('[merge]')
+    profiled=(--spp 512 --size 1920x1080) launches_skipped=30
+else
+    time_scale=10
+    compare_options=(--side 12 --passes 2 --volumes 20 --scenes cornell,door) compare_c=("${compare_options[@]}")
+    bench_a=(--seconds 0.01 --sizes 16x16 --volumes 0)
+    bench_b=(--seconds 0.01 --sizes 16x16 --volumes 50 --ball-rows 20)
+    bench_c=("${bench_a[@]}")
+    times_options=(--scenes cornell --width 16 --height 16 --passes 2 --megabytes 1)
+    parity_a=('An update with the same training samples is equal to the bit')
+    parity_b=('The same seed gives the same bits on the device')
+    profiled=(--spp 2 --size 16x16) launches_skipped=0
+fi
+
+# picture STEP SECONDS ARGUMENTS...: renders on the device
 picture() {
-    local backend=$1
-    shift
-    rm -f "$work/$backend.pfm"
-    "$pathlight" render "$@" --backend "$backend" --spp 16 --size 128x128 --quiet --no-progress -o "$work/$backend.pfm"
-}
-# Every scene, method and light sampling on both back ends: equal, or which share of the floats differs. The header of
-# both files has the same length, and a float is four bytes.
-compare_bits() {
-    local scene method nee backend differing
-    for scene in assets/scenes/*/; do
-        scene=$(basename "$scene")
-        for method in default precomputed reinforcement; do
-            for nee in off on; do
-                for backend in cpu cuda; do
-                    picture "$backend" "$scene" --method "$method" --nee "$nee" || failed=1
-                done
-                if cmp -s "$work/cpu.pfm" "$work/cuda.pfm"; then
-                    echo "$scene $method nee=$nee: equal"
-                    continue
-                fi
-                if ! [[ -f $work/cpu.pfm && -f $work/cuda.pfm ]]; then
-                    echo "$scene $method nee=$nee: no picture"
-                    continue
-                fi
-                # cmp counts from 1; the floats are the last bytes of the file.
-                differing=$(cmp -l "$work/cpu.pfm" "$work/cuda.pfm" |
-                    awk -v header=$(($(stat -c %s "$work/cpu.pfm") - 128 * 128 * 12)) '
-                        { float = int(($1 - 1 - header) / 4); if (float != last || NR == 1) ++count; last = float }
-                        END { printf "%.4f", 100 * count / (128 * 128 * 3) }')
-                echo "$scene $method nee=$nee: $differing % of the floats differ"
-            done
-        done
-    done
+    local name=$1 limit=$2
+    shift 2
+    step "$name" "$limit" "$pathlight" render "$@" --backend cuda --no-progress -o "$work/$name.pfm"
 }
 
-# Switches to and fro in the viewer on SDL's dummy driver, twelve times; percentiles of its trace.
-time_switches() {
-    local script=$work/switches.script trace=$work/switches.jsonl frame=60 i
-    echo "0 wait learned >= 4" >"$script"
-    for ((i = 0; i < 12; ++i)); do
-        {
-            echo "$frame tap B"
-            echo "$((frame + 2)) wait shown_backend == $([[ $((i % 2)) == 0 ]] && echo cuda || echo cpu)"
-            echo "$((frame + 45)) wait shown_spp >= 2"
-        } >>"$script"
-        frame=$((frame + 60))
+# sanitize TOOL: every method and a view under a tool of compute-sanitizer
+sanitize() {
+    local tool=$1 method
+    needs "$tool" compute-sanitizer || return 0
+    local small=(render --backend cuda --spp 2 --size 24x24 --no-progress -o "$work/sanitizer.pfm")
+    local checker=(compute-sanitizer --tool "$tool" --error-exitcode 9)
+    for method in default precomputed reinforcement; do
+        step "$tool-$method" 60 "${checker[@]}" "$pathlight" "${small[@]}" door --method "$method" --nee on --guiding always --volumes 20 --bins 16
     done
-    echo "$frame quit" >>"$script"
-    SDL_VIDEODRIVER=dummy timeout 600 "$pathlight" view cornell --backend cpu --method reinforcement --size 1280x720 \
-        --script "$script" --ui-trace "$trace"
+    step "$tool-view" 60 "${checker[@]}" "$pathlight" "${small[@]}" cornell --view voronoi
 }
 
-{
-    printf '# CUDA on %s, %s\n' "$(nvidia-smi --query-gpu=name --format=csv,noheader | head -1)" "$(date -I)"
-    printf 'commit %s, nvcc %s, driver %s%s\n' "$(git rev-parse --short HEAD 2>/dev/null || echo unknown)" \
-        "$(nvcc --version 2>/dev/null | sed -n 's/.*release \([0-9.]*\),.*/\1/p' | grep . || echo 'not there')" \
-        "$(nvidia-smi --query-gpu=driver_version --format=csv,noheader | head -1)" "${built:+, programs of $built}"
-    section "Parity"
-    "$build/bin/device_parity" || failed=1
-    printf '```\n'
-    section "Both back ends, bit by bit: 128x128, 16 samples"
-    compare_bits
-    printf '```\n'
-    if has compute-sanitizer; then
-        for tool in memcheck racecheck initcheck; do
-            section "compute-sanitizer --tool $tool"
-            for method in default precomputed reinforcement; do
-                compute-sanitizer --tool "$tool" --error-exitcode 9 "$pathlight" render door --backend cuda \
-                    --method "$method" --nee on --spp 2 --size 24x24 --volumes 20 --bins 16 --no-progress \
-                    -o "$work/sanitizer.pfm" | tail -1 || failed=1
-            done
-            compute-sanitizer --tool "$tool" --error-exitcode 9 "$pathlight" render cornell --backend cuda \
-                --view voronoi --spp 1 --size 24x24 --no-progress -o "$work/sanitizer.pfm" | tail -1 || failed=1
-            printf '```\n'
-        done
+stage_a() {
+    step libraries 20 "$here/check_libraries.sh" "$programs"
+    step devices 60 "$pathlight" devices
+    # The first picture pays for the context, and decides whether there is a device at all.
+    picture picture-default 60 cornell --method default --spp 4 --size 64x64
+    local code=$?
+    if ((code == 4)); then
+        tell "no device: see the lines above"
+        end_stage
+        exit 4
     fi
-    section "Switch of back ends in the viewer, 1280x720"
-    time_switches || { echo "FAILED: the viewer exited with $?"; failed=1; }
-    printf '```\n\n## Speed\n'
-    "$build/bench/cuda_bench" 1 || failed=1
-    if has ncu; then
-        for method in default reinforcement; do
-            section "ncu: $method, light samples"
-            ncu --section SpeedOfLight --section Occupancy --section WarpStateStats --section MemoryWorkloadAnalysis \
-                --kernel-name regex:trace_paths --launch-skip 4 --launch-count 1 "$pathlight" render cornell \
-                --backend cuda --method "$method" --nee on --spp 8 --size 1920x1080 --quiet --no-progress \
-                -o "$work/ncu.pfm" || echo "ncu could not: counters may need more rights"
-            printf '```\n'
-        done
-    fi
-} >"$results" 2>&1
-cat "$results"
-exit $failed
+    local method
+    for method in precomputed reinforcement; do
+        picture "picture-$method" 60 cornell --method "$method" --spp 4 --size 64x64
+    done
+    for method in sarsa monte-carlo; do
+        picture "picture-$method" 60 cornell --method reinforcement --learn-target "$method" --spp 4 --size 64x64
+    done
+    sanitize memcheck
+    sanitize synccheck
+    step parity 120 "$programs/device_parity$suffix" "${parity_a[@]}"
+    step compare 200 "$programs/compare_backends$suffix" "${compare_options[@]}"
+    step bench 100 "$programs/cuda_bench$suffix" "${bench_a[@]}"
+}
+
+# profile STEP METHOD METRICS KERNELS SKIP COUNT: so many launches of the kernels of a pattern; the clocks stay as they are.
+profile() {
+    needs "$1" ncu || return 0
+    step "$1" 60 ncu --clock-control none --csv --metrics "$3" --kernel-name "regex:$4" --launch-skip "$5" --launch-count "$6" \
+        "$pathlight" render cornell --backend cuda --method "$2" --nee on --guiding always "${profiled[@]}" --quiet --no-progress \
+        -o "$work/profile.pfm"
+}
+profile_kernels() {
+    local ceilings=gpu__time_duration.sum
+    ceilings+=,sm__throughput.avg.pct_of_peak_sustained_elapsed
+    ceilings+=,gpu__compute_memory_throughput.avg.pct_of_peak_sustained_elapsed
+    local metrics=$ceilings
+    metrics+=,smsp__issue_active.avg.pct_of_peak_sustained_active
+    metrics+=,sm__warps_active.avg.pct_of_peak_sustained_active
+    metrics+=,smsp__thread_inst_executed_per_inst_executed.ratio
+    metrics+=,smsp__inst_executed.sum,smsp__thread_inst_executed.sum
+    metrics+=,l1tex__data_pipe_lsu_wavefronts.sum,smsp__inst_executed_op_global_red.sum
+    profile profile-default default "$metrics" trace_paths "$launches_skipped" 1
+    profile profile-reinforcement reinforcement "$metrics" trace_paths "$launches_skipped" 1
+    # Two passes and more, so that every kernel is among them.
+    profile ceilings reinforcement "$ceilings" . "$((10 * launches_skipped))" 32
+}
+
+stage_b() {
+    step bench 180 "$programs/cuda_bench$suffix" "${bench_b[@]}"
+    step times 60 "$programs/kernel_times$suffix" "${times_options[@]}"
+    profile_kernels
+    step parity-long 200 "$programs/device_parity$suffix" "${parity_b[@]}"
+    step switches 60 "$here/time_switches.sh" "$pathlight" "$work"
+}
+
+stage_c() {
+    local variant name
+    for variant in "$kit"/variants/*; do
+        [[ -d $variant ]] || continue
+        name=$(basename "$variant")
+        step "variant-$name-compare" 60 "$variant/compare_backends" "${compare_c[@]}"
+        step "variant-$name-bench" 60 "$variant/cuda_bench" "${bench_c[@]}"
+    done
+    step variant-none-bench 60 "$programs/cuda_bench$suffix" "${bench_c[@]}"
+    sanitize initcheck
+    local rest=$(($(seconds_left) - 30))
+    if [[ -n $rehearsal ]] || ((rest < 2)); then rest=2; fi
+    step random $((rest + 30)) "$programs/compare_backends$suffix" --random --seed "${RANDOM_SEED:-1}" --seconds "$rest"
+}
+
+begin_stage "$chosen" "$results" 470
+tell "@run	stage=$chosen	date=$(date -u +%FT%TZ)	gpu=$(nvidia-smi --query-gpu=name,driver_version --format=csv,noheader 2>/dev/null |
+    head -1)	rehearsal=${rehearsal:-no}	kit=$(tr '\n' ' ' <"$kit/KIT" 2>/dev/null)"
+"stage_$chosen"
+end_stage

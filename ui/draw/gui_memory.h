@@ -9,8 +9,11 @@
 
 namespace pl {
 
+class PictureTextures;
+
 struct GuiMemory {
-    float pointer_rest_seconds = 0.0f;  ///< since the pointer moved: tooltips wait for rest
+    PictureTextures* textures = nullptr;  ///< of the window's renderer
+    float pointer_rest_seconds = 0.0f;    ///< since the pointer moved: tooltips wait for rest
     /// Rectangles of the controls in the last frame by their labels: scripts point at them.
     std::map<std::string, Rect, std::less<>> places;
 };

@@ -125,8 +125,10 @@ void note_place(const char* label) {
     if (!ImGui::IsItemVisible()) return;
     const ImVec2 low = ImGui::GetItemRectMin();
     const ImVec2 high = ImGui::GetItemRectMax();
-    gui_memory().places[label] = {low.x, low.y, high.x - low.x, high.y - low.y};
+    note_place(label, {low.x, low.y, high.x - low.x, high.y - low.y});
 }
+
+void note_place(const char* label, const Rect& place) { gui_memory().places[label] = place; }
 
 void end_row(const char* label, const char* tip) {
     note_place(label);

@@ -21,8 +21,9 @@ void tooltip(const char* text);
 /// The next cell of a table.
 void text_cell(const std::string& text, ImU32 color = colors::kText);
 
-/// Records the rectangle of the last item for scripts.
+/// Records the rectangle of the last item, or another one, for scripts and the guided tour.
 void note_place(const char* label);
+void note_place(const char* label, const Rect& place);
 
 /// Puts the label, and makes the next item fill the rest of the row.
 void begin_row(const char* label, const char* tip);

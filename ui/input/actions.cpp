@@ -82,6 +82,7 @@ std::vector<Action> actions_after_methods() {
         {FoldRight, Group::Window, "F7", "fold or open tabs and accuracy panel", {at(SDL_SCANCODE_F7)}},
         {FullScreen, Group::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
         {Help, Group::Window, "F1 or ?", "this list", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
+        {Tour, Group::Window, "F4", "guided tour: begin, leave or continue", {at(SDL_SCANCODE_F4)}},
         {SwitchLayout, Group::Window, "F3", "layout: Explore or Research", {at(SDL_SCANCODE_F3)}},
         {ResetWindow,
          Group::Window,
@@ -91,6 +92,7 @@ std::vector<Action> actions_after_methods() {
         {SelfTest, Group::Window, "F2", "self test of all back ends", {at(SDL_SCANCODE_F2)}},
         {Cancel, Group::Window, "Esc", "close, cancel or deselect", {at(SDL_SCANCODE_ESCAPE)}},
 
+        {Open, Group::File, "Ctrl+O", "open a scene", {sign(SDLK_o, kCtrl)}},
         {Reload, Group::File, "F5", "reload the scene", {at(SDL_SCANCODE_F5)}},
         {Screenshot, Group::File, "F12", "save the picture as PNG", {at(SDL_SCANCODE_F12)}},
         {ScreenshotWithPanels,

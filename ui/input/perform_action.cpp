@@ -15,7 +15,9 @@ void copy_command(ViewerModel& model) {
     // A picture that began with a learned field is repeated with one: the field as it is now, the nearest that there is.
     const bool warm = model.frame() != nullptr && model.frame()->snapshot.warm;
     const std::string field = warm ? model.files().fields().save_as_named().string() : "";
-    const std::string command = model.files().pictures().command_line(field);
+    const bool is_edited = !model.scene().materials().edited_names().empty();
+    const std::string materials = is_edited ? model.files().save_materials().string() : "";
+    const std::string command = model.files().pictures().command_line(field, materials);
     if (command.empty()) {
         messages.say(MessageLevel::Warning, "this build cannot write the command line");
         return;
@@ -24,11 +26,9 @@ void copy_command(ViewerModel& model) {
     messages.say(MessageLevel::Info, "copied: " + command);
     if (warm)
         messages.say(MessageLevel::Info, "it continues from the field as it is now: the same light with other noise");
-    const std::size_t edited = model.scene().materials().edited_names().size();
-    if (edited > 0)
+    if (!model.scene().materials().are_edits_named())
         messages.say(MessageLevel::Warning,
-                     fmt::format("it renders the materials of the file: {} {} edited in the window", edited,
-                                 edited == 1 ? "is" : "are"));
+                     "it lacks edits of materials that have no name of their own in the files");
 }
 
 void step_opacity(DisplayControls& display, float step) {
@@ -48,6 +48,14 @@ void toggle_accuracy(PanelChoice& panels) {
 
 void switch_layout(WindowState& window) {
     window.layout = window.layout == WindowLayout::Explore ? WindowLayout::Research : WindowLayout::Explore;
+}
+
+void toggle_tour(ViewerModel& model) {
+    const GuidedTour::Phase phase = model.tour().phase();
+    if (phase == GuidedTour::Phase::Off || phase == GuidedTour::Phase::Offered)
+        model.tour().begin(model);
+    else
+        model.tour().leave();
 }
 
 /// Each function does a part of the actions; false for the others.
@@ -103,6 +111,7 @@ bool perform_compare_action(ViewerModel& model, ActionId id) {
     case ActionId::Turns: comparison.set_turns(!comparison.in_turns()); return true;
     case ActionId::MakeReference: model.references().make(); return true;
     case ActionId::SelfTest: model.self_test().is_shown() = !model.self_test().is_shown(); return true;
+    case ActionId::Tour: toggle_tour(model); return true;
     case ActionId::Cancel: model.cancel(); return true;
     default: return false;
     }
@@ -111,6 +120,7 @@ bool perform_compare_action(ViewerModel& model, ActionId id) {
 bool perform_file_action(ViewerModel& model, ActionId id) {
     Files& files = model.files();
     switch (id) {
+    case ActionId::Open: model.open_dialog().toggle(); return true;
     case ActionId::Reload: model.scene().reload(); return true;
     case ActionId::Screenshot: files.pictures().save_png(); return true;
     case ActionId::Save: files.pictures().save_exr_and_png(); return true;

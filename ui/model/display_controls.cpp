@@ -31,4 +31,9 @@ void DisplayControls::set_low_resolution(bool allowed) {
     worker_.set_low_resolution_allowed(allowed);
 }
 
+void DisplayControls::set_preview(bool allowed) {
+    preview_ = allowed;
+    worker_.set_preview_allowed(allowed);
+}
+
 }  // namespace pl

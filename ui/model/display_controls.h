@@ -28,6 +28,9 @@ public:
     /// Coarser pictures while the camera moves.
     bool low_resolution() const { return low_resolution_; }
     void set_low_resolution(bool allowed);
+    /// Then also a preview in place of a picture without light samples; see MotionPreview.
+    bool preview() const { return preview_; }
+    void set_preview(bool allowed);
 
 private:
     DisplaySettings settings_;
@@ -36,6 +39,7 @@ private:
     bool outline_ = false;
     float cells_opacity_ = kStandardOpacity;
     bool low_resolution_ = true;
+    bool preview_ = true;
 };
 
 }  // namespace pl

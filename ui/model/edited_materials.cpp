@@ -1,5 +1,7 @@
 #include "ui/model/edited_materials.h"
 
+#include <set>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
@@ -33,6 +35,23 @@ std::vector<std::string> EditedMaterials::edited_names() const {
     for (std::uint32_t i = 0; i < now_.size(); ++i)
         if (is_edited(i)) names.push_back(shown_name(now_[i], i));
     return names;
+}
+
+std::vector<MaterialDescription> EditedMaterials::named() const {
+    std::vector<MaterialDescription> named;
+    std::set<std::string> names;
+    for (const MaterialDescription& material : now_)
+        if (!material.name.empty() && names.insert(material.name).second) named.push_back(material);
+    return named;
+}
+
+bool EditedMaterials::are_edits_named() const {
+    std::set<std::string> names;
+    for (std::uint32_t i = 0; i < now_.size(); ++i) {
+        const bool is_named = !now_[i].name.empty() && names.insert(now_[i].name).second;
+        if (!is_named && is_edited(i)) return false;
+    }
+    return true;
 }
 
 void EditedMaterials::set(std::uint32_t index, const MaterialDescription& material) {

@@ -27,6 +27,10 @@ public:
     bool is_edited(std::uint32_t index) const { return now_[index] != in_file(index); }
     /// Names of all materials that differ from the file.
     std::vector<std::string> edited_names() const;
+    /// All that a file can name: of several materials of one name the first, and none without a name.
+    std::vector<MaterialDescription> named() const;
+    /// Whether named() has all edits.
+    bool are_edits_named() const;
 
     /// Replaces a material. Throws Error(Input) as validate_material() does; the old one stays then.
     void set(std::uint32_t index, const MaterialDescription& material);

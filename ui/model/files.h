@@ -11,8 +11,8 @@ namespace pl {
 class Files {
 public:
     Files(const ModelServices& services, ViewedScene& scene, RenderControls& render, const DisplayControls& display)
-        : scene_(scene), names_(services.options.screenshot_dir), pictures_(services, names_, scene, render, display),
-          fields_(services, names_, scene, render) {}
+        : messages_(services.messages), jobs_(services.jobs), scene_(scene), names_(services.options.screenshot_dir),
+          pictures_(services, names_, scene, render, display), fields_(services, names_, scene, render) {}
 
     PictureFiles& pictures() { return pictures_; }
     const PictureFiles& pictures() const { return pictures_; }
@@ -26,7 +26,12 @@ public:
             scene_.open(file);
     }
 
+    /// Begins to write the materials of the window, for --materials. Returns the name of the file.
+    std::filesystem::path save_materials();
+
 private:
+    Messages& messages_;
+    Jobs& jobs_;
     ViewedScene& scene_;
     FileNames names_;
     PictureFiles pictures_;

@@ -44,10 +44,11 @@ ViewerPicture PictureFiles::picture() const {
             .edited_materials = scene_.materials().edited_names()};
 }
 
-std::string PictureFiles::command_line(const std::string& field) const {
+std::string PictureFiles::command_line(const std::string& field, const std::string& materials) const {
     if (!options_.command_line) return "";
     ViewerPicture shown = picture();
     shown.field = field;
+    shown.materials = materials;
     return options_.command_line(shown);
 }
 

@@ -34,8 +34,9 @@ public:
 
     /// The picture in the window with its settings.
     ViewerPicture picture() const;
-    /// Of the scene as in its files, without edited materials; empty in builds without it.
-    std::string command_line(const std::string& field = "") const;
+    /// Continues from a file with a learned field, and takes the materials from another file, if they are not empty. Empty in
+    /// builds without it.
+    std::string command_line(const std::string& field = "", const std::string& materials = "") const;
 
 private:
     void save(std::initializer_list<const char*> suffixes);

@@ -15,7 +15,7 @@ class RenderLink {
 public:
     /// Reasons for rendering to rest. Background work would slow down timed passes, so rendering and its clocks rest
     /// during it.
-    enum class Hold { User, Reference, Diagnostics, SelfTest };
+    enum class Hold { User, Reference, Diagnostics, SelfTest, Gallery };
 
     explicit RenderLink(WorkerSetup setup) : worker_(std::move(setup)), status_(worker_.status()) {}
 
@@ -50,7 +50,7 @@ private:
     std::shared_ptr<const PublishedFrame> latest_;  ///< the newer one of both
     Throughput throughput_;
     std::optional<TurnMethods> turns_;
-    std::bitset<4> holds_;
+    std::bitset<5> holds_;
 };
 
 }  // namespace pl

@@ -15,11 +15,13 @@ enum class LoadReason {
     Open,    ///< another scene
     Reload,  ///< the files again: the camera stays
     Knobs,   ///< other values of knobs: camera and edited materials stay
+    Change,  ///< a file has changed: camera, knobs and edited materials stay
 };
 
 struct LoadOrder {
     SceneRequest scene;
     LoadReason reason = LoadReason::Open;
+    std::string changed{};  ///< the file, for LoadReason::Change
 };
 
 class SceneLoader {

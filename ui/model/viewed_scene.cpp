@@ -1,5 +1,6 @@
 #include "ui/model/viewed_scene.h"
 
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,13 +9,43 @@
 #include "core/scene/pack_scene.h"
 
 namespace pl {
+namespace {
+
+/// Means the same in every working directory.
+std::string lasting_name(const std::string& name) {
+    const std::filesystem::path path(name);
+    return path.has_extension() ? std::filesystem::absolute(path).lexically_normal().string() : name;
+}
+
+/// All files that decide the scene.
+std::vector<std::filesystem::path> files_of(const SceneDescription& scene) {
+    std::vector<std::filesystem::path> files = scene.files;
+    for (const TextureDescription& texture : scene.textures) files.push_back(texture.source);
+    if (!scene.environment_map.source.empty()) files.push_back(scene.environment_map.source);
+    return files;
+}
+
+}  // namespace
 
 ViewedScene::ViewedScene(const ModelServices& services, CameraMotion& camera, Selection& selection,
                          std::shared_ptr<const SceneDescription> scene)
     : messages_(services.messages), link_(services.link), camera_(camera), selection_(selection),
       name_(services.options.scene_name), materials_(scene), knobs_(scene->knobs),
       loader_(services, [this](const LoadOrder& order, std::shared_ptr<const SceneDescription> loaded,
-                               const std::string& failure) { finish(order, std::move(loaded), failure); }) {}
+                               const std::string& failure) { finish(order, std::move(loaded), failure); }) {
+    recent_.add(lasting_name(name_));
+    watch_.watch(files_of(*scene));
+}
+
+void ViewedScene::update() {
+    const auto changed = watch_.take_change();
+    if (changed && !is_opening()) load({{name_, turned(knobs_)}, LoadReason::Change, changed->filename().string()});
+}
+
+void ViewedScene::remember(const std::vector<std::string>& recent) {
+    recent_.set(recent);
+    recent_.add(lasting_name(name_));
+}
 
 KnobValues ViewedScene::turned(const std::vector<KnobDescription>& knobs) {
     KnobValues values;
@@ -47,16 +78,20 @@ bool ViewedScene::is_opening() const {
 }
 
 void ViewedScene::load(LoadOrder order) {
-    if (order.reason != LoadReason::Knobs) messages_.note(MessageLevel::Info, "loading " + order.scene.name);
+    if (order.reason == LoadReason::Open || order.reason == LoadReason::Reload)
+        messages_.note(MessageLevel::Info, "loading " + order.scene.name);
     loader_.load(std::move(order));
 }
 
 void ViewedScene::finish(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene,
                          const std::string& failure) {
     if (scene == nullptr)
-        messages_.say(MessageLevel::Error, failure);
-    else if (order.reason == LoadReason::Knobs)
-        adopt_knobs(std::move(scene));
+        messages_.say(MessageLevel::Error,
+                      order.changed.empty()
+                          ? failure
+                          : fmt::format("{} has changed, but the old scene stays: {}", order.changed, failure));
+    else if (order.reason == LoadReason::Knobs || order.reason == LoadReason::Change)
+        adopt_again(order, std::move(scene));
     else
         adopt(order, std::move(scene));
     // Newer values of the user are on their way otherwise.
@@ -67,7 +102,9 @@ void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescr
     selection_.deselect();
     selection_.drop_material();
     materials_.open(scene);
+    watch_.watch(files_of(*scene));
     name_ = order.scene.name;
+    recent_.add(lasting_name(name_));
     camera_.open(scene->camera, bounds_of(*scene).diagonal(), order.reason == LoadReason::Reload);
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.say(MessageLevel::Info, fmt::format("opened {}: {} triangles", name_, scene->triangles.size()));
@@ -75,9 +112,14 @@ void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescr
     link_.worker().submit(EditCamera{camera_.camera()});
 }
 
-void ViewedScene::adopt_knobs(std::shared_ptr<const SceneDescription> scene) {
+void ViewedScene::adopt_again(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene) {
     selection_.deselect();
     materials_.reopen(scene);
+    watch_.watch(files_of(*scene));
+    if (!order.changed.empty()) {
+        for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
+        messages_.say(MessageLevel::Info, fmt::format("{} has changed: loaded again", order.changed));
+    }
     camera_.open(scene->camera, bounds_of(*scene).diagonal(), true);
     camera_.touch();
     link_.worker().submit(EditScene{std::move(scene)});

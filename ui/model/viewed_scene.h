@@ -8,6 +8,8 @@
 
 #include "ui/model/camera_motion.h"
 #include "ui/model/edited_materials.h"
+#include "ui/model/file_watch.h"
+#include "ui/model/recent_files.h"
 #include "ui/model/scene_loader.h"
 #include "ui/model/selection.h"
 #include "ui/model/services.h"
@@ -18,6 +20,10 @@ class ViewedScene {
 public:
     ViewedScene(const ModelServices& services, CameraMotion& camera, Selection& selection,
                 std::shared_ptr<const SceneDescription> scene);
+
+    /// Once per frame of the window: loads the scene again after one of its files has changed. Camera, knobs and edited
+    /// materials stay; if the files cannot be read, the old scene does.
+    void update();
 
     /// As load_scene takes it.
     const std::string& name() const { return name_; }
@@ -31,6 +37,14 @@ public:
     void reload();
     /// Another scene with its own camera, its knobs at their defaults. If it cannot be read, the old one stays.
     void open(const std::string& name);
+
+    /// Whether another scene is being loaded.
+    bool is_opening() const;
+
+    /// The scenes opened so far, files by their absolute paths.
+    const RecentFiles& recent() const { return recent_; }
+    /// Those of sessions before; the scene that is open stays in front.
+    void remember(const std::vector<std::string>& recent);
 
     /// The values are the wanted ones, which the picture follows.
     const std::vector<KnobDescription>& knobs() const { return knobs_; }
@@ -50,12 +64,11 @@ public:
 
 private:
     static KnobValues turned(const std::vector<KnobDescription>& knobs);
-    bool is_opening() const;
     void load(LoadOrder order);
     void load_knobs() { load({{name_, turned(knobs_)}, LoadReason::Knobs}); }
     void finish(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene, const std::string& failure);
     void adopt(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene);
-    void adopt_knobs(std::shared_ptr<const SceneDescription> scene);
+    void adopt_again(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene);
 
     Messages& messages_;
     RenderLink& link_;
@@ -64,7 +77,9 @@ private:
     std::string name_;
     EditedMaterials materials_;
     std::vector<KnobDescription> knobs_;
+    RecentFiles recent_;
     SceneLoader loader_;
+    FileWatch watch_;
 };
 
 }  // namespace pl

@@ -31,7 +31,8 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       references_({options, messages_, jobs_, link_}, render_, scene_),
       comparison_(link_, messages_, render_, references_), diagnostics_(link_, messages_, render_),
       self_test_({options, messages_, jobs_, link_}),
-      files_({options, messages_, jobs_, link_}, scene_, render_, display_) {
+      files_({options, messages_, jobs_, link_}, scene_, render_, display_),
+      open_dialog_({options, messages_, jobs_, link_}, files_) {
     if (options.field) link_.worker().submit(EditLearned{options.field});
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.note(MessageLevel::Info,
@@ -47,6 +48,8 @@ void ViewerModel::update(double seconds) {
     messages_.set_time(seconds);
     camera_.update(seconds);
     link_.update();
+    scene_.update();
+    open_dialog_.update();
     files_.pictures().update();
     link_.worker().set_values_wanted(window_.values_shown || files_.pictures().is_waiting());
     references_.update();
@@ -59,6 +62,7 @@ void ViewerModel::update(double seconds) {
     diagnostics_.update();
     self_test_.update();
     jobs_.update();
+    tour_.update(*this, seconds);
     messages_.drop_expired();
 }
 
@@ -79,6 +83,8 @@ std::string ViewerModel::title() const {
 void ViewerModel::cancel() {
     if (window_.help)
         window_.help = false;
+    else if (open_dialog_.is_shown())
+        open_dialog_.is_shown() = false;
     else if (self_test_.is_shown() && self_test_.run().is_running())
         self_test_.stop();
     else if (self_test_.is_shown())
@@ -89,6 +95,8 @@ void ViewerModel::cancel() {
         references_.stop();
     else if (diagnostics_.is_searching() || diagnostics_.map())
         diagnostics_.toggle();
+    else if (selection_.volume() == kNoVolume && tour_.phase() != GuidedTour::Phase::Off)
+        tour_.leave();
     else if (selection_.volume() != kNoVolume || comparison_.state().mode == CompareMode::Off)
         selection_.deselect();
     else

@@ -8,7 +8,8 @@
 #include "ui/model/compare_controls.h"
 #include "ui/model/diagnostics_search.h"
 #include "ui/model/effect_trials.h"
-#include "ui/model/files.h"
+#include "ui/model/guided_tour.h"
+#include "ui/model/open_dialog.h"
 #include "ui/model/self_test_control.h"
 #include "ui/model/window_state.h"
 
@@ -59,6 +60,10 @@ public:
     const SelfTestControl& self_test() const { return self_test_; }
     Files& files() { return files_; }
     const Files& files() const { return files_; }
+    OpenDialog& open_dialog() { return open_dialog_; }
+    const OpenDialog& open_dialog() const { return open_dialog_; }
+    GuidedTour& tour() { return tour_; }
+    const GuidedTour& tour() const { return tour_; }
 
     /// Background work or unsaved files.
     bool busy() const;
@@ -83,6 +88,8 @@ private:
     DiagnosticsSearch diagnostics_;
     SelfTestControl self_test_;
     Files files_;
+    OpenDialog open_dialog_;
+    GuidedTour tour_;
 };
 
 }  // namespace pl

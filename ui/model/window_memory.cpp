@@ -11,7 +11,8 @@ namespace pl {
 namespace {
 
 constexpr std::array<const char*, 2> kLayoutNames{"explore", "research"};
-constexpr std::array<const char*, kErrorMetricCount> kMetricNames{"relmse", "relmse-trimmed", "mse", "smape", "noise"};
+constexpr std::array<const char*, kErrorMetricCount> kMetricNames{"relmse", "relmse-trimmed", "mse", "smape",
+                                                                  "noise"};
 constexpr std::array<const char*, 2> kAxisNames{"seconds", "samples"};
 constexpr std::size_t kMostRecent = 100;
 
@@ -143,10 +144,12 @@ void write_memory(const WindowMemory& memory, Json& document) {
     document["panels"] = panels_json(memory.panels);
     document["display"] = {{"hemisphere", memory.hemisphere},
                            {"tint_opacity", short_decimal(memory.tint_opacity)},
-                           {"coarser_in_motion", memory.coarser_in_motion}};
+                           {"coarser_in_motion", memory.coarser_in_motion},
+                           {"preview_in_motion", memory.preview_in_motion}};
     document["plot"] = {{"metric", kMetricNames[static_cast<std::size_t>(memory.plot.metric)]},
                         {"axis", kAxisNames[static_cast<std::size_t>(memory.plot.axis)]}};
     document["recent"] = memory.recent;
+    document["tour"] = {{"step", memory.tour_step}, {"answered", memory.is_tour_answered}};
 }
 
 WindowMemory memory_in(const Json& document, const WindowMemory& first, const std::filesystem::path& path) {
@@ -161,10 +164,14 @@ WindowMemory memory_in(const Json& document, const WindowMemory& first, const st
     display.read("hemisphere", memory.hemisphere);
     display.read("tint_opacity", memory.tint_opacity, 0.0f, 1.0f);
     display.read("coarser_in_motion", memory.coarser_in_motion);
+    display.read("preview_in_motion", memory.preview_in_motion);
     const Members plot = file.object("plot");
     plot.read("metric", memory.plot.metric, kMetricNames);
     plot.read("axis", memory.plot.axis, kAxisNames);
     file.read("recent", memory.recent);
+    const Members tour = file.object("tour");
+    tour.read("step", memory.tour_step, 0, static_cast<int>(tour_steps().size()) - 1);
+    tour.read("answered", memory.is_tour_answered);
     return memory;
 }
 
@@ -177,9 +184,12 @@ WindowMemory memory_of(const ViewerModel& model, const WindowMemory& before) {
     memory.hemisphere = window.hemisphere;
     memory.tint_opacity = model.display().cells_opacity();
     memory.coarser_in_motion = model.display().low_resolution();
+    memory.preview_in_motion = model.display().preview();
     const AccuracyModel& accuracy = model.comparison().accuracy();
     memory.plot = {accuracy.wanted_metric(), accuracy.kind().axis};
-    memory.recent = window.recent;
+    memory.recent = model.scene().recent().names();
+    memory.tour_step = model.tour().step();
+    memory.is_tour_answered = model.tour().is_answered();
     return memory;
 }
 
@@ -188,9 +198,11 @@ void restore(const WindowMemory& memory, ViewerModel& model) {
     window.layout = memory.layout;
     window.panels = memory.panels;
     window.hemisphere = memory.hemisphere;
-    window.recent = memory.recent;
+    model.scene().remember(memory.recent);
+    model.tour().remember(memory.tour_step, memory.is_tour_answered);
     model.display().set_cells_opacity(memory.tint_opacity);
     model.display().set_low_resolution(memory.coarser_in_motion);
+    model.display().set_preview(memory.preview_in_motion);
     model.comparison().accuracy().set_metric(memory.plot.metric);
     model.comparison().accuracy().set_axis(memory.plot.axis);
 }

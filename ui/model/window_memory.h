@@ -10,9 +10,9 @@
 
 #include "core/io/json_file.h"
 #include "ui/model/display_controls.h"
+#include "ui/model/window_place.h"
 #include "ui/model/window_state.h"
 #include "ui/plot/run_lines.h"
-#include "ui/window/window_plan.h"
 
 namespace pl {
 
@@ -27,8 +27,11 @@ struct WindowMemory {
     bool hemisphere = true;
     float tint_opacity = DisplayControls::kStandardOpacity;
     bool coarser_in_motion = true;
+    bool preview_in_motion = true;
     CurveKind plot;
     std::vector<std::string> recent{};
+    int tour_step = 0;              ///< of the guided tour, where it continues
+    bool is_tour_answered = false;  ///< it is not offered again
 
     friend bool operator==(const WindowMemory&, const WindowMemory&) = default;
 };

@@ -1,9 +1,6 @@
 // The look of the window: panels, overlays, scale. Nothing in it reaches the rendering.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "ui/draw/direction_disc.h"
 #include "ui/draw/layout.h"
 #include "ui/plot/plot_drag.h"
@@ -48,7 +45,6 @@ struct WindowState {
     float ui_scale = 1.0f;
     CellDisplay cell_display;
     PlotState plot;
-    std::vector<std::string> recent{};  ///< names of scenes, the newest first
     WindowRequests requests;
 };
 

@@ -84,8 +84,12 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
     else
         row.add(fmt::format("{}  {}  {} spp", info_of(view).label, back_end, snapshot.passes), colors::kText);
     if (snapshot.guiding && snapshot.guiding->gain) add_guiding_badge(row, *snapshot.guiding);
-    if (view == View::RadianceMap) row.add("radiance map: biased preview", colors::kWarning);
-    if (info_of(view).needs_tables && !info_of(snapshot.slot.method).uses_field)
+    if (frame.preview == Preview::LightSamples) row.add("while moving: preview with light samples", colors::kWarning);
+    if (frame.preview == Preview::RadianceMap)
+        row.add("while moving: preview by the learned radiance map", colors::kWarning);
+    else if (view == View::RadianceMap)
+        row.add("radiance map: biased preview", colors::kWarning);
+    if (info_of(view).needs_tables && !info_of(snapshot.slot.method).uses_field && frame.preview == Preview::None)
         row.add(fmt::format("field of {0}: {1} continues learning", info_of(learning_method()).label,
                             info_of(learning_method()).key),
                 colors::kWarning);

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "ui/compare/half_image.h"
-#include "ui/draw/style.h"
+#include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
 
 namespace pl {
@@ -58,6 +58,7 @@ void draw_handle(ViewerModel& model, const Rect& place, float x) {
     if (held) model.comparison().set_split((ImGui::GetIO().MousePos.x - place.x) / place.width);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float middle = place.y + 0.5f * place.height;
+    note_place("split line", {x - em(0.5f), middle - em(0.5f), em(1.0f), em(1.0f)});
     list.AddRectFilled({x - 1.0f, place.y}, {x + 1.0f, place.y + place.height},
                        lit ? colors::kAccent : colors::kText);
     list.AddCircleFilled({x, middle}, em(0.5f), lit ? colors::kAccent : colors::kText, 20);

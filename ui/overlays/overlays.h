@@ -20,8 +20,14 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
 /// Toasts, and the speed of the camera after it changed.
 void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePlan& plan);
 
+/// The card of the guided tour, and a frame around the part of the window that its step is about.
+void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan);
+
 /// The dialog of the self test: a button, and the checks as they finish.
 void draw_self_test(ViewerModel& model, const Layout& layout);
+
+/// The dialog that opens scenes: known ones, recent ones, and files.
+void draw_open_dialog(ViewerModel& model, const Layout& layout);
 
 /// All keys, from the table that dispatches them.
 void draw_help(ViewerModel& model, const Layout& layout);

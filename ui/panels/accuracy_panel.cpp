@@ -175,6 +175,7 @@ void draw_footing(const AccuracyModel& model) {
 void draw_accuracy_panel(ViewerModel& model, const Layout& layout) {
     WindowState& window = model.window();
     AccuracyModel& accuracy = model.comparison().accuracy();
+    note_place("accuracy panel", layout.accuracy);
     begin_fixed_window("accuracy", layout.accuracy,
                        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     draw_run_table(accuracy);  // above the scrolled part: always visible

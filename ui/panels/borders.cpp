@@ -31,9 +31,15 @@ void draw_arrow(ImDrawList& list, const Rect& place, ImGuiDir direction, ImU32 c
     const Vec2f c = place.center();
     const float r = 0.4f * std::min(place.width, place.height);
     switch (direction) {
-    case ImGuiDir_Left: list.AddTriangleFilled({c.x - r, c.y}, {c.x + r, c.y - 2 * r}, {c.x + r, c.y + 2 * r}, color); break;
-    case ImGuiDir_Right: list.AddTriangleFilled({c.x + r, c.y}, {c.x - r, c.y + 2 * r}, {c.x - r, c.y - 2 * r}, color); break;
-    case ImGuiDir_Up: list.AddTriangleFilled({c.x, c.y - r}, {c.x + 2 * r, c.y + r}, {c.x - 2 * r, c.y + r}, color); break;
+    case ImGuiDir_Left:
+        list.AddTriangleFilled({c.x - r, c.y}, {c.x + r, c.y - 2 * r}, {c.x + r, c.y + 2 * r}, color);
+        break;
+    case ImGuiDir_Right:
+        list.AddTriangleFilled({c.x + r, c.y}, {c.x - r, c.y + 2 * r}, {c.x - r, c.y - 2 * r}, color);
+        break;
+    case ImGuiDir_Up:
+        list.AddTriangleFilled({c.x, c.y - r}, {c.x + 2 * r, c.y + r}, {c.x - 2 * r, c.y + r}, color);
+        break;
     default: list.AddTriangleFilled({c.x, c.y + r}, {c.x - 2 * r, c.y - r}, {c.x + 2 * r, c.y - r}, color); break;
     }
 }
@@ -50,7 +56,8 @@ bool put_control(const char* id, const Rect& place) {
     return ImGui::InvisibleButton(id, {std::max(place.width, 1.0f), std::max(place.height, 1.0f)});
 }
 
-void draw_drag_part(ViewerModel& model, const Layout& layout, const BorderLook& look, const Rect& place, const char* id) {
+void draw_drag_part(ViewerModel& model, const Layout& layout, const BorderLook& look, const Rect& place,
+                    const char* id) {
     put_control(id, place);
     note_place(look.label);
     if (!ImGui::IsItemHovered() && !ImGui::IsItemActive()) return;
@@ -109,7 +116,8 @@ int draw_border(ViewerModel& model, const Layout& layout, const BorderLook& look
 void draw_accuracy_border(ViewerModel& model, const Layout& layout) {
     PanelChoice& choice = model.window().panels;
     const BorderLook look{Border::Accuracy, layout.accuracy_border,
-                          layout.right.height > 0.0f && layout.accuracy.height > 0.0f, "border of the accuracy panel"};
+                          layout.right.height > 0.0f && layout.accuracy.height > 0.0f,
+                          "border of the accuracy panel"};
     // Without the tabs the only way is down, without the accuracy panel the only one is up.
     if (!choice.accuracy) {
         const FoldLook open{"open the accuracy panel", "Opens the accuracy panel (P).", ImGuiDir_Up};

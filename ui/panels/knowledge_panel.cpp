@@ -140,6 +140,7 @@ void draw_log_tab(const ViewerModel& model) {
 void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered) {
     model.selection().hover_cell(-1);  // the volume tab sets it again if it is in front
     begin_fixed_window("knowledge", layout.right);
+    const bool is_research = model.window().layout == WindowLayout::Research;
     if (ImGui::BeginTabBar("tabs")) {
         const ImGuiTabItemFlags front =
             model.selection().take_new_volume() ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
@@ -151,7 +152,7 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
             draw_material_tab(model);
             ImGui::EndTabItem();
         }
-        if (begin_tab("Effects")) {
+        if (is_research && begin_tab("Effects")) {
             draw_effects_tab(model);
             ImGui::EndTabItem();
         }
@@ -159,11 +160,11 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
             draw_pixel_tab(model, hovered);
             ImGui::EndTabItem();
         }
-        if (begin_tab("Statistics")) {
+        if (is_research && begin_tab("Statistics")) {
             draw_statistics_tab(model);
             ImGui::EndTabItem();
         }
-        if (begin_tab("Log")) {
+        if (is_research && begin_tab("Log")) {
             draw_log_tab(model);
             ImGui::EndTabItem();
         }

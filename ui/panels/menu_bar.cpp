@@ -7,6 +7,14 @@
 namespace pl {
 namespace {
 
+void draw_recent_menu(ViewerModel& model) {
+    if (!ImGui::BeginMenu("Open recent")) return;
+    const std::vector<std::string> names = model.scene().recent().names();
+    for (const std::string& name : names)
+        if (ImGui::MenuItem(name.c_str())) model.scene().open(name);
+    ImGui::EndMenu();
+}
+
 /// One menu per group of the key table, without the held keys.
 void draw_group(ViewerModel& model, ActionGroup group) {
     if (!ImGui::BeginMenu(name_of(group))) return;
@@ -16,6 +24,7 @@ void draw_group(ViewerModel& model, ActionGroup group) {
         label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
         if (ImGui::MenuItem(label.c_str(), action.keys.c_str())) perform(model, action);
     }
+    if (group == ActionGroup::File) draw_recent_menu(model);
     ImGui::EndMenu();
 }
 

@@ -12,6 +12,8 @@
 namespace pl {
 namespace {
 
+bool is_research(const ViewerModel& model) { return model.window().layout == WindowLayout::Research; }
+
 /// Only for scenes with knobs.
 void draw_scene(ViewerModel& model) {
     const std::vector<KnobDescription> knobs = model.scene().knobs();
@@ -23,7 +25,8 @@ void draw_scene(ViewerModel& model) {
                        {knob.low, knob.high, knob.default_value, "%.4g"}))
             model.scene().set_knob(i, value);
     }
-    const bool turned = std::ranges::any_of(knobs, [](const KnobDescription& k) { return k.value != k.default_value; });
+    const bool turned =
+        std::ranges::any_of(knobs, [](const KnobDescription& k) { return k.value != k.default_value; });
     ImGui::BeginDisabled(!turned);
     if (wide_button("Reset knobs", "The scene's own values.")) model.scene().reset_knobs();
     ImGui::EndDisabled();
@@ -84,8 +87,7 @@ void draw_size(ViewerModel& model) {
         model.window().requests.fit_size = true;
 }
 
-void draw_sampling(ViewerModel& model) {
-    if (!section("Sampling", true)) return;
+void draw_limits(ViewerModel& model) {
     SampleLimits limits = model.render().limits();
     int spp = static_cast<int>(limits.spp);
     if (int_row("Samples", "Stop at this number of samples per pixel. 0: no limit.", &spp, 64, "no limit")) {
@@ -100,7 +102,9 @@ void draw_sampling(ViewerModel& model) {
         limits.seconds = std::max(seconds, 0.0);
         model.render().set_limits(limits);
     }
-    draw_size(model);
+}
+
+void draw_estimator(ViewerModel& model) {
     int depth = model.render().settings().max_depth;
     if (int_row("Max depth", "Largest number of path vertices; Russian roulette ends most paths earlier. Default 64.",
                 &depth, 1))
@@ -123,6 +127,13 @@ void draw_sampling(ViewerModel& model) {
     if (int_row("Seed", "Same seed, scene and settings: same picture to the bit with any number of threads.", &seed,
                 1))
         model.render().set_seed(static_cast<std::uint64_t>(std::max(seed, 0)));
+}
+
+void draw_sampling(ViewerModel& model) {
+    if (!section("Sampling", true)) return;
+    draw_limits(model);
+    draw_size(model);
+    if (is_research(model)) draw_estimator(model);
 }
 
 void draw_run_buttons(ViewerModel& model) {
@@ -192,9 +203,8 @@ void draw_learned_amount(const ViewerModel& model) {
     }
 }
 
-void draw_learning(ViewerModel& model) {
-    if (!section("Learning", true)) return;
-    draw_learned_amount(model);
+/// The field and the mixture with the BSDF. Changes of the field restart pictures and fields.
+void draw_field(ViewerModel& model) {
     MixtureSettings mixture = model.render().settings().mixture;
     bool learned = mixture.learned != 0;
     if (toggle_row("Learned share", "A method that learns also learns the BSDF fraction of each volume.", &learned)) {
@@ -225,6 +235,12 @@ void draw_learning(ViewerModel& model) {
         model.render().set_field(settings);
     }
     draw_learning_targets(model, settings);
+}
+
+void draw_learning(ViewerModel& model) {
+    if (!section("Learning", true)) return;
+    draw_learned_amount(model);
+    if (is_research(model)) draw_field(model);
     if (wide_button("Forget the learned field", "Ctrl+Shift+R: clears pictures and fields.")) model.render().forget();
 }
 
@@ -252,8 +268,7 @@ void draw_camera(ViewerModel& model) {
         perform(model, ActionId::CopyCommand);
 }
 
-void draw_display(ViewerModel& model) {
-    if (!section("Display", true)) return;
+void draw_view(ViewerModel& model) {
     std::string labels;
     for (const ViewInfo& view : all_views()) labels += std::string(view.label) + '\0';
     int view = static_cast<int>(model.render().settings().view);
@@ -263,10 +278,16 @@ void draw_display(ViewerModel& model) {
     float exposure = model.display().settings().exposure_ev;
     if (slider_row("Exposure", "In stops; display only.", &exposure, {-8.0f, 8.0f, 0.0f, "%+.2f EV"}))
         model.display().set_exposure(exposure);
+}
+
+void draw_tone_curve(ViewerModel& model) {
     int curve = static_cast<int>(model.display().settings().curve);
     if (choice_row("Tone curve", "Display only. Clamp shows values up to 1 unchanged.", &curve,
                    "Clamp\0Reinhard\0ACES fit\0"))
         model.display().set_curve(static_cast<ToneCurve>(curve));
+}
+
+void draw_field_displays(ViewerModel& model) {
     bool cells = model.display().cells();
     if (toggle_row("Tint by radiance volume", "V: the Voronoi cells of the radiance volumes, over any view.", &cells))
         model.display().set_cells(cells);
@@ -275,13 +296,39 @@ void draw_display(ViewerModel& model) {
         model.display().set_cells_opacity(opacity);
     toggle_row("Hemisphere in the picture", "H: the field of the selected volume, drawn at its position.",
                &model.window().hemisphere);
+}
+
+void draw_window_displays(ViewerModel& model) {
     bool low = model.display().low_resolution();
     if (toggle_row("Coarser while moving", "Lowers the resolution in motion to keep the frame rate.", &low))
         model.display().set_low_resolution(low);
+    bool preview = model.display().preview();
+    ImGui::BeginDisabled(!low);
+    if (toggle_row("Preview while moving",
+                   "For Default without light samples, whose first samples are single dots: the learned radiance map "
+                   "if there is one, else light samples. A badge names it; no sample of it comes to the picture.",
+                   &preview))
+        model.display().set_preview(preview);
+    ImGui::EndDisabled();
     int scale = static_cast<int>(std::lround((model.window().ui_scale - 0.75f) / 0.25f));
     if (choice_row("UI scale", "Size of text and controls.", &scale,
                    "75 %\000100 %\000125 %\000150 %\000175 %\000200 %\000"))
         model.window().ui_scale = 0.75f + 0.25f * static_cast<float>(scale);
+}
+
+void draw_display(ViewerModel& model) {
+    if (!section("Display", true)) return;
+    draw_view(model);
+    if (is_research(model)) draw_tone_curve(model);
+    draw_field_displays(model);
+    if (is_research(model)) draw_window_displays(model);
+}
+
+void draw_layout_button(ViewerModel& model) {
+    const char* const label = is_research(model) ? "Fewer settings" : "All settings";
+    if (wide_button(label, "F3: layout Explore, with the settings and tabs of a first look, or Research, with all."))
+        perform(model, ActionId::SwitchLayout);
+    note_place("layout");
 }
 
 }  // namespace
@@ -289,13 +336,14 @@ void draw_display(ViewerModel& model) {
 void draw_settings_panel(ViewerModel& model, const Layout& layout) {
     begin_fixed_window("settings", layout.left);
     draw_run_buttons(model);
+    draw_layout_button(model);
     draw_scene(model);
     draw_method(model);
     draw_back_end(model);
     draw_display(model);
     draw_sampling(model);
     draw_learning(model);
-    draw_camera(model);
+    if (is_research(model)) draw_camera(model);
     ImGui::End();
 }
 

@@ -50,9 +50,8 @@ void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
              "Segments per path.");
     text_row("Shadow rays", count_text(c.path.shadow_rays));
     text_row("Emission rays", count_text(c.path.emission_rays),
-             "Further camera rays, for the emission of lamps whose border crosses a pixel.");
-    text_row("Dark paths", share_text(c.zero_contribution_paths, c.paths),
-             "Paths without contribution; guiding reduces them.");
+             "Further camera rays, for the emission of lights whose border crosses a pixel.");
+    text_row("Dark paths", share_text(c.zero_contribution_paths, c.paths), "Paths that brought no light.");
     text_row("Escaped", count_text(c.path.escaped), "Paths that left the scene. 0 in a closed one.");
     text_row("Truncated", count_text(c.path.truncated), "Paths that ended at the largest depth.");
     if (c.path.method.cut_returns > 0)

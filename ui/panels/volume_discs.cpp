@@ -113,6 +113,9 @@ void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
                      discs[i].caption);
         draw_disc(list, place, shape, positions_in(range, discs[i].values), cell);
     }
+    const DiscPlace& learned = places.front();
+    note_place("learned disc", {learned.center.x - learned.radius, learned.center.y - learned.radius,
+                                2.0f * learned.radius, 2.0f * learned.radius});
     const DiscPlace& last = places.back();
     draw_legend(
         list,

@@ -21,7 +21,7 @@ struct Value {
 
 std::string word(bool value) { return value ? "yes" : "no"; }
 
-std::string vector_text(Vec3f v) { return fmt::format("{:.3f},{:.3f},{:.3f}", v.x, v.y, v.z); }
+std::string comma_text(Vec3f v) { return fmt::format("{:.3f},{:.3f},{:.3f}", v.x, v.y, v.z); }
 
 std::string last_message(const ViewerModel& model) {
     return model.messages().log().empty() ? "" : model.messages().log().back().text;
@@ -154,10 +154,9 @@ constexpr std::array kValues{
     Value{"busy", [](const ViewerModel& m) { return word(m.busy()); }},
     Value{"volume", [](const ViewerModel& m) { return fmt::format("{}", m.selection().volume()); }},
     Value{"inspected", [](const ViewerModel& m) { return word(m.selection().inspection() != nullptr); }},
-    Value{"scene", [](const ViewerModel& m) { return m.scene().name(); }},
-    Value{"eye", [](const ViewerModel& m) { return vector_text(m.render().settings().camera.eye); }},
+    Value{"eye", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.eye); }},
     Value{"eye_z", [](const ViewerModel& m) { return fmt::format("{}", m.render().settings().camera.eye.z); }},
-    Value{"target", [](const ViewerModel& m) { return vector_text(m.render().settings().camera.target); }},
+    Value{"target", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.target); }},
     Value{"speed", [](const ViewerModel& m) { return fmt::format("{}", m.camera().speed()); }},
     Value{"size",
           [](const ViewerModel& m) {
@@ -182,6 +181,10 @@ constexpr std::array kValues{
           }},
     Value{"shown_backend",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.backend.name; }); }},
+    Value{"shown_preview",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return std::string(name_of(f.preview)); });
+          }},
     Value{"shown_light",
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return std::string(name_of(f.facts.light)); });
@@ -220,6 +223,11 @@ constexpr std::array kValues{
     Value{"effect_pairs", measured_pairs},
     Value{"edited",
           [](const ViewerModel& m) { return fmt::format("{}", m.scene().materials().edited_names().size()); }},
+    Value{"scene", [](const ViewerModel& m) { return m.scene().name(); }},
+    Value{"tour", [](const ViewerModel& m) { return state_text(m.tour()); }},
+    Value{"dialog", [](const ViewerModel& m) { return word(m.open_dialog().is_shown()); }},
+    Value{"thumbnails", [](const ViewerModel& m) { return fmt::format("{}", m.open_dialog().gallery().size()); }},
+    Value{"folder", [](const ViewerModel& m) { return m.open_dialog().listing().folder.string(); }},
     Value{"knobs", [](const ViewerModel& m) { return knob_text(m.scene().knobs()); }},
     Value{"shown_knobs",
           [](const ViewerModel& m) {

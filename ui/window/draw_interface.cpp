@@ -15,8 +15,10 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
     if (plan.at_image) draw_hemisphere(model, image);
     draw_comparison(model, plan);
     if (layout.panels) draw_badges(model, layout, plan);
+    draw_tour(model, layout, image, plan);
     draw_toasts(model, layout, plan);
     draw_self_test(model, layout);
+    draw_open_dialog(model, layout);
     draw_help(model, layout);
 }
 

@@ -8,7 +8,8 @@
 namespace pl {
 
 Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
-    : display_(display), font_(std::move(font)), draw_(display.renderer()) {
+    : display_(display), font_(std::move(font)), draw_(display.renderer()), textures_(display.renderer()) {
+    memory_.textures = &textures_;
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();

@@ -6,6 +6,7 @@
 
 #include "ui/draw/gui_memory.h"
 #include "ui/draw/imgui_draw.h"
+#include "ui/draw/picture_textures.h"
 #include "ui/window/display.h"
 #include "ui/window/mouse_tracker.h"
 
@@ -32,6 +33,7 @@ private:
     std::filesystem::path font_;
     float scale_ = 0.0f;
     ImGuiDraw draw_;
+    PictureTextures textures_;
     MouseTracker mouse_;
     GuiMemory memory_;
 };

@@ -51,8 +51,8 @@ WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> scr
     wanted.width = std::max(wanted.width, kLeastWindowWidth);
     wanted.height = std::max(wanted.height, kLeastWindowHeight);
     if (screens.empty()) return wanted;
-    const ScreenArea& screen = *std::ranges::max_element(
-        screens, {}, [&](const ScreenArea& area) { return shared_pixels(wanted, area); });
+    const ScreenArea& screen =
+        *std::ranges::max_element(screens, {}, [&](const ScreenArea& area) { return shared_pixels(wanted, area); });
     wanted.width = std::min(wanted.width, screen.width);
     wanted.height = std::min(wanted.height, screen.height);
     if (can_be_grabbed(wanted, screen)) return wanted;

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "ui/model/window_place.h"
 #include "ui/viewer.h"
 
 namespace pl {
@@ -20,17 +21,6 @@ struct WindowPlan {
     float ui_scale;
 };
 
-/// A window on the desktop, in its coordinates.
-struct WindowPlace {
-    int x = 0;
-    int y = 0;
-    int width = 0;
-    int height = 0;
-    bool maximized = false;  ///< the others are those before
-
-    friend bool operator==(const WindowPlace&, const WindowPlace&) = default;
-};
-
 /// The usable part of one of several screens.
 struct ScreenArea {
     int x = 0;
@@ -46,10 +36,6 @@ inline constexpr int kLeastWindowHeight = 400;
 /// The place itself if its upper edge can be grabbed on one of the screens; else the nearest place inside the screen
 /// that it overlaps most, the first one if none. No larger than that screen.
 WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> screens);
-
-/// Smallest and largest scale of text and controls.
-inline constexpr float kLeastUiScale = 0.75f;
-inline constexpr float kMostUiScale = 2.0f;
 
 /// The scale grows in halves with the density of the screen, as long as the panels have room; the window is
 /// 1440 x 900 times the scale, or as much of it as fits the screen. What was asked for is taken as it is.

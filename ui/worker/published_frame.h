@@ -34,6 +34,16 @@ inline SceneFacts facts_of(const SceneDescription& scene) {
     return {.diagonal = bounds_of(scene).diagonal(), .light = light_of(scene)};
 }
 
+/// A picture in place of the one of the settings, while the camera moves.
+enum class Preview {
+    None,
+    LightSamples,  ///< the same picture with light samples
+    RadianceMap,   ///< the learned radiance, interpolated
+};
+
+/// "none", "light samples", "radiance map".
+const char* name_of(Preview preview);
+
 struct PublishedFrame {
     DisplayFrame picture;  ///< the film in 8 bits, by `display`; may still be in transfer
     DisplaySettings display;
@@ -42,6 +52,7 @@ struct PublishedFrame {
     std::uint64_t serial = 0;      ///< number of the frame, from 1
     std::uint64_t generation = 0;  ///< of the newest edit that this picture shows
     int divider = 1;               ///< width and height of the snapshot are divided by this
+    Preview preview = Preview::None;
     BackendInfo backend;
     std::shared_ptr<const SceneDescription> description;
     std::shared_ptr<const HostScene> scene;

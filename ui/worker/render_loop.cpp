@@ -68,6 +68,7 @@ bool RenderLoop::take_requests() {
     apply_edits(edits);
     if (now_.backend != backends_.current()) change_backend();
     settle_turns();
+    if (!attempt([this] { settle_preview(wanted_preview()); })) failed_ = true;
     trial_.settle(*session_, now_.trial);
     adopt_reference();
     inbox_.begin_pass(!is_coarse(), now_, backends_.current());
@@ -81,6 +82,7 @@ bool RenderLoop::has_work() const {
     if (is_asked || is_other) return true;
     if (passes() > 0 && frames_.is_stale(now_)) return true;
     if (failed_) return false;
+    if (preview_.now() != wanted_preview()) return true;
     const bool size_is_stale = !size_.is_whole() && !is_coarse();
     return size_is_stale || wants_pass() || frames_.is_asked() || inspection_.wants(now_.volume) ||
            (now_.cells && !cells_.is_current(*session_));
@@ -96,6 +98,17 @@ void RenderLoop::settle_turns() {
     turns_->count_both(*session_, shown_.view);
 }
 
+Preview RenderLoop::wanted_preview() const {
+    if (!now_.preview || !is_coarse() || turns_ || failed_) return Preview::None;
+    return MotionPreview::choose(*session_, shown_, preview_.now());
+}
+
+void RenderLoop::settle_preview(Preview wanted) {
+    if (wanted == preview_.now()) return;
+    if (preview_.apply(*session_, wanted)) cells_.invalidate();
+    frames_.change_film();
+}
+
 void RenderLoop::adopt_reference() {
     if (now_.reference == recorder_.reference()) return;
     attempt([this] { recorder_.set_reference(now_.reference); });
@@ -109,7 +122,11 @@ void RenderLoop::apply_edits(const std::vector<WorkerEdit>& edits) {
         if (find_edit<EditCamera>(edit)) size_.move_camera();
         inspection_.invalidate();
         frames_.ask();
-        attempt([&] { apply(edit); });
+        attempt([&] {
+            // Other edits belong to the session's own estimator.
+            if (!find_edit<EditCamera>(edit)) settle_preview(Preview::None);
+            apply(edit);
+        });
     }
 }
 
@@ -134,7 +151,8 @@ void RenderLoop::apply(const SessionEdit& edit) {
 
 void RenderLoop::work() {
     if (size_.apply(*session_, is_coarse())) cells_.invalidate();
-    if (passes() > 0 && (frames_.is_asked() || frames_.is_stale(now_))) {  // a parked picture is shown at once
+    if (passes() > 0 && (frames_.is_asked() || frames_.is_stale(now_)) &&
+        !holds_frames_back()) {  // a parked picture is shown at once
         frames_.settle(now_);
         refresh_inspection();
         publish();
@@ -146,7 +164,7 @@ void RenderLoop::work() {
     if (now_.cells && !cells_.is_current(*session_) && passes() > 0 && cells_.render(*session_, inbox_.stop_flag()))
         frames_.ask();
     refresh_inspection();
-    if (frames_.is_asked() || is_publishing_due()) publish();
+    if ((frames_.is_asked() || is_publishing_due()) && !holds_frames_back()) publish();
 }
 
 /// Changes sides when the other's turn has come, after a frame of the last one.
@@ -222,6 +240,11 @@ bool RenderLoop::is_publishing_due() const {
     return frames_.is_due(passes(), now_.moving, seconds) && outbox_.is_frame_taken();
 }
 
+/// At rest after a motion, while more passes follow.
+bool RenderLoop::holds_frames_back() const {
+    return !turns_ && wants_pass() && preview_.holds_back(passes(), work_seconds(session_->clocks(slot())));
+}
+
 void RenderLoop::publish() {
     // Until the first pass is complete the window keeps its last picture.
     if (passes() == 0) return;
@@ -239,6 +262,7 @@ void RenderLoop::publish() {
     frame->settings.forced_effects = trial_.forced();
     frame->generation = now_.generation;
     frame->divider = size_.divider();
+    frame->preview = preview_.now();
     frame->backend = session_->backend();
     frame->backend.name = backends_.current();
     frame->description = session_->shared_scene();
@@ -247,6 +271,7 @@ void RenderLoop::publish() {
     frame->cells = now_.cells ? cells_.image(*session_) : nullptr;
     frame->volume = inspection_.volume();
     size_.note_frame();
+    preview_.note_frame();
     frames_.end(frame->snapshot.passes);
     outbox_.publish(std::move(frame));
 }
@@ -262,7 +287,8 @@ WorkerState RenderLoop::state_of(const WorkerStatus& status) const {
 WorkerStatus RenderLoop::make_status() const {
     WorkerStatus status;
     status.passes = passes();
-    status.picture = size_.is_whole() ? recorder_.picture(session_->film_origin(slot())) : 0;
+    status.picture =
+        size_.is_whole() && preview_.now() == Preview::None ? recorder_.picture(session_->film_origin(slot())) : 0;
     status.scene = session_->shared_scene();
     status.divider = size_.divider();
     status.effect_cost = trial_.cost();

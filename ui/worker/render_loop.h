@@ -9,6 +9,7 @@
 #include "ui/worker/inbox.h"
 #include "ui/worker/inspection.h"
 #include "ui/worker/method_turns.h"
+#include "ui/worker/motion_preview.h"
 #include "ui/worker/outbox.h"
 #include "ui/worker/picture_size.h"
 #include "ui/worker/recorder.h"
@@ -38,6 +39,8 @@ private:
     bool take_requests();
     bool has_work() const;
     void settle_turns();
+    Preview wanted_preview() const;
+    void settle_preview(Preview wanted);
     void adopt_reference();
     void apply_edits(const std::vector<WorkerEdit>& edits);
     void apply(const WorkerEdit& edit);
@@ -53,6 +56,7 @@ private:
     bool limit_reached() const;
     std::uint32_t most_passes() const;
     bool is_publishing_due() const;
+    bool holds_frames_back() const;
 
     bool attempt(const std::function<void()>& step);
     void change_backend();
@@ -61,7 +65,9 @@ private:
     void settle_backend(const std::string& asked);
 
     /// The film under way, and the method of answers and inspections.
-    FilmSlot slot() const { return {turns_ ? turns_->method() : shown_.method, shown_.view}; }
+    FilmSlot slot() const {
+        return turns_ ? FilmSlot{turns_->method(), shown_.view} : preview_.slot(*session_, shown_);
+    }
     MethodId asked_method() const { return turns_ ? turns_->first() : shown_.method; }
     std::uint32_t passes() const { return session_->passes(slot()); }
     bool is_coarse() const { return size_.is_coarse(now_); }
@@ -77,6 +83,7 @@ private:
     FilmSlot shown_;  ///< method and view of the window, apart from turns
     PictureSize size_;
     std::optional<MethodTurns> turns_;
+    MotionPreview preview_;
     EffectTrial trial_;
     Recorder recorder_;
     CellRenderer cells_;

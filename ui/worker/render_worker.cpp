@@ -62,6 +62,13 @@ void RenderWorker::set_low_resolution_allowed(bool allowed) {
     });
 }
 
+void RenderWorker::set_preview_allowed(bool allowed) {
+    inbox_.request([&](Requests& requests) {
+        requests.preview = allowed;
+        return Interrupts::Nothing;
+    });
+}
+
 void RenderWorker::set_paused(bool paused) {
     inbox_.request([&](Requests& requests) {
         requests.paused = paused;

@@ -25,6 +25,7 @@ public:
     /// While the camera moves, pictures may be coarse; afterwards they are complete again.
     void set_moving(bool moving);
     void set_low_resolution_allowed(bool allowed);
+    void set_preview_allowed(bool allowed);
     void set_paused(bool paused);
     /// One more pass while paused.
     void step();

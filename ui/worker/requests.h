@@ -24,6 +24,7 @@ struct Requests {
     bool moving = false;  ///< the camera moves
     bool paused = false;
     bool low_resolution = true;  ///< pictures may be coarse while the camera moves
+    bool preview = true;         ///< then pictures may also be a preview, see MotionPreview
     bool cells = false;          ///< frames carry the image of the volumes' cells
     bool values = false;         ///< frames carry the values of the film
     DisplaySettings display{};

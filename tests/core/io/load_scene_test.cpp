@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/io/load_scene.h"
+#include "core/io/scene_materials.h"
 #include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
@@ -41,6 +42,42 @@ TEST_CASE("Corpus: files to be refused") {
         INFO(path);
         CHECK_THAT(test::input_error([&] { load_scene(path.string(), ""); }), contains(path.stem().string()));
     }
+}
+
+TEST_CASE("A scene names the files that it was read from, and those that are missing") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+    const auto obj = folder.write("a.obj", "mtllib m.mtl\nmtllib none.mtl\nusemtl wall\n" + kTriangle);
+    const auto json = folder.write("s.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj"})");
+    const std::vector<std::filesystem::path> expected{obj, folder.path() / "m.mtl", folder.path() / "none.mtl", json};
+    CHECK(load_scene(json.string(), "").files == expected);
+}
+
+TEST_CASE("A file of materials replaces the values of the scene to the bit, and is checked") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nKe 1 1 1\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\n");
+    const auto obj = folder.write("a.obj", "mtllib m.mtl\nusemtl wall\n" + kTriangle).string();
+    SceneDescription edited = load_scene(obj, "");
+    edited.materials[0] = {.name = "wall",
+                           .albedo = {0.1f, 0.2f, 1.0f / 3.0f},
+                           .emission = {0.7f, 0.0f, 12.3f},
+                           .two_sided_emission = true,
+                           .kind = SurfaceKind::Plastic,
+                           .roughness = 0.3f,
+                           .ior = 1.7f,
+                           .specular = {0.9f, 0.8f, 0.7f},
+                           .transmission = {0.6f, 0.5f, 0.4f}};
+    const auto file = folder.path() / "edits.json";
+    write_material_file(file, edited.materials);
+    const SceneDescription again = load_scene(obj, "", {.materials = file});
+    CHECK(again.materials == edited.materials);
+    CHECK(again.files.back() == file);
+    folder.write("edits.json", R"({"schema": "pathlight.materials/1", "materials": {"well": {}}})");
+    CHECK_THAT(test::input_error([&] { load_scene(obj, "", {.materials = file}); }),
+               contains("edits.json:1") && contains("did you mean 'wall'?"));
+    folder.write("edits.json", R"({"schema": "pathlight.scene/1", "materials": {}})");
+    CHECK_THAT(test::input_error([&] { load_scene(obj, "", {.materials = file}); }),
+               contains("expected \"pathlight.materials/1\""));
 }
 
 TEST_CASE("A file without light opens with the default light, and says so") {

@@ -24,13 +24,16 @@ void set_threads(int threads);
 /// calls. After a lasting failure every later call fails, too, as after an error in a kernel.
 void fail(const std::string& call, cudaError_t code, int successes = 0, bool lasting = false);
 
+/// Called around every launch, copy and clear, when it is queued. `kernel` is null for copies and clears, `bytes` 0 for launches.
+using Observer = std::function<void(const void* kernel, std::size_t bytes, Queue* stream)>;
+/// Sets the observers until the next reset; empty ones end them.
+void observe(Observer before, Observer after);
+
 /// Number of objects not yet released.
 std::size_t device_bytes();
 int live_objects();  ///< streams, events, allocations
 /// Number of kernel launches since the last reset.
 int launches();
-/// Calls `call` with that number at every launch.
-void on_launch(std::function<void(int)> call);
 /// Flags of the device, and whether a call has created its context.
 unsigned device_flags();
 bool has_context();

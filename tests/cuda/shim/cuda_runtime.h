@@ -44,8 +44,8 @@ enum cudaError_t {
     cudaErrorInvalidPc = 718,
     cudaErrorLaunchFailure = 719,
 };
-enum cudaMemcpyKind { cudaMemcpyHostToDevice = 1, cudaMemcpyDeviceToHost = 2 };
-enum cudaDeviceAttr { cudaDevAttrMultiProcessorCount = 16 };
+enum cudaMemcpyKind { cudaMemcpyHostToDevice = 1, cudaMemcpyDeviceToHost = 2, cudaMemcpyDeviceToDevice = 3 };
+enum cudaDeviceAttr { cudaDevAttrClockRate = 13, cudaDevAttrMultiProcessorCount = 16 };
 inline constexpr unsigned cudaStreamNonBlocking = 1;
 inline constexpr unsigned cudaEventBlockingSync = 1;
 inline constexpr unsigned cudaDeviceScheduleBlockingSync = 4;
@@ -61,8 +61,8 @@ struct cudaFuncAttributes {};
 namespace pl::shim {
 struct Queue;
 struct Mark;
-/// Queues a launch. `thread` is called once per thread of the grid.
-cudaError_t launch(dim3 grid, dim3 block, Queue* queue, std::function<void()> thread);
+/// Queues a launch of a kernel. `thread` is called once per thread of the grid.
+cudaError_t launch(const void* kernel, dim3 grid, dim3 block, Queue* queue, std::function<void()> thread);
 }  // namespace pl::shim
 
 using cudaStream_t = pl::shim::Queue*;
@@ -106,5 +106,6 @@ cudaError_t cudaLaunchKernel(void (*kernel)(Parameters...), dim3 grid, dim3 bloc
         return std::tuple<Parameters...>{*static_cast<Parameters*>(arguments[I])...};
     }
     (std::index_sequence_for<Parameters...>{});
-    return pl::shim::launch(grid, block, stream, [kernel, values] { std::apply(kernel, values); });
+    return pl::shim::launch(reinterpret_cast<const void*>(kernel), grid, block, stream,
+                            [kernel, values] { std::apply(kernel, values); });
 }

@@ -41,7 +41,8 @@ struct Machine {
     int launches = 0;
     unsigned flags = 0;
     bool has_context = false;
-    std::function<void(int)> on_launch;
+    Observer before{};
+    Observer after{};
 };
 
 Machine machine;
@@ -58,6 +59,13 @@ cudaError_t called(const char* call) {
     machine.failing.clear();
     machine.broken = machine.lasting;
     return machine.failure;
+}
+
+/// Queues a piece of work, with the observers around it.
+void enqueue(Queue& queue, const void* kernel, std::size_t bytes, std::function<void()> work) {
+    if (machine.before) machine.before(kernel, bytes, &queue);
+    queue.work.push_back(std::move(work));
+    if (machine.after) machine.after(kernel, bytes, &queue);
 }
 
 void run_next(Queue& queue) {
@@ -122,15 +130,17 @@ int live_objects() {
 int launches() { return machine.launches; }
 unsigned device_flags() { return machine.flags; }
 bool has_context() { return machine.has_context; }
-void on_launch(std::function<void(int)> call) { machine.on_launch = std::move(call); }
+void observe(Observer before, Observer after) {
+    machine.before = std::move(before);
+    machine.after = std::move(after);
+}
 
-cudaError_t launch(dim3 grid, dim3 block, Queue* queue, std::function<void()> thread) {
+cudaError_t launch(const void* kernel, dim3 grid, dim3 block, Queue* queue, std::function<void()> thread) {
     const cudaError_t code = called("cudaLaunchKernel");
     if (code != cudaSuccess) return code;
     if (grid.x == 0 || block.x == 0 || block.x > 1024) return cudaErrorInvalidValue;
     ++machine.launches;
-    if (machine.on_launch) machine.on_launch(machine.launches);
-    queue->work.push_back([=, thread = std::move(thread)] { run_grid(grid, block, thread); });
+    enqueue(*queue, kernel, 0, [=, thread = std::move(thread)] { run_grid(grid, block, thread); });
     return cudaSuccess;
 }
 
@@ -162,8 +172,8 @@ cudaError_t cudaGetDeviceProperties(cudaDeviceProp* properties, int) {
     *properties = {"host shim", 1u << 30, 9, 0};
     return cudaSuccess;
 }
-cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr, int) {
-    *value = 2;
+cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int) {
+    *value = attribute == cudaDevAttrClockRate ? 1000000 : 2;  // kHz
     return cudaSuccess;
 }
 cudaError_t cudaSetDeviceFlags(unsigned flags) {
@@ -211,22 +221,22 @@ cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaM
     const cudaError_t code = called("cudaMemcpyAsync");
     if (code != cudaSuccess) return code;
     const bool to_device = kind == cudaMemcpyHostToDevice;
-    if (is_pinned(to_device ? from : to)) {
-        stream->work.push_back([=] { std::memcpy(to, from, bytes); });
+    if (kind == cudaMemcpyDeviceToDevice || is_pinned(to_device ? from : to)) {
+        enqueue(*stream, nullptr, bytes, [=] { std::memcpy(to, from, bytes); });
     } else if (to_device) {
         const auto* first = static_cast<const std::byte*>(from);
-        stream->work.push_back([to, staged = std::vector<std::byte>(first, first + bytes)] {
+        enqueue(*stream, nullptr, bytes, [to, staged = std::vector<std::byte>(first, first + bytes)] {
             std::memcpy(to, staged.data(), staged.size());
         });
     } else {
+        enqueue(*stream, nullptr, bytes, [=] { std::memcpy(to, from, bytes); });
         drain(*stream);
-        std::memcpy(to, from, bytes);
     }
     return cudaSuccess;
 }
 cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStream_t stream) {
     const cudaError_t code = called("cudaMemsetAsync");
-    if (code == cudaSuccess) stream->work.push_back([=] { std::memset(memory, value, bytes); });
+    if (code == cudaSuccess) enqueue(*stream, nullptr, bytes, [=] { std::memset(memory, value, bytes); });
     return code;
 }
 

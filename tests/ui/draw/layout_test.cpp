@@ -106,7 +106,9 @@ TEST_CASE("Layout: a folded panel leaves its border, and its place to the pictur
 }
 
 TEST_CASE("Layout: a dragged border follows the pointer until something gets too small") {
-    const auto layout_of = [](const PanelChoice& choice) { return make_layout(1440.0f, 900.0f, 16.0f, choice, false); };
+    const auto layout_of = [](const PanelChoice& choice) {
+        return make_layout(1440.0f, 900.0f, 16.0f, choice, false);
+    };
     const Layout start = layout_of({});
     const Layout left = layout_of(drag_border({}, Border::Settings, {340.0f, 300.0f}, start, 16.0f));
     CHECK(left.settings_border.center().x == 340.0f);

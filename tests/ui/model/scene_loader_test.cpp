@@ -46,9 +46,8 @@ struct KnobBench : ModelBench {
         return requests;
     }
     bool shows(ViewerModel& model, float value) {
-        return run_until(model, [&] {
-            return has_frame(model) && model.frame()->description->knobs.at(0).value == value;
-        });
+        return run_until(model,
+                         [&] { return has_frame(model) && model.frame()->description->knobs.at(0).value == value; });
     }
 };
 

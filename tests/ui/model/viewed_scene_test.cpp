@@ -1,6 +1,8 @@
 // The scene in the window: loading, and materials that are edited, refused and restored.
 #include <cmath>
 
+#include "core/base/error.h"
+#include "core/io/files.h"
 #include "core/measure/picture_identity.h"
 #include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
@@ -52,6 +54,47 @@ TEST_CASE("Viewed scene: reloading keeps the camera, another scene brings its ow
     model.camera().fly({.up = 1.0f}, 0.1);
     model.camera().go_home();
     CHECK(model.camera().camera().eye.y == 1.5f);
+}
+
+TEST_CASE("Viewed scene: a file that changes is loaded again, with camera and edits, unless it cannot be read") {
+    FileBench bench;
+    const auto file = bench.folder.write("scene.obj", "0");
+    const auto load = [file](const SceneRequest&) {
+        const std::string text = read_file(file);
+        if (text.find("bad") != std::string::npos) throw Error(ErrorKind::Input, "scene.obj:1: bad");
+        auto scene = std::make_shared<SceneDescription>(*small_scene());
+        scene->materials[1].emission = glm::vec3{static_cast<float>(text.size())};
+        scene->files = {file};
+        return std::shared_ptr<const SceneDescription>(scene);
+    };
+    bench.options.load_scene = load;
+    ViewerModel model(bench.options, load({}), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.camera().fly({.right = 1.0f}, 0.1);
+    const Vec3f eye = model.camera().camera().eye;
+    model.scene().set_material(0, with_albedo(small_scene()->materials[0], 0.25f));
+    // The first look at the file may come after the first change: others follow, with time to rest.
+    const auto change_until = [&](const std::string& added, const std::string& message) {
+        std::string text = read_file(file);
+        return eventually([&] {
+            bench.folder.write("scene.obj", text += added);
+            for (int i = 0; i < 20 && !told(model, message); ++i) {
+                std::this_thread::sleep_for(FileWatch::kInterval / 4);
+                model.update(bench.clock += 1.0 / 60.0);
+            }
+            return told(model, message);
+        });
+    };
+    REQUIRE(change_until("1", "scene.obj has changed: loaded again"));
+    CHECK(model.scene().materials().file()->materials[1].emission.x >= 2.0f);
+    CHECK(model.scene().materials().is_edited(0));
+    CHECK(model.camera().camera().eye.x == eye.x);
+    const auto before = model.scene().materials().file();
+    REQUIRE(change_until("bad", "scene.obj has changed, but the old scene stays: scene.obj:1: bad"));
+    CHECK(model.scene().materials().file() == before);
+    bench.folder.write("scene.obj", "mended, and long");
+    REQUIRE(change_until("2", "scene.obj has changed: loaded again"));
+    REQUIRE(bench.run_until(model, [&] { return model.scene().materials().file() != before; }));
 }
 
 TEST_CASE("Viewed scene: an edited material reaches the picture, and its scene is another one") {

@@ -1,0 +1,76 @@
+// Pictures of the known scenes: made while the dialog is open, kept, made anew if a file is damaged.
+#include "ui/model/scene_gallery.h"
+
+#include <fstream>
+
+#include "tests/support/catch.hpp"
+#include "tests/ui/file_bench.h"
+#include "ui/model/thumbnail.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+struct GalleryBench : FileBench {
+    std::filesystem::path cache = folder.path() / "cache";
+
+    GalleryBench() { options.scenes = {"broken.obj", "other", "small"}; }
+    /// Opens the dialog of a new window until the gallery is complete. Returns the back ends made for that.
+    int open_dialog() {
+        ViewerModel model(options, small_scene(), options.settings, 0.0);
+        SceneGallery& gallery = model.open_dialog().gallery();
+        gallery.set_folder(cache);
+        REQUIRE(run_until(model, [&] { return model.frame() != nullptr; }));
+        const int before = control->made;
+        model.open_dialog().toggle();
+        REQUIRE(run_until(model, [&] { return gallery.size() == 2 && !gallery.is_working(); }));
+        CHECK_FALSE(gallery.picture("broken.obj"));
+        CHECK(gallery.picture("small")->width == kThumbnailWidth);
+        CHECK(told(model, "no picture of the scene broken.obj: broken.obj:7"));
+        REQUIRE(run_until(model, [&] { return model.status().state == WorkerState::Rendering; }));
+        return control->made - before;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("Gallery: pictures are rendered once, and read from then on") {
+    GalleryBench bench;
+    CHECK(bench.open_dialog() >= 1);
+    CHECK(std::filesystem::exists(bench.cache));
+    CHECK(bench.open_dialog() == 0);
+    for (const auto& file : std::filesystem::directory_iterator(bench.cache)) std::ofstream(file.path()) << "damaged";
+    CHECK(bench.open_dialog() >= 1);
+    CHECK(bench.open_dialog() == 0);
+}
+
+TEST_CASE("Gallery: a folder that cannot be written is told, and pictures are shown all the same") {
+    GalleryBench bench;
+    std::ofstream(bench.cache) << "no folder";
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    model.open_dialog().gallery().set_folder(bench.cache / "below");
+    model.open_dialog().toggle();
+    REQUIRE(bench.run_until(model, [&] { return model.open_dialog().gallery().size() == 2; }));
+    REQUIRE(bench.run_until(model, [&] { return !model.open_dialog().gallery().is_working(); }));
+    CHECK(told(model, "cannot be kept"));
+}
+
+TEST_CASE("Gallery: the picture in the window rests while others are made, and goes on when the dialog closes") {
+    GalleryBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
+    bench.control->hold = true;
+    model.open_dialog().toggle();
+    REQUIRE(bench.run_until(model, [&] { return model.open_dialog().gallery().is_working(); }));
+    CHECK(model.link().is_held(RenderLink::Hold::Gallery));
+    model.cancel();
+    model.update(bench.clock += 0.1);
+    bench.control->hold = false;
+    REQUIRE(bench.run_until(model, [&] { return !model.open_dialog().gallery().is_working(); }));
+    CHECK_FALSE(model.link().is_held(RenderLink::Hold::Gallery));
+    CHECK(model.open_dialog().gallery().size() < 2);
+    // Another look completes it.
+    model.open_dialog().toggle();
+    REQUIRE(bench.run_until(model, [&] { return model.open_dialog().gallery().size() == 2; }));
+}

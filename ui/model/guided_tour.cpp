@@ -1,0 +1,153 @@
+#include "ui/model/guided_tour.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "ui/model/viewer_model.h"
+
+namespace pl {
+namespace {
+
+enum Step { kSplit, kPick, kDisc, kKnob, kFly, kPays, kStepCount };
+
+constexpr std::array<TourStep, kStepCount> kSteps{{
+    {"One scene, two methods, the same time",
+     "Light enters this room through the gap of a door. Both halves of the picture get the same time: the left "
+     "one by "
+     "Reinforcement, which learns while it renders, the right one by Default, which does not.",
+     "Drag the line between the halves.", "split line"},
+    {"Where light comes from",
+     "The surfaces are divided among radiance volumes. Each one learns from which directions light arrives.",
+     "Click the floor or a wall in the picture.", TourStep::kPicture},
+    {"The directions of one volume",
+     "The disc has a cell for every direction above the surface; its middle points straight away from the surface, "
+     "its rim along it. Bright cells are those of bright light, as learned so far; paths leave through them more "
+     "often.",
+     "Point at a bright cell, and see its ray in the picture.", "learned disc"},
+    {"Another scene is learned anew",
+     "The knob moves the door. That is another scene: the pictures and all that was learned begin again.",
+     "Drag the knob 'opening'.", "opening"},
+    {"Another view is not",
+     "What was learned belongs to the scene, not to the picture. When the camera moves, only the pictures begin "
+     "again.",
+     "Hold W or S for a moment, or drag the picture to look around.", TourStep::kPicture},
+    {"Does learning pay?",
+     "Not everywhere. The table compares the runs at equal time: above 1x learning gains, below 1x it loses. With "
+     "light "
+     "samples every vertex also tests a point on a light, and the result may be another one.",
+     "Press L for light samples, and compare.", "accuracy panel"},
+}};
+
+bool is_same_view(const CameraDescription& a, const CameraDescription& b) {
+    return a.eye == b.eye && a.target == b.target;
+}
+
+/// Whether the scene of the window is rendered at the full size.
+bool is_at_rest(const ViewerModel& model) {
+    return model.status().picture != 0 && model.status().scene->source == model.scene().materials().file()->source;
+}
+
+}  // namespace
+
+std::span<const TourStep> tour_steps() { return kSteps; }
+
+void GuidedTour::remember(int step, bool is_answered) {
+    step_ = step >= 0 && step < kStepCount ? step : 0;
+    is_answered_ = is_answered;
+}
+
+void GuidedTour::offer() {
+    if (!is_answered_ && phase_ == Phase::Off) phase_ = Phase::Offered;
+}
+
+void GuidedTour::begin(ViewerModel& model) {
+    is_answered_ = true;
+    phase_ = Phase::Opening;
+    if (model.scene().name() != kScene) model.scene().open(kScene);
+}
+
+/// Everything that the steps point at is visible, and both methods begin with nothing: coarse passes of a camera that has just
+/// come to rest would have trained the field on no clock.
+void GuidedTour::prepare(ViewerModel& model) {
+    PanelChoice& panels = model.window().panels;
+    panels.shown = panels.settings = panels.right = panels.tabs = panels.accuracy = true;
+    RenderControls& render = model.render();
+    render.set_paused(false);
+    render.set_view(View::Beauty);
+    render.set_next_event(false);
+    render.set_method(learning_method());
+    render.forget();
+    model.selection().deselect();
+    model.comparison().set_turns(true);
+    model.comparison().set_mode(CompareMode::Split);
+    phase_ = Phase::Running;
+    start_step(model);
+}
+
+void GuidedTour::start_step(const ViewerModel& model) {
+    before_ = {.split = model.comparison().state().split,
+               .knobs = model.scene().shown().knobs,
+               .camera = model.camera().camera(),
+               .next_event = model.render().settings().next_event};
+    done_since_ = -1.0;
+}
+
+void GuidedTour::skip_step(ViewerModel& model) {
+    if (phase_ != Phase::Running) return;
+    step_ = (step_ + 1) % kStepCount;
+    if (step_ == 0) phase_ = Phase::Finished;
+    start_step(model);
+}
+
+void GuidedTour::leave() {
+    is_answered_ = true;
+    phase_ = Phase::Off;
+}
+
+bool GuidedTour::is_done(const ViewerModel& model) const {
+    switch (static_cast<Step>(step_)) {
+    case kSplit: return model.comparison().state().split != before_.split;
+    case kPick: return model.selection().inspection() != nullptr;
+    case kDisc: return model.selection().hovered_cell() >= 0;
+    case kKnob: return model.scene().shown().knobs != before_.knobs;
+    case kFly: return !model.camera().is_moving() && !is_same_view(model.camera().camera(), before_.camera);
+    case kPays: return model.render().settings().next_event != before_.next_event;
+    case kStepCount: break;
+    }
+    return false;
+}
+
+void GuidedTour::update(ViewerModel& model, double seconds) {
+    const bool is_in_scene = model.scene().name() == kScene;
+    if (phase_ == Phase::Opening) {
+        if (is_in_scene && is_at_rest(model))
+            prepare(model);
+        else if (!is_in_scene && !model.scene().is_opening())
+            leave();  // a message says why the scene cannot be opened
+    }
+    if (phase_ != Phase::Running) return;
+    if (!is_in_scene) {
+        leave();
+        return;
+    }
+    if (!is_done(model))
+        done_since_ = -1.0;
+    else if (done_since_ < 0.0)
+        done_since_ = seconds;
+    else if (seconds - done_since_ >= kRestSeconds)
+        skip_step(model);
+}
+
+std::string state_text(const GuidedTour& tour) {
+    switch (tour.phase()) {
+    case GuidedTour::Phase::Off: return "off";
+    case GuidedTour::Phase::Offered: return "offered";
+    case GuidedTour::Phase::Opening: return "opening";
+    case GuidedTour::Phase::Running: return fmt::format("{}", tour.step() + 1);
+    case GuidedTour::Phase::Finished: return "finished";
+    }
+    return "";
+}
+
+}  // namespace pl

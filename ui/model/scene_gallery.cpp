@@ -1,0 +1,83 @@
+#include "ui/model/scene_gallery.h"
+
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "core/io/json_file.h"
+#include "ui/model/thumbnail.h"
+
+namespace pl {
+
+void SceneGallery::set_shown(bool is_shown) {
+    is_shown_ = is_shown;
+    if (!is_shown_ && job_) job_->stop();
+}
+
+void SceneGallery::update() {
+    {
+        const std::lock_guard lock(incoming_.mutex);
+        pictures_.merge(incoming_.pictures);
+    }
+    if (job_) {
+        const auto result = job_->take_result();
+        if (!result) return;
+        job_.reset();
+        link_.hold(RenderLink::Hold::Gallery, false);
+        is_complete_ = result->value.is_complete;
+        if (!result->value.failure.empty()) messages_.note(MessageLevel::Warning, result->value.failure);
+    }
+    if (is_shown_ && !is_complete_) start();
+}
+
+void SceneGallery::start() {
+    std::vector<std::string> missing;
+    for (const std::string& name : options_.scenes)
+        if (!pictures_.contains(name)) missing.push_back(name);
+    link_.hold(RenderLink::Hold::Gallery, true);
+    job_ = std::make_unique<BackgroundJob<Outcome>>(
+        [this, missing, folder = folder_](const JobMonitor& monitor) { return make_all(missing, folder, monitor); });
+}
+
+SceneGallery::Outcome SceneGallery::make_all(const std::vector<std::string>& names,
+                                             const std::filesystem::path& folder, const JobMonitor& monitor) {
+    Outcome outcome;
+    for (const std::string& name : names) {
+        if (*monitor.stop) return outcome;
+        try {
+            if (auto image = make(name, folder, monitor, outcome)) {
+                const std::lock_guard lock(incoming_.mutex);
+                incoming_.pictures.emplace(name, std::make_shared<const ByteImage>(*std::move(image)));
+            }
+        } catch (const std::exception& error) {
+            outcome.failure = fmt::format("no picture of the scene {}: {}", name, error.what());
+        }
+    }
+    outcome.is_complete = !*monitor.stop;
+    return outcome;
+}
+
+/// Empty if it was stopped. A picture that cannot be kept is shown all the same.
+std::optional<ByteImage> SceneGallery::make(const std::string& name, const std::filesystem::path& folder,
+                                            const JobMonitor& monitor, Outcome& outcome) const {
+    const std::shared_ptr<const SceneDescription> scene = options_.load_scene({name});
+    const std::filesystem::path file = folder / thumbnail_name(*scene);
+    if (!folder.empty())
+        if (auto kept = read_thumbnail(file)) return kept;
+    auto image = render_thumbnail(scene, options_.make_backend, monitor.stop);
+    if (!image || folder.empty()) return image;
+    try {
+        make_folder(folder);
+        write_thumbnail(file, *image);
+    } catch (const std::exception& error) {
+        outcome.failure = fmt::format("pictures of scenes cannot be kept: {}", error.what());
+    }
+    return image;
+}
+
+std::shared_ptr<const ByteImage> SceneGallery::picture(const std::string& scene) const {
+    const auto found = pictures_.find(scene);
+    return found != pictures_.end() ? found->second : nullptr;
+}
+
+}  // namespace pl
