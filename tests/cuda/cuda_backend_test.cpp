@@ -27,17 +27,25 @@ Session make_cuda_session(const SceneDescription& scene, const RenderSettings& s
 /// Launches so short that most paths have to wait for the next one.
 constexpr CudaOptions kShortLaunches{.most_segments = 2};
 
+/// Calls `call` with the number of each launch, until it is called with an empty function.
+void on_launch(const std::function<void(int)>& call) {
+    shim::observe({}, call ? shim::Observer([call](const void* kernel, std::size_t, shim::Queue*) {
+                      if (kernel != nullptr) call(shim::launches());
+                  })
+                           : shim::Observer());
+}
+
 /// Renders `passes` passes, as many at once as the back end takes. The stop flag is set at every `interval`th launch, if it is
 /// not 0.
 State render_at_once(Session session, std::uint32_t passes, int interval = 0) {
     StopFlag stop = false;
-    shim::on_launch([&](int launch) { stop = interval > 0 && launch % interval == 0; });
+    on_launch([&](int launch) { stop = interval > 0 && launch % interval == 0; });
     const FilmSlot slot = slot_of(session);
     while (session.passes(slot) < passes) {
         session.advance(slot, &stop, passes - session.passes(slot));
         stop = false;
     }
-    shim::on_launch({});
+    on_launch({});
     return state_of(session);
 }
 
@@ -249,9 +257,9 @@ TEST_CASE("Paths that wait are traced anew where another film came between, and 
     const State expected = render(make_session(scene, settings), 2);
     Session session = make_cuda_session(scene, settings, kShortLaunches);
     StopFlag stop = false;
-    shim::on_launch([&](int) { stop = true; });
+    on_launch([&](int) { stop = true; });
     CHECK(session.advance(slot_of(session), &stop) == Progress::Stopped);
-    shim::on_launch({});
+    on_launch({});
     render_passes(session, {MethodId::Default, View::Normal}, 1);
     render_passes(session, 2);
     CHECK(same_state(state_of(session), expected));

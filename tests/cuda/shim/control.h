@@ -34,8 +34,6 @@ std::size_t device_bytes();
 int live_objects();  ///< streams, events, allocations
 /// Number of kernel launches since the last reset.
 int launches();
-/// Calls `call` with that number at every launch.
-void on_launch(std::function<void(int)> call);
 /// Flags of the device, and whether a call has created its context.
 unsigned device_flags();
 bool has_context();

@@ -39,11 +39,10 @@ struct Machine {
     bool lasting = false;
     bool broken = false;
     int launches = 0;
-    Observer before{};
-    Observer after{};
     unsigned flags = 0;
     bool has_context = false;
-    std::function<void(int)> on_launch;
+    Observer before{};
+    Observer after{};
 };
 
 Machine machine;
@@ -129,20 +128,18 @@ int live_objects() {
     return static_cast<int>(device_memory.size() + host_memory.size() + queues.size() + marks.size());
 }
 int launches() { return machine.launches; }
+unsigned device_flags() { return machine.flags; }
+bool has_context() { return machine.has_context; }
 void observe(Observer before, Observer after) {
     machine.before = std::move(before);
     machine.after = std::move(after);
 }
-unsigned device_flags() { return machine.flags; }
-bool has_context() { return machine.has_context; }
-void on_launch(std::function<void(int)> call) { machine.on_launch = std::move(call); }
 
 cudaError_t launch(const void* kernel, dim3 grid, dim3 block, Queue* queue, std::function<void()> thread) {
     const cudaError_t code = called("cudaLaunchKernel");
     if (code != cudaSuccess) return code;
     if (grid.x == 0 || block.x == 0 || block.x > 1024) return cudaErrorInvalidValue;
     ++machine.launches;
-    if (machine.on_launch) machine.on_launch(machine.launches);
     enqueue(*queue, kernel, 0, [=, thread = std::move(thread)] { run_grid(grid, block, thread); });
     return cudaSuccess;
 }
