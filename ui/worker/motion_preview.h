@@ -26,6 +26,8 @@ public:
 
     /// A frame is out; of the preview, or of the picture.
     void note_frame() { is_on_screen_ = now_ != Preview::None; }
+    /// The user asked for something else than motion, whose first frame is not held back.
+    void release() { is_on_screen_ = false; }
     /// Whether a frame of the picture is too early: the window still shows a preview, which is better.
     bool holds_back(std::uint32_t passes, double seconds) const {
         return is_on_screen_ && now_ == Preview::None && passes < kEnoughPasses && seconds < kEnoughSeconds;

@@ -124,7 +124,10 @@ void RenderLoop::apply_edits(const std::vector<WorkerEdit>& edits) {
         frames_.ask();
         attempt([&] {
             // Other edits belong to the session's own estimator.
-            if (!find_edit<EditCamera>(edit)) settle_preview(Preview::None);
+            if (!find_edit<EditCamera>(edit)) {
+                settle_preview(Preview::None);
+                preview_.release();
+            }
             apply(edit);
         });
     }

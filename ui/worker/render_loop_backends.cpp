@@ -24,6 +24,7 @@ bool RenderLoop::attempt(const std::function<void()>& step) {
 
 /// Messages come last: the state that they report is visible before them.
 void RenderLoop::change_backend() {
+    preview_.release();
     const std::string wanted = now_.backend;
     WorkerMessage message;
     try {

@@ -75,7 +75,7 @@ TEST_CASE("Motion preview: stays on screen until the picture has passes or time 
     CHECK(preview.holds_back(1, 0.0));
     CHECK_FALSE(preview.holds_back(MotionPreview::kEnoughPasses, 0.0));
     CHECK_FALSE(preview.holds_back(1, MotionPreview::kEnoughSeconds));
-    preview.note_frame();
+    preview.release();
     CHECK_FALSE(preview.holds_back(1, 0.0));
 }
 
