@@ -64,6 +64,7 @@ enum class ActionId {
     CopyCommand,
     Cancel,
     Quit,
+    TracePaths,
 };
 
 /// Order of the help overlay and of the menus.

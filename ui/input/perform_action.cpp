@@ -96,6 +96,7 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
 bool perform_compare_action(ViewerModel& model, ActionId id) {
     CompareControls& comparison = model.comparison();
     switch (id) {
+    case ActionId::TracePaths: model.paths().set_shown(!model.paths().is_shown()); return true;
     case ActionId::ShowDiagnostics: model.diagnostics().toggle(); return true;
     case ActionId::CompareNext: comparison.step_mode(1); return true;
     case ActionId::CompareBack: comparison.step_mode(-1); return true;

@@ -9,6 +9,7 @@
 #include "ui/model/diagnostics_search.h"
 #include "ui/model/effect_trials.h"
 #include "ui/model/open_dialog.h"
+#include "ui/model/path_explorer.h"
 #include "ui/model/self_test_control.h"
 #include "ui/model/window_state.h"
 
@@ -61,6 +62,8 @@ public:
     const Files& files() const { return files_; }
     OpenDialog& open_dialog() { return open_dialog_; }
     const OpenDialog& open_dialog() const { return open_dialog_; }
+    PathExplorer& paths() { return paths_; }
+    const PathExplorer& paths() const { return paths_; }
 
     /// Background work or unsaved files.
     bool busy() const;
@@ -86,6 +89,7 @@ private:
     SelfTestControl self_test_;
     Files files_;
     OpenDialog open_dialog_;
+    PathExplorer paths_;
 };
 
 }  // namespace pl

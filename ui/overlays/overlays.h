@@ -9,6 +9,9 @@ namespace pl {
 /// The hemisphere of the selected volume at its position, with the ray of the hovered cell.
 void draw_hemisphere(const ViewerModel& model, const Rect& image);
 
+/// The paths of the clicked pixel as lines.
+void draw_path_lines(ViewerModel& model, const Rect& image);
+
 /// Labels of the compared pictures, and the line between two of them, which can be dragged.
 void draw_comparison(ViewerModel& model, const ComparePlan& plan);
 /// Upper edge of the labels; infinite without a comparison.

@@ -88,6 +88,14 @@ std::string headline_text(const ViewerModel& model) {
     return text;
 }
 
+/// "12,34: 32 of 40", "none".
+std::string traced_paths(const ViewerModel& model) {
+    const PathExplorer& explorer = model.paths();
+    if (explorer.paths() == nullptr) return "none";
+    return fmt::format("{},{}: {} of {}", explorer.x(), explorer.y(), explorer.paths()->passes.size(),
+                       explorer.paths()->searched);
+}
+
 /// "opening=17.9", "none".
 std::string knob_text(const std::vector<KnobDescription>& knobs) {
     std::string text;
@@ -234,6 +242,19 @@ constexpr std::array kValues{
           }},
     Value{"kernel",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
+    Value{"tracing_pixels", [](const ViewerModel& m) { return word(m.paths().is_shown()); }},
+    Value{"tracing", [](const ViewerModel& m) { return word(m.paths().is_tracing()); }},
+    Value{"paths", traced_paths},
+    Value{"guided_paths",
+          [](const ViewerModel& m) {
+              return fmt::format("{}", m.paths().paths() != nullptr ? m.paths().paths()->guided.size() : 0);
+          }},
+    Value{"selected_path",
+          [](const ViewerModel& m) {
+              const auto index = m.paths().selected();
+              return index ? fmt::format("{}", m.paths().paths()->passes[*index]) : std::string("none");
+          }},
+    Value{"path_lines", [](const ViewerModel& m) { return fmt::format("{}", m.paths().times_made()); }},
     Value{"diagnostics", diagnostics_found},
     Value{"searching", [](const ViewerModel& m) { return word(m.diagnostics().share().has_value()); }},
     Value{"selftest", [](const ViewerModel& m) { return std::string(name_of(m.self_test().run().outcome())); }},
