@@ -48,6 +48,19 @@ std::optional<std::array<Vec2f, 2>> Projection::clipped(Vec3f from, Vec3f to) co
     return start && end ? inside(image_, start->window, end->window) : std::nullopt;
 }
 
+float Projection::pixels_of(float length, float depth) const {
+    return 0.5f * image_.width * length / (glm::length(camera_.right) * std::max(depth, near_));
+}
+
+bool Projection::may_show(Vec3f center, float radius) const {
+    const auto point = (*this)(center);
+    if (!point) return depth_of(center) + radius / glm::length(camera_.forward) > near_;
+    // A sphere reaches somewhat farther than its radius at the depth of its middle.
+    const float reach = 1.5f * pixels_of(radius, point->depth);
+    return point->window.x > image_.x - reach && point->window.y > image_.y - reach &&
+           point->window.x < image_.x + image_.width + reach && point->window.y < image_.y + image_.height + reach;
+}
+
 std::optional<Projection::Point> Projection::operator()(Vec3f position) const {
     const Vec3f d = position - camera_.eye;
     const float depth = depth_of(position);

@@ -40,6 +40,11 @@ public:
     /// The part of a straight line that is in front of the camera and inside the picture, in the window; empty if none is.
     std::optional<std::array<Vec2f, 2>> clipped(Vec3f from, Vec3f to) const;
 
+    /// Pixels of a length across the viewing direction at a depth.
+    float pixels_of(float length, float depth) const;
+    /// Whether a sphere may be seen: false only for spheres outside of the picture.
+    bool may_show(Vec3f center, float radius) const;
+
     Vec3f eye() const { return camera_.eye; }
 
 private:

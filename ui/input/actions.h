@@ -62,9 +62,12 @@ enum class ActionId {
     SaveField,
     LoadField,
     CopyCommand,
+    TracePaths,
+    PinVolume,
+    LobesOrDome,
+    Flowers,
     Cancel,
     Quit,
-    TracePaths,
 };
 
 /// Order of the help overlay and of the menus.

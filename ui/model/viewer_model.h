@@ -8,6 +8,7 @@
 #include "ui/model/compare_controls.h"
 #include "ui/model/diagnostics_search.h"
 #include "ui/model/effect_trials.h"
+#include "ui/model/field_flowers.h"
 #include "ui/model/open_dialog.h"
 #include "ui/model/path_explorer.h"
 #include "ui/model/self_test_control.h"
@@ -62,6 +63,10 @@ public:
     const Files& files() const { return files_; }
     OpenDialog& open_dialog() { return open_dialog_; }
     const OpenDialog& open_dialog() const { return open_dialog_; }
+    LearningTime& time() { return time_; }
+    const LearningTime& time() const { return time_; }
+    FieldFlowers& flowers() { return flowers_; }
+    const FieldFlowers& flowers() const { return flowers_; }
     PathExplorer& paths() { return paths_; }
     const PathExplorer& paths() const { return paths_; }
 
@@ -90,6 +95,8 @@ private:
     Files files_;
     OpenDialog open_dialog_;
     PathExplorer paths_;
+    LearningTime time_;
+    FieldFlowers flowers_;
 };
 
 }  // namespace pl

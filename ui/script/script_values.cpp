@@ -21,7 +21,7 @@ struct Value {
 
 std::string word(bool value) { return value ? "yes" : "no"; }
 
-std::string vector_text(Vec3f v) { return fmt::format("{:.3f},{:.3f},{:.3f}", v.x, v.y, v.z); }
+std::string comma_text(Vec3f v) { return fmt::format("{:.3f},{:.3f},{:.3f}", v.x, v.y, v.z); }
 
 std::string last_message(const ViewerModel& model) {
     return model.messages().log().empty() ? "" : model.messages().log().back().text;
@@ -162,9 +162,9 @@ constexpr std::array kValues{
     Value{"busy", [](const ViewerModel& m) { return word(m.busy()); }},
     Value{"volume", [](const ViewerModel& m) { return fmt::format("{}", m.selection().volume()); }},
     Value{"inspected", [](const ViewerModel& m) { return word(m.selection().inspection() != nullptr); }},
-    Value{"eye", [](const ViewerModel& m) { return vector_text(m.render().settings().camera.eye); }},
+    Value{"eye", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.eye); }},
     Value{"eye_z", [](const ViewerModel& m) { return fmt::format("{}", m.render().settings().camera.eye.z); }},
-    Value{"target", [](const ViewerModel& m) { return vector_text(m.render().settings().camera.target); }},
+    Value{"target", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.target); }},
     Value{"speed", [](const ViewerModel& m) { return fmt::format("{}", m.camera().speed()); }},
     Value{"size",
           [](const ViewerModel& m) {
@@ -242,6 +242,30 @@ constexpr std::array kValues{
           }},
     Value{"kernel",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
+    Value{"pins",
+          [](const ViewerModel& m) {
+              const auto& places = m.selection().pins().places();
+              return fmt::format("{}", std::ranges::count_if(places, [](std::int32_t p) { return p != kNoVolume; }));
+          }},
+    Value{"lobes",
+          [](const ViewerModel& m) {
+              return std::string(m.window().lobe_shape == LobeShape::Lobe ? "lobes" : "dome");
+          }},
+    Value{"flowers",
+          [](const ViewerModel& m) {
+              const bool shown = m.flowers().is_shown() && m.flowers().flowers() != nullptr;
+              return fmt::format("{}", shown ? m.flowers().flowers()->flowers.size() : 0);
+          }},
+    Value{"flowers_drawn", [](const ViewerModel& m) { return fmt::format("{}", m.flowers().counts().drawn); }},
+    Value{"flower_triangles", [](const ViewerModel& m) { return fmt::format("{}", m.flowers().counts().triangles); }},
+    Value{"flowers_made", [](const ViewerModel& m) { return fmt::format("{}", m.flowers().times_made()); }},
+    Value{"key_frames", [](const ViewerModel& m) { return fmt::format("{}", m.time().history()->frames.size()); }},
+    Value{"shown_pass",
+          [](const ViewerModel& m) {
+              return m.time().frame() != nullptr ? fmt::format("{}", m.time().frame()->passes()) : std::string("now");
+          }},
+    Value{"curve_points",
+          [](const ViewerModel& m) { return fmt::format("{}", m.selection().light().curve().size()); }},
     Value{"tracing_pixels", [](const ViewerModel& m) { return word(m.paths().is_shown()); }},
     Value{"tracing", [](const ViewerModel& m) { return word(m.paths().is_tracing()); }},
     Value{"paths", traced_paths},

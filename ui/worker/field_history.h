@@ -29,6 +29,12 @@ public:
 
     /// `volume` < volumes().
     VolumeInspection inspect(std::int32_t volume) const;
+    /// Probabilities of sampling the cells, side x side: the part of inspect() that many volumes need.
+    struct Cells {
+        int side = 0;
+        std::vector<float> shares;
+    };
+    Cells probabilities(std::int32_t volume) const;
 
 private:
     LearnedField learned_;
