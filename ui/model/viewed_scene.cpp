@@ -82,6 +82,7 @@ void ViewedScene::finish(const LoadOrder& order, std::shared_ptr<const SceneDesc
 
 void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene) {
     selection_.deselect();
+    selection_.pins().clear();
     selection_.drop_material();
     materials_.open(scene);
     name_ = order.scene.name;
@@ -95,6 +96,7 @@ void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescr
 
 void ViewedScene::adopt_knobs(std::shared_ptr<const SceneDescription> scene) {
     selection_.deselect();
+    selection_.pins().clear();
     materials_.reopen(scene);
     camera_.open(scene->camera, bounds_of(*scene).diagonal(), true);
     camera_.touch();
@@ -123,7 +125,7 @@ void ViewedScene::set_material(std::uint32_t index, const MaterialDescription& m
         messages_.say(MessageLevel::Error, error.what());
         return;
     }
-    if (selection_.volume() != kNoVolume && may_move_volumes(before, material)) selection_.drop_volume();
+    if (may_move_volumes(before, material)) selection_.drop_volume();
     camera_.touch();
     link_.worker().submit(EditMaterial{index, material});
 }

@@ -115,8 +115,8 @@ void draw_scrubber(LearningTime& time) {
     int at = time.shown() ? static_cast<int>(*time.shown()) : last;
     const FieldHistory& history = *time.history();
     const std::string when = time.frame() != nullptr ? fmt::format("after pass {}", time.frame()->passes()) : "now";
-    const std::string label = fmt::format("{} ({} frames, {:.0f} MB)", when, history.frames.size(),
-                                          static_cast<double>(history.bytes) / 1048576.0);
+    const std::string label = fmt::format("{} ({} key frame{}, {:.0f} MB)", when, history.frames.size(),
+                                          last == 1 ? "" : "s", static_cast<double>(history.bytes) / 1048576.0);
     ImGui::SetNextItemWidth(-1.0f);
     if (ImGui::SliderInt("##time", &at, 0, last, label.c_str(), ImGuiSliderFlags_NoInput)) {
         time.set_playing(false);

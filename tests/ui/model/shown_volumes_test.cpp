@@ -44,7 +44,9 @@ TEST_CASE("Shown volumes: the selected one and the pinned ones, each once, on on
     REQUIRE(discs.size() == 2);
     CHECK(discs[0].caption == "pass 1");
     CHECK(discs[1].caption == "now");
-    CHECK(discs[0].values != discs[1].values);
+    const CellQuantity quantity = model.window().cell_display.quantity;
+    CHECK(discs[0].values == cell_values(model.time().frame()->inspect(selected), quantity));
+    CHECK(discs[1].values == cell_values(*model.selection().inspection(), quantity));
 }
 
 TEST_CASE(
