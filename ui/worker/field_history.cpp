@@ -49,9 +49,27 @@ std::size_t frame_to_evict(const std::vector<std::uint64_t>& passes) {
     return best;
 }
 
+namespace {
+
+/// The first and the last frame stay.
+void give_up_beyond(std::size_t limit, FieldHistory& history) {
+    while (history.bytes > limit && history.frames.size() > 2) {
+        std::vector<std::uint64_t> passes;
+        for (const auto& kept : history.frames) passes.push_back(kept->passes());
+        const auto evicted = history.frames.begin() + static_cast<std::ptrdiff_t>(frame_to_evict(passes));
+        history.bytes -= (*evicted)->bytes();
+        history.frames.erase(evicted);
+        ++history.evicted;
+    }
+}
+
+}  // namespace
+
 void FieldHistoryRecorder::set_limit(std::size_t bytes) {
     limit_ = bytes;
-    if (bytes == 0) history_ = std::make_shared<const FieldHistory>();
+    FieldHistory kept = bytes > 0 ? *history_ : FieldHistory{};
+    give_up_beyond(bytes, kept);
+    history_ = std::make_shared<const FieldHistory>(std::move(kept));
 }
 
 bool FieldHistoryRecorder::is_due(std::uint64_t passes) const {
@@ -66,14 +84,7 @@ void FieldHistoryRecorder::add(std::shared_ptr<const FieldKeyFrame> frame) {
     if (!next.frames.empty() && !is_continued(*next.frames.back(), *frame)) next = {};
     next.bytes += frame->bytes();
     next.frames.push_back(std::move(frame));
-    while (next.bytes > limit_ && next.frames.size() > 2) {
-        std::vector<std::uint64_t> passes;
-        for (const auto& kept : next.frames) passes.push_back(kept->passes());
-        const auto evicted = next.frames.begin() + static_cast<std::ptrdiff_t>(frame_to_evict(passes));
-        next.bytes -= (*evicted)->bytes();
-        next.frames.erase(evicted);
-        ++next.evicted;
-    }
+    give_up_beyond(limit_, next);
     history_ = std::make_shared<const FieldHistory>(std::move(next));
 }
 

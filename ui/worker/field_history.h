@@ -58,7 +58,7 @@ std::size_t frame_to_evict(const std::vector<std::uint64_t>& passes);
 /// Takes key frames: after each of the first 16 passes that train the field, then whenever the passes have grown by a quarter.
 class FieldHistoryRecorder {
 public:
-    /// Memory for frames; 0 gives all up and takes none. At least one frame is kept.
+    /// Memory for frames; 0 gives all up and takes none. The first and the last frame are kept in any case.
     void set_limit(std::size_t bytes);
     std::size_t limit() const { return limit_; }
     /// After each piece of work: takes a frame of the field that `method` shows if it is due. A field that began anew, or is another

@@ -81,6 +81,12 @@ TEST_CASE("Field history: beyond its memory it stays spread over the logarithm o
     CHECK(passes.front() == 1);
     for (std::size_t i = 1; i < passes.size(); ++i) CHECK(passes[i] <= 4 * passes[i - 1]);
 
+    // Less memory takes effect at once, down to the first and the last frame.
+    recorder.set_limit(3 * one);
+    CHECK(recorder.history()->frames.size() == 3);
+    recorder.set_limit(1);
+    CHECK(passes_of(*recorder.history()) == std::vector<std::uint64_t>{passes.front(), passes.back()});
+
     CHECK(frame_to_evict({1, 2, 3, 4}) == 2);      // 4 / 2 is nearer than 3 / 1
     CHECK(frame_to_evict({1, 4, 8, 9, 64}) == 2);  // 9 / 4
     CHECK(frame_to_evict({0, 1, 2}) == 1);         // a field that was precomputed
