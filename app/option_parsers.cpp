@@ -293,6 +293,19 @@ void parse_pixel(Options& options, const std::string& text) {
                                static_cast<int>(parse_whole(text.substr(comma + 1), 0, side)));
 }
 
+void parse_samples(Options& options, const std::string& text) {
+    constexpr std::uint64_t kLast = 1000000000;
+    constexpr std::uint64_t kMost = 16384;  // all are kept until the brightest is known
+    const std::size_t dash = text.find('-');
+    SampleNumbers samples;
+    samples.first = static_cast<std::uint32_t>(parse_whole(text.substr(0, dash), 0, kLast));
+    samples.last = samples.first;
+    if (dash != std::string::npos)
+        samples.last =
+            static_cast<std::uint32_t>(parse_whole(text.substr(dash + 1), samples.first, samples.first + kMost - 1));
+    options.samples = samples;
+}
+
 std::string field_method_choices() {
     std::vector<std::string> names;
     for (const MethodInfo& info : all_methods())

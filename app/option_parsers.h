@@ -46,6 +46,7 @@ void parse_knobs(Options& options, const std::string& text);
 void parse_up_axis(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
 void parse_pixel(Options& options, const std::string& text);
+void parse_samples(Options& options, const std::string& text);
 
 /// "precomputed or reinforcement": the methods with a learned field to show.
 std::string field_method_choices();

@@ -45,6 +45,12 @@ struct ScenePoint {
     std::optional<glm::vec3> normal;
 };
 
+/// Samples of one pixel by their numbers in the picture, both ends included.
+struct SampleNumbers {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+};
+
 struct Options {
     std::string scene;                ///< name or path; empty if none was given
     std::vector<std::string> inputs;  ///< positional arguments of subcommands that do not take one scene
@@ -80,7 +86,7 @@ struct Options {
 
     std::optional<ScenePoint> at;
     std::optional<glm::ivec2> pixel;
-    std::optional<std::uint32_t> sample;  ///< trace: number of the pixel's sample
+    std::optional<SampleNumbers> samples;  ///< trace: numbers of the pixel's samples
     bool truth = false;                   ///< inspect: also the light that reaches the volume
     std::uint32_t truth_samples = 256;    ///< paths per cell for it
 

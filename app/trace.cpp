@@ -1,4 +1,4 @@
-// `pathlight trace`: one path of a picture, every vertex with its densities and weights.
+// `pathlight trace`: one path of a picture, every vertex with its densities and weights; or several of one pixel.
 #include "app/commands.h"
 #include "app/field_files.h"
 #include "app/interrupt.h"
@@ -6,29 +6,46 @@
 #include "app/open_scene.h"
 #include "app/run_passes.h"
 #include "app/trace_report.h"
+#include "core/diagnose/pixel_paths.h"
 #include "core/diagnose/record_path.h"
 
 namespace pl {
 namespace {
 
 /// Passes that change the path of a later one: those by which the field learns or guidance is chosen.
-std::uint32_t passes_before(const Options& options) {
+std::uint32_t passes_before(std::uint32_t sample, const Options& options) {
     const MethodInfo& method = info_of(options.render.method);
     const bool chooses = options.render.guiding == GuidingRule::Paying && options.render.next_event;
-    return method.learns || (method.uses_field && chooses) ? *options.sample : 0;
+    return method.learns || (method.uses_field && chooses) ? sample : 0;
 }
 
-/// Brings the session to the path. Returns false if it was interrupted.
-bool come_to_path(Session& session, const Options& options, std::uint32_t pixel, const InterruptGuard& interrupt,
+std::uint32_t pixel_of(const Options& options) {
+    return static_cast<std::uint32_t>(options.pixel->y * options.render.width + options.pixel->x);
+}
+
+/// Brings the session to the path of a sample. Returns false if it was interrupted.
+bool come_to_path(Session& session, std::uint32_t sample, const Options& options, const InterruptGuard& interrupt,
                   Console& console) {
     Options limits = options;
-    limits.spp = passes_before(options);
+    limits.spp = passes_before(sample, options);
     limits.time_limit_seconds.reset();
     if (*limits.spp > 0 && run_passes(session, limits, interrupt, console).interrupted()) return false;
     Progress progress = Progress::Precomputed;
     while (progress == Progress::Precomputed && !interrupt.raised())
-        progress = session.advance_to_path(slot_of(options.render), pixel, interrupt.flag());
+        progress = session.advance_to_path(slot_of(options.render), pixel_of(options), interrupt.flag());
     return progress == Progress::Rendered;
+}
+
+/// The paths of all samples, each with the field that its pass samples from. Empty if they were interrupted.
+std::vector<PathRecord> trace_samples(Session& session, const Options& options, const InterruptGuard& interrupt,
+                                      Console& console) {
+    std::vector<PathRecord> paths;
+    for (std::uint32_t sample = options.samples->first; sample <= options.samples->last; ++sample) {
+        if (!come_to_path(session, sample, options, interrupt, console)) return {};
+        PassReplay passes = session.pass_replay(slot_of(options.render));
+        paths.push_back(record_path(passes, field_of(passes), pixel_of(options), sample));
+    }
+    return paths;
 }
 
 }  // namespace
@@ -43,19 +60,19 @@ int run_trace(const CommandLine& line, Console& console) {
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
 
-    const auto pixel = static_cast<std::uint32_t>(options.pixel->y * options.render.width + options.pixel->x);
-    if (!come_to_path(session, options, pixel, interrupt, console)) {
+    const std::vector<PathRecord> paths = trace_samples(session, options, interrupt, console);
+    if (paths.empty()) {
         console.log().warning("interrupted: no path is traced");
         return kExitInterrupted;
     }
-    PassReplay passes = session.pass_replay(slot_of(options.render));
-    const AnyFieldView field = field_of(passes);
-    const PathRecord path = record_path(passes, field, pixel, *options.sample);
-    const TracedPath traced{path, *loaded.scene, options.render, *options.sample};
-    if (console.json())
-        console.event("path", path_json(traced));
-    else
-        console.result(path_text(traced));
+    for (const std::size_t i : by_light(paths)) {
+        const TracedPath traced{paths[i], *loaded.scene, options.render,
+                                options.samples->first + static_cast<std::uint32_t>(i)};
+        if (console.json())
+            console.event("path", path_json(traced));
+        else
+            console.result(paths.size() == 1 ? path_text(traced) : path_line(traced));
+    }
     return 0;
 }
 

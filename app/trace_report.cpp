@@ -1,8 +1,10 @@
 #include "app/trace_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/parse_values.h"
+#include "core/diagnose/pixel_paths.h"
 #include "core/session/methods.h"
 
 namespace pl {
@@ -151,6 +153,15 @@ Json vertex_json(const VertexRecord& vertex, const SceneDescription& scene) {
 }
 
 }  // namespace
+
+std::string path_line(const TracedPath& traced) {
+    const PathRecord& path = traced.path;
+    std::vector<std::string_view> ends;
+    for (const BranchEnd& end : path.ends) ends.push_back(name_of(end.reason));
+    return fmt::format("sample {}: light {}, radiance {}; vertices {}{}; ends: {}\n", traced.sample,
+                       print_float(path_light(path)), print_vector(path.radiance), path.vertices.size(),
+                       path.is_guided ? ", guided" : "", fmt::join(ends, ", "));
+}
 
 std::string path_text(const TracedPath& traced) {
     const PathRecord& path = traced.path;

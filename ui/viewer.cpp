@@ -132,7 +132,8 @@ Layout Viewer::current_layout() const {
     int height = 0;
     SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
     return make_layout(static_cast<float>(width), static_cast<float>(height), kFontPixels * model_.window().ui_scale,
-                       model_.window().panels, model_.selection().volume() != kNoVolume);
+                       model_.window().panels,
+                       model_.selection().volume() != kNoVolume || model_.paths().paths() != nullptr);
 }
 
 RenderSettings Viewer::first_settings(const SceneDescription& scene) const {

@@ -17,10 +17,9 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
     {.name = "pixel", .flags = "--pixel", .value = "X,Y", .group = kPlace,
      .help = "The pixel of the path; 0,0 is the top left one",
      .commands = CommandSet(Command::Trace), .parse = parse_pixel},
-    {.name = "sample", .flags = "--sample", .value = "N", .group = kPlace,
-     .help = "The sample of that pixel, from 0 on",
-     .commands = CommandSet(Command::Trace),
-     .parse = [](Options& o, Text text) { o.sample = static_cast<std::uint32_t>(parse_whole(text, 0, 1000000000)); }},
+    {.name = "sample", .flags = "--sample", .value = "N[-M]", .group = kPlace,
+     .help = "The sample of that pixel, from 0 on; of N to M all, the brightest first",
+     .commands = CommandSet(Command::Trace), .parse = parse_samples},
     {.name = "truth", .flags = "--truth", .value = "", .group = kPlace,
      .help = "Also the light that reaches the volume, by paths of default from there: beside the learned radiance, with "
              "the divergence of the learned densities from it",

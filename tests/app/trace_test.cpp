@@ -88,6 +88,50 @@ TEST_CASE("a later sample of a method that learns is guided by volumes, the same
     CHECK(traced("24,8", "2", settings) != path);
 }
 
+TEST_CASE("of several samples each path is the same as alone, and the brightest comes first") {
+    for (const std::string method : {"default", "reinforcement"}) {
+        CAPTURE(method);
+        const Arguments settings{"--method", method, "--nee", "on"};
+        const ProgramResult result = run_program(with(trace_of("24,20", "2-6", settings), {"--json"}));
+        CAPTURE(result.err);
+        REQUIRE(result.code == 0);
+        const std::vector<std::string> lines = lines_of(result.out);
+        REQUIRE(lines.size() == 5);
+        double previous = 1.0e30;
+        int samples = 0;
+        for (const std::string& line : lines) {
+            const json path = json::parse(line);
+            CHECK(path == traced("24,20", std::to_string(path["sample"].get<int>()), settings));
+            const json& radiance = path["radiance"];
+            const double light = 0.2126 * radiance[0].get<double>() + 0.7152 * radiance[1].get<double>() +
+                                 0.0722 * radiance[2].get<double>();
+            CHECK(light <= previous * (1.0 + 1.0e-6));
+            previous = light;
+            samples |= 1 << path["sample"].get<int>();
+        }
+        CHECK(samples == 0b1111100);
+    }
+}
+
+TEST_CASE("of several samples the text has a line each, the same at every run") {
+    const ProgramResult result = run_program(trace_of("24,20", "0-3", {"--method", "default", "--nee", "on"}));
+    REQUIRE(result.code == 0);
+    const std::vector<std::string> lines = lines_of(result.out);
+    REQUIRE(lines.size() == 4);
+    for (const std::string& line : lines) {
+        CHECK(line.rfind("sample ", 0) == 0);
+        CHECK(line.find("; vertices ") != std::string::npos);
+        CHECK(line.find("; ends: ") != std::string::npos);
+    }
+    CHECK(run_program(trace_of("24,20", "0-3", {"--method", "default", "--nee", "on"})).out == result.out);
+}
+
+TEST_CASE("samples out of order are refused") {
+    const ProgramResult result = run_program(trace_of("24,20", "5-2", {}));
+    CHECK(result.code == 2);
+    CHECK(result.err.find("--sample") != std::string::npos);
+}
+
 TEST_CASE("without JSON a path is text, and ends with its radiance") {
     const ProgramResult result = run_program(trace_of("24,8", "0", {"--method", "default"}));
     REQUIRE(result.code == 0);

@@ -7,6 +7,23 @@
 namespace pl {
 namespace {
 
+/// Liang-Barsky: the part of a line inside a rectangle.
+std::optional<std::array<Vec2f, 2>> inside(const Rect& rect, Vec2f from, Vec2f to) {
+    const Vec2f d = to - from;
+    const float steps[4] = {-d.x, d.x, -d.y, d.y};
+    const float rooms[4] = {from.x - rect.x, rect.x + rect.width - from.x, from.y - rect.y,
+                            rect.y + rect.height - from.y};
+    float first = 0.0f;
+    float last = 1.0f;
+    for (int i = 0; i < 4; ++i) {
+        if (steps[i] == 0.0f && rooms[i] < 0.0f) return std::nullopt;
+        if (steps[i] < 0.0f) first = std::max(first, rooms[i] / steps[i]);
+        if (steps[i] > 0.0f) last = std::min(last, rooms[i] / steps[i]);
+    }
+    if (!(first <= last)) return std::nullopt;
+    return std::array{from + first * d, from + last * d};
+}
+
 /// Near distance of drawing, as a share of the distance from eye to target.
 constexpr float kNearShare = 1.0e-4f;
 
@@ -16,9 +33,37 @@ Projection::Projection(const CameraDescription& camera, int width, int height, c
     : camera_(make_camera(camera, width, height)), image_(image),
       near_(kNearShare * glm::length(camera.target - camera.eye)) {}
 
+float Projection::depth_of(Vec3f position) const {
+    return glm::dot(position - camera_.eye, camera_.forward) / glm::dot(camera_.forward, camera_.forward);
+}
+
+std::optional<std::array<Vec2f, 2>> Projection::clipped(Vec3f from, Vec3f to) const {
+    const float a = depth_of(from);
+    const float b = depth_of(to);
+    const float near = 2.0f * near_;  // rounding must not bring the cut behind the near distance
+    if (!(std::max(a, b) > near)) return std::nullopt;
+    const Vec3f cut = glm::mix(from, to, (near - a) / (b - a));
+    const auto start = (*this)(a < near ? cut : from);
+    const auto end = (*this)(b < near ? cut : to);
+    return start && end ? inside(image_, start->window, end->window) : std::nullopt;
+}
+
+float Projection::pixels_of(float length, float depth) const {
+    return 0.5f * image_.width * length / (glm::length(camera_.right) * std::max(depth, near_));
+}
+
+bool Projection::may_show(Vec3f center, float radius) const {
+    const auto point = (*this)(center);
+    if (!point) return depth_of(center) + radius / glm::length(camera_.forward) > near_;
+    // A sphere reaches somewhat farther than its radius at the depth of its middle.
+    const float reach = 1.5f * pixels_of(radius, point->depth);
+    return point->window.x > image_.x - reach && point->window.y > image_.y - reach &&
+           point->window.x < image_.x + image_.width + reach && point->window.y < image_.y + image_.height + reach;
+}
+
 std::optional<Projection::Point> Projection::operator()(Vec3f position) const {
     const Vec3f d = position - camera_.eye;
-    const float depth = glm::dot(d, camera_.forward) / glm::dot(camera_.forward, camera_.forward);
+    const float depth = depth_of(position);
     if (!(depth > near_)) return std::nullopt;
     const float x = glm::dot(d, camera_.right) / (glm::dot(camera_.right, camera_.right) * depth);
     const float y = glm::dot(d, camera_.up) / (glm::dot(camera_.up, camera_.up) * depth);

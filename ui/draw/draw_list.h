@@ -2,6 +2,7 @@
 // of the scene.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -36,9 +37,19 @@ public:
     /// Empty for points that do not lie in front of the camera.
     std::optional<Point> operator()(Vec3f position) const;
 
+    /// The part of a straight line that is in front of the camera and inside the picture, in the window; empty if none is.
+    std::optional<std::array<Vec2f, 2>> clipped(Vec3f from, Vec3f to) const;
+
+    /// Pixels of a length across the viewing direction at a depth.
+    float pixels_of(float length, float depth) const;
+    /// Whether a sphere may be seen: false only for spheres outside of the picture.
+    bool may_show(Vec3f center, float radius) const;
+
     Vec3f eye() const { return camera_.eye; }
 
 private:
+    float depth_of(Vec3f position) const;
+
     Camera camera_;
     Rect image_;
     float near_;

@@ -59,7 +59,8 @@ void write_picture(const DisplayFrame& frame, const CellOverlay& overlay, std::u
         std::copy_n(pixels + y * width, width, out + y * pitch);
     const CellImage* cells = overlay.cells;
     if (cells == nullptr || cells->width != frame.width || cells->height != frame.height) return;
-    if (overlay.opacity > 0.0f) blend_cells(*cells, overlay.opacity, out, pitch);
+    if (overlay.opacity > 0.0f)
+        blend_cells(overlay.tint != nullptr ? *overlay.tint : *cells, overlay.opacity, out, pitch);
     // Pixels on the border of two cells may mix their colors: they count as outside.
     if (overlay.outlined) outline_cell(*cells, *overlay.outlined, out, pitch);
 }

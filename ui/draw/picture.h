@@ -14,6 +14,7 @@ struct CellOverlay {
     const CellImage* cells = nullptr;       ///< ignored if null or of another size than the picture
     float opacity = 0.0f;                   ///< of the cells' colors
     std::optional<std::uint32_t> outlined;  ///< cell_color() of the cell that gets an outline
+    const CellImage* tint = nullptr;        ///< blended in place of the cells' own colors; of the same size
 };
 
 /// Writes ARGB8888 rows, `pitch` pixels apart. May wait for the frame, and throws as DisplayFrame::pixels() does.

@@ -68,6 +68,10 @@ std::vector<Action> actions_after_methods() {
         {CellsFainter, Group::Overlay, ";", "fainter tint", {at(SDL_SCANCODE_SEMICOLON)}},
         {CellsStronger, Group::Overlay, "'", "stronger tint", {at(SDL_SCANCODE_APOSTROPHE)}},
         {Hemisphere, Group::Overlay, "H", "hemisphere of the selected volume", {sign(SDLK_h)}},
+        {LobesOrDome, Group::Overlay, "Shift+H", "hemisphere as lobes or as a glass dome", {sign(SDLK_h, kShift)}},
+        {PinVolume, Group::Overlay, "K", "pin the selected volume, or unpin it", {sign(SDLK_k)}},
+        {Flowers, Group::Overlay, "U", "lobes of many volumes", {sign(SDLK_u)}},
+        {TracePaths, Group::Overlay, "J", "paths of the clicked pixel as lines", {sign(SDLK_j)}},
         {ShowDiagnostics, Group::Overlay, "T", "mark pixels with invalid samples, lost paths, ...", {sign(SDLK_t)}},
 
         {Accuracy, Group::Compare, "P", "accuracy panel: error against time", {sign(SDLK_p)}},

@@ -63,6 +63,10 @@ enum class ActionId {
     SaveField,
     LoadField,
     CopyCommand,
+    TracePaths,
+    PinVolume,
+    LobesOrDome,
+    Flowers,
     Cancel,
     Quit,
 };

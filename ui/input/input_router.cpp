@@ -87,8 +87,11 @@ void InputRouter::button(const SDL_MouseButtonEvent& event, ViewerModel& model, 
                        context.view.contains(position) && !context.panels_want_pointer);
     } else if (const auto click = gesture_.release(which, context.seconds)) {
         const Rect& image = context.image;
-        if (image.contains(*click))
-            model.selection().pick({(click->x - image.x) / image.width, (click->y - image.y) / image.height});
+        if (image.contains(*click)) {
+            const Vec2f point{(click->x - image.x) / image.width, (click->y - image.y) / image.height};
+            model.selection().pick(point);
+            model.paths().pick(point);
+        }
     }
     if (gesture_.captured() != was_captured) SDL_SetRelativeMouseMode(gesture_.captured() ? SDL_TRUE : SDL_FALSE);
     // A drag continues outside the window.

@@ -58,6 +58,13 @@ void toggle_tour(ViewerModel& model) {
         model.tour().leave();
 }
 
+/// Hidden, it would change unseen.
+void switch_lobe_shape(WindowState& window) {
+    if (window.hemisphere)
+        window.lobe_shape = window.lobe_shape == LobeShape::Lobe ? LobeShape::Dome : LobeShape::Lobe;
+    window.hemisphere = true;
+}
+
 /// Each function does a part of the actions; false for the others.
 bool perform_render_action(ViewerModel& model, ActionId id) {
     RenderControls& render = model.render();
@@ -87,6 +94,7 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
     case ActionId::CellsFainter: step_opacity(display, -kOpacityStep); return true;
     case ActionId::CellsStronger: step_opacity(display, kOpacityStep); return true;
     case ActionId::Hemisphere: window.hemisphere = !window.hemisphere; return true;
+    case ActionId::LobesOrDome: switch_lobe_shape(window); return true;
     case ActionId::Accuracy: toggle_accuracy(window.panels); return true;
     case ActionId::HidePanels: window.panels.shown = !window.panels.shown; return true;
     case ActionId::FoldSettings: window.panels.settings = !window.panels.settings; return true;
@@ -104,6 +112,9 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
 bool perform_compare_action(ViewerModel& model, ActionId id) {
     CompareControls& comparison = model.comparison();
     switch (id) {
+    case ActionId::PinVolume: model.selection().toggle_pin(); return true;
+    case ActionId::Flowers: model.flowers().set_shown(!model.flowers().is_shown()); return true;
+    case ActionId::TracePaths: model.paths().set_shown(!model.paths().is_shown()); return true;
     case ActionId::ShowDiagnostics: model.diagnostics().toggle(); return true;
     case ActionId::CompareNext: comparison.step_mode(1); return true;
     case ActionId::CompareBack: comparison.step_mode(-1); return true;

@@ -19,6 +19,17 @@ LightReceiver receiver_of(const PublishedFrame& frame, const VolumeInspection& v
     return receiver;
 }
 
+/// Of the key frames that have the volume.
+std::vector<FigurePoint> past_figures(const IncidentLight& light, const FieldHistory& history, std::int32_t volume,
+                                      TargetLight target) {
+    std::vector<FigurePoint> points;
+    for (const auto& frame : history.frames)
+        if (static_cast<std::size_t>(volume) < frame->volumes() &&
+            static_cast<std::size_t>(frame->bins()) == light.cells())
+            points.push_back({frame->passes(), LightComparison(light, frame->inspect(volume), target).figures()});
+    return points;
+}
+
 bool has_room(const LightGatherer& gatherer) {
     return gatherer.light().paths_per_cell() * gatherer.light().cells() < LightTracing::kMostPaths;
 }
@@ -40,6 +51,8 @@ void LightTracing::start_over(const PublishedFrame& frame, const LightReceiver& 
     subject_ = subject_of(frame, receiver);
     report_.reset();
     compared_.reset();
+    curve_.clear();
+    past_.reset();
     seconds_ = 0.0;
     failure_.clear();
     gatherer_ =
@@ -53,34 +66,54 @@ void LightTracing::take_slice() {
     job_.reset();
     seconds_ += result->value.seconds;
     failure_ = result->failure;
-    if (result->value.report) report_ = result->value.report;
+    if (!result->value.report) return;
+    report_ = result->value.report;
+    extend_curve(result->value);
 }
 
 bool LightTracing::is_complete() const { return gatherer_ == nullptr || !has_room(*gatherer_); }
 
-void LightTracing::begin_slice(const PublishedFrame& frame) {
+void LightTracing::extend_curve(const Slice& slice) {
+    if (!slice.past.empty()) curve_ = slice.past;
+    const std::size_t size = curve_.size();
+    // The newest point is replaced until it is a tenth beyond the one before it.
+    if (size >= 2 && size > slice.past.size() && 10 * curve_[size - 1].passes < 11 * curve_[size - 2].passes)
+        curve_.pop_back();
+    if (curve_.empty() || curve_.back().passes < slice.passes)
+        curve_.push_back({slice.passes, slice.report->figures});
+}
+
+void LightTracing::begin_slice(const PublishedFrame& frame, const std::shared_ptr<const FieldHistory>& history) {
     compared_ = frame.volume;
+    past_ = history;
     const TargetLight target = target_light(frame.settings, field_owner(frame.snapshot.slot.method));
     job_ = std::make_unique<BackgroundJob<Slice>>(
-        [=, gatherer = gatherer_, volume = frame.volume](const JobMonitor& monitor) {
+        [=, gatherer = gatherer_, volume = frame.volume,
+         passes = frame.snapshot.field ? frame.snapshot.field->passes : 0](const JobMonitor& monitor) {
             const Stopwatch watch;
             while (has_room(*gatherer) && watch.seconds() < kSliceSeconds && gatherer->advance(monitor.stop)) {
             }
             Slice slice;
             if (gatherer->light().has_all_groups())
                 slice.report = std::make_shared<const LightReport>(report_light(gatherer->light(), *volume, target));
+            if (slice.report && history)
+                slice.past = past_figures(gatherer->light(), *history, volume->volume, target);
+            slice.passes = passes;
             slice.seconds = watch.seconds();
             return slice;
         });
 }
 
-void LightTracing::update(const std::shared_ptr<const PublishedFrame>& frame, const VolumeInspection* volume) {
+void LightTracing::update(const std::shared_ptr<const PublishedFrame>& frame, const VolumeInspection* volume,
+                          const std::shared_ptr<const FieldHistory>& history) {
     take_slice();
     const bool is_shown = std::exchange(is_shown_, false);
     if (volume == nullptr || frame == nullptr) {
         job_.reset();
         gatherer_.reset();
         report_.reset();
+        curve_.clear();
+        past_.reset();
         subject_ = {};
         return;
     }
@@ -90,8 +123,8 @@ void LightTracing::update(const std::shared_ptr<const PublishedFrame>& frame, co
     }
     const LightReceiver receiver = receiver_of(*frame, *volume);
     if (subject_of(*frame, receiver) != subject_) start_over(*frame, receiver);
-    const bool has_news = compared_ != frame->volume;
-    if (!job_ && failure_.empty() && (!is_complete() || has_news)) begin_slice(*frame);
+    const bool has_news = compared_ != frame->volume || past_ != history;
+    if (!job_ && failure_.empty() && (!is_complete() || has_news)) begin_slice(*frame, history);
 }
 
 }  // namespace pl

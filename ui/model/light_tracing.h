@@ -7,9 +7,16 @@
 
 #include "core/inspect/guiding_figures.h"
 #include "ui/model/background_job.h"
+#include "ui/worker/field_history.h"
 #include "ui/worker/published_frame.h"
 
 namespace pl {
+
+/// Figures of a field that so many passes had trained.
+struct FigurePoint {
+    std::uint64_t passes = 0;
+    GuidingFigures figures;
+};
 
 class LightTracing {
 public:
@@ -17,10 +24,14 @@ public:
     void show() { is_shown_ = true; }
     /// Once per frame of the window: begins, continues or ends the work. `volume` null: nothing is selected. Work rests while no
     /// panel shows it, and starts over for another volume, scene, BSDF or seed.
-    void update(const std::shared_ptr<const PublishedFrame>& frame, const VolumeInspection* volume);
+    void update(const std::shared_ptr<const PublishedFrame>& frame, const VolumeInspection* volume,
+                const std::shared_ptr<const FieldHistory>& history = nullptr);
 
     /// The light so far, compared with the densities of a moment ago; null before every group has paths, and without a volume.
     const LightReport* report() const { return report_.get(); }
+    /// The figures over the passes that trained the field: of its key frames, all by the light so far, and of the newest report. Without
+    /// key frames those of past reports.
+    const std::vector<FigurePoint>& curve() const { return curve_; }
     /// Spent on paths and figures so far.
     double seconds() const { return seconds_; }
     bool is_working() const { return job_ != nullptr; }
@@ -45,19 +56,24 @@ private:
     };
     struct Slice {
         std::shared_ptr<const LightReport> report{};
+        std::uint64_t passes = 0;         ///< of the field in the report
+        std::vector<FigurePoint> past{};  ///< of key frames
         double seconds = 0.0;
     };
 
     static Subject subject_of(const PublishedFrame& frame, const LightReceiver& receiver);
     void take_slice();
     void start_over(const PublishedFrame& frame, const LightReceiver& receiver);
-    void begin_slice(const PublishedFrame& frame);
+    void begin_slice(const PublishedFrame& frame, const std::shared_ptr<const FieldHistory>& history);
+    void extend_curve(const Slice& slice);
     bool is_complete() const;
 
     Subject subject_;
     std::shared_ptr<LightGatherer> gatherer_;  ///< only of the job while there is one
     std::shared_ptr<const VolumeInspection> compared_;
     std::shared_ptr<const LightReport> report_;
+    std::vector<FigurePoint> curve_;
+    std::shared_ptr<const FieldHistory> past_;  ///< key frames whose figures are known
     double seconds_ = 0.0;
     bool is_shown_ = false;
     std::string failure_;

@@ -86,6 +86,7 @@ void RenderControls::set_field(const FieldSettings& field) {
     if (field == settings_.field) return;
     settings_.field = field;
     selection_.deselect();
+    selection_.pins().clear();
     worker_.submit(EditField{field});
 }
 
@@ -104,6 +105,7 @@ void RenderControls::set_forced_effects(FeatureSet forced) {
 
 void RenderControls::adopt_field(const std::shared_ptr<LearnedField>& field) {
     selection_.deselect();
+    selection_.pins().clear();
     link_.end_turns(settings_.method);
     field->settings.lookup = settings_.field.lookup;
     field->shape.lookup = settings_.field.lookup;

@@ -5,7 +5,7 @@
 namespace pl {
 
 void Selection::update() {
-    light_.update(link_.frame(), inspection());
+    light_.update(link_.frame(), inspection(), link_.worker().history());
     const std::optional<PickAnswer> answer = link_.worker().take_pick();
     if (!answer) return;
     if (!answer->point) {
@@ -27,6 +27,13 @@ void Selection::select(std::int32_t volume) {
     hovered_cell_ = -1;
     link_.worker().select_volume(volume);
     display_.set_outline(volume != kNoVolume);
+}
+
+void Selection::toggle_pin() {
+    if (volume_ == kNoVolume)
+        messages_.say(MessageLevel::Info, "click a surface first: the volume there can be pinned");
+    else if (!pins_.toggle(volume_))
+        messages_.say(MessageLevel::Info, "four volumes are pinned: unpin one first");
 }
 
 void Selection::deselect() {

@@ -6,6 +6,7 @@
 #include "ui/model/display_controls.h"
 #include "ui/model/light_tracing.h"
 #include "ui/model/messages.h"
+#include "ui/model/pinned_volumes.h"
 #include "ui/model/render_link.h"
 
 namespace pl {
@@ -33,8 +34,17 @@ public:
     bool take_new_volume();
     /// The point and the volume; the material stays.
     void deselect();
-    /// The volume alone, because its number may be invalid.
-    void drop_volume() { select(kNoVolume); }
+    /// The volume and the pinned ones, because their numbers may be invalid.
+    void drop_volume() {
+        pins_.clear();
+        select(kNoVolume);
+    }
+    PinnedVolumes& pins() { return pins_; }
+    const PinnedVolumes& pins() const { return pins_; }
+    /// Pins the selected volume, or unpins it.
+    void toggle_pin();
+    /// A volume by its number, as by a click on it.
+    void select_volume(std::int32_t volume) { select(volume); }
 
     const std::optional<std::uint32_t>& material() const { return material_; }
     void select_material(std::uint32_t index) { material_ = index; }
@@ -56,6 +66,7 @@ private:
     int hovered_cell_ = -1;
     bool is_new_ = false;
     LightTracing light_;
+    PinnedVolumes pins_{link_.worker()};
 };
 
 }  // namespace pl

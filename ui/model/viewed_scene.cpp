@@ -100,6 +100,7 @@ void ViewedScene::finish(const LoadOrder& order, std::shared_ptr<const SceneDesc
 
 void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene) {
     selection_.deselect();
+    selection_.pins().clear();
     selection_.drop_material();
     materials_.open(scene);
     watch_.watch(files_of(*scene));
@@ -114,6 +115,7 @@ void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescr
 
 void ViewedScene::adopt_again(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene) {
     selection_.deselect();
+    selection_.pins().clear();
     materials_.reopen(scene);
     watch_.watch(files_of(*scene));
     if (!order.changed.empty()) {
@@ -147,7 +149,7 @@ void ViewedScene::set_material(std::uint32_t index, const MaterialDescription& m
         messages_.say(MessageLevel::Error, error.what());
         return;
     }
-    if (selection_.volume() != kNoVolume && may_move_volumes(before, material)) selection_.drop_volume();
+    if (may_move_volumes(before, material)) selection_.drop_volume();
     camera_.touch();
     link_.worker().submit(EditMaterial{index, material});
 }

@@ -32,7 +32,8 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       comparison_(link_, messages_, render_, references_), diagnostics_(link_, messages_, render_),
       self_test_({options, messages_, jobs_, link_}),
       files_({options, messages_, jobs_, link_}, scene_, render_, display_),
-      open_dialog_({options, messages_, jobs_, link_}, files_) {
+      open_dialog_({options, messages_, jobs_, link_}, files_), paths_(link_, messages_), time_(link_),
+      flowers_(link_, time_) {
     if (options.field) link_.worker().submit(EditLearned{options.field});
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.note(MessageLevel::Info,
@@ -60,6 +61,9 @@ void ViewerModel::update(double seconds) {
     selection_.update();
     files_.fields().update();
     diagnostics_.update();
+    paths_.update();
+    time_.update(seconds);
+    flowers_.update();
     self_test_.update();
     jobs_.update();
     tour_.update(*this, seconds);
@@ -95,6 +99,8 @@ void ViewerModel::cancel() {
         references_.stop();
     else if (diagnostics_.is_searching() || diagnostics_.map())
         diagnostics_.toggle();
+    else if (paths_.is_shown())
+        paths_.set_shown(false);
     else if (selection_.volume() == kNoVolume && tour_.phase() != GuidedTour::Phase::Off)
         tour_.leave();
     else if (selection_.volume() != kNoVolume || comparison_.state().mode == CompareMode::Off)

@@ -8,8 +8,10 @@
 #include "ui/model/compare_controls.h"
 #include "ui/model/diagnostics_search.h"
 #include "ui/model/effect_trials.h"
+#include "ui/model/field_flowers.h"
 #include "ui/model/guided_tour.h"
 #include "ui/model/open_dialog.h"
+#include "ui/model/path_explorer.h"
 #include "ui/model/self_test_control.h"
 #include "ui/model/window_state.h"
 
@@ -64,6 +66,12 @@ public:
     const OpenDialog& open_dialog() const { return open_dialog_; }
     GuidedTour& tour() { return tour_; }
     const GuidedTour& tour() const { return tour_; }
+    LearningTime& time() { return time_; }
+    const LearningTime& time() const { return time_; }
+    FieldFlowers& flowers() { return flowers_; }
+    const FieldFlowers& flowers() const { return flowers_; }
+    PathExplorer& paths() { return paths_; }
+    const PathExplorer& paths() const { return paths_; }
 
     /// Background work or unsaved files.
     bool busy() const;
@@ -90,6 +98,9 @@ private:
     Files files_;
     OpenDialog open_dialog_;
     GuidedTour tour_;
+    PathExplorer paths_;
+    LearningTime time_;
+    FieldFlowers flowers_;
 };
 
 }  // namespace pl

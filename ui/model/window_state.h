@@ -3,6 +3,7 @@
 
 #include "ui/draw/direction_disc.h"
 #include "ui/draw/layout.h"
+#include "ui/draw/lobes.h"
 #include "ui/plot/plot_drag.h"
 
 namespace pl {
@@ -40,8 +41,9 @@ struct WindowState {
     WindowLayout layout = WindowLayout::Research;
     PanelChoice panels;
     bool help = false;
-    bool hemisphere = true;     ///< of the selected volume, in the picture
-    bool values_shown = false;  ///< the pixel tab shows values of the picture
+    bool hemisphere = true;                  ///< of the selected volume and the pinned ones, in the picture
+    LobeShape lobe_shape = LobeShape::Lobe;  ///< of that
+    bool values_shown = false;               ///< the pixel tab shows values of the picture
     float ui_scale = 1.0f;
     CellDisplay cell_display;
     PlotState plot;

@@ -6,8 +6,14 @@
 
 namespace pl {
 
-/// The hemisphere of the selected volume at its position, with the ray of the hovered cell.
-void draw_hemisphere(const ViewerModel& model, const Rect& image);
+/// Lobes or domes of the selected and the pinned volumes at their positions, with their peaks and the ray of the hovered cell.
+void draw_hemisphere(ViewerModel& model, const Rect& image);
+
+/// Lobes of every n-th volume.
+void draw_flowers(ViewerModel& model, const Rect& image);
+
+/// The paths of the clicked pixel as lines.
+void draw_path_lines(ViewerModel& model, const Rect& image);
 
 /// Labels of the compared pictures, and the line between two of them, which can be dragged.
 void draw_comparison(ViewerModel& model, const ComparePlan& plan);

@@ -72,8 +72,9 @@ void draw_legend(ImDrawList& list, const Rect& place, const ValueRange& range) {
         const float y0 = std::round(place.y + place.height * (1.0f - static_cast<float>(i + 1) / kSteps));
         list.AddRectFilled({x, y0}, {x + width, y1}, map_color(t));
     }
-    for (int tick = 0; tick <= 4; ++tick) {
-        const float t = static_cast<float>(tick) / 4.0f;
+    const int ticks = place.height < em(5.5f) ? 2 : 4;
+    for (int tick = 0; tick <= ticks; ++tick) {
+        const float t = static_cast<float>(tick) / static_cast<float>(ticks);
         const float y = place.y + place.height * (1.0f - t);
         list.AddLine({x + width, y}, {x + width + em(0.25f), y}, colors::kFaint);
         const std::string text = short_value(range.value_at(t));

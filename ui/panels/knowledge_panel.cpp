@@ -142,10 +142,18 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
     begin_fixed_window("knowledge", layout.right);
     const bool is_research = model.window().layout == WindowLayout::Research;
     if (ImGui::BeginTabBar("tabs")) {
-        const ImGuiTabItemFlags front =
-            model.selection().take_new_volume() ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
-        if (begin_tab("Volume", front)) {
+        // A click shows what was asked for: the paths of the pixel, or else the volume.
+        const bool is_new = model.selection().take_new_volume();
+        const bool traces = model.paths().is_shown();
+        const auto front = [&](bool wanted) {
+            return is_new && wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+        };
+        if (begin_tab("Volume", front(!traces))) {
             draw_volume_tab(model);
+            ImGui::EndTabItem();
+        }
+        if ((is_research || traces) && begin_tab("Paths", front(traces))) {
+            draw_paths_tab(model);
             ImGui::EndTabItem();
         }
         if (begin_tab("Material")) {

@@ -28,6 +28,7 @@ void draw_material_tab(ViewerModel& model);
 void draw_effects_tab(ViewerModel& model);
 void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hovered);
 void draw_statistics_tab(const ViewerModel& model);
+void draw_paths_tab(ViewerModel& model);
 void draw_log_tab(const ViewerModel& model);
 
 }  // namespace pl

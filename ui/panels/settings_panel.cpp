@@ -294,8 +294,22 @@ void draw_field_displays(ViewerModel& model) {
     float opacity = model.display().cells_opacity();
     if (slider_row("Opacity", "Of the tint.", &opacity, {0.0f, 1.0f, 0.4f, "%.2f"}))
         model.display().set_cells_opacity(opacity);
-    toggle_row("Hemisphere in the picture", "H: the field of the selected volume, drawn at its position.",
+    toggle_row("Hemisphere in the picture",
+               "H: the field of the selected volume, and of pinned ones, drawn at their positions.",
                &model.window().hemisphere);
+    int shape = static_cast<int>(model.window().lobe_shape);
+    if (choice_row("Drawn as",
+                   "Shift+H. Lobes: their length is the density, on one scale. Glass dome: see through it.", &shape,
+                   "lobes\0glass dome\0"))
+        model.window().lobe_shape = static_cast<LobeShape>(shape);
+    bool flowers = model.flowers().is_shown();
+    if (toggle_row("Lobes of many volumes", "U: each as long as the others at its own peak.", &flowers))
+        model.flowers().set_shown(flowers);
+    if (!flowers) return;
+    auto step = static_cast<float>(model.flowers().step());
+    if (slider_row("Every n-th", "Of the volumes; at most 2000 are drawn.", &step,
+                   {1.0f, 64.0f, 1.0f, "%.0f", ImGuiSliderFlags_Logarithmic}))
+        model.flowers().set_step(static_cast<int>(step + 0.5f));
 }
 
 void draw_window_displays(ViewerModel& model) {

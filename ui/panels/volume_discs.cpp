@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/model/shown_volumes.h"
 #include "ui/panels/disc_widget.h"
 
 namespace pl {
@@ -13,43 +14,10 @@ namespace {
 constexpr float kLargestDiscEm = 19.0f;
 constexpr float kSmallestDiscEm = 2.0f;  ///< in a window with no room for it, too
 constexpr float kGapEm = 0.8f;
+constexpr float kPinEm = 5.0f;  ///< a pinned volume's disc with its ring
 
-struct Disc {
-    const char* caption;
-    std::vector<float> values;
-};
-
-std::vector<float> normalized(std::vector<float> values) {
-    float total = 0.0f;
-    for (const float value : values) total += value;
-    if (total > 0.0f)
-        for (float& value : values) value /= total;
-    return values;
-}
-
-/// The learned disc and, if it is known, the true one.
-std::vector<Disc> discs_of(const VolumeInspection& volume, CellQuantity quantity, const LightReport* report) {
-    if (report == nullptr || report->mixture_shares.size() != volume.radiance.size())
-        return {{"learned", cell_values(volume, quantity)}};
-    switch (quantity) {
-    case CellQuantity::Radiance: return {{"learned", volume.radiance}, {"true", report->light.target}};
-    case CellQuantity::Probability:
-        return {{"table", volume.probability}, {"true", normalized(report->light.target)}};
-    case CellQuantity::Density:
-        return {{"guided paths", relative_to_cosine(report->mixture_shares)},
-                {"light x BSDF", relative_to_cosine(report->product_shares)}};
-    case CellQuantity::Visits: break;
-    }
-    return {{"learned", cell_values(volume, quantity)}};
-}
-
-ValueRange common_range(const std::vector<Disc>& discs, const RangeRule& rule) {
-    std::vector<float> all;
-    for (const Disc& disc : discs) all.insert(all.end(), disc.values.begin(), disc.values.end());
-    return range_of(all, rule);
-}
-
-void draw_cell_tooltip(const VolumeInspection& volume, const std::vector<Disc>& discs, int cell, Vec3f direction) {
+void draw_cell_tooltip(const VolumeInspection& volume, const std::vector<ShownDisc>& discs, int cell,
+                       Vec3f direction) {
     const auto index = static_cast<std::size_t>(cell);
     constexpr float kToDeg = 180.0f / kPi;
     const float cosine = std::clamp(glm::dot(direction, volume.normal), -1.0f, 1.0f);
@@ -57,7 +25,7 @@ void draw_cell_tooltip(const VolumeInspection& volume, const std::vector<Disc>& 
     ImGui::Text("cell %d (column %d, row %d)", cell, cell % volume.side, cell / volume.side);
     ImGui::Text("%.0f\xc2\xb0 from the normal", static_cast<double>(std::acos(cosine) * kToDeg));
     if (discs.size() > 1)
-        for (const Disc& disc : discs) text_row(disc.caption, fmt::format("{:.4g}", disc.values[index]));
+        for (const ShownDisc& disc : discs) text_row(disc.caption.c_str(), fmt::format("{:.4g}", disc.values[index]));
     ImGui::Separator();
     text_row("radiance Q", fmt::format("{:.4g}", volume.radiance[index]));
     text_row("probability P", fmt::format("{:.4g}", volume.probability[index]));
@@ -85,13 +53,37 @@ std::vector<DiscPlace> places_of(std::size_t count, ImVec2 corner, float width) 
     return places;
 }
 
+/// The pinned volumes as small discs on the same scale, each in the color of its pin; a click selects one.
+void draw_pins(ViewerModel& model, const std::vector<ShownVolume>& volumes, const ValueRange& range) {
+    bool is_first = true;
+    for (const ShownVolume& shown : volumes) {
+        const VolumeInspection& volume = *shown.volume;
+        if (!model.selection().pins().contains(volume.volume)) continue;
+        if (!is_first) ImGui::SameLine();
+        is_first = false;
+        const float side = em(kPinEm);
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const std::string name = fmt::format("pin {}", volume.volume);
+        if (ImGui::InvisibleButton(name.c_str(), {side, side + em(1.2f)}))
+            model.selection().select_volume(volume.volume);
+        note_place(name.c_str());
+        tooltip("A pinned volume, in the color that it has in the picture. A click selects it; K unpins the selected "
+                "one.");
+        const DiscPlace place{{corner.x + 0.5f * side, corner.y + 0.5f * side}, 0.5f * side - em(0.4f)};
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        const DiscShape shape(volume, model.frame()->snapshot.camera);
+        const CellQuantity quantity = model.window().cell_display.quantity;
+        draw_disc(list, place, shape, positions_in(range, cell_values(volume, quantity)), -1);
+        list.AddCircle(place.center, place.radius + em(0.15f), shown.color, 64, em(shown.is_selected ? 0.3f : 0.18f));
+        list.AddText({corner.x + em(0.4f), corner.y + side}, shown.color, fmt::format("{}", volume.volume).c_str());
+    }
+}
+
 }  // namespace
 
 void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
-    const CellDisplay& display = model.window().cell_display;
     const DiscShape shape(volume, model.frame()->snapshot.camera);
-    const LightReport* report = display.truth ? model.selection().light().report() : nullptr;
-    const std::vector<Disc> discs = discs_of(volume, display.quantity, report);
+    const std::vector<ShownDisc> discs = shown_discs(model, volume);
     const float available = std::max(ImGui::GetContentRegionAvail().x, em(kSmallestDiscEm));
     const std::vector<DiscPlace> places = places_of(discs.size(), ImGui::GetCursorScreenPos(), available);
     ImGui::InvisibleButton("discs", {available, 2.0f * places.front().radius + em(2.1f)});
@@ -105,12 +97,13 @@ void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
         direction = shape.frame.direction_of(place.inverse(ImGui::GetMousePos()));
     }
     model.selection().hover_cell(cell);
-    const ValueRange range = common_range(discs, display.range);
+    const std::vector<ShownVolume> volumes = shown_volumes(model);
+    const ValueRange range = shown_range(model, volumes);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const DiscPlace& place = places[i];
         list.AddText({place.center.x - place.radius, place.center.y - place.radius - em(1.7f)}, colors::kText,
-                     discs[i].caption);
+                     discs[i].caption.c_str());
         draw_disc(list, place, shape, positions_in(range, discs[i].values), cell);
     }
     const DiscPlace& learned = places.front();
@@ -122,6 +115,7 @@ void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
         {last.center.x + last.radius + em(kGapEm), last.center.y - last.radius, em(kLegendEm), 2.0f * last.radius},
         range);
     draw_caption(shape);
+    draw_pins(model, volumes, range);
     if (cell >= 0) draw_cell_tooltip(volume, discs, cell, direction);
 }
 

@@ -5,6 +5,7 @@
 
 #include "ui/draw/method_keys.h"
 #include "ui/draw/widgets.h"
+#include "ui/panels/figure_curves.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/volume_discs.h"
 
@@ -106,6 +107,11 @@ void draw_volume_tab(ViewerModel& model) {
         return;
     }
     ImGui::SameLine();
+    if (ImGui::SmallButton(model.selection().pins().contains(model.selection().volume()) ? "unpin" : "pin"))
+        model.selection().toggle_pin();
+    note_place("pin");
+    tooltip("K: keeps the volume in view beside others, up to four, on the same scale.");
+    ImGui::SameLine();
     ImGui::Checkbox("true light", &model.window().cell_display.truth);
     tooltip("The light that reaches the volume, beside the learned one.");
     const VolumeInspection* volume = model.selection().inspection();
@@ -122,10 +128,14 @@ void draw_volume_tab(ViewerModel& model) {
     CellDisplay& display = model.window().cell_display;
     draw_choices(display);
     if (display.truth) model.selection().light().show();
+    const std::shared_ptr<const VolumeInspection> past = model.time().inspection(model.selection().volume());
+    if (past != nullptr) volume = past.get();
+    draw_time(model, *volume);
     draw_volume_discs(model, *volume);
     if (display.truth) {
         const auto& guiding = model.frame()->snapshot.guiding;
         draw_truth(model.selection(), guiding ? &*guiding : nullptr);
+        draw_figure_curves(model);
         ImGui::Separator();
     }
     draw_summary(*volume);

@@ -88,6 +88,14 @@ std::string headline_text(const ViewerModel& model) {
     return text;
 }
 
+/// "12,34: 32 of 40", "none".
+std::string traced_paths(const ViewerModel& model) {
+    const PathExplorer& explorer = model.paths();
+    if (explorer.paths() == nullptr) return "none";
+    return fmt::format("{},{}: {} of {}", explorer.x(), explorer.y(), explorer.paths()->passes.size(),
+                       explorer.paths()->searched);
+}
+
 /// "opening=17.9", "none".
 std::string knob_text(const std::vector<KnobDescription>& knobs) {
     std::string text;
@@ -240,6 +248,43 @@ constexpr std::array kValues{
           }},
     Value{"kernel",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
+    Value{"pins",
+          [](const ViewerModel& m) {
+              const auto& places = m.selection().pins().places();
+              return fmt::format("{}", std::ranges::count_if(places, [](std::int32_t p) { return p != kNoVolume; }));
+          }},
+    Value{"lobes",
+          [](const ViewerModel& m) {
+              return std::string(m.window().lobe_shape == LobeShape::Lobe ? "lobes" : "dome");
+          }},
+    Value{"flowers",
+          [](const ViewerModel& m) {
+              const bool shown = m.flowers().is_shown() && m.flowers().flowers() != nullptr;
+              return fmt::format("{}", shown ? m.flowers().flowers()->flowers.size() : 0);
+          }},
+    Value{"flowers_drawn", [](const ViewerModel& m) { return fmt::format("{}", m.flowers().counts().drawn); }},
+    Value{"flower_triangles", [](const ViewerModel& m) { return fmt::format("{}", m.flowers().counts().triangles); }},
+    Value{"flowers_made", [](const ViewerModel& m) { return fmt::format("{}", m.flowers().times_made()); }},
+    Value{"key_frames", [](const ViewerModel& m) { return fmt::format("{}", m.time().history()->frames.size()); }},
+    Value{"shown_pass",
+          [](const ViewerModel& m) {
+              return m.time().frame() != nullptr ? fmt::format("{}", m.time().frame()->passes()) : std::string("now");
+          }},
+    Value{"curve_points",
+          [](const ViewerModel& m) { return fmt::format("{}", m.selection().light().curve().size()); }},
+    Value{"tracing_pixels", [](const ViewerModel& m) { return word(m.paths().is_shown()); }},
+    Value{"tracing", [](const ViewerModel& m) { return word(m.paths().is_tracing()); }},
+    Value{"paths", traced_paths},
+    Value{"guided_paths",
+          [](const ViewerModel& m) {
+              return fmt::format("{}", m.paths().paths() != nullptr ? m.paths().paths()->guided.size() : 0);
+          }},
+    Value{"selected_path",
+          [](const ViewerModel& m) {
+              const auto index = m.paths().selected();
+              return index ? fmt::format("{}", m.paths().paths()->passes[*index]) : std::string("none");
+          }},
+    Value{"path_lines", [](const ViewerModel& m) { return fmt::format("{}", m.paths().times_made()); }},
     Value{"diagnostics", diagnostics_found},
     Value{"searching", [](const ViewerModel& m) { return word(m.diagnostics().share().has_value()); }},
     Value{"selftest", [](const ViewerModel& m) { return std::string(name_of(m.self_test().run().outcome())); }},

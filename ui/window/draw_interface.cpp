@@ -12,7 +12,9 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
         draw_status_bar(model, layout);
         draw_borders(model, layout);
     }
+    if (plan.at_image) draw_flowers(model, image);
     if (plan.at_image) draw_hemisphere(model, image);
+    if (plan.at_image) draw_path_lines(model, image);
     draw_comparison(model, plan);
     if (layout.panels) draw_badges(model, layout, plan);
     draw_tour(model, layout, image, plan);

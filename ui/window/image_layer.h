@@ -27,15 +27,20 @@ private:
         float opacity = 0.0f;
         std::int32_t selected = kNoVolume;
         std::shared_ptr<const DiagnosticsMap> diagnostics{};
+        std::shared_ptr<const FieldKeyFrame> past{};  ///< shown in place of the present field
 
         friend bool operator==(const Key&, const Key&) = default;
     };
 
     void fill(const ViewerModel& model, const Key& key);
+    const CellImage* tint_of(const PublishedFrame& frame, const Key& key);
 
     StreamTexture texture_;
     Key key_;
     ToneTable cell_table_{ToneCurve::Clamp};
+    CellImage tint_;
+    std::shared_ptr<const CellImage> tinted_;         ///< the cells of tint_
+    std::shared_ptr<const FieldKeyFrame> tinted_at_;  ///< its time
 };
 
 }  // namespace pl

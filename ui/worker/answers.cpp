@@ -23,6 +23,16 @@ LearnedAnswer answer_learned(const Session& session, MethodId method) {
     return answer;
 }
 
+PathsAnswer answer_paths(const Session& session, FilmSlot slot, std::uint64_t generation) {
+    PathsAnswer answer{.generation = generation};
+    try {
+        answer.passes = std::make_shared<PassPair>(pass_pair(session, slot));
+    } catch (const std::exception& error) {
+        answer.reason = error.what();
+    }
+    return answer;
+}
+
 DiagnosticsAnswer answer_diagnostics(const Session& session, FilmSlot slot, std::uint64_t generation) {
     DiagnosticsAnswer answer{.generation = generation};
     try {

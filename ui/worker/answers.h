@@ -10,6 +10,8 @@ namespace pl {
 PickAnswer answer_pick(Session& session, Vec2f image_point);
 /// The learned field of a method, or the reason why there is none.
 LearnedAnswer answer_learned(const Session& session, MethodId method);
+/// The input of trace_pixel() for a film, or the reason why there is none.
+PathsAnswer answer_paths(const Session& session, FilmSlot slot, std::uint64_t generation);
 /// The input of find_diagnostics() for a film, or the reason why there is none. A lost device is such a reason; the
 /// next pass fails, too.
 DiagnosticsAnswer answer_diagnostics(const Session& session, FilmSlot slot, std::uint64_t generation);

@@ -40,6 +40,16 @@ std::optional<DiagnosticsAnswer> Outbox::take_diagnostics() {
     return std::exchange(diagnostics_, std::nullopt);
 }
 
+std::optional<PathsAnswer> Outbox::take_paths() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(paths_, std::nullopt);
+}
+
+std::shared_ptr<const FieldHistory> Outbox::history() const {
+    const std::lock_guard lock(mutex_);
+    return history_;
+}
+
 std::exception_ptr Outbox::failure() const {
     const std::lock_guard lock(mutex_);
     return failure_;
@@ -86,6 +96,16 @@ void Outbox::answer(LearnedAnswer answer) {
 void Outbox::answer(DiagnosticsAnswer answer) {
     const std::lock_guard lock(mutex_);
     diagnostics_ = std::move(answer);
+}
+
+void Outbox::answer(PathsAnswer answer) {
+    const std::lock_guard lock(mutex_);
+    paths_ = std::move(answer);
+}
+
+void Outbox::set_history(std::shared_ptr<const FieldHistory> history) {
+    const std::lock_guard lock(mutex_);
+    history_ = std::move(history);
 }
 
 void Outbox::fail(std::exception_ptr failure) {

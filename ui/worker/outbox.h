@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/measure/live_runs.h"
+#include "ui/worker/field_history.h"
 #include "ui/worker/published_frame.h"
 
 namespace pl {
@@ -25,6 +26,8 @@ public:
     std::optional<PickAnswer> take_pick();
     std::optional<LearnedAnswer> take_learned();
     std::optional<DiagnosticsAnswer> take_diagnostics();
+    std::optional<PathsAnswer> take_paths();
+    std::shared_ptr<const FieldHistory> history() const;  ///< never null
     std::exception_ptr failure() const;
 
     // By the render thread.
@@ -39,6 +42,8 @@ public:
     void answer(PickAnswer answer);
     void answer(LearnedAnswer answer);
     void answer(DiagnosticsAnswer answer);
+    void answer(PathsAnswer answer);
+    void set_history(std::shared_ptr<const FieldHistory> history);
     /// The error that ended the thread.
     void fail(std::exception_ptr failure);
 
@@ -50,6 +55,8 @@ private:
     std::optional<PickAnswer> pick_;
     std::optional<LearnedAnswer> learned_;
     std::optional<DiagnosticsAnswer> diagnostics_;
+    std::optional<PathsAnswer> paths_;
+    std::shared_ptr<const FieldHistory> history_ = std::make_shared<const FieldHistory>();
     std::shared_ptr<const PublishedFrame> frame_;
     bool is_frame_taken_ = true;
     std::atomic<std::uint64_t> frame_count_{0};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/diagnose/find_diagnostics.h"
+#include "core/diagnose/pixel_paths.h"
 #include "core/measure/paired_cost.h"
 #include "core/scene/default_light.h"
 #include "core/scene/pack_scene.h"
@@ -60,6 +61,7 @@ struct PublishedFrame {
     ShownRange range;                                ///< of the snapshot
     std::shared_ptr<const CellImage> cells;          ///< null if not requested, or of another camera pose
     std::shared_ptr<const VolumeInspection> volume;  ///< of the selected volume; null if there is nothing to show
+    std::vector<std::shared_ptr<const VolumeInspection>> pins;  ///< of the pinned volumes, in their order
 
     /// Whether the snapshot has the values of the film.
     bool has_values() const { return !snapshot.pixels.empty(); }
@@ -119,6 +121,13 @@ struct DiagnosticsAnswer {
     std::optional<DiagnosticsInput> source{};  ///< empty if the view traces no paths
     std::string reason{};                      ///< for the lack of it
     std::uint64_t generation = 0;              ///< of the newest edit that the picture shows
+};
+
+/// Answer to RenderWorker::request_paths.
+struct PathsAnswer {
+    std::shared_ptr<PassPair> passes{};  ///< of the picture; null if its view traces no paths
+    std::string reason{};                ///< for the lack of it
+    std::uint64_t generation = 0;        ///< of the newest edit that the picture shows
 };
 
 /// Answer to RenderWorker::request_pick.

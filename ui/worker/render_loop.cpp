@@ -76,15 +76,16 @@ bool RenderLoop::take_requests() {
 }
 
 bool RenderLoop::has_work() const {
-    const bool is_asked = now_.once.pick || now_.once.learned || now_.once.diagnostics;
+    const bool is_asked = now_.once.pick || now_.once.learned || now_.once.diagnostics || now_.once.paths;
     const bool is_other = now_.turns.has_value() != turns_.has_value() || !trial_.matches(now_.trial) ||
-                          now_.reference != recorder_.reference() || now_.backend != backends_.current();
+                          now_.history_bytes != history_.limit() || now_.reference != recorder_.reference() ||
+                          now_.backend != backends_.current();
     if (is_asked || is_other) return true;
     if (passes() > 0 && frames_.is_stale(now_)) return true;
     if (failed_) return false;
     if (preview_.now() != wanted_preview()) return true;
     const bool size_is_stale = !size_.is_whole() && !is_coarse();
-    return size_is_stale || wants_pass() || frames_.is_asked() || inspection_.wants(now_.volume) ||
+    return size_is_stale || wants_pass() || frames_.is_asked() || inspection_.wants(now_.volume) || wants_pins() ||
            (now_.cells && !cells_.is_current(*session_));
 }
 
@@ -121,6 +122,7 @@ void RenderLoop::apply_edits(const std::vector<WorkerEdit>& edits) {
         if (changes_cells(edit)) cells_.invalidate();
         if (find_edit<EditCamera>(edit)) size_.move_camera();
         inspection_.invalidate();
+        for (Inspection& pin : pins_) pin.invalidate();
         frames_.ask();
         attempt([&] {
             // Other edits belong to the session's own estimator.
@@ -163,6 +165,7 @@ void RenderLoop::work() {
     answer_questions();
     if (turns_) take_turn();
     if (wants_pass()) render();
+    observe_field();
     if (*inbox_.stop_flag()) return;
     if (now_.cells && !cells_.is_current(*session_) && passes() > 0 && cells_.render(*session_, inbox_.stop_flag()))
         frames_.ask();
@@ -216,13 +219,37 @@ void RenderLoop::answer_questions() {
                            : DiagnosticsAnswer{.reason = "the camera moves: let the picture come to rest first",
                                                .generation = now_.generation});
     now_.once.diagnostics = false;
+    if (now_.once.paths)
+        outbox_.answer(size_.is_whole()
+                           ? answer_paths(*session_, slot(), now_.generation)
+                           : PathsAnswer{.reason = "the camera moves: let the picture come to rest first",
+                                         .generation = now_.generation});
+    now_.once.paths = false;
 }
 
 void RenderLoop::refresh_inspection() {
     if (passes() == 0) return;  // there may be no tables yet
-    const bool is_other = now_.volume != inspection_.shown();
-    if (!inspection_.refresh(*session_, asked_method(), now_.volume)) return;
-    if (is_other || !wants_pass()) frames_.ask();
+    const bool is_other = now_.volume != inspection_.shown() || wants_pins();
+    bool is_fresh = inspection_.refresh(*session_, asked_method(), now_.volume);
+    pins_.resize(now_.pins.size());
+    for (std::size_t i = 0; i < pins_.size(); ++i)
+        is_fresh |= pins_[i].refresh(*session_, asked_method(), now_.pins[i]);
+    if (is_fresh && (is_other || !wants_pass())) frames_.ask();
+}
+
+bool RenderLoop::wants_pins() const {
+    if (pins_.size() != now_.pins.size()) return true;
+    for (std::size_t i = 0; i < pins_.size(); ++i)
+        if (pins_[i].wants(now_.pins[i])) return true;
+    return false;
+}
+
+/// Key frames of the field, if the window requests them.
+void RenderLoop::observe_field() {
+    const bool is_other = now_.history_bytes != history_.limit();
+    if (is_other) history_.set_limit(now_.history_bytes);
+    const bool has_frame = history_.observe(*session_, asked_method());
+    if (is_other || has_frame) outbox_.set_history(history_.history());
 }
 
 bool RenderLoop::wants_pass() const {
@@ -273,6 +300,8 @@ void RenderLoop::publish() {
     frame->facts = facts_;
     frame->cells = now_.cells ? cells_.image(*session_) : nullptr;
     frame->volume = inspection_.volume();
+    for (const Inspection& pin : pins_)
+        if (pin.volume()) frame->pins.push_back(pin.volume());
     size_.note_frame();
     preview_.note_frame();
     frames_.end(frame->snapshot.passes);

@@ -5,6 +5,7 @@
 #include "ui/worker/backend_switch.h"
 #include "ui/worker/cell_image.h"
 #include "ui/worker/effect_trial.h"
+#include "ui/worker/field_history.h"
 #include "ui/worker/frame_schedule.h"
 #include "ui/worker/inbox.h"
 #include "ui/worker/inspection.h"
@@ -51,6 +52,8 @@ private:
     void render();
     void answer_questions();
     void refresh_inspection();
+    bool wants_pins() const;
+    void observe_field();
     void publish();
     bool wants_pass() const;
     bool limit_reached() const;
@@ -88,6 +91,8 @@ private:
     Recorder recorder_;
     CellRenderer cells_;
     Inspection inspection_;
+    std::vector<Inspection> pins_;  ///< in the order of Requests::pins
+    FieldHistoryRecorder history_;
     FrameSchedule frames_;
     SceneFacts facts_;  ///< of the session's scene
     bool failed_ = false;

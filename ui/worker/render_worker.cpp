@@ -156,6 +156,27 @@ void RenderWorker::request_diagnostics() {
     });
 }
 
+void RenderWorker::request_paths() {
+    inbox_.request([](Requests& requests) {
+        requests.once.paths = true;
+        return Interrupts::Nothing;
+    });
+}
+
+void RenderWorker::set_pins(std::vector<std::int32_t> volumes) {
+    inbox_.request([&](Requests& requests) {
+        requests.pins = std::move(volumes);
+        return Interrupts::Nothing;
+    });
+}
+
+void RenderWorker::set_history_limit(std::size_t bytes) {
+    inbox_.request([&](Requests& requests) {
+        requests.history_bytes = bytes;
+        return Interrupts::Nothing;
+    });
+}
+
 void RenderWorker::select_volume(std::int32_t volume) {
     inbox_.request([&](Requests& requests) {
         requests.volume = volume;

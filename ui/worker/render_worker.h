@@ -48,6 +48,12 @@ public:
     void request_learned();
     /// Requests the input of find_diagnostics(), after the pass under way.
     void request_diagnostics();
+    /// Requests the input of trace_pixel(), after the pass under way.
+    void request_paths();
+    /// Further volumes whose inspections frames carry.
+    void set_pins(std::vector<std::int32_t> volumes);
+    /// Memory for key frames of the field from now on; 0 gives them up.
+    void set_history_limit(std::size_t bytes);
     /// The volume whose inspection frames carry; kNoVolume for none.
     void select_volume(std::int32_t volume);
 
@@ -61,6 +67,9 @@ public:
     std::optional<PickAnswer> take_pick() { return outbox_.take_pick(); }
     std::optional<LearnedAnswer> take_learned() { return outbox_.take_learned(); }
     std::optional<DiagnosticsAnswer> take_diagnostics() { return outbox_.take_diagnostics(); }
+    std::optional<PathsAnswer> take_paths() { return outbox_.take_paths(); }
+    /// Key frames of the field; never null.
+    std::shared_ptr<const FieldHistory> history() const { return outbox_.history(); }
     /// The error that ended the thread, or null. Only a session that cannot be made ends it.
     std::exception_ptr failure() const { return outbox_.failure(); }
 

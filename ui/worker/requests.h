@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/measure/live_runs.h"
 #include "ui/viewer.h"
@@ -18,6 +19,7 @@ struct OneShotRequests {
     std::optional<Vec2f> pick;  ///< point of the image, in [0,1)^2 from the top left
     bool learned = false;       ///< the learned field
     bool diagnostics = false;   ///< the input of find_diagnostics()
+    bool paths = false;         ///< the input of trace_pixel()
 };
 
 struct Requests {
@@ -29,7 +31,9 @@ struct Requests {
     bool values = false;         ///< frames carry the values of the film
     DisplaySettings display{};
     SampleLimits limits{};
-    std::int32_t volume = kNoVolume;  ///< selected for inspection
+    std::int32_t volume = kNoVolume;   ///< selected for inspection
+    std::vector<std::int32_t> pins{};  ///< further ones
+    std::size_t history_bytes = 0;     ///< memory for key frames of the field; 0: none are taken
     std::optional<TurnMethods> turns{};
     std::optional<FeatureSet> trial{};  ///< effects whose cost is measured
     std::shared_ptr<const LiveReference> reference{};

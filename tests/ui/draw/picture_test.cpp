@@ -55,6 +55,11 @@ TEST_CASE("Picture: cells are blended by opacity and the selected one is outline
     write_picture(black, {&image, 0.0f, std::nullopt}, out.data(), 6);
     CHECK(out == std::vector<std::uint32_t>(30, gray(0)));
 
+    CellImage tint = image;
+    tint.argb.assign(30, 0xff102030u);
+    write_picture(black, {&image, 1.0f, std::nullopt, &tint}, out.data(), 6);
+    CHECK(out == tint.argb);
+
     write_picture(frame_of(6, 5, Vec3f{0.25f}), {&image, 0.0f, cell_color(2, kTable.view())}, out.data(), 6);
     const std::uint32_t plain = gray(kTable(0.25f));
     CHECK(out[1 * 6 + 1] == 0xffffffffu);  // border of the cell

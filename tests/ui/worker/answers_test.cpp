@@ -34,3 +34,14 @@ TEST_CASE("Answers: diagnostics of a picture, or the reason why it has none") {
     CHECK_THAT(answer_diagnostics(bench.session, {MethodId::Default, View::Normal}, 5).reason,
                contains("show 'beauty'"));
 }
+
+TEST_CASE("Answers: the passes of a picture with its field, or the reason why it has no paths") {
+    SessionBench bench;
+    bench.render(kLearning, 3);
+    const PathsAnswer answer = answer_paths(bench.session, kLearning, 5);
+    REQUIRE(answer.passes);
+    CHECK(answer.passes->plain.samples == 3);
+    CHECK(answer.passes->shows_guided);
+    CHECK(answer.generation == 5);
+    CHECK_THAT(answer_paths(bench.session, {MethodId::Default, View::Normal}, 5).reason, contains("show 'beauty'"));
+}

@@ -1,0 +1,41 @@
+#include "ui/model/field_flowers.h"
+
+#include "tests/support/catch.hpp"
+#include "tests/ui/file_bench.h"
+
+using namespace pl;
+using namespace pl::test;
+
+TEST_CASE("Flowers: hidden nothing is taken or made; shown, triangles are made once for a camera") {
+    FileBench bench;
+    bench.options.settings.method = MethodId::Reinforcement;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    FieldFlowers& flowers = model.flowers();
+    CHECK(flowers.flowers() == nullptr);
+    CHECK(model.time().history()->frames.empty());
+
+    flowers.set_shown(true);
+    model.render().set_paused(true);
+    REQUIRE(bench.run_until(
+        model, [&] { return flowers.flowers() != nullptr && model.status().state == WorkerState::Paused; }));
+    for (int i = 0; i < 20; ++i) model.update(bench.clock += 1.0 / 60.0);
+    const std::size_t volumes = model.time().history()->frames.back()->volumes();
+    CHECK(flowers.flowers()->flowers.size() == volumes);
+    const Rect image{0.0f, 0.0f, 300.0f, 300.0f};
+    const std::uint64_t before = flowers.times_made();
+    for (int i = 0; i < 10; ++i) (void)flowers.mesh(*model.frame(), image);
+    CHECK(flowers.times_made() == before + 1);
+    CHECK(flowers.counts().triangles == flowers.mesh(*model.frame(), image).triangles());
+    PublishedFrame moved = *model.frame();
+    moved.snapshot.camera.eye.x += 0.1f;
+    (void)flowers.mesh(moved, image);
+    CHECK(flowers.times_made() == before + 2);
+
+    flowers.set_step(4);
+    REQUIRE(bench.run_until(model, [&] { return flowers.flowers()->flowers.size() == (volumes + 3) / 4; }));
+
+    flowers.set_shown(false);
+    CHECK(flowers.flowers() == nullptr);
+    REQUIRE(bench.run_until(model, [&] { return model.time().history()->frames.empty(); }));
+}

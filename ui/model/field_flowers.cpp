@@ -1,0 +1,86 @@
+#include "ui/model/field_flowers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/draw/direction_disc.h"
+
+namespace pl {
+
+FlowerField make_flowers(const FieldKeyFrame& frame, int step, float diagonal, const StopFlag* stop) {
+    const std::size_t least = (frame.volumes() + kMostFlowers - 1) / kMostFlowers;
+    const std::size_t every = std::max(static_cast<std::size_t>(std::max(step, 1)), least);
+    FlowerField field;
+    const auto count = static_cast<float>(frame.volumes() / every + 1);
+    // About half of the distance between neighbors, and never larger than the shape of the selected volume.
+    field.radius = diagonal * std::min(0.04f, 0.7f / std::sqrt(count));
+    for (std::size_t volume = 0; volume < frame.volumes() && !(stop != nullptr && *stop); volume += every) {
+        const auto [side, shares] = frame.probabilities(static_cast<std::int32_t>(volume));
+        const std::vector<float> density = relative_to_cosine(shares);
+        FlowerField::Flower flower{.position = frame.position(volume), .normal = frame.normal(volume)};
+        field.fine_side = std::min(FlowerField::kFine, side);
+        field.coarse_side = std::min(FlowerField::kCoarse, side);
+        flower.fine = coarser_cells(density, side, field.fine_side);
+        flower.coarse = coarser_cells(density, side, field.coarse_side);
+        field.flowers.push_back(std::move(flower));
+    }
+    return field;
+}
+
+void FieldFlowers::set_shown(bool shown) {
+    is_shown_ = shown;
+    time_.set_newest_needed(shown);
+    if (shown) return;
+    job_.reset();
+    begun_.reset();
+    flowers_.reset();
+    key_ = {};
+    mesh_ = {};
+}
+
+/// The shown key frame, for the present the newest.
+std::shared_ptr<const FieldKeyFrame> FieldFlowers::wanted() const {
+    const auto& frames = time_.history()->frames;
+    if (frames.empty()) return nullptr;
+    return time_.shown() ? frames[*time_.shown()] : frames.back();
+}
+
+void FieldFlowers::update() {
+    if (!is_shown_) return;
+    if (job_) {
+        auto result = job_->take_result();
+        if (!result) return;
+        job_.reset();
+        flowers_ = result->value;
+    }
+    const std::shared_ptr<const FieldKeyFrame> next = wanted();
+    if (next == nullptr) flowers_.reset();
+    if (next == nullptr || link_.frame() == nullptr || (next == begun_ && step_ == begun_step_)) return;
+    begun_ = next;
+    begun_step_ = step_;
+    job_ = std::make_unique<BackgroundJob<Made>>(
+        [next, step = step_, diagonal = link_.frame()->facts.diagonal](const JobMonitor& monitor) {
+            return std::make_shared<const FlowerField>(make_flowers(*next, step, diagonal, monitor.stop));
+        });
+}
+
+const ScreenMesh& FieldFlowers::mesh(const PublishedFrame& frame, const Rect& image) {
+    const CameraDescription& camera = frame.snapshot.camera;
+    const auto width = static_cast<float>(frame.snapshot.width);
+    const auto height = static_cast<float>(frame.snapshot.height);
+    MeshKey key{.flowers = flowers_,
+                .scene = frame.scene,
+                .camera = {camera.eye, camera.target, camera.up},
+                .view = {camera.fov_deg, width, height, image.x, image.y, image.width, image.height}};
+    if (key == key_) return mesh_;
+    key_ = std::move(key);
+    mesh_ = {};
+    counts_ = {};
+    if (flowers_ == nullptr) return mesh_;
+    ++times_made_;
+    const Projection projection(camera, frame.snapshot.width, frame.snapshot.height, image);
+    mesh_ = flower_mesh(*flowers_, frame.scene->view(), projection, counts_);
+    return mesh_;
+}
+
+}  // namespace pl

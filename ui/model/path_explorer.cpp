@@ -1,0 +1,145 @@
+#include "ui/model/path_explorer.h"
+
+#include <algorithm>
+
+namespace pl {
+
+void PathExplorer::set_shown(bool shown) {
+    is_shown_ = shown;
+    if (!shown) drop();
+}
+
+void PathExplorer::drop() {
+    job_.reset();
+    is_asked_ = false;
+    passes_.reset();
+    paths_.reset();
+    begun_ = {.count = 0};
+    selected_.reset();
+    key_ = {};
+    pieces_.clear();
+}
+
+void PathExplorer::pick(Vec2f image_point) {
+    if (!is_shown_) return;
+    point_ = image_point;
+    is_asked_ = true;
+    link_.worker().request_paths();
+}
+
+void PathExplorer::take_answer() {
+    std::optional<PathsAnswer> answer = link_.worker().take_paths();
+    if (!answer || !is_asked_) return;
+    drop();
+    if (answer->passes == nullptr) {
+        messages_.say(MessageLevel::Info, answer->reason);
+        return;
+    }
+    passes_ = std::move(answer->passes);
+    generation_ = answer->generation;
+}
+
+/// The pixel of the click, and as many paths as are to be shown.
+PixelPathsRequest PathExplorer::wanted() const {
+    const auto cell = [](float share, int size) {
+        return std::clamp(static_cast<int>(share * static_cast<float>(size)), 0, size - 1);
+    };
+    const int width = passes_->plain.width;
+    const int pixel = cell(point_.y, passes_->plain.height) * width + cell(point_.x, width);
+    return {.pixel = static_cast<std::uint32_t>(pixel),
+            .count = static_cast<std::uint32_t>(std::clamp(options_.count, 1, kMostPaths)),
+            .choice = options_.choice};
+}
+
+void PathExplorer::take_paths() {
+    if (!job_) return;
+    auto result = job_->take_result();
+    if (!result) return;
+    job_.reset();
+    if (!result->failure.empty()) {
+        messages_.say(MessageLevel::Error, "tracing the paths of a pixel failed: " + result->failure);
+        return;
+    }
+    paths_ = result->value;
+    selected_.reset();
+    std::vector<float> light;
+    for (const PathRecord& path : paths_->plain) light.push_back(path_light(path));
+    for (const PathRecord& path : paths_->guided) light.push_back(path_light(path));
+    std::erase(light, 0.0f);  // paths without light have a color of their own
+    range_ = range_of(light, {.scale = ColorScale::Logarithmic});
+}
+
+/// Paths of another scene would hang in the air. A moved camera leaves them as they are.
+void PathExplorer::drop_with_scene() {
+    const auto& frame = link_.frame();
+    if (passes_ && frame && frame->generation > generation_ && frame->scene != passes_->plain.scene) drop();
+}
+
+void PathExplorer::update() {
+    take_answer();
+    drop_with_scene();
+    take_paths();
+    if (!passes_ || wanted() == begun_) return;
+    job_.reset();  // ends the search of before
+    begun_ = wanted();
+    job_ = std::make_unique<BackgroundJob<Traced>>([passes = passes_, request = begun_](const JobMonitor& monitor) {
+        return std::make_shared<const PixelPaths>(trace_pixel(*passes, request, monitor.stop));
+    });
+}
+
+bool PathExplorer::has_two_sides() const { return !paths_->guided.empty(); }
+
+bool PathExplorer::lists_guided() const {
+    if (!has_two_sides()) return false;
+    if (options_.sides == PathSides::Both) return passes_->shows_guided;
+    return options_.sides == PathSides::Guided;
+}
+
+std::optional<std::size_t> PathExplorer::selected() const {
+    if (!paths_ || listed().empty()) return std::nullopt;
+    return selected_ && *selected_ < listed().size() ? *selected_ : by_light(listed()).front();
+}
+
+void PathExplorer::add_side(std::vector<PathPiece>& lines, const std::vector<PathRecord>& paths, bool is_guided,
+                            float escape_length) const {
+    const bool is_listed = is_guided == lists_guided();
+    const std::vector<std::size_t> order = by_light(paths);
+    for (auto i = order.rbegin(); i != order.rend(); ++i) {
+        if (is_listed && *i == selected()) continue;
+        add_path(lines, paths[*i],
+                 {.range = range_,
+                  .escape_length = escape_length,
+                  .has_shadow_rays = options_.has_shadow_rays,
+                  .is_dashed = !is_guided && has_two_sides()});
+    }
+}
+
+const std::vector<PathPiece>& PathExplorer::pieces(const PublishedFrame& frame) {
+    LinesKey key{.paths = paths_,
+                 .scene = frame.scene,
+                 .eye = frame.snapshot.camera.eye,
+                 .sides = options_.sides,
+                 .has_shadow_rays = options_.has_shadow_rays,
+                 .selected = selected()};
+    if (key == key_) return pieces_;
+    key_ = std::move(key);
+    pieces_.clear();
+    if (!paths_) return pieces_;
+    ++times_made_;
+    const float escape_length = frame.facts.diagonal;
+    std::vector<PathPiece> lines;
+    const bool two = has_two_sides();
+    if (!two || options_.sides != PathSides::Guided) add_side(lines, paths_->plain, false, escape_length);
+    if (two && options_.sides != PathSides::Plain) add_side(lines, paths_->guided, true, escape_length);
+    if (selected())
+        add_path(lines, listed()[*selected()],
+                 {.range = range_,
+                  .escape_length = escape_length,
+                  .has_shadow_rays = true,
+                  .is_dashed = !lists_guided() && two,
+                  .is_selected = true});
+    pieces_ = split_by_visibility(lines, frame.scene->view(), key_.eye);
+    return pieces_;
+}
+
+}  // namespace pl

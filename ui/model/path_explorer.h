@@ -1,0 +1,105 @@
+// The paths of a clicked pixel, with and without guidance, traced again in the background while they are shown: as lines in the
+// picture, and one by one.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "ui/draw/path_lines.h"
+#include "ui/model/background_job.h"
+#include "ui/model/messages.h"
+#include "ui/model/render_link.h"
+
+namespace pl {
+
+/// The methods whose paths are drawn.
+enum class PathSides { Plain, Guided, Both };
+
+struct PathOptions {
+    int count = 32;
+    PassChoice choice = PassChoice::Brightest;
+    PathSides sides = PathSides::Both;
+    bool has_shadow_rays = false;
+};
+
+class PathExplorer {
+public:
+    static constexpr int kMostPaths = 256;
+
+    PathExplorer(RenderLink& link, Messages& messages) : link_(link), messages_(messages) {}
+
+    /// Hidden, clicks trace nothing and nothing is kept.
+    bool is_shown() const { return is_shown_; }
+    void set_shown(bool shown);
+    /// The pixel under a point of the image, in [0,1)^2 from the top left; its paths come later. Nothing while hidden.
+    void pick(Vec2f image_point);
+    /// Once per frame of the window: begins and ends work, drops paths with their scene.
+    void update();
+
+    PathOptions& options() { return options_; }
+    const PathOptions& options() const { return options_; }
+    /// Null without a clicked pixel, and until its first paths are traced.
+    const PixelPaths* paths() const { return paths_.get(); }
+    /// Of paths(): pixel under the click, and the method of its guided paths.
+    int x() const { return static_cast<int>(paths_->pixel) % passes_->plain.width; }
+    int y() const { return static_cast<int>(paths_->pixel) / passes_->plain.width; }
+    MethodId guided_method() const { return passes_->guided_method; }
+    bool is_tracing() const { return is_asked_ || job_ != nullptr; }
+
+    /// The paths that the table lists and of which one is selected: by the method of the picture, or as drawn.
+    bool lists_guided() const;
+    const std::vector<PathRecord>& listed() const { return lists_guided() ? paths_->guided : paths_->plain; }
+    /// Index into listed(): the brightest one until another is selected.
+    std::optional<std::size_t> selected() const;
+    void select(std::size_t index) { selected_ = index; }
+
+    /// The light that colors stand for: that of all paths of both methods.
+    const ValueRange& range() const { return range_; }
+    /// The paths as lines, as seen by a camera in this place; made again only when something has changed.
+    const std::vector<PathPiece>& pieces(const PublishedFrame& frame);
+    /// Number of times that lines were made.
+    std::uint64_t times_made() const { return times_made_; }
+
+private:
+    using Traced = std::shared_ptr<const PixelPaths>;
+
+    /// All that decides the lines.
+    struct LinesKey {
+        Traced paths;
+        std::shared_ptr<const HostScene> scene;
+        Vec3f eye{0.0f};
+        PathSides sides = PathSides::Both;
+        bool has_shadow_rays = false;
+        std::optional<std::size_t> selected;
+
+        friend bool operator==(const LinesKey&, const LinesKey&) = default;
+    };
+
+    void take_answer();
+    void take_paths();
+    void drop_with_scene();
+    void drop();
+    PixelPathsRequest wanted() const;
+    void add_side(std::vector<PathPiece>& lines, const std::vector<PathRecord>& paths, bool is_guided,
+                  float escape_length) const;
+    bool has_two_sides() const;
+
+    RenderLink& link_;
+    Messages& messages_;
+    bool is_shown_ = false;
+    bool is_asked_ = false;
+    Vec2f point_{0.0f};
+    PathOptions options_;
+    std::shared_ptr<PassPair> passes_;  ///< only of the job while there is one, but for its constants
+    std::uint64_t generation_ = 0;      ///< of the picture of passes_
+    PixelPathsRequest begun_{.count = 0};
+    Traced paths_;
+    ValueRange range_;
+    std::optional<std::size_t> selected_;
+    LinesKey key_;
+    std::vector<PathPiece> pieces_;
+    std::uint64_t times_made_ = 0;
+    std::unique_ptr<BackgroundJob<Traced>> job_;
+};
+
+}  // namespace pl

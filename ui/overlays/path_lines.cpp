@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include "ui/draw/widgets.h"
+#include "ui/overlays/overlays.h"
+
+namespace pl {
+namespace {
+
+/// The numbers of the selected path's vertices, at their positions.
+void draw_numbers(ImDrawList& out, const PathRecord& path, const Projection& projection) {
+    for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+        if (path.vertices[i].is_escape) continue;
+        const auto point = projection(path.vertices[i].position);
+        if (!point) continue;
+        const ImVec2 at{point->window.x, point->window.y};
+        const std::string text = fmt::format("{}", i);
+        out.AddCircleFilled(at, em(0.28f), IM_COL32(0, 0, 0, 220));
+        out.AddCircleFilled(at, em(0.18f), IM_COL32_WHITE);
+        const ImVec2 corner{at.x + em(0.35f), at.y - em(1.1f)};
+        out.AddText({corner.x + 1.0f, corner.y + 1.0f}, IM_COL32_BLACK, text.c_str());
+        out.AddText(corner, IM_COL32_WHITE, text.c_str());
+    }
+}
+
+}  // namespace
+
+void draw_path_lines(ViewerModel& model, const Rect& image) {
+    PathExplorer& explorer = model.paths();
+    if (!explorer.is_shown() || explorer.paths() == nullptr || model.frame() == nullptr) return;
+    const PublishedFrame& frame = *model.frame();
+    const Snapshot& snapshot = frame.snapshot;
+    const Projection projection(snapshot.camera, snapshot.width, snapshot.height, image);
+    ImDrawList& out = *ImGui::GetBackgroundDrawList();
+    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
+    for (const Stroke& stroke : strokes_of(explorer.pieces(frame), projection, em(1.0f) / kFontPixels))
+        out.AddLine({stroke.from.x, stroke.from.y}, {stroke.to.x, stroke.to.y}, stroke.color, stroke.width_px);
+    if (const auto selected = explorer.selected()) draw_numbers(out, explorer.listed()[*selected], projection);
+    out.PopClipRect();
+}
+
+}  // namespace pl

@@ -1,0 +1,202 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ui/draw/widgets.h"
+#include "ui/panels/disc_widget.h"
+#include "ui/panels/panels.h"
+
+namespace pl {
+namespace {
+
+constexpr float kTableEm = 8.6f;
+
+std::string guided_name(const PathExplorer& explorer) { return std::string(info_of(explorer.guided_method()).name); }
+
+/// A list without a label of its own. Scripts point at it by `name`.
+template <class Choice>
+void choice_list(const char* name, const char* tip, Choice& choice, const char* words, float width) {
+    int index = static_cast<int>(choice);
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::Combo(fmt::format("##{}", name).c_str(), &index, words)) choice = static_cast<Choice>(index);
+    note_place(name);
+    tooltip(tip);
+}
+
+void draw_options(PathExplorer& explorer) {
+    PathOptions& options = explorer.options();
+    const float half = 0.5f * (ImGui::GetContentRegionAvail().x - em(0.4f));
+    ImGui::SetNextItemWidth(half);
+    ImGui::SliderInt("##count", &options.count, 1, PathExplorer::kMostPaths, "%d paths",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    note_place("number of paths");
+    tooltip("Of the pixel, by each method. Ctrl+click to type.");
+    ImGui::SameLine(0.0f, em(0.4f));
+    choice_list("which paths", "The brightest of up to 16384 samples of the picture, or the newest: a fair sample.",
+                options.choice, "brightest\0newest\0", half);
+    choice_list("methods of paths",
+                "Both have the same random numbers; those of default are dashed beside those of the guided method.",
+                options.sides, "default\0guided\0both methods\0", half);
+    ImGui::SameLine(0.0f, em(0.4f));
+    ImGui::Checkbox("shadow rays", &options.has_shadow_rays);
+    tooltip("To the visible lights of light samples; the selected path always has them.");
+}
+
+std::string light_text(const std::vector<PathRecord>& paths, std::size_t i) {
+    return i < paths.size() ? short_value(path_light(paths[i])) : "-";
+}
+
+/// One row for each pass, by the light of the listed method.
+void draw_table(PathExplorer& explorer) {
+    const PixelPaths& paths = *explorer.paths();
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
+    const float width = ImGui::GetContentRegionAvail().x - em(kLegendEm);
+    if (!ImGui::BeginTable("paths", 4, kFlags, {width, em(kTableEm)})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("sample");
+    ImGui::TableSetupColumn("default");
+    ImGui::TableSetupColumn(paths.guided.empty() ? "guided" : guided_name(explorer).c_str());
+    ImGui::TableSetupColumn("vertices");
+    ImGui::TableHeadersRow();
+    for (const std::size_t i : by_light(explorer.listed())) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::PushID(static_cast<int>(i));
+        const std::string label = fmt::format("{}", paths.passes[i]);
+        const bool is_selected = explorer.selected() == i;
+        const ImU32 color = is_selected ? colors::kAccent : colors::kText;
+        ImGui::PushStyleColor(ImGuiCol_Text, color);
+        if (ImGui::Selectable(label.c_str(), is_selected, ImGuiSelectableFlags_SpanAllColumns)) explorer.select(i);
+        ImGui::PopStyleColor();
+        note_place(("path " + label).c_str());
+        ImGui::PopID();
+        text_cell(light_text(paths.plain, i), color);
+        text_cell(light_text(paths.guided, i), color);
+        text_cell(fmt::format("{}", explorer.listed()[i].vertices.size()), color);
+    }
+    ImGui::EndTable();
+}
+
+void draw_table_with_legend(PathExplorer& explorer) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    draw_table(explorer);
+    draw_legend(*ImGui::GetWindowDrawList(),
+                {corner.x + width - em(kLegendEm - 0.6f), corner.y, em(kLegendEm - 0.6f), em(kTableEm)},
+                explorer.range());
+}
+
+std::string triple_text(Vec3f v) { return fmt::format("{:.3g}  {:.3g}  {:.3g}", v.x, v.y, v.z); }
+
+const char* outcome_of(const RouletteRecord& roulette) {
+    if (roulette.branches == 0) return "ends";
+    return roulette.branches == 1 ? "continues" : "splits";
+}
+
+void draw_light(const VertexRecord& vertex) {
+    if (!is_black(vertex.emission.radiance))
+        text_row(
+            "emission",
+            fmt::format("+{:.3g}  weight {:.3g}", luminance(vertex.emission.contribution), vertex.emission.weight),
+            "Luminance that it adds to the pixel, and its MIS weight against light samples.");
+    if (!vertex.light) return;
+    text_row("light sample",
+             vertex.light->is_visible
+                 ? fmt::format("+{:.3g}  weight {:.3g}", luminance(vertex.light->contribution), vertex.light->weight)
+                 : "occluded",
+             "Luminance that it adds to the pixel, and its MIS weight.");
+    text_row("  densities",
+             fmt::format("light {:.3g}, scattering {:.3g}", vertex.light->pdf_sa, vertex.light->scatter_pdf_sa),
+             "Of sampling the direction of the light, by either technique, per steradian.");
+}
+
+void draw_direction(const ScatterRecord& direction) {
+    text_row("direction", fmt::format("to {} by {}", direction.next, name_of(direction.technique)),
+             "The vertex that it leads to, and the technique that sampled it: BSDF, field, or a delta lobe.");
+    if (direction.technique != Technique::Delta)
+        text_row("  densities",
+                 fmt::format("{:.3g}: bsdf {:.3g}, field {:.3g}", direction.pdf_sa, direction.bsdf_pdf_sa,
+                             direction.field_pdf_sa),
+                 "Of the mixture, of BSDF sampling and of the field, per steradian.");
+    text_row("  throughput", triple_text(direction.throughput), "Of the path up to the next vertex.");
+}
+
+void draw_vertex(const VertexRecord& vertex, std::size_t index, const SceneDescription& scene) {
+    const bool has_name = !vertex.is_escape && vertex.material < scene.materials.size();
+    const std::string name = vertex.is_escape ? "leaves the scene"
+                             : has_name       ? scene.materials[vertex.material].name
+                                              : "";
+    ImGui::TextColored(to_vec4(colors::kAccent), "%zu  %s", index, name.c_str());
+    const float light = luminance(vertex.contribution());
+    if (light > 0.0f) {
+        ImGui::SameLine();
+        ImGui::TextColored(to_vec4(colors::kGood), "+%.3g", static_cast<double>(light));
+    }
+    if (vertex.volume != kNoVolume)
+        text_row("volume", fmt::format("{}, BSDF fraction {:.2f}", vertex.volume, vertex.bsdf_fraction),
+                 "The radiance volume that serves the vertex, and the probability of BSDF sampling.");
+    if (vertex.delta_probability > 0.0f)
+        text_row("delta lobe", fmt::format("probability {:.2f}", vertex.delta_probability));
+    draw_light(vertex);
+    if (vertex.roulette)
+        text_row("roulette",
+                 fmt::format("{:.3g} expected: {}", vertex.roulette->expected_branches, outcome_of(*vertex.roulette)),
+                 "Survival probability, above 1 the number of branches; and the outcome.");
+    for (const ScatterRecord& direction : vertex.scattered) draw_direction(direction);
+}
+
+const char* meaning_of(PathEnd end) {
+    switch (end) {
+    case PathEnd::Escaped: return "no surface is met";
+    case PathEnd::Absorbed: return "the surface reflects nothing";
+    case PathEnd::Roulette: return "Russian roulette";
+    case PathEnd::DepthLimit: return "the most vertices are reached";
+    case PathEnd::ZeroDirection: return "the sampled direction reflects nothing";
+    }
+    return "";
+}
+
+void draw_path(const PathExplorer& explorer, const SceneDescription& scene) {
+    const std::optional<std::size_t> selected = explorer.selected();
+    if (!selected) return;
+    const PathRecord& path = explorer.listed()[*selected];
+    const std::string method = explorer.lists_guided() ? guided_name(explorer) : std::string("default");
+    ImGui::Text("Sample %u by %s%s", explorer.paths()->passes[*selected], method.c_str(),
+                explorer.lists_guided() && !path.is_guided ? ", not guided" : "");
+    text_row("Radiance", triple_text(path.radiance), "That the path brought to the pixel, in linear RGB.");
+    ImGui::Separator();
+    for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+        draw_vertex(path.vertices[i], i, scene);
+        for (const BranchEnd& end : path.ends)
+            if (end.vertex == i) text_row("end", meaning_of(end.reason));
+        ImGui::Separator();
+    }
+}
+
+}  // namespace
+
+void draw_paths_tab(ViewerModel& model) {
+    PathExplorer& explorer = model.paths();
+    bool shown = explorer.is_shown();
+    if (toggle_row("Trace the clicked pixel", "J: the paths of the pixel, as lines in the picture and one by one.",
+                   &shown))
+        explorer.set_shown(shown);
+    if (!shown) return;
+    draw_options(explorer);
+    if (explorer.paths() == nullptr || model.frame() == nullptr) {
+        faint_text(explorer.is_tracing() ? "Tracing." : "Click a pixel in the picture.");
+        return;
+    }
+    const PixelPaths& paths = *explorer.paths();
+    text_row(
+        "Pixel",
+        fmt::format("{}, {}: {} of {} samples{}", explorer.x(), explorer.y(), paths.passes.size(), paths.searched,
+                    explorer.is_tracing() ? ", tracing" : ""),
+        "The paths shown, of the samples that were searched. Guided paths sample from the field as it was at the "
+        "click.");
+    draw_table_with_legend(explorer);
+    draw_path(explorer, *model.frame()->description);
+}
+
+}  // namespace pl
