@@ -76,16 +76,15 @@ inline Decision check_roulette() {
 
 /// Multiplies the albedos of all vertices of a path.
 struct AlbedoProduct {
-    BvhIntersector scene;
+    SceneView scene;
     Vec3d* product;
 
     Hit closest_hit(const Ray& ray) const {
-        const Hit hit = scene.closest_hit(ray);
-        if (hit.found())
-            *product *= Vec3d{scene.scene.materials[scene.scene.triangles[hit.primitive].material].albedo};
+        const Hit hit = BvhIntersector{scene}.closest_hit(ray);
+        if (hit.found()) *product *= Vec3d{scene.materials[scene.triangles[hit.primitive].material].albedo};
         return hit;
     }
-    bool occluded(const Ray& ray) const { return scene.occluded(ray); }
+    bool occluded(const Ray& ray) const { return BvhIntersector{scene}.occluded(ray); }
 };
 
 /// A box in equilibrium, emitting to the inside only, no roulette: a path brings 1 minus the product of the albedos
@@ -108,7 +107,7 @@ inline Decision check_equilibrium() {
         PathCounters counters;
         auto state = begin_path<FeatureSet{}, DefaultMethod>(camera, settings, {1, 1, sample}, 0);
         trace_path<FeatureSet{}>(PathContext<DefaultMethod>{view, DefaultMethod{}, settings},
-                                 AlbedoProduct{BvhIntersector{view}, &product}, state, counters);
+                                 AlbedoProduct{view, &product}, state, counters);
         const double tolerance = 4.0 * (state.vertices + 1) * static_cast<double>(kRoundoff);
         const Vec3d off = glm::abs(Vec3d{state.radiance} - (Vec3d{1.0} - product));
         const bool right = off.x <= tolerance && off.y <= tolerance && off.z <= tolerance;
