@@ -77,27 +77,6 @@ TableSummary summarize(const VolumeInspection& volume) {
     return summary;
 }
 
-void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::vector<CellFan>& fans,
-                    std::span<const float> positions, const HemisphereStyle& style) {
-    if (fans.size() != positions.size()) return;
-    const Frame frame = make_frame(volume.normal);
-    std::array<Vec3f, std::tuple_size_v<CellFan>> points;
-    const auto lift = [&](const CellFan& fan, float scale) {
-        for (std::size_t i = 0; i < fan.size(); ++i)
-            points[i] = volume.position + scale * style.radius * frame.to_world(lift_to_hemisphere(fan[i]));
-    };
-    for (std::size_t cell = 0; cell < fans.size(); ++cell) {
-        lift(fans[cell], 1.0f);
-        list.add_fan(points, map_color(positions[cell], style.alpha));
-    }
-    if (style.highlighted < 0 || static_cast<std::size_t>(style.highlighted) >= fans.size()) return;
-    // Slightly outside, so that it is drawn after the cell itself.
-    lift(fans[static_cast<std::size_t>(style.highlighted)], 1.01f);
-    for (int i = 0; i < kCellBorderPoints; ++i)
-        list.add_line(points[static_cast<std::size_t>(1 + i)],
-                      points[static_cast<std::size_t>(1 + (i + 1) % kCellBorderPoints)], 0xffffffffu, 2.0f);
-}
-
 Vec3f direction_of(const VolumeInspection& volume, Vec2f disk) {
     return make_frame(volume.normal).to_world(lift_to_hemisphere(disk));
 }

@@ -45,15 +45,6 @@ struct TableSummary {
 };
 TableSummary summarize(const VolumeInspection& volume);
 
-struct HemisphereStyle {
-    float radius = 1.0f;  ///< in scene units
-    std::uint8_t alpha = 255;
-    int highlighted = -1;  ///< cell, or -1
-};
-/// The hemisphere as shapes around its volume, cells colored by their positions in the map.
-void add_hemisphere(DrawList& list, const VolumeInspection& volume, const std::vector<CellFan>& fans,
-                    std::span<const float> positions, const HemisphereStyle& style);
-
 /// Direction in scene space above a point of the cells' disk.
 Vec3f direction_of(const VolumeInspection& volume, Vec2f disk);
 

@@ -1,12 +1,10 @@
-// Shapes in scene space that are drawn over the picture, as data that can be tested without a window. They are no part
-// of the scene.
+// Rectangles of the window, and the projection from the scene into them, by which shapes are drawn over the picture. They are no
+// part of the scene.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "core/kernel/scene/camera.h"
 #include "core/scene/description.h"
@@ -54,37 +52,5 @@ private:
     Rect image_;
     float near_;
 };
-
-/// Colors are 0xAABBGGRR, as in Dear ImGui.
-class DrawList {
-public:
-    struct Shape {
-        enum class Kind { Fan, Line };
-        Kind kind;
-        std::uint32_t first;  ///< of points
-        std::uint32_t count;
-        std::uint32_t color;
-        float width_px;  ///< of lines
-    };
-
-    /// A polygon that is star-shaped around its first point, which is not on the border.
-    void add_fan(std::span<const Vec3f> center_and_border, std::uint32_t color);
-    void add_line(Vec3f from, Vec3f to, std::uint32_t color, float width_px);
-    void clear();
-
-    std::span<const Vec3f> points() const { return points_; }
-    std::span<const Shape> shapes() const { return shapes_; }
-
-private:
-    std::vector<Vec3f> points_;
-    std::vector<Shape> shapes_;
-};
-
-/// The shapes in the window, farthest first. Shapes that reach behind the camera are omitted.
-struct ProjectedShapes {
-    std::vector<Vec2f> points;
-    std::vector<DrawList::Shape> shapes;
-};
-ProjectedShapes project(const DrawList& list, const Projection& projection);
 
 }  // namespace pl

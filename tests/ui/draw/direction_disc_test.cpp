@@ -60,25 +60,6 @@ TEST_CASE("Direction disk: cells have equal areas, share borders and know their 
     CHECK(fans[0][5] == fans[5][1]);
 }
 
-TEST_CASE("Hemisphere: lies on its sphere above the surface, and a highlighted cell is drawn last") {
-    const VolumeInspection volume = some_volume(8);
-    const std::vector<CellFan> fans = make_cell_fans(volume.side);
-    const std::vector<float> values(64, 0.5f);
-    DrawList list;
-    add_hemisphere(list, volume, fans, values, {0.5f, 255, -1});
-    CHECK(list.shapes().size() == 64);
-    for (const Vec3f& point : list.points()) {
-        CHECK_THAT(glm::length(point - volume.position), WithinAbs(0.5f, 1.0e-4f));
-        CHECK(glm::dot(point - volume.position, volume.normal) >= -1.0e-4f);
-    }
-    list.clear();
-    add_hemisphere(list, volume, fans, values, {0.5f, 255, 10});
-    CHECK(list.shapes().size() == 64 + kCellBorderPoints);
-    list.clear();
-    add_hemisphere(list, volume, make_cell_fans(4), values, {0.5f, 255, -1});
-    CHECK(list.shapes().empty());  // fans of another table
-}
-
 TEST_CASE("Hemisphere: directions above the cells' disk are unit and on the volume's side") {
     const VolumeInspection volume = some_volume(8);
     for (const Vec2f disk : {Vec2f{0.0f, 0.0f}, Vec2f{0.5f, -0.3f}, Vec2f{-0.9f, 0.2f}}) {

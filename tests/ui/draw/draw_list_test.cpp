@@ -41,29 +41,3 @@ TEST_CASE("Projection: is the inverse of camera rays") {
     CHECK_FALSE(projection(camera.eye - (camera.target - camera.eye)));
     CHECK_FALSE(projection(camera.eye));
 }
-
-TEST_CASE("Draw list: far shapes come first, shapes behind the camera are left out") {
-    CameraDescription camera;
-    camera.eye = {0.0f, 0.0f, 0.0f};
-    camera.target = {0.0f, 0.0f, -1.0f};
-    const Projection projection(camera, 100, 100, {0.0f, 0.0f, 100.0f, 100.0f});
-    const auto square = [](float z) {
-        return std::array<Vec3f, 5>{Vec3f{0, 0, z}, {-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}};
-    };
-    DrawList list;
-    list.add_fan(square(-5.0f), 5);
-    list.add_fan(square(-9.0f), 9);
-    list.add_fan(square(2.0f), 2);
-    list.add_line({0, 0, -7}, {1, 0, -7}, 7, 1.0f);
-    list.add_line({0, 0, -7}, {0, 0, 1}, 1, 1.0f);  // its end is behind the camera
-    const ProjectedShapes shapes = project(list, projection);
-    REQUIRE(shapes.shapes.size() == 3);
-    CHECK(shapes.shapes[0].color == 9);
-    CHECK(shapes.shapes[1].color == 7);
-    CHECK(shapes.shapes[2].color == 5);
-    CHECK(shapes.points.size() == 5 + 5 + 2);
-    CHECK(shapes.shapes[1].kind == DrawList::Shape::Kind::Line);
-    const Vec2f center = shapes.points[shapes.shapes[2].first];
-    CHECK_THAT(center.x, WithinAbs(50.0f, 1.0e-3f));
-    CHECK_THAT(center.y, WithinAbs(50.0f, 1.0e-3f));
-}

@@ -36,7 +36,7 @@ LobeGlyph glyph_of(const std::vector<float>& cells, int side) {
             .positions = cells};
 }
 
-/// Alternate triangles of a mesh that are given by points of their own.
+/// Of all triangles of a mesh, in pixels.
 float area_of(const ScreenMesh& mesh) {
     float area = 0.0f;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
