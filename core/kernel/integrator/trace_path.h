@@ -35,6 +35,7 @@ PL_HD inline void trace_path(const PathContext<M>& context, const I& intersector
     keep_forks(state, &forks);
     PathStatus status = PathStatus::Continues;
     while (status == PathStatus::Continues) status = trace_segment<F>(context, intersector, state, counters);
+    keep_forks<F, M>(state, nullptr);  // their memory ends here
 }
 
 }  // namespace pl
