@@ -8,13 +8,17 @@
 namespace pl {
 namespace {
 
-/// Rounds of the warm-up after which it may end: with a clear gain, with a loss, in any case. Below a gain of 1 guiding is given a
-/// chance, because fields still get better.
+/// Rounds of the warm-up after which it may end: with a clear gain, with a loss, in any case.
 constexpr std::uint32_t kRoundsForGain = kFewestBeforeVariance + 2;
 constexpr std::uint32_t kRoundsForLoss = kFewestBeforeVariance + 4;
 constexpr std::uint32_t kMostWarmUpRounds = kFewestBeforeVariance + 6;
 constexpr double kClearGain = 1.5;
+/// Gains below which guiding is given up by the warm-up, in the first passes, later, and above which it is taken up again. Below 1 at
+/// first: fields still get better (docs/notebook/2026-11-24-warm-up.md).
+constexpr double kLeastUnprovenGain = 0.65;
 constexpr double kLeastEarlyGain = 0.8;
+constexpr double kLeastGain = 0.9;
+constexpr double kReturningGain = 1.0;
 /// Rounds after which a field that another film interrupts is trusted.
 constexpr std::uint32_t kRoundsOfTrust = 4;
 
@@ -22,9 +26,6 @@ constexpr std::uint32_t kRoundsOfTrust = 4;
 constexpr std::uint32_t kFirstTrial = kFewestBeforeVariance;
 constexpr std::uint32_t kSecondTrial = kFirstTrial + 2;
 constexpr std::uint32_t kEarlyPasses = 16;
-/// Gain below which guiding is given up later, and above which it is taken up again.
-constexpr double kLeastGain = 0.9;
-constexpr double kReturningGain = 1.0;
 /// Weight of the guided passes before the newest one: their variances fall while a field learns, and are noisy.
 constexpr double kKept = 0.8;
 
@@ -83,8 +84,8 @@ void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters
     // Without a measurable variance of either the field is trusted: the baseline may have found no light at all.
     const double gain = gain_.value_or(1.0);
     if (rounds_ >= kRoundsForGain && gain >= kClearGain) belief_ = true;
-    if (rounds_ >= kRoundsForLoss && gain < kLeastEarlyGain) belief_ = false;
-    if (rounds_ >= kMostWarmUpRounds) belief_ = gain >= kLeastEarlyGain;
+    if (rounds_ >= kRoundsForLoss && gain < kLeastUnprovenGain) belief_ = false;
+    if (rounds_ >= kMostWarmUpRounds) belief_ = gain >= kLeastUnprovenGain;
 }
 
 Trial GuidingChoice::trial_before(std::uint32_t pass) const {

@@ -80,7 +80,7 @@ bool Session::run_trial_paths(FilmSlot slot, bool is_guided, const StopFlag* sto
     PassRequest request = trial_request(slot, is_guided, stop);
     const std::uint32_t end = request.subset.count(pixel_count());
     request.first_pixel = static_cast<std::uint32_t>(done.paths);
-    if (request.first_pixel == end) return true;
+    if (request.first_pixel >= end) return true;
     const PassCounters counters = backend_->run_pass(request);
     done += counters;
     state.trial_paths += counters.paths;
@@ -89,7 +89,7 @@ bool Session::run_trial_paths(FilmSlot slot, bool is_guided, const StopFlag* sto
     learned.clamped_records += counters.path.method.clamped_records;
     learned.lookup_misses += counters.path.method.lookup_misses;
     state.learn_seconds += watch.seconds();
-    return done.paths == end;
+    return done.paths >= end;
 }
 
 /// Guided paths of the warm-up come to the film, because they are measured against it; all others leave it as it is.

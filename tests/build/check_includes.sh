@@ -92,7 +92,7 @@ tinyexr.h:         core/io
 stb_*:             core/io
 '
 
-kernel_headers=' cstdint cmath concepts type_traits atomic limits bit string_view '
+kernel_headers=' cstdint cmath concepts type_traits atomic limits bit cstring string_view '
 
 # Where kernels may use double: sums over samples, and the edge functions that come out as zero in float, which the
 # watertight triangle test has to decide exactly.

@@ -6,7 +6,7 @@
 using namespace pl;
 using namespace pl::test;
 
-TEST_CASE("Flowers: hidden nothing is taken or made; shown, triangles are made once for a camera") {
+TEST_CASE("Flowers: hidden nothing is taken or made, and shown triangles are made once for a camera") {
     FileBench bench;
     bench.options.settings.method = MethodId::Reinforcement;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);

@@ -227,7 +227,7 @@ int missed_boxes(float share, MultiplyAdd multiply_add) {
 
 }  // namespace
 
-TEST_CASE("No box with a hit is missed, by the roundings of host and device; half the slack would not do") {
+TEST_CASE("No box with a hit is missed, by the roundings of host and device, and half the slack would not do") {
     const auto on_host = [](float a, float b, float c) { return bound_multiply_add(a, b, c); };
     // Fused and rounded down: one of the two floats around the exact value, here any one of two that bracket it.
     Uniforms random(6);
