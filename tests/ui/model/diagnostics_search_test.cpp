@@ -89,8 +89,8 @@ TEST_CASE("Diagnostics search: a lost device ends the search with a message") {
     REQUIRE(bench.is_done(model));
     bench.devices.cpu->lost = true;
     model.diagnostics().toggle();
-    REQUIRE(bench.run_until(model, [&] { return told(model, "the device is lost"); }));
-    CHECK_FALSE(model.busy());
+    // Rendering meets the lost device, too, and may tell it first.
+    REQUIRE(bench.run_until(model, [&] { return told(model, "the device is lost") && !model.busy(); }));
     CHECK(model.diagnostics().map() == nullptr);
 }
 
