@@ -8,25 +8,30 @@
 namespace pl {
 namespace {
 
-/// Rounds of the warm-up after which it may end: with a clear gain, with a loss, in any case.
-constexpr std::uint32_t kRoundsForGain = kFewestBeforeVariance + 2;
-constexpr std::uint32_t kRoundsForLoss = kFewestBeforeVariance + 4;
-constexpr std::uint32_t kMostWarmUpRounds = kFewestBeforeVariance + 6;
-constexpr double kClearGain = 1.5;
-/// Gains below which guiding is given up by the warm-up, in the first passes, later, and above which it is taken up again. Below 1 at
-/// first: fields still get better (docs/notebook/2026-11-24-warm-up.md).
-constexpr double kLeastUnprovenGain = 0.65;
-constexpr double kLeastEarlyGain = 0.8;
-constexpr double kLeastGain = 0.9;
-constexpr double kReturningGain = 1.0;
+/// Rounds of the warm-up: after the first number it ends where the gain is clear, after the second in any case.
+constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
+constexpr std::uint32_t kMostWarmUpRounds = kFewestBeforeVariance + 4;
+constexpr double kClearLoss = 0.2;
+constexpr double kClearGain = 0.8;
 /// Rounds after which a field that another film interrupts is trusted.
 constexpr std::uint32_t kRoundsOfTrust = 4;
 
-/// Passes before which the baseline is measured in a film that had no warm-up, and first pass after which it decides.
+/// The least gain that is guided, by the number of guided paths per volume that the field has learned from: below 1 at first, since
+/// fields get better and guided paths make them so; above 1 in the end, since even numbers take more noise from the baseline's
+/// first vertices than the variance of a sample shows (docs/notebook/2026-11-25-choice-at-512.md).
+constexpr double kYoung = 250.0;
+constexpr double kLeastGainOfYoung = 0.35;
+constexpr double kMature = 640.0;
+constexpr double kLeastGainOfLearning = 0.95;
+constexpr double kLeastGain = 1.02;
+/// The gain from which on guiding is taken up again.
+constexpr double kReturningGain = 1.1;
+
+/// Passes before which the baseline is measured in every film; the second is the first pass after which a film decides.
 constexpr std::uint32_t kFirstTrial = kFewestBeforeVariance;
 constexpr std::uint32_t kSecondTrial = kFirstTrial + 2;
-constexpr std::uint32_t kEarlyPasses = 16;
-/// Weight of the guided passes before the newest one: their variances fall while a field learns, and are noisy.
+/// Weight of earlier measurements beside the newest one. Variances of guided paths fall while a field learns; and those of both
+/// methods fall with the age of a film, because they are measured relative to pixels whose bright ones it has found.
 constexpr double kKept = 0.8;
 
 }  // namespace
@@ -72,54 +77,65 @@ Trial GuidingChoice::warm_up_round() const {
     return {.is_guided = true, .is_baseline = rounds_ >= kFewestBeforeVariance};
 }
 
-void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters& baseline, const PathCosts& costs,
-                                  double share) {
+void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters& baseline,
+                                  const GuidingTerms& terms) {
     ++rounds_;
     guided_.fade(kKept);
-    guided_.add(guided, costs);
-    baseline_.add(baseline, costs);
+    guided_.add(guided, terms.costs);
+    baseline_.add(baseline, terms.costs);
+    learn(guided, terms);
+    spend(guided, baseline, terms);
     predict();
-    count_cost(share);
-    if (baseline.paths > 0) spent_ += share;
     // Without a measurable variance of either the field is trusted: the baseline may have found no light at all.
-    const double gain = gain_.value_or(1.0);
-    if (rounds_ >= kRoundsForGain && gain >= kClearGain) belief_ = true;
-    if (rounds_ >= kRoundsForLoss && gain < kLeastUnprovenGain) belief_ = false;
-    if (rounds_ >= kMostWarmUpRounds) belief_ = gain >= kLeastUnprovenGain;
+    const double gain = gain_.value_or(kReturningGain);
+    const bool is_clear = gain >= kClearGain || gain < kClearLoss;
+    if (rounds_ >= (is_clear ? kFewestWarmUpRounds : kMostWarmUpRounds)) belief_ = gain >= least_gain();
 }
 
 Trial GuidingChoice::trial_before(std::uint32_t pass) const {
     if (pass < kFewestBeforeVariance || last_trial_ == pass) return {};
-    if (!pays()) return {.is_guided = spent_ + trial_cost_ <= kExploration * static_cast<double>(pass)};
-    const bool is_due =
+    const bool is_first =
         (pass == kFirstTrial && baseline_trials_ == 0) || (pass == kSecondTrial && baseline_trials_ == 1);
-    return {.is_baseline = is_due && rounds_ == 0};
+    const bool is_affordable = spent_ + trial_cost_ <= kExploration * static_cast<double>(pass);
+    if (!pays()) return {.is_guided = is_affordable};
+    return {.is_baseline = is_first || (pass > kSecondTrial && is_affordable)};
 }
 
 void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& guided, const PassCounters& baseline,
-                                  const PathCosts& costs, double share) {
+                                  const GuidingTerms& terms) {
     last_trial_ = pass;
-    baseline_.add(baseline, costs);
-    if (baseline.paths > 0) ++baseline_trials_;
-    if (guided.paths == 0) return;
-    guided_.fade(kKept);
-    guided_.add(guided, costs);
+    if (baseline.paths > 0) {
+        if (++baseline_trials_ > 2) baseline_.fade(kKept);
+        baseline_.add(baseline, terms.costs);
+    }
+    if (guided.paths > 0) {
+        guided_.fade(kKept);
+        guided_.add(guided, terms.costs);
+        learn(guided, terms);
+    }
+    spend(guided, baseline, terms);
     predict();
-    count_cost(share);
-    decide(pass);
+    if (pass > kSecondTrial || !pays()) decide();
 }
 
-void GuidingChoice::count_cost(double share) {
-    trial_cost_ = share * (baseline_.is_measured() ? guided_.cost() / baseline_.cost() : 1.0);
+void GuidingChoice::spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms) {
+    const double ratio = guided_.is_measured() && baseline_.is_measured() ? guided_.cost() / baseline_.cost() : 1.0;
+    trial_cost_ = (static_cast<double>(guided.paths) * ratio + static_cast<double>(baseline.paths)) / terms.pixels;
     spent_ += trial_cost_;
 }
 
-void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, const PathCosts& costs) {
+void GuidingChoice::learn(const PassCounters& guided, const GuidingTerms& terms) {
+    learned_ += terms.learns ? static_cast<double>(guided.paths) / terms.volumes : kMature;
+}
+
+void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms) {
+    if (pays()) learn(counters, terms);
     if (pass < kFewestBeforeVariance) return;
-    if (pays()) guided_.fade(kKept);
-    (pays() ? guided_ : baseline_).add(counters, costs);
+    PathEfficiency& measured = pays() ? guided_ : baseline_;
+    measured.fade(kKept);
+    measured.add(counters, terms.costs);
     predict();
-    if (pass > kSecondTrial) decide(pass);
+    if (pass > kSecondTrial) decide();
 }
 
 void GuidingChoice::predict() {
@@ -128,16 +144,25 @@ void GuidingChoice::predict() {
     if (gain > 0.0 && std::isfinite(gain)) gain_ = gain;
 }
 
-void GuidingChoice::decide(std::uint32_t pass) {
-    if (!gain_) return;
-    const double least = pass < kEarlyPasses ? kLeastEarlyGain : kLeastGain;
-    belief_ = *gain_ >= (pays() ? least : kReturningGain);
+double GuidingChoice::least_gain() const {
+    if (learned_ < kYoung) return kLeastGainOfYoung;
+    return learned_ < kMature ? kLeastGainOfLearning : kLeastGain;
+}
+
+void GuidingChoice::decide() {
+    if (gain_) belief_ = *gain_ >= (pays() ? least_gain() : kReturningGain);
+}
+
+void GuidingChoice::trust_field() {
+    begin_guided();
+    learned_ = std::max(learned_, kMature);
 }
 
 GuidingChoice GuidingChoice::restarted() const {
     GuidingChoice choice;
     choice.belief_ = belief_;
-    if (rounds_ >= kRoundsOfTrust) choice.trust_field();
+    choice.learned_ = learned_;
+    if (rounds_ >= kRoundsOfTrust) choice.begin_guided();
     return choice;
 }
 

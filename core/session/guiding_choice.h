@@ -49,6 +49,14 @@ private:
     double paths_ = 0.0;
 };
 
+/// The setting of a choice.
+struct GuidingTerms {
+    PathCosts costs{};
+    double pixels = 1.0;   ///< of the picture
+    double volumes = 1.0;  ///< of the field
+    bool learns = true;    ///< the field by guided paths; else it is complete
+};
+
 /// Paths of a part of the pixels that never come to the picture: they train the field or measure a method.
 struct Trial {
     bool is_guided = false;
@@ -65,43 +73,46 @@ public:
     std::uint32_t rounds() const { return rounds_; }
     /// The trial of the next round. The samples of guided ones must form the film that variances are measured against.
     Trial warm_up_round() const;
-    /// `share`: paths of each kind in the trial, over those of a pass.
-    void measure_round(const PassCounters& guided, const PassCounters& baseline, const PathCosts& costs,
-                       double share);
+    void measure_round(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
 
     /// Whether passes are guided from now on, as far as is known.
     bool pays() const { return belief_.value_or(true); }
-    /// The trial that is due before the pass of this number: of the baseline while its variance is unknown in this film; where
-    /// guiding does not pay, guided ones, as few as cost kExploration of all passes, the warm-up included.
+    /// The trial that is due before the pass of this number, of the method that passes do not use: two of the baseline before the first
+    /// decision of a film; else as few as take kExploration of the time of all passes, the warm-up included.
     Trial trial_before(std::uint32_t pass) const;
     void measure_trial(std::uint32_t pass, const PassCounters& guided, const PassCounters& baseline,
-                       const PathCosts& costs, double share);
+                       const GuidingTerms& terms);
     /// After the complete pass of this number.
-    void measure_pass(std::uint32_t pass, const PassCounters& counters, const PathCosts& costs);
+    void measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms);
 
     /// The choice for another film with the same field: what is known is kept until it is measured again.
     GuidingChoice restarted() const;
+    /// Guides from the first pass on, by a field that is unknown.
+    void begin_guided() { belief_ = belief_.value_or(true); }
     /// Guides from the first pass on, by a field that has learned before.
-    void trust_field() { belief_ = belief_.value_or(true); }
+    void trust_field();
 
     /// Predicted equal-time factor of guiding over the baseline. Empty before the first decision of this film.
     std::optional<double> gain() const { return belief_ ? gain_ : std::nullopt; }
 
 private:
-    /// Share of all passes that may be spent on guided trials where guiding does not pay.
+    /// Share of the time of all passes that may be spent on trials.
     static constexpr double kExploration = 0.02;
 
+    void learn(const PassCounters& guided, const GuidingTerms& terms);
     void predict();
-    void count_cost(double share);
-    void decide(std::uint32_t pass);
+    void spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
+    double least_gain() const;
+    void decide();
 
     PathEfficiency guided_;
     PathEfficiency baseline_;
+    double learned_ = 0.0;                     ///< guided paths so far per volume of the field
     std::uint32_t rounds_ = 0;                 ///< of the warm-up
     std::uint32_t baseline_trials_ = 0;        ///< after it
     std::optional<std::uint32_t> last_trial_;  ///< number of the pass after it
-    double spent_ = 0.0;                       ///< on rounds and guided trials, in passes of the baseline
-    double trial_cost_ = 0.0;                  ///< likewise, on the last guided one
+    double spent_ = 0.0;                       ///< on rounds and trials, in passes of the baseline
+    double trial_cost_ = 0.0;                  ///< likewise, on the last one
     std::optional<double> gain_;
     std::optional<bool> belief_;  ///< whether guiding pays
 };

@@ -144,7 +144,7 @@ private:
     PassRequest trial_request(FilmSlot slot, bool is_guided, const StopFlag* stop) const;
     std::uint32_t trial_step() const;
     void measure_guiding(FilmSlot slot);
-    PathCosts path_costs(FilmSlot slot) const;
+    GuidingTerms guiding_terms(FilmSlot slot) const;
     std::uint32_t end_of_part(FilmSlot slot) const;
     void finish_learning_part(FilmSlot slot);
     void finish_learning_pass(FilmSlot slot);

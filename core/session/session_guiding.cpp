@@ -29,8 +29,11 @@ bool Session::warms_up(FilmSlot slot) const { return chooses_guiding(slot) && tr
 /// Number of pixels that share a path of a trial.
 std::uint32_t Session::trial_step() const { return std::clamp(pixel_count() / kTrialPaths, 1u, kLargestStep); }
 
-PathCosts Session::path_costs(FilmSlot slot) const {
-    return PathCosts::of(scene_.packed()->triangles.size(), needed_features(slot));
+GuidingTerms Session::guiding_terms(FilmSlot slot) const {
+    return {.costs = PathCosts::of(scene_.packed()->triangles.size(), needed_features(slot)),
+            .pixels = static_cast<double>(pixel_count()),
+            .volumes = static_cast<double>(placement_.count()),
+            .learns = info_of(slot.method).learns};
 }
 
 /// Decides about the pass that begins. Returns false if the trials before it were stopped: the next call resumes them.
@@ -38,13 +41,13 @@ bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
     if (!chooses_guiding(slot)) return true;
     FilmProgress& state = films_[slot];
     const bool knows = info_of(slot.method).learns && field(slot.method).passes > 0;
-    if (knows || !warms_up(slot)) state.guiding.trust_field();
+    if (knows && state.guiding.is_warming_up()) state.guiding.trust_field();
+    if (!warms_up(slot)) state.guiding.begin_guided();
     if (state.guiding.is_warming_up() && !warm_up(slot, stop)) return false;
     const Trial trial = state.guiding.trial_before(state.passes);
     if (trial.is_due()) {
         if (!run_trial(slot, trial, stop)) return false;
-        state.guiding.measure_trial(state.passes, state.trial.guided, state.trial.baseline, path_costs(slot),
-                                    1.0 / trial_step());
+        state.guiding.measure_trial(state.passes, state.trial.guided, state.trial.baseline, guiding_terms(slot));
         finish_trial(slot);
     }
     state.measured = {};
@@ -60,7 +63,7 @@ bool Session::warm_up(FilmSlot slot, const StopFlag* stop) {
     FilmProgress& state = films_[slot];
     while (state.guiding.is_warming_up()) {
         if (!run_trial(slot, state.guiding.warm_up_round(), stop)) return false;
-        state.guiding.measure_round(state.trial.guided, state.trial.baseline, path_costs(slot), 1.0 / trial_step());
+        state.guiding.measure_round(state.trial.guided, state.trial.baseline, guiding_terms(slot));
         finish_trial(slot);
     }
     backend_->reset_film(slot, settings_.width, settings_.height);
@@ -99,8 +102,8 @@ PassRequest Session::trial_request(FilmSlot slot, bool is_guided, const StopFlag
     PassRequest request = pass_request(slot, is_guided ? slot.method : baseline_method(), stop);
     request.path.stream = is_warm_up ? Stream::WarmUp : Stream::Trial;
     request.use = is_warm_up && is_guided ? SampleUse::Measured : SampleUse::Trial;
-    // Outside of the warm-up the baseline has two trials, of half as many paths each.
-    request.subset.step = trial_step() * (is_guided || is_warm_up ? 1 : 2);
+    // A small picture has few paths to spare beside its passes.
+    request.subset.step = trial_step() * (is_guided || warms_up(slot) ? 1 : 2);
     if (is_warm_up) {
         request.sample = state.guiding.rounds();
         request.passes = state.guiding.rounds() + 1;
@@ -123,7 +126,7 @@ void Session::finish_trial(FilmSlot slot) {
 void Session::measure_guiding(FilmSlot slot) {
     if (!chooses_guiding(slot)) return;
     FilmProgress& state = films_[slot];
-    state.guiding.measure_pass(state.passes, state.measured, path_costs(slot));
+    state.guiding.measure_pass(state.passes, state.measured, guiding_terms(slot));
     if (!state.is_guided) ++state.unguided_passes;
 }
 

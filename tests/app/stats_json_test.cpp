@@ -99,8 +99,9 @@ TEST_CASE("statistics tell whether guiding pays, for methods that guide and may 
     CHECK(early["pays"] == true);
     CHECK(early["predicted_gain"].is_null());
     CHECK(early["trial_paths"] == 0);
+    // Few volumes: nothing more can be expected of them after a few passes.
     const ordered_json late = stats_of({"--method", "reinforcement", "--bsdf-fraction", "1", "--roulette", "albedo",
-                                        "--nee", "on", "--spp", "20"})["guiding"];
+                                        "--volumes", "20", "--nee", "on", "--spp", "20"})["guiding"];
     CHECK(late["pays"] == false);
     CHECK(late["predicted_gain"] < 0.9);
     CHECK(late["unguided_passes"] > 10);

@@ -24,11 +24,14 @@ PassCounters counters_of(double variance, bool is_guided) {
     return counters;
 }
 
+/// A picture of four times as many pixels as a trial has paths; a field that is mature after `paths` guided paths.
+GuidingTerms terms_of(double paths = 64000.0) { return {.costs = kCosts, .pixels = 400.0, .volumes = paths / 640.0}; }
+
 constexpr double kShare = 0.25;  ///< of a trial
 
 /// Runs rounds of the warm-up until it is over; the baseline has variance 1, guided paths that of variance_of(round).
 template <class VarianceOf>
-std::uint32_t warm_up(GuidingChoice& choice, VarianceOf&& variance_of) {
+std::uint32_t warm_up(GuidingChoice& choice, VarianceOf&& variance_of, const GuidingTerms& terms = terms_of()) {
     std::uint32_t rounds = 0;
     for (; choice.is_warming_up() && rounds < 100; ++rounds) {
         const Trial trial = choice.warm_up_round();
@@ -36,7 +39,7 @@ std::uint32_t warm_up(GuidingChoice& choice, VarianceOf&& variance_of) {
         const PassCounters baseline = trial.is_baseline ? counters_of(1.0, false) : PassCounters{};
         PassCounters guided = counters_of(variance_of(rounds), true);
         if (rounds < kFewestBeforeVariance) guided.variance = {};
-        choice.measure_round(guided, baseline, kCosts, kShare);
+        choice.measure_round(guided, baseline, terms);
     }
     return rounds;
 }
@@ -49,7 +52,8 @@ struct Passes {
 
 /// Runs passes [0, count), whose baseline has variance 1 and guided ones that of variance_of(pass).
 template <class VarianceOf>
-Passes run(GuidingChoice& choice, std::uint32_t count, VarianceOf&& variance_of) {
+Passes run(GuidingChoice& choice, std::uint32_t count, VarianceOf&& variance_of,
+           const GuidingTerms& terms = terms_of()) {
     Passes passes;
     for (std::uint32_t pass = 0; pass < count; ++pass) {
         const Trial trial = choice.trial_before(pass);
@@ -57,17 +61,17 @@ Passes run(GuidingChoice& choice, std::uint32_t count, VarianceOf&& variance_of)
         if (trial.is_baseline) passes.baseline_trials.push_back(pass);
         if (trial.is_due())
             choice.measure_trial(pass, trial.is_guided ? counters_of(variance_of(pass), true) : PassCounters{},
-                                 trial.is_baseline ? counters_of(1.0, false) : PassCounters{}, kCosts, kShare);
+                                 trial.is_baseline ? counters_of(1.0, false) : PassCounters{}, terms);
         const bool is_guided = choice.pays();
         if (is_guided) passes.guided.push_back(pass);
-        choice.measure_pass(pass, counters_of(is_guided ? variance_of(pass) : 1.0, is_guided), kCosts);
+        choice.measure_pass(pass, counters_of(is_guided ? variance_of(pass) : 1.0, is_guided), terms);
     }
     return passes;
 }
 
-GuidingChoice trusting() {
+GuidingChoice beginning() {
     GuidingChoice choice;
-    choice.trust_field();
+    choice.begin_guided();
     return choice;
 }
 
@@ -97,59 +101,113 @@ TEST_CASE("Guiding choice: a warm-up ends early with a clear gain or a loss") {
         return std::pair(rounds, choice.pays());
     };
     CHECK(rounds_with(0.4) == std::pair(5u, true));   // a gain of 1.67
-    CHECK(rounds_with(0.65) == std::pair(9u, true));  // 1.03
-    CHECK(rounds_with(0.8) == std::pair(9u, true));   // 0.83: fields get better
-    CHECK(rounds_with(1.0) == std::pair(9u, true));   // 0.67
-    CHECK(rounds_with(1.1) == std::pair(7u, false));  // 0.61
-    CHECK(rounds_with(20.0) == std::pair(7u, false));
+    CHECK(rounds_with(0.8) == std::pair(5u, true));   // 0.83: fields get better
+    CHECK(rounds_with(1.0) == std::pair(7u, true));   // 0.67
+    CHECK(rounds_with(1.8) == std::pair(7u, true));   // 0.37
+    CHECK(rounds_with(2.0) == std::pair(7u, false));  // 0.33
+    CHECK(rounds_with(20.0) == std::pair(5u, false));
+}
+
+TEST_CASE("Guiding choice: the more a field has learned, the more is asked of it") {
+    const auto pays_with = [](double variance, const GuidingTerms& terms) {
+        GuidingChoice choice;
+        warm_up(
+            choice, [&](std::uint32_t) { return variance; }, terms);
+        return choice.pays();
+    };
+    // Five or seven rounds of 100 paths.
+    CHECK(pays_with(0.72, terms_of(2000.0)));        // 0.93, young
+    CHECK_FALSE(pays_with(0.72, terms_of(1000.0)));  // learning
+    CHECK(pays_with(0.68, terms_of(1000.0)));        // 0.98
+    CHECK_FALSE(pays_with(0.68, terms_of(400.0)));   // mature
+    CHECK(pays_with(0.6, terms_of(400.0)));          // 1.11
+    GuidingTerms complete = terms_of();
+    complete.learns = false;
+    CHECK_FALSE(pays_with(0.68, complete));
+    CHECK(pays_with(0.6, complete));
 }
 
 TEST_CASE("Guiding choice: nothing is told before the warm-up is over") {
     GuidingChoice choice;
     for (int round = 0; round < 4; ++round)
-        choice.measure_round(counters_of(0.4, true), counters_of(1.0, false), kCosts, kShare);
+        choice.measure_round(counters_of(0.4, true), counters_of(1.0, false), terms_of());
     CHECK(choice.is_warming_up());
     CHECK_FALSE(choice.gain());
     CHECK(choice.pays());
 }
 
-TEST_CASE("Guiding choice: without a warm-up the baseline has two trials before the first decision, never again") {
-    GuidingChoice choice = trusting();
-    const Passes passes = run(choice, 100, [](std::uint32_t) { return 0.4; });
-    CHECK(passes.baseline_trials == std::vector<std::uint32_t>{3, 5});
-    CHECK(passes.guided_trials.empty());
-    GuidingChoice warm;
-    warm_up(warm, [](std::uint32_t) { return 0.4; });
-    CHECK(run(warm, 100, [](std::uint32_t) { return 0.4; }).baseline_trials.empty());
+TEST_CASE("Guiding choice: the baseline has two trials before the first decision, then as few as cost two per cent") {
+    for (const bool warms_up : {false, true}) {
+        GuidingChoice choice = warms_up ? GuidingChoice{} : beginning();
+        const std::uint32_t rounds = warms_up ? warm_up(choice, [](std::uint32_t) { return 0.4; }) : 0;
+        // Costs count from the first round on that measures both methods.
+        const double measured = rounds > 0 ? rounds - kFewestBeforeVariance : 0.0;
+        const double spent = kShare * (rounds + (0.5 + 1.0) * measured);
+        const Passes passes = run(choice, 1000, [](std::uint32_t) { return 0.4; });
+        CHECK(passes.guided_trials.empty());
+        REQUIRE(passes.baseline_trials.size() > 3);
+        CHECK(passes.baseline_trials[0] == 3);
+        CHECK(passes.baseline_trials[1] == 5);
+        CHECK(passes.baseline_trials[2] == Approx((spent + 3 * kShare) / 0.02).margin(1.0));
+        CHECK(spent + kShare * static_cast<double>(passes.baseline_trials.size()) == Approx(20.0).margin(1.0));
+    }
 }
 
 TEST_CASE("Guiding choice: a trial is due until it is measured, and one before a pass") {
-    GuidingChoice choice = trusting();
+    GuidingChoice choice = beginning();
     CHECK(choice.trial_before(3) == Trial{.is_baseline = true});
     CHECK(choice.trial_before(3) == Trial{.is_baseline = true});
-    choice.measure_trial(3, {}, counters_of(1.0, false), kCosts, kShare);
+    choice.measure_trial(3, {}, counters_of(1.0, false), terms_of());
     CHECK_FALSE(choice.trial_before(3).is_due());
     CHECK_FALSE(choice.gain());
 }
 
 TEST_CASE("Guiding choice: guides as long as variance times cost is less") {
-    GuidingChoice choice = trusting();
+    GuidingChoice choice = beginning();
     CHECK(run(choice, 1000, [](std::uint32_t) { return 0.6; }).guided.size() == 1000);
     REQUIRE(choice.gain());
     CHECK(*choice.gain() == Approx(1.0 / (0.6 * 1.5)));
     CHECK(choice.pays());
 }
 
-TEST_CASE("Guiding choice: a film that begins guided gives up after seven passes with a loss, after sixteen if it is "
-          "small") {
-    GuidingChoice losing = trusting();
-    CHECK(run(losing, 30, [](std::uint32_t) { return 1.0; }).guided.size() == 7);
-    GuidingChoice late = trusting();
-    CHECK(run(late, 30, [](std::uint32_t) { return 0.8; }).guided.size() == 17);  // 0.83
+TEST_CASE(
+    "Guiding choice: a film that begins guided gives up after six passes with a clear loss, later with a small one") {
+    GuidingChoice losing = beginning();
+    CHECK(run(losing, 30, [](std::uint32_t) { return 2.0; }).guided.size() == 7);
+    const GuidingTerms terms =
+        terms_of(6400.0);  // in passes of 100 paths: learning from the 25th on, mature from the 64th
+    GuidingChoice late = beginning();
+    CHECK(run(
+              late, 100, [](std::uint32_t) { return 0.8; }, terms)
+              .guided.size() == 25);  // 0.83
+    GuidingChoice latest = beginning();
+    CHECK(run(
+              latest, 100, [](std::uint32_t) { return 0.68; }, terms)
+              .guided.size() == 64);  // 0.98
+    GuidingChoice paying = beginning();
+    CHECK(run(
+              paying, 100, [](std::uint32_t) { return 0.65; }, terms)
+              .guided.size() == 100);  // 1.03
+}
+
+TEST_CASE("Guiding choice: the baseline of an older film is measured anew") {
+    // A film whose variances fall with its age, for both methods alike: the gain stays what it is, 0.83.
+    GuidingChoice choice = beginning();
+    for (std::uint32_t pass = 0; pass < 400; ++pass) {
+        const double age = 1.0 / (1.0 + pass);
+        const Trial trial = choice.trial_before(pass);
+        if (trial.is_due())
+            choice.measure_trial(pass, trial.is_guided ? counters_of(0.8 * age, true) : PassCounters{},
+                                 trial.is_baseline ? counters_of(age, false) : PassCounters{}, terms_of());
+        const bool is_guided = choice.pays();
+        choice.measure_pass(pass, counters_of(is_guided ? 0.8 * age : age, is_guided), terms_of());
+    }
+    REQUIRE(choice.gain());
+    CHECK(*choice.gain() == Approx(0.83).epsilon(0.5));
 }
 
 TEST_CASE("Guiding choice: without a gain trials cost a few per cent of the time") {
-    for (const double variance : {1.1, 2.0}) {
+    for (const double variance : {2.1, 5.0}) {
         GuidingChoice choice;
         const double rounds = warm_up(choice, [&](std::uint32_t) { return variance; });
         const Passes passes = run(choice, 2000, [&](std::uint32_t) { return variance; });
@@ -164,8 +222,8 @@ TEST_CASE("Guiding choice: without a gain trials cost a few per cent of the time
 
 TEST_CASE("Guiding choice: a field that has become better is used again") {
     GuidingChoice choice;
-    warm_up(choice, [](std::uint32_t) { return 1.1; });
-    const Passes passes = run(choice, 4000, [](std::uint32_t pass) { return pass < 300 ? 1.1 : 0.2; });
+    warm_up(choice, [](std::uint32_t) { return 2.1; });
+    const Passes passes = run(choice, 4000, [](std::uint32_t pass) { return pass < 300 ? 2.1 : 0.2; });
     CHECK(passes.guided.size() > 2000);
     CHECK(choice.pays());
     CHECK(*choice.gain() == Approx(1.0 / (0.2 * 1.5)).epsilon(0.01));
@@ -173,10 +231,10 @@ TEST_CASE("Guiding choice: a field that has become better is used again") {
 
 TEST_CASE("Guiding choice: passes of the baseline correct a variance that was measured too low") {
     GuidingChoice choice;
-    warm_up(choice, [](std::uint32_t) { return 1.1; });
+    warm_up(choice, [](std::uint32_t) { return 2.1; });
     REQUIRE_FALSE(choice.pays());
     std::uint32_t pass = 0;
-    for (; pass < 40 && !choice.pays(); ++pass) choice.measure_pass(pass, counters_of(3.0, false), kCosts);
+    for (; pass < 40 && !choice.pays(); ++pass) choice.measure_pass(pass, counters_of(6.0, false), terms_of());
     CHECK(choice.pays());
     CHECK(pass < 20);
 }
@@ -186,7 +244,7 @@ TEST_CASE("Guiding choice: a field without a measurable gain is trusted") {
     for (const double variance : {0.0, 1.0}) {
         GuidingChoice choice;
         for (int round = 0; choice.is_warming_up() && round < 100; ++round)
-            choice.measure_round(counters_of(variance, true), counters_of(0.0, false), kCosts, kShare);
+            choice.measure_round(counters_of(variance, true), counters_of(0.0, false), terms_of());
         CHECK_FALSE(choice.is_warming_up());
         CHECK(choice.pays());
         CHECK_FALSE(choice.gain());
@@ -202,10 +260,10 @@ TEST_CASE("Guiding choice: another film keeps the decision and measures anew") {
     CHECK(run(again, 10, [](std::uint32_t) { return 0.4; }).baseline_trials == std::vector<std::uint32_t>{3, 5});
     CHECK(again.gain());
     GuidingChoice lost;
-    warm_up(lost, [](std::uint32_t) { return 1.1; });
+    warm_up(lost, [](std::uint32_t) { return 2.1; });
     GuidingChoice lost_again = lost.restarted();
     lost_again.trust_field();  // it knows better
-    const Passes passes = run(lost_again, 10, [](std::uint32_t) { return 1.1; });
+    const Passes passes = run(lost_again, 10, [](std::uint32_t) { return 2.1; });
     CHECK(passes.guided.empty());
     CHECK(passes.guided_trials == std::vector<std::uint32_t>{3});
     CHECK(lost_again.gain());
@@ -213,9 +271,9 @@ TEST_CASE("Guiding choice: another film keeps the decision and measures anew") {
 
 TEST_CASE("Guiding choice: a warm-up that another film interrupts counts once the field has learned a little") {
     GuidingChoice choice;
-    for (int round = 0; round < 3; ++round) choice.measure_round(counters_of(1.0, true), {}, kCosts, kShare);
+    for (int round = 0; round < 3; ++round) choice.measure_round(counters_of(1.0, true), {}, terms_of());
     CHECK(choice.restarted().is_warming_up());
-    choice.measure_round(counters_of(1.0, true), counters_of(1.0, false), kCosts, kShare);
+    choice.measure_round(counters_of(1.0, true), counters_of(1.0, false), terms_of());
     REQUIRE(choice.is_warming_up());
     CHECK_FALSE(choice.restarted().is_warming_up());
     CHECK(choice.restarted().pays());

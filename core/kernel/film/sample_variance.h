@@ -12,9 +12,10 @@ struct VarianceSums {
     std::uint64_t sum = 0;      ///< of variance / (m^2 + 1) for an estimate m of the pixel, in steps
     std::uint64_t samples = 0;  ///< measured ones
 
-    /// Contributions of one sample are clamped here, so that a single path decides nothing.
-    static constexpr float kMost = 16.0f;
-    static constexpr double kSteps = 0x1p32;  ///< per unit
+    /// Contributions of one sample are clamped here, so that a single path decides nothing: far above white, because rare bright
+    /// paths are most of the variance that guiding can take away (docs/notebook/2026-11-25-choice-at-512.md).
+    static constexpr float kMost = 256.0f;
+    static constexpr double kSteps = 0x1p28;  ///< per unit: 2^27 samples of the largest size do not overflow
 
     VarianceSums& operator+=(const VarianceSums& other) {
         sum += other.sum;
