@@ -18,8 +18,8 @@ from pathlib import Path
 DOCS = Path(__file__).resolve().parent
 # Arguments of the viewer, and the folder of its pictures.
 PICTURES = {
-    "window": (["cornell", "--size", "384x384", "--window", "1440x900"], DOCS / "images"),
-    "tour": (["cornell", "--size", "128x128", "--window", "1120x700"], DOCS / "images" / "tour"),
+    "window": (["cornell", "--nee", "off", "--size", "384x384", "--window", "1440x900"], DOCS / "images"),
+    "tour": (["cornell", "--nee", "off", "--size", "128x128", "--window", "1120x700"], DOCS / "images" / "tour"),
 }
 COLORS = 256
 

@@ -46,9 +46,9 @@ learning are charged. Made by [make_results.py](make_results.py) of one bench.
 
 def light_samples(results):
     """A line that says whether lights were sampled, which decides much of what learning can gain."""
-    if "--nee on" in results["command"]:
-        return "* With light samples (next-event estimation)."
-    return ("* Without light samples, the program's default. With them, as most renderers run, learning loses on many scenes:\n"
+    if "--nee off" not in results["command"]:
+        return "* With light samples (next-event estimation), the program's default."
+    return ("* Without light samples (`--nee off`), where learning gains most. With them, the program's default, it gains less:\n"
             "  [learning.md](learning.md#with-light-samples).")
 
 

@@ -52,7 +52,7 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return std::to_string(o.render.max_depth); }},
     {.name = "nee", .flags = "--nee", .value = "on|off", .group = kPicture,
      .help = "Next-event estimation: also sample lights, weighted by multiple importance sampling (default "
-             "off)",
+             "on)",
      .commands = kWithScene, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.render.next_event = parse_switch(text); },
      .print = [](const Options& o) { return std::string(o.render.next_event ? "on" : "off"); }},

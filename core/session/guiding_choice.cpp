@@ -8,30 +8,32 @@
 namespace pl {
 namespace {
 
-/// Rounds of the warm-up: after the first number it ends where the gain is clear, after the second in any case.
-constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
-constexpr std::uint32_t kMostWarmUpRounds = kFewestBeforeVariance + 4;
-constexpr double kClearLoss = 0.2;
-constexpr double kClearGain = 0.8;
-/// Rounds after which a field that another film interrupts is trusted.
-constexpr std::uint32_t kRoundsOfTrust = 4;
-
-/// The least gain that is guided, by the number of guided paths per volume that the field has learned from: below 1 at first, since
-/// fields get better and guided paths make them so; above 1 in the end, since even numbers take more noise from the baseline's
-/// first vertices than the variance of a sample shows (docs/notebook/2026-11-25-choice-at-512.md).
-constexpr double kYoung = 250.0;
-constexpr double kLeastGainOfYoung = 0.35;
+/// Guided paths per volume that a field has learned from: until the first it proves nothing, from the second on it is known how good
+/// it becomes. With 1000 volumes they are 12 and 40 trials of 16384 paths (docs/notebook/2026-11-25-choice-at-512.md).
+constexpr double kYoung = 190.0;
 constexpr double kMature = 640.0;
-constexpr double kLeastGainOfLearning = 0.95;
-constexpr double kLeastGain = 1.02;
+/// The least gains that are guided. Below 1 at first, since guided paths make a field better; above 1 in the end, since even numbers
+/// take more noise from the baseline's first vertices than the variance of a sample shows.
+constexpr double kLeastGainOfYoung = 0.1;
+constexpr double kLeastGainOfLearning = 0.85;
+constexpr double kLeastGain = 1.04;
 /// The gain from which on guiding is taken up again.
 constexpr double kReturningGain = 1.1;
+/// Whatever its gain, a field is learning fast while the variance of guided paths is below this share of its first measurement.
+constexpr double kFallOfFastLearning = 0.75;
+
+/// Rounds of the warm-up: after the first number it ends with a gain that is clear.
+constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
+constexpr std::uint32_t kMostWarmUpRounds = 12;
+/// Rounds after which a field that another film interrupts is trusted.
+constexpr std::uint32_t kRoundsOfTrust = 4;
 
 /// Passes before which the baseline is measured in every film; the second is the first pass after which a film decides.
 constexpr std::uint32_t kFirstTrial = kFewestBeforeVariance;
 constexpr std::uint32_t kSecondTrial = kFirstTrial + 2;
-/// Weight of earlier measurements beside the newest one. Variances of guided paths fall while a field learns; and those of both
-/// methods fall with the age of a film, because they are measured relative to pixels whose bright ones it has found.
+/// Samples of the baseline that tell its variance well enough.
+constexpr double kEnoughSamples = 131072.0;
+/// Weight of the guided passes before the newest one: their variances fall while a field learns, and are noisy.
 constexpr double kKept = 0.8;
 
 }  // namespace
@@ -80,16 +82,16 @@ Trial GuidingChoice::warm_up_round() const {
 void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters& baseline,
                                   const GuidingTerms& terms) {
     ++rounds_;
-    guided_.fade(kKept);
-    guided_.add(guided, terms.costs);
     baseline_.add(baseline, terms.costs);
     learn(guided, terms);
+    measure_guided(guided, terms);
     spend(guided, baseline, terms);
     predict();
     // Without a measurable variance of either the field is trusted: the baseline may have found no light at all.
-    const double gain = gain_.value_or(kReturningGain);
-    const bool is_clear = gain >= kClearGain || gain < kClearLoss;
-    if (rounds_ >= (is_clear ? kFewestWarmUpRounds : kMostWarmUpRounds)) belief_ = gain >= least_gain();
+    const double gain = gain_.value_or(kLeastGain);
+    const double least = least_gain();
+    const bool is_clear = rounds_ >= kFewestWarmUpRounds && gain >= std::max(least, kLeastGainOfLearning);
+    if (is_clear || rounds_ >= kMostWarmUpRounds) belief_ = gain >= least;
 }
 
 Trial GuidingChoice::trial_before(std::uint32_t pass) const {
@@ -98,24 +100,40 @@ Trial GuidingChoice::trial_before(std::uint32_t pass) const {
         (pass == kFirstTrial && baseline_trials_ == 0) || (pass == kSecondTrial && baseline_trials_ == 1);
     const bool is_affordable = spent_ + trial_cost_ <= kExploration * static_cast<double>(pass);
     if (!pays()) return {.is_guided = is_affordable};
-    return {.is_baseline = is_first || (pass > kSecondTrial && is_affordable)};
+    const bool is_further = pass > kSecondTrial && is_affordable && baseline_.samples() < kEnoughSamples;
+    return {.is_baseline = is_first || is_further};
 }
 
 void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& guided, const PassCounters& baseline,
                                   const GuidingTerms& terms) {
     last_trial_ = pass;
-    if (baseline.paths > 0) {
-        if (++baseline_trials_ > 2) baseline_.fade(kKept);
-        baseline_.add(baseline, terms.costs);
-    }
+    if (baseline.paths > 0) ++baseline_trials_;
+    baseline_.add(baseline, terms.costs);
     if (guided.paths > 0) {
-        guided_.fade(kKept);
-        guided_.add(guided, terms.costs);
         learn(guided, terms);
+        measure_guided(guided, terms);
     }
     spend(guided, baseline, terms);
     predict();
     if (pass > kSecondTrial || !pays()) decide();
+}
+
+void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms) {
+    if (pays()) learn(counters, terms);
+    if (pass < kFewestBeforeVariance) return;
+    if (pays())
+        measure_guided(counters, terms);
+    else
+        baseline_.add(counters, terms.costs);
+    predict();
+    if (pass > kSecondTrial) decide();
+}
+
+void GuidingChoice::measure_guided(const PassCounters& counters, const GuidingTerms& terms) {
+    guided_.fade(kKept);
+    guided_.add(counters, terms.costs);
+    if (!first_variance_ && ++guided_measurements_ >= kFewestWarmUpRounds && guided_.is_measured())
+        first_variance_ = guided_.variance();
 }
 
 void GuidingChoice::spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms) {
@@ -128,16 +146,6 @@ void GuidingChoice::learn(const PassCounters& guided, const GuidingTerms& terms)
     learned_ += terms.learns ? static_cast<double>(guided.paths) / terms.volumes : kMature;
 }
 
-void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms) {
-    if (pays()) learn(counters, terms);
-    if (pass < kFewestBeforeVariance) return;
-    PathEfficiency& measured = pays() ? guided_ : baseline_;
-    measured.fade(kKept);
-    measured.add(counters, terms.costs);
-    predict();
-    if (pass > kSecondTrial) decide();
-}
-
 void GuidingChoice::predict() {
     if (!guided_.is_measured() || !baseline_.is_measured()) return;
     const double gain = baseline_.variance() * baseline_.cost() / (guided_.variance() * guided_.cost());
@@ -145,8 +153,9 @@ void GuidingChoice::predict() {
 }
 
 double GuidingChoice::least_gain() const {
-    if (learned_ < kYoung) return kLeastGainOfYoung;
-    return learned_ < kMature ? kLeastGainOfLearning : kLeastGain;
+    if (learned_ >= kMature) return kLeastGain;
+    const bool is_fast = first_variance_ && guided_.variance() < kFallOfFastLearning * *first_variance_;
+    return learned_ < kYoung || is_fast ? kLeastGainOfYoung : kLeastGainOfLearning;
 }
 
 void GuidingChoice::decide() {

@@ -39,6 +39,7 @@ public:
     void fade(double share);
 
     bool is_measured() const { return samples_ > 0.0; }
+    double samples() const { return samples_; }
     double variance() const { return variance_ / samples_; }  ///< of a path's sample; NaN before the first
     double cost() const { return cost_ / paths_; }            ///< of a path; NaN before the first
 
@@ -99,6 +100,7 @@ private:
     /// Share of the time of all passes that may be spent on trials.
     static constexpr double kExploration = 0.02;
 
+    void measure_guided(const PassCounters& counters, const GuidingTerms& terms);
     void learn(const PassCounters& guided, const GuidingTerms& terms);
     void predict();
     void spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
@@ -107,6 +109,8 @@ private:
 
     PathEfficiency guided_;
     PathEfficiency baseline_;
+    std::optional<double> first_variance_;  ///< of guided paths, after a few measurements
+    std::uint32_t guided_measurements_ = 0;
     double learned_ = 0.0;                     ///< guided paths so far per volume of the field
     std::uint32_t rounds_ = 0;                 ///< of the warm-up
     std::uint32_t baseline_trials_ = 0;        ///< after it

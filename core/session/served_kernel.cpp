@@ -21,7 +21,8 @@ KernelRange range_of(const RenderSettings& settings) {
 
 FeatureSet needed_features(const HostScene& scene, const RenderSettings& settings) {
     const FeatureSet needed = needed_effects(scene).with(needed_effects(settings.camera));
-    if (settings.next_event) return needed.with(Feature::NextEventEstimation);
+    const bool is_picture = settings.view == View::Beauty;
+    if (is_picture && settings.next_event) return needed.with(Feature::NextEventEstimation);
     // Without light sampling there is no choice among many lights.
     return settings.view == View::Direct ? needed : needed.without(Feature::ManyLights);
 }

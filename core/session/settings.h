@@ -24,7 +24,7 @@ struct RenderSettings {
     CameraDescription camera{};
     std::uint64_t seed = 1;
     int max_depth = 64;
-    bool next_event = false;
+    bool next_event = true;
     RouletteRule roulette = RouletteRule::Spare;
     GuidingRule guiding = GuidingRule::Paying;
     MixtureSettings mixture{};

@@ -11,7 +11,7 @@ using nlohmann::json;
 
 json stats_of(const TempDir& folder, const std::string& scene, const Arguments& more) {
     Arguments arguments{"render", scene,    "--size", "24x24", "--spp",          "2",       "--volumes",
-                        "40",     "--bins", "16",     "-o",    folder / "a.pfm", "--stats", folder / "s.json"};
+                        "40",     "--bins", "16",     "-o",    folder / "a.pfm", "--stats", folder / "s.json", "--nee", "off"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramResult result = run_program(arguments);
     CAPTURE(result.err);
@@ -50,15 +50,16 @@ TEST_CASE("info says which effects a scene needs, and why") {
     const ProgramResult text = run_program({"info", "spheres"});
     REQUIRE(text.code == 0);
     CHECK(text.out.find("specular: of 2 materials: mirror, glass") != std::string::npos);
-    const json spheres = json::parse(run_program({"info", "spheres", "--json"}).out);
+    const json spheres = json::parse(run_program({"info", "spheres", "--nee", "off", "--json"}).out);
     CHECK(spheres["effects_needed"].size() == 2);
-    CHECK(json::parse(run_program({"info", "cornell", "--json"}).out)["effects_needed"].empty());
+    CHECK(json::parse(run_program({"info", "cornell", "--nee", "off", "--json"}).out)["effects_needed"].empty());
+    CHECK(json::parse(run_program({"info", "cornell", "--json"}).out)["effects_needed"].size() == 1);
 }
 
 TEST_CASE("bench --effects holds every larger kernel against the needed one") {
     const TempDir folder;
     const ProgramResult result = run_program({"bench", "cornell", "spheres", "--effects", "--method",
-                                              "default,reinforcement", "--backend", "cpu", "--size", "16x16",
+                                              "default,reinforcement", "--nee", "off", "--backend", "cpu", "--size", "16x16",
                                               "--seeds", "3", "--volumes", "40", "--bins", "16", "-o", folder / "e"});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);

@@ -12,7 +12,7 @@ using nlohmann::ordered_json;
 }  // namespace
 
 TEST_CASE("info lists the contents of the scene and the effects it needs, and why") {
-    const ProgramResult cornell = run_program({"info", "cornell", "--json"});
+    const ProgramResult cornell = run_program({"info", "cornell", "--nee", "off", "--json"});
     const ordered_json box = ordered_json::parse(lines_of(cornell.out).back());
     CHECK(box["triangles"] > 10);
     CHECK(box["lights"] == 2);
@@ -24,7 +24,7 @@ TEST_CASE("info lists the contents of the scene and the effects it needs, and wh
     write_all(folder / "a.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nvn 0 0 1\nvn 0.1 0 1\nf 1//1 2//1 3//2\n");
     write_all(folder / "a.json",
               R"({"schema": "pathlight.scene/1", "obj": "a.obj", "environment": {"radiance": [1, 2, 3]}})");
-    const ProgramResult both = run_program({"info", folder / "a.json", "--json"});
+    const ProgramResult both = run_program({"info", folder / "a.json", "--nee", "off", "--json"});
     const ordered_json effects = ordered_json::parse(lines_of(both.out).back())["effects_needed"];
     REQUIRE(effects.size() == 2);
     CHECK(effects[0]["name"] == "smooth-normals");

@@ -120,7 +120,7 @@ TEST_CASE("the light that reaches the volume comes with it on request") {
     const json truth = volume["truth"];
     CHECK(truth["paths_per_cell"] == 64);
     CHECK(truth["invalid_paths"] == 0);
-    CHECK(truth["target_light"] == "all");
+    CHECK(truth["target_light"] == "left to paths");
     for (const char* key : {"radiance", "radiance_error", "target", "product", "mixture"})
         CHECK(truth[key].size() == 64);
     for (const char* key : {"table_divergence", "mixture_divergence"})

@@ -73,7 +73,7 @@ MeshFile floor_mesh() {
 TEST_CASE("R1 R2 the furnace: e over 1 less rho, and its sum when paths are cut", "[hard][R1][R2]") {
     const TempDir folder;
     check_mean(folder, "furnace", kWays, "--spp 32", {1.0}, 0.01);
-    const Rendered cut = render(folder, "furnace", "--size 128x128 --spp 1 --max-depth 3");
+    const Rendered cut = render(folder, "furnace", "--nee off --size 128x128 --spp 1 --max-depth 3");
     CHECK(within(worst_of(cut.picture, 1.0 - 0.125), 16.0 * 0x1p-24));
 }
 

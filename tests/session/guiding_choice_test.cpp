@@ -101,11 +101,23 @@ TEST_CASE("Guiding choice: a warm-up ends early with a clear gain or a loss") {
         return std::pair(rounds, choice.pays());
     };
     CHECK(rounds_with(0.4) == std::pair(5u, true));   // a gain of 1.67
-    CHECK(rounds_with(0.8) == std::pair(5u, true));   // 0.83: fields get better
-    CHECK(rounds_with(1.0) == std::pair(7u, true));   // 0.67
-    CHECK(rounds_with(1.8) == std::pair(7u, true));   // 0.37
-    CHECK(rounds_with(2.0) == std::pair(7u, false));  // 0.33
-    CHECK(rounds_with(20.0) == std::pair(5u, false));
+    CHECK(rounds_with(0.7) == std::pair(5u, true));   // 0.95: fields get better
+    CHECK(rounds_with(0.8) == std::pair(12u, true));  // 0.83, of a field that is still young
+    CHECK(rounds_with(20.0) == std::pair(12u, false));
+}
+
+TEST_CASE("Guiding choice: a loss ends a warm-up, unless the variance of guided paths still falls") {
+    const GuidingTerms learning = terms_of(4000.0);  // with 12 rounds of 100 paths
+    GuidingChoice losing;
+    CHECK(warm_up(
+              losing, [](std::uint32_t) { return 0.9; }, learning) == 12);
+    CHECK_FALSE(losing.pays());
+    GuidingChoice falling;
+    CHECK(warm_up(
+              falling, [](std::uint32_t round) { return 4.0 - 0.25 * round; }, learning) == 12);
+    CHECK(falling.pays());
+    REQUIRE(falling.gain());
+    CHECK(*falling.gain() < 0.6);
 }
 
 TEST_CASE("Guiding choice: the more a field has learned, the more is asked of it") {
@@ -115,15 +127,15 @@ TEST_CASE("Guiding choice: the more a field has learned, the more is asked of it
             choice, [&](std::uint32_t) { return variance; }, terms);
         return choice.pays();
     };
-    // Five or seven rounds of 100 paths.
-    CHECK(pays_with(0.72, terms_of(2000.0)));        // 0.93, young
-    CHECK_FALSE(pays_with(0.72, terms_of(1000.0)));  // learning
-    CHECK(pays_with(0.68, terms_of(1000.0)));        // 0.98
-    CHECK_FALSE(pays_with(0.68, terms_of(400.0)));   // mature
-    CHECK(pays_with(0.6, terms_of(400.0)));          // 1.11
+    // Five or twelve rounds of 100 paths.
+    CHECK(pays_with(0.9, terms_of(6400.0)));        // 0.74, young
+    CHECK_FALSE(pays_with(0.9, terms_of(4000.0)));  // learning
+    CHECK(pays_with(0.7, terms_of(2000.0)));        // 0.95
+    CHECK_FALSE(pays_with(0.7, terms_of(400.0)));   // mature
+    CHECK(pays_with(0.6, terms_of(400.0)));         // 1.11
     GuidingTerms complete = terms_of();
     complete.learns = false;
-    CHECK_FALSE(pays_with(0.68, complete));
+    CHECK_FALSE(pays_with(0.7, complete));
     CHECK(pays_with(0.6, complete));
 }
 
@@ -136,7 +148,7 @@ TEST_CASE("Guiding choice: nothing is told before the warm-up is over") {
     CHECK(choice.pays());
 }
 
-TEST_CASE("Guiding choice: the baseline has two trials before the first decision, then as few as cost two per cent") {
+TEST_CASE("Guiding choice: the baseline has two trials before the first decision, then some that cost two per cent") {
     for (const bool warms_up : {false, true}) {
         GuidingChoice choice = warms_up ? GuidingChoice{} : beginning();
         const std::uint32_t rounds = warms_up ? warm_up(choice, [](std::uint32_t) { return 0.4; }) : 0;
@@ -151,6 +163,15 @@ TEST_CASE("Guiding choice: the baseline has two trials before the first decision
         CHECK(passes.baseline_trials[2] == Approx((spent + 3 * kShare) / 0.02).margin(1.0));
         CHECK(spent + kShare * static_cast<double>(passes.baseline_trials.size()) == Approx(20.0).margin(1.0));
     }
+}
+
+TEST_CASE("Guiding choice: a baseline that is known well has no further trials") {
+    GuidingChoice choice = beginning();
+    PassCounters many = counters_of(1.0, false);
+    many.variance.samples = 131072;
+    many.variance.sum = static_cast<std::uint64_t>(131072 * VarianceSums::kSteps);
+    for (const std::uint32_t pass : {3u, 5u}) choice.measure_trial(pass, {}, many, terms_of());
+    CHECK(run(choice, 1000, [](std::uint32_t) { return 0.4; }).baseline_trials.empty());
 }
 
 TEST_CASE("Guiding choice: a trial is due until it is measured, and one before a pass") {
@@ -170,44 +191,23 @@ TEST_CASE("Guiding choice: guides as long as variance times cost is less") {
     CHECK(choice.pays());
 }
 
-TEST_CASE(
-    "Guiding choice: a film that begins guided gives up after six passes with a clear loss, later with a small one") {
-    GuidingChoice losing = beginning();
-    CHECK(run(losing, 30, [](std::uint32_t) { return 2.0; }).guided.size() == 7);
+TEST_CASE("Guiding choice: a film that begins guided gives up once its field has had time to learn") {
     const GuidingTerms terms =
-        terms_of(6400.0);  // in passes of 100 paths: learning from the 25th on, mature from the 64th
-    GuidingChoice late = beginning();
-    CHECK(run(
-              late, 100, [](std::uint32_t) { return 0.8; }, terms)
-              .guided.size() == 25);  // 0.83
-    GuidingChoice latest = beginning();
-    CHECK(run(
-              latest, 100, [](std::uint32_t) { return 0.68; }, terms)
-              .guided.size() == 64);  // 0.98
-    GuidingChoice paying = beginning();
-    CHECK(run(
-              paying, 100, [](std::uint32_t) { return 0.65; }, terms)
-              .guided.size() == 100);  // 1.03
-}
-
-TEST_CASE("Guiding choice: the baseline of an older film is measured anew") {
-    // A film whose variances fall with its age, for both methods alike: the gain stays what it is, 0.83.
-    GuidingChoice choice = beginning();
-    for (std::uint32_t pass = 0; pass < 400; ++pass) {
-        const double age = 1.0 / (1.0 + pass);
-        const Trial trial = choice.trial_before(pass);
-        if (trial.is_due())
-            choice.measure_trial(pass, trial.is_guided ? counters_of(0.8 * age, true) : PassCounters{},
-                                 trial.is_baseline ? counters_of(age, false) : PassCounters{}, terms_of());
-        const bool is_guided = choice.pays();
-        choice.measure_pass(pass, counters_of(is_guided ? 0.8 * age : age, is_guided), terms_of());
-    }
-    REQUIRE(choice.gain());
-    CHECK(*choice.gain() == Approx(0.83).epsilon(0.5));
+        terms_of(6400.0);  // in passes of 100 paths: learning from the 19th on, mature from the 64th
+    const auto guided_passes = [&](double variance) {
+        GuidingChoice choice = beginning();
+        return run(
+                   choice, 100, [&](std::uint32_t) { return variance; }, terms)
+            .guided.size();
+    };
+    CHECK(guided_passes(8.0) == 7);     // 0.08
+    CHECK(guided_passes(0.9) == 19);    // 0.74
+    CHECK(guided_passes(0.7) == 64);    // 0.95
+    CHECK(guided_passes(0.63) == 100);  // 1.06
 }
 
 TEST_CASE("Guiding choice: without a gain trials cost a few per cent of the time") {
-    for (const double variance : {2.1, 5.0}) {
+    for (const double variance : {7.0, 20.0}) {
         GuidingChoice choice;
         const double rounds = warm_up(choice, [&](std::uint32_t) { return variance; });
         const Passes passes = run(choice, 2000, [&](std::uint32_t) { return variance; });
@@ -222,8 +222,8 @@ TEST_CASE("Guiding choice: without a gain trials cost a few per cent of the time
 
 TEST_CASE("Guiding choice: a field that has become better is used again") {
     GuidingChoice choice;
-    warm_up(choice, [](std::uint32_t) { return 2.1; });
-    const Passes passes = run(choice, 4000, [](std::uint32_t pass) { return pass < 300 ? 2.1 : 0.2; });
+    warm_up(choice, [](std::uint32_t) { return 7.0; });
+    const Passes passes = run(choice, 4000, [](std::uint32_t pass) { return pass < 300 ? 7.0 : 0.2; });
     CHECK(passes.guided.size() > 2000);
     CHECK(choice.pays());
     CHECK(*choice.gain() == Approx(1.0 / (0.2 * 1.5)).epsilon(0.01));
@@ -231,10 +231,10 @@ TEST_CASE("Guiding choice: a field that has become better is used again") {
 
 TEST_CASE("Guiding choice: passes of the baseline correct a variance that was measured too low") {
     GuidingChoice choice;
-    warm_up(choice, [](std::uint32_t) { return 2.1; });
+    warm_up(choice, [](std::uint32_t) { return 7.0; });
     REQUIRE_FALSE(choice.pays());
     std::uint32_t pass = 0;
-    for (; pass < 40 && !choice.pays(); ++pass) choice.measure_pass(pass, counters_of(6.0, false), terms_of());
+    for (; pass < 40 && !choice.pays(); ++pass) choice.measure_pass(pass, counters_of(20.0, false), terms_of());
     CHECK(choice.pays());
     CHECK(pass < 20);
 }
@@ -260,10 +260,10 @@ TEST_CASE("Guiding choice: another film keeps the decision and measures anew") {
     CHECK(run(again, 10, [](std::uint32_t) { return 0.4; }).baseline_trials == std::vector<std::uint32_t>{3, 5});
     CHECK(again.gain());
     GuidingChoice lost;
-    warm_up(lost, [](std::uint32_t) { return 2.1; });
+    warm_up(lost, [](std::uint32_t) { return 7.0; });
     GuidingChoice lost_again = lost.restarted();
     lost_again.trust_field();  // it knows better
-    const Passes passes = run(lost_again, 10, [](std::uint32_t) { return 2.1; });
+    const Passes passes = run(lost_again, 10, [](std::uint32_t) { return 7.0; });
     CHECK(passes.guided.empty());
     CHECK(passes.guided_trials == std::vector<std::uint32_t>{3});
     CHECK(lost_again.gain());

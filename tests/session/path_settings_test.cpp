@@ -5,8 +5,7 @@
 using namespace pl;
 
 TEST_CASE("Path settings: guided paths play roulette late and split, others play at every loss") {
-    RenderSettings settings;
-    settings.max_depth = 7;
+    RenderSettings settings{.max_depth = 7, .next_event = false};
     const PathSettings plain = path_settings(settings, MethodId::Default);
     CHECK(plain.max_depth == 7);
     CHECK(plain.next_event == 0u);
@@ -53,7 +52,7 @@ TEST_CASE("Path settings: only passes of methods that learn while they render ha
 }
 
 TEST_CASE("Path settings: guided paths play roulette earlier with light samples") {
-    RenderSettings settings;
+    RenderSettings settings{.next_event = false};
     const float without = path_settings(settings, MethodId::Reinforcement).roulette_threshold;
     settings.next_event = true;
     CHECK(path_settings(settings, MethodId::Reinforcement).roulette_threshold > without);

@@ -17,7 +17,8 @@ ServedKernel served(const RenderSettings& settings, const HostScene& scene = {})
 }  // namespace
 
 TEST_CASE("Kernels are named after method or view and effects") {
-    CHECK(served({}).name == "cpu/default/base");
+    CHECK(served({}).name == "cpu/default/next-event-estimation");
+    CHECK(served({.next_event = false}).name == "cpu/default/base");
     CHECK(served({.method = MethodId::Reinforcement, .next_event = true}).name ==
           "cpu/reinforcement/next-event-estimation");
     CHECK(served({.method = MethodId::Precomputed, .forced_effects = features(Feature::SmoothNormals)}).name ==
@@ -45,5 +46,5 @@ TEST_CASE("Needed and forced effects are both served") {
     const ServedKernel kernel = served({.forced_effects = features(Feature::NextEventEstimation)}, scene);
     CHECK(kernel.served == features(Feature::Environment, Feature::NextEventEstimation));
     CHECK(kernel.compiled.covers(kernel.served));
-    CHECK(needed_features(scene, {}) == features(Feature::Environment));
+    CHECK(needed_features(scene, {.next_event = false}) == features(Feature::Environment));
 }

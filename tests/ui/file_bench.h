@@ -12,6 +12,7 @@ struct FileBench : ModelBench {
     TemporaryFolder folder;
 
     FileBench() : ModelBench(64) {
+        options.settings.next_event = false;
         options.settings.field.volumes = 16;
         options.settings.field.bins = 16;
         options.screenshot_dir = folder.path();

@@ -18,6 +18,7 @@ struct ModelBench {
         options.settings.width = size;
         options.settings.height = size;
         options.settings.camera = small_scene()->camera;
+        options.settings.next_event = false;
         options.make_backend = devices.maker();
         devices.cpu->pass_microseconds = 200;
     }

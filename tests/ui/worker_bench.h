@@ -15,8 +15,7 @@ struct Bench {
     std::shared_ptr<FakeControl> control = devices.cpu;
 
     WorkerSetup setup(MethodId method = MethodId::Default, SampleLimits limits = {}) {
-        RenderSettings settings;
-        settings.method = method;
+        RenderSettings settings{.method = method, .next_event = false};
         settings.width = kSize;
         settings.height = kSize;
         settings.camera = small_scene()->camera;

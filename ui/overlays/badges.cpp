@@ -56,12 +56,13 @@ private:
     float right_;
 };
 
-/// Whether guiding pays in this picture, as its passes have measured.
+/// Whether guiding pays in this picture, by the variance and the cost of single paths as its passes have measured them: not by the
+/// error of the picture, which even numbers lower for the baseline, too.
 void add_guiding_badge(BadgeRow& row, const GuidingStatus& guiding) {
     if (guiding.pays)
-        row.add(fmt::format("guiding pays: {:.2g}x predicted", *guiding.gain), colors::kGood);
+        row.add(fmt::format("guiding pays: {:.2g}x by a path's variance and cost", *guiding.gain), colors::kGood);
     else
-        row.add(fmt::format("guiding does not pay: {:.2g}x predicted, {} by Default", *guiding.gain,
+        row.add(fmt::format("guiding given up: {:.2g}x by a path's variance and cost, {} by Default", *guiding.gain,
                             passes_text(guiding.unguided_passes)),
                 colors::kWarning);
 }

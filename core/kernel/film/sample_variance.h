@@ -6,16 +6,16 @@
 
 namespace pl {
 
-/// Sum over pixels of the variance of one sample, relative to white or to the pixel if it is brighter: the integrand of an MSE
-/// in which lamps do not outweigh the rest. Signed fixed point in two's complement: the same for every order of the samples.
+/// Sum over pixels of the variance of one sample: the integrand of an MSE. Signed fixed point in two's complement: the same for
+/// every order of the samples.
 struct VarianceSums {
-    std::uint64_t sum = 0;      ///< of variance / (m^2 + 1) for an estimate m of the pixel, in steps
+    std::uint64_t sum = 0;      ///< in steps
     std::uint64_t samples = 0;  ///< measured ones
 
     /// Contributions of one sample are clamped here, so that a single path decides nothing: far above white, because rare bright
     /// paths are most of the variance that guiding can take away (docs/notebook/2026-11-25-choice-at-512.md).
-    static constexpr float kMost = 256.0f;
-    static constexpr double kSteps = 0x1p28;  ///< per unit: 2^27 samples of the largest size do not overflow
+    static constexpr float kMost = 4096.0f;
+    static constexpr double kSteps = 0x1p24;  ///< per unit: 2^27 samples of the largest size do not overflow
 
     VarianceSums& operator+=(const VarianceSums& other) {
         sum += other.sum;
@@ -55,18 +55,16 @@ inline constexpr std::uint32_t kFewestBeforeVariance = 3;
 
 /// Measures the variance of a sample that is about to come to a pixel. With the mean m of earlier samples, L (L - m) is an
 /// unbiased estimate of the variance of an independent sample L. Samples of one half of the film are spread evenly, and so
-/// depend on one another: m is the mean of the half that the pass does not belong to, and the weight, which must not depend on
-/// m, is by the mean of the other. Pixels that see a lamp are left out: their variance is that of emission, which no sampling
-/// of directions changes, see camera_emission.h.
+/// depend on one another: m is the mean of the half that the pass does not belong to. Pixels that see a lamp are left out: their
+/// variance is that of emission, which no sampling of directions changes, see camera_emission.h.
 PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, std::uint32_t pass, VarianceSums& sums) {
     const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;
     const bool has_both_halves = pixel.second_weight > 0 && pixel.weight > pixel.second_weight;
     if (!has_both_halves || sees_lamp || !is_valid_radiance(radiance)) return;
     const float value = luminance(radiance);
     const float mean = luminance(half_mean(pixel, !in_second_half(pass)));
-    const float other_mean = luminance(half_mean(pixel, in_second_half(pass)));
-    const float variance = value * (value - mean) / (other_mean * other_mean + 1.0f);
-    // The largest one for the quotient of two infinities, too.
+    const float variance = value * (value - mean);
+    // The largest one for the difference of two infinities, too.
     const float bounded =
         variance < VarianceSums::kMost ? max_of(variance, -VarianceSums::kMost) : VarianceSums::kMost;
     sums.sum +=

@@ -179,7 +179,7 @@ TEST_CASE("Emission is left to the paths by the balance heuristic") {
 }
 
 TEST_CASE("The target light follows method and settings") {
-    RenderSettings settings;
+    RenderSettings settings{.next_event = false};
     CHECK(target_light(settings, MethodId::Reinforcement) == TargetLight::All);
     settings.next_event = true;
     CHECK(target_light(settings, MethodId::Reinforcement) == TargetLight::LeftByPaths);

@@ -18,6 +18,7 @@ std::shared_ptr<PublishedFrame> frame_of_mirror() {
     frame->description = scene;
     frame->scene = std::make_shared<const HostScene>(pack_scene(*scene));
     frame->backend.name = "cpu";
+    frame->settings.next_event = false;
     return frame;
 }
 

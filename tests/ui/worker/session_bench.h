@@ -20,7 +20,7 @@ struct SessionBench {
 
 private:
     static RenderSettings settings_of(int size) {
-        RenderSettings settings;
+        RenderSettings settings{.next_event = false};
         settings.width = size;
         settings.height = size;
         settings.camera = small_scene()->camera;
