@@ -16,7 +16,7 @@
 /// Blocks of a kernel that traces paths that a processor is to hold at least, by which the compiler limits registers; 0: as many as
 /// the registers leave room for. Set by the option of this name of the build, so that a device can decide.
 #ifndef PL_CUDA_RESIDENT_BLOCKS
-#define PL_CUDA_RESIDENT_BLOCKS 0
+#define PL_CUDA_RESIDENT_BLOCKS 3
 #endif
 
 namespace pl::cuda {
@@ -42,7 +42,7 @@ struct TraceSetup {
     PathRange range{};
     std::uint32_t* claimed = nullptr;  ///< number of paths claimed; cleared before the launch
     PassCounters* counters = nullptr;  ///< incremented
-    void* forks = nullptr;             ///< the kernel's ForkMemory, null if paths are not split. [thread]
+    void* stores = nullptr;            ///< the kernel's PathStore, of any size if paths need none. [thread]
     Parking parking{};
 };
 
@@ -99,6 +99,10 @@ struct EmissionSetup {
 using EmissionKernel = void (*)(EmissionSetup);
 extern const KernelRow<EmissionKernel> kEmissionKernels;
 extern const KernelRow<EmissionKernel> kBorderKernels;
+
+/// Gathers the records of all volumes. One thread per volume.
+using GatherRecordsKernel = void (*)(TableField field, Span<VolumeRecord> records);
+extern const GatherRecordsKernel kGatherRecords;
 
 /// Evaluates volume_value(). One thread per volume.
 using VolumeValueKernel = void (*)(TableUpdateView field, View view, Span<float> values);
