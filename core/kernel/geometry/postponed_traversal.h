@@ -7,15 +7,13 @@
 
 namespace pl {
 
-/// One lane's way through a hierarchy that is not empty, in steps. Leaves are visited later than by traverse(), after more nodes;
-/// the closest hit is the same, because it does not depend on the order of the tests.
+/// One lane's way through a hierarchy that is not empty, by a ray that can_hit(), in steps. Leaves are visited later than by
+/// traverse(), after more nodes; the closest hit is the same, because it does not depend on the order of the tests.
 class PostponedTraversal {
 public:
     PL_HD PostponedTraversal(const BvhView& bvh, const Ray& ray, float t_max, NodeMemory& memory)
-        : bvh_(bvh), stack_(memory) {
-        if (!can_hit(ray)) return;
+        : bvh_(bvh), box_ray_(make_box_ray(bvh.nodes[0], ray)), stack_(memory) {
         const BvhNode root = bvh.nodes[0];
-        box_ray_ = make_box_ray(root, ray);
         if (intersect_box(root, box_ray_, t_max) == kInfinity) return;
         next_ = root.reference();
         postpone();
@@ -67,7 +65,7 @@ struct PostponingBvh {
 template <class Visit>
 PL_HD inline void traverse(const PostponingBvh& scene, const Ray& ray, Hit& best, Visit&& visit) {
     const BvhView& bvh = scene.bvh;
-    if (bvh.nodes.empty()) return;
+    if (bvh.nodes.empty() || !can_hit(ray)) return;
     NodeMemory memory;
     PostponedTraversal way(bvh, ray, best.t, memory);
     while (way.is_at_inner_node() || way.has_leaf()) {
