@@ -86,7 +86,7 @@ __device__ inline void add_to(ThreadCounters& totals, const PassCounters& counte
 
 /// The set of features as bits, since the launch stubs of nvcc cannot name a FeatureSet.
 template <std::uint32_t kFeatureBits, Method M, class Paths>
-__global__ void __launch_bounds__(kThreadsPerBlock, PL_CUDA_RESIDENT_BLOCKS)
+__global__ void __launch_bounds__(kThreadsPerBlock, least_resident_blocks(FeatureSet{kFeatureBits}))
     trace_paths(const __grid_constant__ TraceSetup setup, const __grid_constant__ M method,
                 const __grid_constant__ Paths paths) {
     const SceneIntersector intersector{setup.scene};
