@@ -1,5 +1,5 @@
-// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_ASSERT, arithmetic for bounds. Besides atomics.h the only
-// file of core/kernel that tests compiler macros.
+// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_HD_INLINED, PL_ASSERT, arithmetic for bounds, votes of a warp.
+// Besides atomics.h the only file of core/kernel that tests compiler macros.
 #pragma once
 
 #include <bit>
@@ -9,6 +9,8 @@
 #error "pathlight counts NaNs and promises equal bits: do not compile it with -ffast-math"
 #endif
 
+// PL_INLINE: inlined by both. PL_HD_INLINED: by nvcc alone, for functions that are called once: apart, they would take parameters by
+// addresses of unknown kind of memory, and the path's state would go to the stack.
 #if defined(__CUDACC__)
 #define PL_HD __host__ __device__
 #define PL_INLINE __forceinline__ __host__ __device__
