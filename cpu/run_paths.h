@@ -52,9 +52,9 @@ public:
     PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work,
               SharedByThreads<M>& shared)
         : setup_(setup), intersector_(intersector), method_(method), work_(work), states_(setup.batch_paths),
-          forks_(SplittingMethod<M> && splits_paths(setup.path) ? setup.batch_paths : 0),
-          statuses_(setup.batch_paths), numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0),
-          rays_(setup.batch_paths), shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
+          stores_(needs_store<M>(setup.path) ? setup.batch_paths : 0), statuses_(setup.batch_paths),
+          numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0), rays_(setup.batch_paths),
+          shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())),
           solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method_, shared) {}
 
@@ -89,8 +89,8 @@ private:
         if (!source.next(number, u)) return false;
         // Constructed in place: the wide loads of a copy would stall, since narrower stores do not forward to them.
         ::new (static_cast<void*>(&states_[i])) PathState<F, M>(work_.begin(number, u));
-        // Paths move only when no further ones start: then the forks in the place of a path that has moved are still its own.
-        if (!forks_.empty()) keep_forks(states_[i], &forks_[i]);
+        // Paths move only when no further ones start: then the store in the place of a path that has moved is still its own.
+        if (!stores_.empty()) keep_store(states_[i], &stores_[i]);
         prepare(i);
         return true;
     }
@@ -274,7 +274,7 @@ private:
     const PathContext<M> context_{setup_.scene, method_, setup_.path};
     const W& work_;
     std::vector<PathState<F, M>> states_;
-    std::vector<ForkMemory<M>> forks_;  ///< empty if paths are not split
+    std::vector<PathStore<M>> stores_;  ///< empty if paths need none
     std::vector<PathStatus> statuses_;
     NumberBatch numbers_;
     RayBatch rays_;

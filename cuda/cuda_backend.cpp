@@ -51,6 +51,7 @@ public:
         zip_fields(field, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });
         stream_.wait("uploading a field");
         fields_[index_of(method)] = std::move(uploaded);
+        gather_records(method);
     }
     HostField download_field(MethodId method) const override {
         HostField field;
@@ -94,7 +95,8 @@ private:
                         fmt::format("CUDA back end: expected tables of '{}', got none", info_of(method).name));
         return *field;
     }
-    AnyFieldView learned_field(MethodId method) { return field_view(shape_, volumes_, existing_field(method)); }
+    AnyFieldView learned_field(MethodId method);
+    void gather_records(MethodId method);
     ShownField shown_field(const FilmSlot& slot);
     Span<const float> volume_values(const FilmSlot& slot);
 
@@ -116,6 +118,7 @@ private:
     DeviceVolumes volumes_;
     FieldShape shape_;
     std::array<std::optional<DeviceField>, kMethodCount> fields_;
+    std::array<DeviceArray<VolumeRecord>, kMethodCount> records_;  ///< of the fields that are there
     DeviceFilms films_;
     DeviceArray<float> volume_values_;  ///< of the latest heat map
     DeviceArray<Vec3f> samples_;        ///< radiance of the paths of one launch
@@ -167,8 +170,8 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
                                  .subset = request.subset,
                                  .radiance = {samples_.data(), count}});
     };
-    return launcher_.run({request.slot.index(), request.sample, request.use}, size, {request.first_pixel, end},
-                         request.stop, request.path, trace,
+    return launcher_.run({request.slot.index(), request.sample, request.use, request.path.stream}, size,
+                         {request.first_pixel, end}, request.stop, request.path, trace,
                          [&](PathRange range) { use_samples(request, range, film); });
 }
 
@@ -223,8 +226,9 @@ PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
                            .stratum = {request.sample, request.strata_side}};
     const auto kernel = kProbeKernels[covering_set(request.features)];
     return launcher_.run(
-        {.sample = request.sample}, probe_size_, {request.first_probe, probe_count(paths.field)}, request.stop,
-        request.path, [&](PathRange) { launch_paths(kernel, request.path, ProbeMethod{}, paths); }, [](PathRange) {});
+        {.sample = request.sample, .stream = request.path.stream}, probe_size_,
+        {request.first_probe, probe_count(paths.field)}, request.stop, request.path,
+        [&](PathRange) { launch_paths(kernel, request.path, ProbeMethod{}, paths); }, [](PathRange) {});
 }
 
 void CudaBackend::update_field(MethodId method) {
@@ -237,7 +241,24 @@ void CudaBackend::update_field(MethodId method) {
         if (step.item == UpdateItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
         launch(step.kernel, blocks_for(count), stream_, step.name, field, count);
     }
+    gather_records(method);
     stream_.wait("updating a field");
+}
+
+/// A method's field with the records of its volumes.
+AnyFieldView CudaBackend::learned_field(MethodId method) {
+    AnyFieldView view = field_view(shape_, volumes_, existing_field(method));
+    std::get<TableField>(view).records = view_of(std::as_const(records_[index_of(method)]));
+    return view;
+}
+
+/// Queued: to be called after every change of a field.
+void CudaBackend::gather_records(MethodId method) {
+    const auto field = std::get<TableField>(field_view(shape_, volumes_, existing_field(method)));
+    DeviceArray<VolumeRecord>& records = records_[index_of(method)];
+    const std::uint32_t volumes = field.normals.count;
+    if (records.size() != volumes) records = DeviceArray<VolumeRecord>(volumes);
+    launch(kGatherRecords, blocks_for(volumes), stream_, "gather_records", field, view_of(records));
 }
 
 /// The placement and, for heat maps, one value per volume; empty for views that need neither.

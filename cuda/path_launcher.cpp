@@ -8,9 +8,9 @@ bool PathLauncher::may_wait(const PathSettings& path) const {
     return std::uint64_t{path.max_depth} * branches > most_segments_;
 }
 
-void* PathLauncher::forks(std::size_t bytes) {
-    if (forks_.bytes() < bytes) forks_ = DeviceMemory(bytes);
-    return forks_.data();
+void* PathLauncher::stores(std::size_t bytes) {
+    if (stores_.bytes() < bytes) stores_ = DeviceMemory(bytes);
+    return stores_.data();
 }
 
 Parking PathLauncher::parking(std::uint32_t threads, std::size_t state_bytes, bool resumes) {

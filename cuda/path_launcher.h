@@ -17,6 +17,7 @@ struct LaunchKey {
     int slot = -1;  ///< FilmSlot::index(); negative: a precomputation
     std::uint32_t sample = 0;
     SampleUse use = SampleUse::Film;
+    pl::Stream stream = pl::Stream::Picture;  ///< of random numbers; pl::Stream, not that of the device
 
     friend bool operator==(const LaunchKey&, const LaunchKey&) = default;
 };
@@ -58,7 +59,7 @@ private:
     bool may_wait(const PathSettings& path) const;
     template <class Queue>
     void run_counted(Launch& current, Queue&& queue);
-    void* forks(std::size_t bytes);
+    void* stores(std::size_t bytes);
     Parking parking(std::uint32_t threads, std::size_t state_bytes, bool resumes);
 
     const Stream& stream_;
@@ -69,7 +70,7 @@ private:
     DeviceArray<std::uint32_t> claimed_{1};
     DeviceArray<PassCounters> counters_{1};
     PinnedMemory read_counters_{sizeof(PassCounters)};
-    DeviceMemory forks_;
+    DeviceMemory stores_;
     DeviceMemory states_;
     DeviceArray<std::uint8_t> is_waiting_;
     std::optional<Launch> launch_;
@@ -130,8 +131,7 @@ void PathLauncher::launch_paths(void (*kernel)(TraceSetup, M, Paths), TraceSetup
     setup.counters = counters_.data();
     const std::uint32_t blocks =
         std::min(resident_blocks(kernel, processors_), blocks_for(setup.range.end - setup.range.first));
-    if constexpr (SplittingMethod<M>)
-        if (splits_paths(setup.path)) setup.forks = forks(blocks * kThreadsPerBlock * sizeof(ForkMemory<M>));
+    setup.stores = stores(needs_store<M>(setup.path) ? blocks * kThreadsPerBlock * sizeof(PathStore<M>) : 1);
     // No set of effects has a larger state than all of them.
     if (may_wait(setup.path))
         setup.parking = parking(blocks * kThreadsPerBlock, sizeof(PathState<kEveryFeature, M>), resumes);

@@ -25,8 +25,8 @@ public:
     PathRecord run(State& state) {
         PathRecord record{.pixel = state.pixel, .sample = state.sample, .eye = state.ray.origin};
         PathCounters counters;
-        ForkMemory<M> forks;
-        keep_forks(state, &forks);
+        PathStore<M> store;
+        keep_store(state, &store);
         PathStatus status = PathStatus::Continues;
         for (std::int32_t parent = -1; status == PathStatus::Continues;) {
             const State before = state;

@@ -13,7 +13,14 @@ public:
     RunRecorder(const RunLimits& limits, const ReferenceHalves& reference, const RunObserver& observer)
         : limits_(limits), reference_(reference), observer_(observer), budget_(limits.measure_share) {}
 
-    /// After every pass; true when the run is over.
+    /// Passes until the next one after which the film may be measured.
+    std::uint32_t most_passes(const Session& session, FilmSlot slot) const {
+        const std::uint32_t spp = session.passes(slot);
+        const std::uint32_t last = std::min(next_, limits_.spp);
+        return last > spp ? last - spp : 1;
+    }
+
+    /// After every call that has rendered; true when the run is over.
     bool observe(const Session& session, FilmSlot slot) {
         const std::uint32_t spp = session.passes(slot);
         const double charged = charged_seconds(session.clocks(slot));
@@ -99,7 +106,7 @@ std::optional<RunSeries> record_run(Session& session, FilmSlot slot, const RunLi
                                     const RunObserver& observer) {
     RunRecorder recorder(limits, reference, observer);
     for (;;) {
-        const Progress progress = session.advance(slot, stop);
+        const Progress progress = session.advance(slot, stop, recorder.most_passes(session, slot));
         if (progress == Progress::Stopped || (stop != nullptr && *stop)) return std::nullopt;
         if (progress == Progress::Rendered && recorder.observe(session, slot)) return recorder.take();
         if (observer.on_work) observer.on_work(session, slot);

@@ -20,7 +20,8 @@ double charged_seconds(const Clocks& clocks);
 /// Threads for measuring: as many as the back end renders with, which wait meanwhile, or all if a device renders.
 int measuring_threads(const Session& session);
 
-/// Limits of a run: it ends at the first one that is reached, after at least one sample per pixel.
+/// Limits of a run: it ends at the first one that is reached, after at least one sample per pixel. Passes between two points may be
+/// rendered at once; time is looked at after as many as the back end takes.
 struct RunLimits {
     std::uint32_t spp = 64;
     std::optional<double> seconds{};       ///< charged

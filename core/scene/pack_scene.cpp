@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -162,9 +163,21 @@ std::vector<BvhTriangle> leaf_triangles(const Bvh& bvh, const HostScene& packed)
     triangles.reserve(bvh.primitives.size());
     for (const std::uint32_t primitive : bvh.primitives) {
         const Triangle& t = packed.triangles[primitive];
-        triangles.push_back({packed.positions[t.v0], primitive, packed.positions[t.v1], packed.positions[t.v2]});
+        triangles.push_back({.p0 = packed.positions[t.v0],
+                             .primitive = primitive,
+                             .p1 = packed.positions[t.v1],
+                             .p2 = packed.positions[t.v2]});
     }
     return triangles;
+}
+
+/// BvhView::leaves.
+std::vector<BvhNode> leaves_of(const Bvh& bvh) {
+    std::vector<BvhNode> leaves;
+    if (bvh.primitives.size() <= kMostSmallTriangles)
+        std::ranges::copy_if(bvh.nodes, std::back_inserter(leaves),
+                             [](const BvhNode& node) { return node.count > 0; });
+    return leaves;
 }
 
 /// The coordinate axis with the largest angle to a direction.
@@ -201,6 +214,7 @@ HostScene pack_scene(const SceneDescription& scene) {
     pack_triangles(scene, packed);
     pack_normals(scene, packed);
     Bvh bvh = build_bvh(view_of(std::as_const(packed.positions)), view_of(std::as_const(packed.triangles)));
+    packed.bvh_leaves = leaves_of(bvh);
     packed.bvh_nodes = std::move(bvh.nodes);
     packed.bvh_triangles = leaf_triangles(bvh, packed);
     pack_looks(scene, packed);
@@ -215,6 +229,7 @@ HostScene repack_materials(const SceneDescription& scene, const HostScene& packe
     repacked.normals = packed.normals;
     repacked.triangle_normals = packed.triangle_normals;
     repacked.bvh_nodes = packed.bvh_nodes;
+    repacked.bvh_leaves = packed.bvh_leaves;
     repacked.bvh_triangles = packed.bvh_triangles;
     pack_looks(scene, repacked);
     return repacked;

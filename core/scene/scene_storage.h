@@ -29,6 +29,7 @@ struct SceneStorage {
     Array<float> map_row_cdf;
     Array<float> map_column_cdf;
     Array<BvhNode> bvh_nodes;
+    Array<BvhNode> bvh_leaves;
     Array<BvhTriangle> bvh_triangles;
     float light_power = 0.0f;
     Vec3f environment{0.0f};
@@ -41,29 +42,30 @@ struct SceneStorage {
         far.map.texels = view_of(map_texels);
         far.map.row_cdf = view_of(map_row_cdf);
         far.map.column_cdf = view_of(map_column_cdf);
-        return {.positions = view_of(positions),
-                .triangles = view_of(triangles),
-                .planes = view_of(planes),
-                .normals = view_of(normals),
-                .triangle_normals = view_of(triangle_normals),
-                .materials = view_of(materials),
-                .lobes = view_of(lobes),
-                .directional_albedo = view_of(directional_albedo),
-                .textures = {.uvs = view_of(uvs),
-                             .triangle_uvs = view_of(triangle_uvs),
-                             .images = view_of(images),
-                             .texels = view_of(texels),
-                             .of_material = view_of(material_images),
-                             .has_holes = has_holes},
-                .lights = view_of(lights),
-                .light_tree = {.nodes = view_of(light_nodes),
-                               .of_light = view_of(light_places),
-                               .clusters = view_of(light_clusters)},
-                .bvh = {.nodes = view_of(bvh_nodes), .triangles = view_of(bvh_triangles)},
-                .light_power = light_power,
-                .environment = environment,
-                .far_lights = far,
-                .far_probability = far_probability};
+        return {
+            .positions = view_of(positions),
+            .triangles = view_of(triangles),
+            .planes = view_of(planes),
+            .normals = view_of(normals),
+            .triangle_normals = view_of(triangle_normals),
+            .materials = view_of(materials),
+            .lobes = view_of(lobes),
+            .directional_albedo = view_of(directional_albedo),
+            .textures = {.uvs = view_of(uvs),
+                         .triangle_uvs = view_of(triangle_uvs),
+                         .images = view_of(images),
+                         .texels = view_of(texels),
+                         .of_material = view_of(material_images),
+                         .has_holes = has_holes},
+            .lights = view_of(lights),
+            .light_tree = {.nodes = view_of(light_nodes),
+                           .of_light = view_of(light_places),
+                           .clusters = view_of(light_clusters)},
+            .bvh = {.nodes = view_of(bvh_nodes), .leaves = view_of(bvh_leaves), .triangles = view_of(bvh_triangles)},
+            .light_power = light_power,
+            .environment = environment,
+            .far_lights = far,
+            .far_probability = far_probability};
     }
 };
 
@@ -93,6 +95,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.map_row_cdf, to.map_row_cdf);
     fn(from.map_column_cdf, to.map_column_cdf);
     fn(from.bvh_nodes, to.bvh_nodes);
+    fn(from.bvh_leaves, to.bvh_leaves);
     fn(from.bvh_triangles, to.bvh_triangles);
     to.light_power = from.light_power;
     to.environment = from.environment;

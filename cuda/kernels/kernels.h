@@ -21,6 +21,12 @@
 
 namespace pl::cuda {
 
+/// The same for a set of effects: kernels with lobes, which else take registers for two, are to hold three.
+constexpr int least_resident_blocks(FeatureSet features) {
+    constexpr int kOption = PL_CUDA_RESIDENT_BLOCKS;
+    return features.has_any(kLobeFeatures) && kOption < 3 ? 3 : kOption;
+}
+
 /// Path numbers of one launch: [first, end).
 struct PathRange {
     std::uint32_t first = 0;
@@ -42,7 +48,7 @@ struct TraceSetup {
     PathRange range{};
     std::uint32_t* claimed = nullptr;  ///< number of paths claimed; cleared before the launch
     PassCounters* counters = nullptr;  ///< incremented
-    void* forks = nullptr;             ///< the kernel's ForkMemory, null if paths are not split. [thread]
+    void* stores = nullptr;            ///< the kernel's PathStore, of any size if paths need none. [thread]
     Parking parking{};
 };
 
@@ -99,6 +105,10 @@ struct EmissionSetup {
 using EmissionKernel = void (*)(EmissionSetup);
 extern const KernelRow<EmissionKernel> kEmissionKernels;
 extern const KernelRow<EmissionKernel> kBorderKernels;
+
+/// Gathers the records of all volumes. One thread per volume.
+using GatherRecordsKernel = void (*)(TableField field, Span<VolumeRecord> records);
+extern const GatherRecordsKernel kGatherRecords;
 
 /// Evaluates volume_value(). One thread per volume.
 using VolumeValueKernel = void (*)(TableUpdateView field, View view, Span<float> values);

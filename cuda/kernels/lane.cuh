@@ -1,5 +1,5 @@
 // Thread index, and operations across a warp. On the host the same functions run for one thread at a time: kernels
-// use no barriers and no shared memory, so they run there unchanged.
+// use no barriers and no shared memory but in stage() (scene_intersector.cuh), so they run there unchanged.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -50,7 +50,8 @@ __device__ inline void raise_to(std::uint32_t& maximum, std::uint32_t value) {
 #endif
 }
 
-__device__ inline void add_up(PassCounters& totals, const PassCounters& counters) {
+template <class Count>
+__device__ inline void add_up(PassCounters& totals, const PassCountersOf<Count>& counters) {
     add_counters(totals, counters, [](std::uint64_t& total, std::uint64_t count) { add_up(total, count); });
 }
 

@@ -6,10 +6,10 @@
 
 #include <cstring>
 
-#include "core/kernel/geometry/intersector.h"
 #include "core/kernel/integrator/trace_path.h"
 #include "cuda/kernels/kernels.h"
 #include "cuda/kernels/lane.cuh"
+#include "cuda/kernels/scene_intersector.cuh"
 #include "cuda/runtime/launch.h"
 
 namespace pl::cuda {
@@ -43,9 +43,6 @@ __device__ inline bool start(const TraceSetup& setup, const Paths& paths, PathSt
     const std::uint32_t taken = claim(*setup.claimed);
     if (taken >= setup.range.end - setup.range.first) return false;
     state = begin<F, M>(paths, setup.path, setup.range.first + taken);
-    if constexpr (SplittingMethod<M>)
-        keep_forks(state,
-                   setup.forks != nullptr ? static_cast<ForkMemory<M>*>(setup.forks) + thread_number() : nullptr);
     return true;
 }
 
@@ -62,11 +59,13 @@ __device__ inline void* parking_place(const Parking& parking) {
 /// is none.
 template <FeatureSet F, class M, class Paths>
 __device__ inline bool next_path(const TraceSetup& setup, const Paths& paths, bool resumes, PathState<F, M>& state) {
-    if (resumes && setup.parking.is_waiting[thread_number()] != 0) {
+    if (resumes && setup.parking.is_waiting[thread_number()] != 0)
         std::memcpy(static_cast<void*>(&state), parking_place<F, M>(setup.parking), sizeof state);
-        return true;
-    }
-    return start(setup, paths, state);
+    else if (!start(setup, paths, state))
+        return false;
+    // Of a resumed path, too: the compiler then knows that it is global memory.
+    keep_store(state, static_cast<PathStore<M>*>(setup.stores) + thread_number());
+    return true;
 }
 
 /// Leaves the path of this thread, if it has one, to the next launch.
@@ -77,24 +76,36 @@ __device__ inline void park(const Parking& parking, const PathState<F, M>& state
     if (active) std::memcpy(parking_place<F, M>(parking), static_cast<const void*>(&state), sizeof state);
 }
 
+/// What one thread counts in a launch, which ends long before 32 bits do. 64 bits would take twice the registers.
+using ThreadCounters = PassCountersOf<std::uint32_t>;
+
+__device__ inline void add_to(ThreadCounters& totals, const PassCounters& counters) {
+    add_counters(totals, counters,
+                 [](std::uint32_t& total, std::uint64_t count) { total += static_cast<std::uint32_t>(count); });
+}
+
 /// The set of features as bits, since the launch stubs of nvcc cannot name a FeatureSet.
 template <std::uint32_t kFeatureBits, Method M, class Paths>
-__global__ void __launch_bounds__(kThreadsPerBlock, PL_CUDA_RESIDENT_BLOCKS)
+__global__ void __launch_bounds__(kThreadsPerBlock, least_resident_blocks(FeatureSet{kFeatureBits}))
     trace_paths(const __grid_constant__ TraceSetup setup, const __grid_constant__ M method,
                 const __grid_constant__ Paths paths) {
-    const BvhIntersector intersector{setup.scene};
+    const SceneIntersector intersector{setup.scene};
     const PathContext<M> context{setup.scene, method, setup.path};
-    PassCounters counters;
+    ThreadCounters counters;
     PathState<FeatureSet{kFeatureBits}, M> state;
+    keep_store(state, static_cast<PathStore<M>*>(setup.stores) + thread_number());
     PathStatus status = PathStatus::Finished;
     bool resumes = setup.parking.resumes != 0;
     while (counters.path.segments < setup.parking.most_segments) {
         if (status == PathStatus::Finished && !next_path(setup, paths, resumes, state)) break;
         resumes = false;
-        status = trace_segment<FeatureSet{kFeatureBits}>(context, intersector, state, counters.path);
-        if (status == PathStatus::Continues) continue;
-        count_path(counters, state.radiance, is_valid_radiance(state.radiance));
-        finish(paths, state, counters.path.method);
+        PassCounters fresh;
+        status = trace_segment<FeatureSet{kFeatureBits}>(context, intersector, state, fresh.path);
+        if (status == PathStatus::Finished) {
+            count_path(fresh, state.radiance, is_valid_radiance(state.radiance));
+            finish(paths, state, fresh.path.method);
+        }
+        add_to(counters, fresh);
     }
     park(setup.parking, state, status == PathStatus::Continues);
     add_up(*setup.counters, counters);

@@ -13,8 +13,15 @@ __global__ void __launch_bounds__(kThreadsPerBlock)
     if (i < count) kStep(field, i);
 }
 
+__global__ void __launch_bounds__(kThreadsPerBlock)
+    gather_records(const __grid_constant__ TableField field, Span<VolumeRecord> records) {
+    const std::uint32_t volume = thread_number();
+    if (volume < records.count) records[volume] = gather_record(field, volume);
+}
+
 }  // namespace
 
+constinit const GatherRecordsKernel kGatherRecords = gather_records;
 constinit const std::array<UpdateStep, kUpdateStepCount> kUpdateSteps = {{
     {run_step<absorb_samples>, UpdateItem::Cell, "absorb_samples"},
     {run_step<update_means>, UpdateItem::Volume, "update_means"},

@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "core/kernel/base/rng.h"
+#include "core/measure/run_recorder.h"
+#include "core/scene/needed_effects.h"
+#include "core/scene/pack_scene.h"
 #include "tests/cuda/shim/control.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/closed_scenes.h"
@@ -263,6 +266,58 @@ TEST_CASE("Paths that wait are traced anew where another film came between, and 
     render_passes(session, {MethodId::Default, View::Normal}, 1);
     render_passes(session, 2);
     CHECK(same_state(state_of(session), expected));
+}
+
+TEST_CASE("Paths that wait do not go on in a pass by another stream of random numbers") {
+    shim::reset();
+    constexpr int kWidth = 31, kHeight = 23;
+    const SceneDescription scene = shipped_scene("door");
+    const auto packed = std::make_shared<const HostScene>(pack_scene(scene));
+    const FilmSlot slot{MethodId::Default, View::Beauty};
+    const PassRequest picture{.slot = slot,
+                              .features = needed_effects(*packed),
+                              .path = {},
+                              .camera = make_camera(scene.camera, kWidth, kHeight)};
+    StopFlag stop = false;
+    PassRequest warm_up = picture;
+    warm_up.path.stream = pl::Stream::WarmUp;
+    warm_up.stop = &stop;
+    const std::unique_ptr<RenderBackend> cpu = make_cpu_backend({.threads = 1});
+    const std::unique_ptr<RenderBackend> cuda = make_cuda_backend(kShortLaunches);
+    for (RenderBackend* backend : {cpu.get(), cuda.get()}) {
+        backend->upload_scene(packed);
+        backend->reset_film(slot, kWidth, kHeight);
+    }
+    on_launch([&](int) { stop = true; });
+    CHECK(cuda->run_pass(warm_up).paths == 0);
+    on_launch({});
+    CHECK(same_events(cuda->run_pass(picture), cpu->run_pass(picture)));
+    CHECK(same_bits(cuda->read_film(slot).mean, cpu->read_film(slot).mean));
+}
+
+TEST_CASE("A measured run renders several passes in a launch, and measures the points of single ones") {
+    constexpr std::uint32_t kPasses = 24;
+    const SceneDescription scene = shipped_scene("cornell");
+    const RenderSettings settings = small_settings(scene, {MethodId::Default, false}, 31, 23);
+    const std::vector<Vec3f> black(31 * 23, Vec3f{0.0f});
+    const RunLimits limits{.spp = kPasses, .measure_share = 1.0e9};
+    const auto measure = [&](Session session) {
+        return record_run(session, slot_of(session), limits, {black, black})->points;
+    };
+    const std::vector<RunPoint> expected = measure(make_session(scene, settings));
+    shim::reset();
+    const std::vector<RunPoint> got = measure(make_cuda_session(scene, settings));
+    const int at_once = shim::launches();
+    REQUIRE(got.size() == expected.size());
+    for (std::size_t i = 0; i < got.size(); ++i) {
+        CHECK(got[i].spp == expected[i].spp);
+        CHECK(got[i].metrics.rmse == expected[i].metrics.rmse);
+        CHECK(got[i].noise == expected[i].noise);
+        CHECK(same_events(got[i].counters, expected[i].counters));
+    }
+    shim::reset();
+    render(make_cuda_session(scene, settings), kPasses);
+    CHECK(at_once < shim::launches());
 }
 
 TEST_CASE("Several passes at once have the bits of single ones, in fewer launches") {

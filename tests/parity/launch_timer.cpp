@@ -40,6 +40,7 @@ KernelNames all_kernels() {
     add_kernel(names, cuda::kReadHalves, "read_halves", Work::Publish);
     add_kernel(names, cuda::kShowFilm, "show_film", Work::Publish);
     add_kernel(names, cuda::kLargestValue, "largest_value", Work::Publish);
+    add_kernel(names, cuda::kGatherRecords, "gather_records", Work::Learn);
     for (const cuda::UpdateStep& step : cuda::kUpdateSteps)
         add_kernel(names, step.kernel, std::string("run_step ") + step.name, Work::Learn);
     return names;

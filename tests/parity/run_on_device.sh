@@ -45,7 +45,7 @@ if [[ -z $rehearsal ]]; then
     compare_options=(--side 128 --passes 16) compare_c=("${compare_options[@]}" --scenes cornell,door)
     bench_a=(--seconds 0.2 --sizes 512x512,1920x1080 --volumes 0)
     bench_b=(--seconds 0.6 --ball-rows 501)
-    bench_c=(--seconds 0.3 --sizes 512x512,1920x1080)
+    bench_c=(--seconds 0.3 --sizes 512x512,1920x1080 --ball-rows 201)
     times_options=(--scenes cornell,staircase)
     parity_a=('~[merge]') parity_b=('[merge]')
     profiled=(--spp 512 --size 1920x1080) launches_skipped=30

@@ -104,22 +104,9 @@ void check_like_fresh(Session& session, const SceneDescription& scene) {
     }
 }
 
-/// By members, because the bytes between and after them are undefined.
-bool same_element(const TrianglePlane& a, const TrianglePlane& b) {
-    return a.normal == b.normal && a.position_error == b.position_error && a.edge_margin == b.edge_margin;
-}
-bool same_element(const BvhTriangle& a, const BvhTriangle& b) {
-    return a.p0 == b.p0 && a.p1 == b.p1 && a.p2 == b.p2 && a.primitive == b.primitive;
-}
-
 bool same_scene(const HostScene& a, HostScene b) {
     bool same = true;
-    zip(a, b, [&](const auto& x, const auto& y) {
-        if constexpr (requires { same_element(x[0], y[0]); })
-            same = same && std::ranges::equal(x, y, [](const auto& m, const auto& n) { return same_element(m, n); });
-        else
-            same = same && same_bits(x, y);
-    });
+    zip(a, b, [&](const auto& x, const auto& y) { same = same && same_bits(x, y); });
     return same && a.light_power == b.light_power && a.environment == b.environment && a.has_holes == b.has_holes &&
            a.far_probability == b.far_probability;
 }

@@ -1,17 +1,24 @@
-// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_ASSERT, arithmetic for bounds. Besides atomics.h the only
-// file of core/kernel that tests compiler macros.
+// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_HD_INLINED, PL_ASSERT, arithmetic for bounds, votes of a warp.
+// Besides atomics.h the only file of core/kernel that tests compiler macros.
 #pragma once
+
+#include <bit>
+#include <cstdint>
 
 #ifdef __FAST_MATH__
 #error "pathlight counts NaNs and promises equal bits: do not compile it with -ffast-math"
 #endif
 
+// PL_INLINE: inlined by both. PL_HD_INLINED: by nvcc alone, for functions that are called once: apart, they would take parameters by
+// addresses of unknown kind of memory, and the path's state would go to the stack.
 #if defined(__CUDACC__)
 #define PL_HD __host__ __device__
 #define PL_INLINE __forceinline__ __host__ __device__
+#define PL_HD_INLINED __forceinline__ __host__ __device__
 #else
 #define PL_HD
 #define PL_INLINE inline __attribute__((always_inline))
+#define PL_HD_INLINED inline
 #endif
 
 /// Assertion on host and device; nothing in release builds.
@@ -25,6 +32,15 @@
 
 namespace pl {
 
+/// Whether this is compiled for a device.
+PL_HD constexpr bool is_device_code() {
+#if defined(__CUDA_ARCH__)
+    return true;
+#else
+    return false;
+#endif
+}
+
 /// Arithmetic for conservative bounds, whose slack covers either rounding: the bits differ between back ends, so nothing that
 /// decides a bit of a picture may use it. No operand is NaN.
 ///
@@ -37,19 +53,35 @@ PL_HD inline float bound_multiply_add(float a, float b, float c) {
     return a * b + c;
 #endif
 }
-/// One instruction each: a comparison that chooses would be two on a device, the function a call on some hosts.
-PL_HD inline float bound_min(float a, float b) {
+/// Two numbers, the smaller first. One instruction each: a comparison that chooses would be two on a device, the function a call on
+/// some hosts.
+struct FloatPair {
+    float low, high;
+};
+PL_HD inline FloatPair in_order(float a, float b) {
 #if defined(__CUDA_ARCH__)
-    return fminf(a, b);
+    return {fminf(a, b), fmaxf(a, b)};
 #else
-    return b < a ? b : a;
+    return {b < a ? b : a, a < b ? b : a};
 #endif
 }
-PL_HD inline float bound_max(float a, float b) {
+
+/// Whether a condition holds in any thread of a warp, among those that ask at the same time; on the host, in this one. Only for
+/// the order of work, which changes no result.
+PL_HD inline bool any_lane(bool condition) {
 #if defined(__CUDA_ARCH__)
-    return fmaxf(a, b);
+    return __any_sync(__activemask(), condition) != 0;
 #else
-    return a < b ? b : a;
+    return condition;
+#endif
+}
+
+/// Number of the lowest bit that is set; there must be one.
+PL_HD inline std::uint32_t lowest_bit(std::uint32_t bits) {
+#if defined(__CUDA_ARCH__)
+    return static_cast<std::uint32_t>(__ffs(static_cast<int>(bits))) - 1u;
+#else
+    return static_cast<std::uint32_t>(std::countr_zero(bits));
 #endif
 }
 

@@ -38,16 +38,22 @@ static_assert(sizeof(BvhNode) == 32);
 struct alignas(16) BvhTriangle {
     Vec3f p0{0.0f};
     std::uint32_t primitive = kNoPrimitive;
-    alignas(16) Vec3f p1{0.0f};
-    alignas(16) Vec3f p2{0.0f};
+    Vec3f p1{0.0f};
+    std::uint32_t zero1 = 0;  ///< completes 16 bytes, so that equal triangles have equal bytes
+    Vec3f p2{0.0f};
+    std::uint32_t zero2 = 0;
 };
 static_assert(sizeof(BvhTriangle) == 48);
 
 /// build_bvh() keeps the depth below this bound, so the traversal stack cannot overflow.
 inline constexpr int kMaxBvhDepth = 64;
 
+/// Most triangles of a scene for which BvhView::leaves is there.
+inline constexpr std::uint32_t kMostSmallTriangles = 64;
+
 struct BvhView {
-    Span<const BvhNode> nodes;          ///< root first; empty for an empty scene
+    Span<const BvhNode> nodes;   ///< root first; empty for an empty scene
+    Span<const BvhNode> leaves;  ///< those of `nodes` once more, in their order; empty unless the scene is small
     Span<const BvhTriangle> triangles;  ///< in the order of the leaves
 };
 
@@ -105,8 +111,9 @@ PL_HD inline float intersect_box(const BvhNode& node, const BoxRay& ray, float t
     for (int axis = 0; axis < 3; ++axis) {
         const float t0 = multiply_add(node.low[axis], ray.inverse_direction[axis], ray.at_low[axis]);
         const float t1 = multiply_add(node.high[axis], ray.inverse_direction[axis], ray.at_high[axis]);
-        entry = bound_max(entry, bound_min(t0, t1));
-        exit = bound_min(exit, bound_max(t0, t1));
+        const FloatPair crossed = in_order(t0, t1);
+        entry = in_order(entry, crossed.low).high;
+        exit = in_order(exit, crossed.high).low;
     }
     return entry <= exit ? entry : kInfinity;
 }
@@ -122,40 +129,78 @@ PL_HD inline bool can_hit(const Ray& ray) {
     return sum.x + sum.y + sum.z < kInfinity && max_component(size) > 0.0f;
 }
 
-/// Visits the triangles of all leaves that the ray may enter, nearer children first. `visit(triangle, best)` updates
-/// the closest hit and returns true to stop. Nodes beyond the closest hit are culled.
+/// Memory for the nodes that a traversal has still to visit: apart from its other members, which else would share its memory on a
+/// device instead of being registers.
+struct NodeMemory {
+    NodeReference entries[kMaxBvhDepth];
+};
+
+class NodeStack {
+public:
+    PL_HD explicit NodeStack(NodeMemory& memory) : entries_(memory.entries) {}
+
+    PL_HD bool is_empty() const { return depth_ == 0; }
+    PL_HD void push(NodeReference node) {
+        PL_ASSERT(depth_ < kMaxBvhDepth);
+        entries_[depth_++] = node;
+    }
+    PL_HD NodeReference pop() { return entries_[--depth_]; }
+
+private:
+    NodeReference* entries_;
+    int depth_ = 0;
+};
+
+/// The children of a node, and the distances at which a ray enters them, see intersect_box().
+struct NodePair {
+    NodeReference left, right;
+    float left_t, right_t;
+
+    PL_HD bool enters_any() const { return in_order(left_t, right_t).low != kInfinity; }
+    PL_HD bool enters_both() const { return in_order(left_t, right_t).high != kInfinity; }
+    PL_HD NodeReference near() const { return right_t < left_t ? right : left; }
+    PL_HD NodeReference far() const { return right_t < left_t ? left : right; }
+};
+PL_HD inline NodePair intersect_children(const BvhView& bvh, NodeReference parent, const BoxRay& ray, float t_max) {
+    const BvhNode left = bvh.nodes[parent.first()];
+    const BvhNode right = bvh.nodes[parent.first() + 1];
+    return {left.reference(), right.reference(), intersect_box(left, ray, t_max), intersect_box(right, ray, t_max)};
+}
+
+/// Visits the triangles of a leaf: `visit(triangle, best)` updates the closest hit and returns true to stop. Returns whether it did.
+template <class Visit>
+PL_HD inline bool visit_leaf(const BvhTriangle* triangles, NodeReference leaf, Hit& best, Visit&& visit) {
+    for (std::uint32_t i = 0; i < leaf.count(); ++i) {
+        const BvhTriangle triangle = triangles[leaf.first() + i];
+        if (visit(triangle, best)) return true;
+    }
+    return false;
+}
+
+/// Visits the triangles of all leaves that the ray may enter, nearer children first, until visit_leaf() stops. Nodes beyond the
+/// closest hit are culled.
 template <class Visit>
 PL_HD inline void traverse(const BvhView& bvh, const Ray& ray, Hit& best, Visit&& visit) {
     if (bvh.nodes.empty() || !can_hit(ray)) return;
     const BvhNode root = bvh.nodes[0];
     const BoxRay box_ray = make_box_ray(root, ray);
     if (intersect_box(root, box_ray, best.t) == kInfinity) return;
-    NodeReference stack[kMaxBvhDepth];
-    int depth = 0;
+    NodeMemory memory;
+    NodeStack stack(memory);
     NodeReference current = root.reference();
     while (true) {
         if (current.count() > 0) {
-            for (std::uint32_t i = 0; i < current.count(); ++i) {
-                const BvhTriangle triangle = bvh.triangles[current.first() + i];
-                if (visit(triangle, best)) return;
-            }
+            if (visit_leaf(bvh.triangles.data, current, best, visit)) return;
         } else {
-            const BvhNode left = bvh.nodes[current.first()];
-            const BvhNode right = bvh.nodes[current.first() + 1];
-            const float left_t = intersect_box(left, box_ray, best.t);
-            const float right_t = intersect_box(right, box_ray, best.t);
-            const bool is_right_near = right_t < left_t;
-            if (bound_max(left_t, right_t) != kInfinity) {
-                PL_ASSERT(depth < kMaxBvhDepth);
-                stack[depth++] = is_right_near ? left.reference() : right.reference();
-            }
-            if (bound_min(left_t, right_t) != kInfinity) {
-                current = is_right_near ? right.reference() : left.reference();
+            const NodePair pair = intersect_children(bvh, current, box_ray, best.t);
+            if (pair.enters_both()) stack.push(pair.far());
+            if (pair.enters_any()) {
+                current = pair.near();
                 continue;
             }
         }
-        if (depth == 0) return;
-        current = stack[--depth];
+        if (stack.is_empty()) return;
+        current = stack.pop();
     }
 }
 

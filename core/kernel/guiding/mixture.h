@@ -31,7 +31,7 @@ inline constexpr float kMaxMixtureWeight = 64.0f;
 /// all samples of the volume, clamped. `bsdf_ratio` is p_bsdf / q of the direction, `radiance` the target. 0 without
 /// radiance, or if the mean radiance of the volume is 0.
 PL_HD inline float light_weight(const TableView& field, std::int32_t volume, float bsdf_ratio, float radiance) {
-    const float expected = field.mean_radiance[static_cast<std::uint32_t>(volume)];
+    const float expected = field.mean_radiance_of(static_cast<std::uint32_t>(volume));
     if (!(expected > 0.0f) || !(radiance > 0.0f)) return 0.0f;
     return min_of(radiance / expected, kMaxMixtureWeight) * bsdf_ratio;
 }

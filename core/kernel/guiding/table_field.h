@@ -45,13 +45,15 @@ struct TableField : TableView {
         return {density.pdf_sa, density.cell};
     }
     PL_HD float bsdf_fraction_at(const Location& location) const {
-        return bsdf_fraction[static_cast<std::uint32_t>(location.volume)];
+        const auto index = static_cast<std::uint32_t>(location.volume);
+        return has_records() ? record_of(index).bsdf_fraction : bsdf_fraction[index];
     }
     PL_HD float value_at(const Location& location) const {
-        return mean_radiance[static_cast<std::uint32_t>(location.volume)];
+        return mean_radiance_of(static_cast<std::uint32_t>(location.volume));
     }
     PL_HD float direct_at(const Location& location) const {
-        return direct[static_cast<std::uint32_t>(location.volume)];
+        const auto index = static_cast<std::uint32_t>(location.volume);
+        return has_records() ? record_of(index).direct : direct[index];
     }
     PL_HD float radiance_at(const Location& location, std::int32_t cell) const {
         if (cell < 0) return value_at(location);
@@ -92,6 +94,11 @@ struct TableField : TableView {
     }
     PL_HD ServedPoint<One> served_point(const Location& location, const SurfacePoint& surface) const {
         const auto index = static_cast<std::uint32_t>(location.volume);
+        if (has_records()) {
+            const VolumeRecord record = record_of(index);
+            return {location.volume, unpack(record.position), unpack(record.normal), record.inverse_reach,
+                    unpack(surface.position)};
+        }
         return {location.volume, unpack(sites[index].position), unpack(normals[index]), inverse_reach[index],
                 unpack(surface.position)};
     }

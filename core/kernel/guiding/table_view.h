@@ -6,6 +6,7 @@
 #include "core/kernel/guiding/direction_cells.h"
 #include "core/kernel/guiding/placement_view.h"
 #include "core/kernel/guiding/table_arrays.h"
+#include "core/kernel/guiding/volume_record.h"
 
 namespace pl {
 
@@ -27,12 +28,29 @@ struct TableView : PlacementView, TableArrays<ConstSpan, Span> {
     std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
     float radiance_unit = 1.0f;        ///< of the fixed-point sums: a power of two not below the brightest emission
     Writers writers = Writers::Many;   ///< threads that add to the pending sums
+    Span<const VolumeRecord> records;  ///< read instead of the arrays they repeat; empty: none are gathered. [volume]
+
+    /// A device always has records.
+    PL_HD bool has_records() const { return is_device_code() || !records.empty(); }
+    PL_HD VolumeRecord record_of(std::uint32_t volume) const { return records[volume]; }
+    PL_HD float mean_radiance_of(std::uint32_t volume) const {
+        return has_records() ? record_of(volume).mean_radiance : mean_radiance[volume];
+    }
 
     PL_HD std::uint32_t cell_index(std::int32_t volume, int cell) const {
         return static_cast<std::uint32_t>(volume) * static_cast<std::uint32_t>(cells.count()) +
                static_cast<std::uint32_t>(cell);
     }
 };
+
+PL_HD inline VolumeRecord gather_record(const TableView& field, std::uint32_t volume) {
+    return {.position = field.sites[volume].position,
+            .inverse_reach = field.inverse_reach[volume],
+            .normal = field.normals[volume],
+            .bsdf_fraction = field.bsdf_fraction[volume],
+            .mean_radiance = field.mean_radiance[volume],
+            .direct = field.direct[volume]};
+}
 
 /// Whether the sums will hold less than the target.
 PL_HD inline bool is_clamped(float target, float radiance_unit) { return target > kMaxRecordedUnits * radiance_unit; }

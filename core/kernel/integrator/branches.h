@@ -36,7 +36,7 @@ struct Branches {
     std::uint32_t number = 0;   ///< of the current branch
     std::uint32_t waiting = 0;  ///< branches at all forks
     std::uint32_t forks = 0;
-    Fork<Vertex>* stack = nullptr;  ///< kMostForks, given by keep_forks(); not used unless paths are split
+    Fork<Vertex>* stack = nullptr;  ///< kMostForks, given by keep_store(); not used unless paths are split
 
     /// Most branches that may continue from the current vertex.
     PL_HD std::uint32_t room() const { return forks < kMostForks ? kMostBranches - number - waiting : 1u; }
@@ -61,11 +61,14 @@ struct BranchesOf {};
 template <SplittingMethod M>
 struct BranchesOf<M> : Branches<typename M::Vertex> {};
 
-/// Memory for the forks of a path, which its driver provides.
+/// Memory of a path outside of its state, which its driver provides: for what the method keeps there, and for forks.
 template <class M>
-struct ForkMemory {};
+struct PathStore {
+    [[no_unique_address]] typename M::Store method;
+};
 template <SplittingMethod M>
-struct ForkMemory<M> {
+struct PathStore<M> {
+    [[no_unique_address]] typename M::Store method;
     Fork<typename M::Vertex> forks[kMostForks];
 };
 

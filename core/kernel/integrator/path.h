@@ -90,12 +90,32 @@ struct PathState {
     }
 };
 
-/// Gives a path that begins the memory for its forks. Null: it is not split.
+/// Gives a path its memory outside of its state. Not needed unless needs_store().
 template <FeatureSet F, class M>
-PL_HD inline void keep_forks(PathState<F, M>& state, [[maybe_unused]] ForkMemory<M>* memory) {
-    if constexpr (SplittingMethod<M>) state.branches.stack = memory != nullptr ? memory->forks : nullptr;
+PL_HD inline void keep_store(PathState<F, M>& state, [[maybe_unused]] PathStore<M>* store) {
+    if constexpr (!std::is_empty_v<typename M::Store>) state.memory.keep(&store->method);
+    if constexpr (SplittingMethod<M>) state.branches.stack = store->forks;
+}
+/// Takes it back, where the memory ends before the state does.
+template <FeatureSet F, class M>
+PL_HD inline void drop_store(PathState<F, M>& state) {
+    if constexpr (!std::is_empty_v<typename M::Store>) state.memory = {};
+    if constexpr (SplittingMethod<M>) state.branches.stack = nullptr;
+}
+
+/// The memory of a branch that begins after another one of its path.
+template <class Memory>
+PL_HD inline Memory begin_memory([[maybe_unused]] const Memory& last) {
+    if constexpr (requires { last.emptied(); })
+        return last.emptied();
+    else
+        return {};
 }
 PL_HD inline bool splits_paths(const PathSettings& settings) { return settings.split_threshold < kInfinity; }
+template <class M>
+PL_HD inline bool needs_store(const PathSettings& settings) {
+    return !std::is_empty_v<typename M::Store> || (SplittingMethod<M> && splits_paths(settings));
+}
 
 /// A light sample that contributes if nothing occludes it.
 template <class M>
@@ -109,28 +129,32 @@ struct ShadowRequest {
 enum class PathStatus : std::uint32_t { Continues, Finished };
 
 /// Counts of events: integers, so that their sum does not depend on order.
-struct PathCounters {
-    std::uint64_t segments = 0;  ///< path rays traced, without shadow rays
-    std::uint64_t shadow_rays = 0;
-    std::uint64_t emission_rays = 0;    ///< further camera rays for emission alone, see camera_emission.h
-    std::uint64_t escaped = 0;          ///< paths that left the scene
-    std::uint64_t truncated = 0;        ///< paths cut at max_depth
-    std::uint64_t zero_directions = 0;  ///< sampled directions with f cos = 0
-    MethodCounters method;
+template <class Count>
+struct PathCountersOf {
+    Count segments = 0;  ///< path rays traced, without shadow rays
+    Count shadow_rays = 0;
+    Count emission_rays = 0;    ///< further camera rays for emission alone, see camera_emission.h
+    Count escaped = 0;          ///< paths that left the scene
+    Count truncated = 0;        ///< paths cut at max_depth
+    Count zero_directions = 0;  ///< sampled directions with f cos = 0
+    MethodCountersOf<Count> method;
 };
+using PathCounters = PathCountersOf<std::uint64_t>;
 
 /// Counts of one pass. Equal for every thread count and launch shape.
-struct PassCounters {
-    PathCounters path;
-    std::uint64_t paths = 0;  ///< finished: pixels of a picture pass, probes of a precomputation
-    std::uint64_t zero_contribution_paths = 0;
-    std::uint64_t invalid_samples = 0;
+template <class Count>
+struct PassCountersOf {
+    PathCountersOf<Count> path;
+    Count paths = 0;  ///< finished: pixels of a picture pass, probes of a precomputation
+    Count zero_contribution_paths = 0;
+    Count invalid_samples = 0;
     VarianceSums variance;  ///< of the samples measured, see SampleUse
 };
+using PassCounters = PassCountersOf<std::uint64_t>;
 
 /// Calls add(total, count) for every counter of events: the one list of them.
-template <class Add>
-PL_HD inline void add_counters(PassCounters& totals, const PassCounters& counts, Add&& add) {
+template <class Total, class Count, class Add>
+PL_HD inline void add_counters(PassCountersOf<Total>& totals, const PassCountersOf<Count>& counts, Add&& add) {
     add(totals.path.segments, counts.path.segments);
     add(totals.path.shadow_rays, counts.path.shadow_rays);
     add(totals.path.emission_rays, counts.path.emission_rays);

@@ -106,8 +106,8 @@ struct UnweightedLight {
 
 /// Samples a light at a vertex, by the numbers `u`.
 template <FeatureSet F, Method M>
-PL_HD inline UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
-                                          const PathState<F, M>& state) {
+PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
+                                           const PathState<F, M>& state) {
     const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, u,
                                                       learned_lights<F>(context.method, from.vertex).learned());
     if (!(sample.pdf_sa > 0.0f)) return {};
@@ -127,8 +127,8 @@ PL_HD inline UnweightedLight sample_light(const PathContext<M>& context, const S
 /// Weighs a light sample by multiple importance sampling. `scatter_pdf_sa`: of its direction, see scatter_pdf_sa(). `shadow` comes
 /// in cleared; `shadow.wanted` stays false if the sample cannot contribute.
 template <FeatureSet F, Method M>
-PL_HD inline void weigh_light(const M& method, const typename M::Vertex& vertex, const UnweightedLight& light,
-                              float scatter_pdf_sa, PathState<F, M>& state, ShadowRequest<M>& shadow) {
+PL_HD_INLINED void weigh_light(const M& method, const typename M::Vertex& vertex, const UnweightedLight& light,
+                               float scatter_pdf_sa, PathState<F, M>& state, ShadowRequest<M>& shadow) {
     LightEstimate estimate;
     if (light.pdf_sa > 0.0f) {
         const float weight = balance_weight(light.pdf_sa, scatter_pdf_sa) / light.pdf_sa;
@@ -142,8 +142,8 @@ PL_HD inline void weigh_light(const M& method, const typename M::Vertex& vertex,
 
 /// Samples a light at a vertex, if the settings ask for it.
 template <FeatureSet F, Method M>
-PL_HD inline void request_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
-                                PathState<F, M>& state, ShadowRequest<M>& shadow) {
+PL_HD_INLINED void request_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
+                                 PathState<F, M>& state, ShadowRequest<M>& shadow) {
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (context.settings.next_event == 0) return;
         const UnweightedLight light = sample_light(context, from, u, state);
@@ -192,8 +192,8 @@ struct ShadeOutput : StepOutput<M> {
 
 /// Russian roulette and splitting at the vertex `from`, whose random numbers are `u`. Returns whether the path continues.
 template <FeatureSet F, Method M>
-PL_HD inline PathStatus continue_path(const PathContext<M>& context, const Hit& hit, float u, PathState<F, M>& state,
-                                      ScatterPoint<F, M>& from, const StepOutput<M>& out) {
+PL_HD_INLINED PathStatus continue_path(const PathContext<M>& context, const Hit& hit, float u, PathState<F, M>& state,
+                                       ScatterPoint<F, M>& from, const StepOutput<M>& out) {
     const Continuation next =
         play_roulette(context.method, context.settings, from.vertex, from.bsdf.albedo(), u, state);
     if (next.branches == 0) return terminate_path(context.method, state, out);
@@ -212,8 +212,8 @@ PL_HD inline PathStatus continue_path(const PathContext<M>& context, const Hit& 
 /// Shades the end of the path's segment: adds emission and calls the observe() of the method. Returns whether the path reaches a
 /// vertex where it may go on. `surface_of()` is called once if there is a hit.
 template <FeatureSet F, Method M, class SurfaceOf>
-PL_HD inline PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const SurfaceOf& surface_of,
-                                  PathState<F, M>& state, const ShadeOutput<F, M>& out) {
+PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const SurfaceOf& surface_of,
+                                   PathState<F, M>& state, const ShadeOutput<F, M>& out) {
     ++out.counters.segments;
     if (!hit.found()) return shade_miss(context, state, out);
     const SceneView& scene = context.scene;
@@ -238,8 +238,8 @@ PL_HD inline PathStatus shade_hit(const PathContext<M>& context, const Hit& hit,
 
 /// Shades the end of a segment and scatters the path: its ray is then the next segment. `shadow` comes in cleared.
 template <FeatureSet F, Method M>
-PL_HD inline PathStatus extend_path(const PathContext<M>& context, const Hit& hit, const VertexNumbers& numbers,
-                                    PathState<F, M>& state, ShadowRequest<M>& shadow, PathCounters& counters) {
+PL_HD_INLINED PathStatus extend_path(const PathContext<M>& context, const Hit& hit, const VertexNumbers& numbers,
+                                     PathState<F, M>& state, ShadowRequest<M>& shadow, PathCounters& counters) {
     ScatterPoint<F, M> from;
     typename M::Sample sample{};
     const StepOutput<M> out{sample, counters};
@@ -265,12 +265,12 @@ PL_HD inline void connect_light(const M& method, const ShadowRequest<M>& shadow,
 
 /// Scatters the next waiting branch. It starts with an empty Memory, and without a light sample of its own.
 template <FeatureSet F, SplittingMethod M>
-PL_HD inline PathStatus begin_branch(const PathContext<M>& context, PathState<F, M>& state, PathCounters& counters) {
+PL_HD_INLINED PathStatus begin_branch(const PathContext<M>& context, PathState<F, M>& state, PathCounters& counters) {
     const Fork<typename M::Vertex> fork = state.branches.begin();
     state.throughput = fork.throughput;
     state.survival = fork.survival;
     state.vertices = fork.vertices;
-    state.memory = {};
+    state.memory = begin_memory(state.memory);
     state.chain = {};
     const SurfacePoint surface = make_surface_point<F>(context.scene, fork.hit, fork.wo);
     const Bsdf<F> bsdf = make_bsdf<F>(context.scene, surface, hit_weights(fork.hit), fork.wo);
@@ -284,7 +284,8 @@ PL_HD inline PathStatus begin_branch(const PathContext<M>& context, PathState<F,
 /// Ends a path, or a branch of it, after its last shadow ray: makes the training samples that need whole paths, and
 /// begins the next branch. Returns whether there is one.
 template <FeatureSet F, Method M>
-PL_HD inline PathStatus finish_branch(const PathContext<M>& context, PathState<F, M>& state, PathCounters& counters) {
+PL_HD_INLINED PathStatus finish_branch(const PathContext<M>& context, PathState<F, M>& state,
+                                       PathCounters& counters) {
     context.method.finished(state.memory, counters.method);
     if constexpr (SplittingMethod<M>) {
         while (state.branches.waiting > 0)

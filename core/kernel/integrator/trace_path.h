@@ -9,8 +9,8 @@ namespace pl {
 
 /// Traces one segment of a path, and the shadow ray at its end. The next branch follows the end of one.
 template <FeatureSet F, Method M, Intersector I>
-PL_HD inline PathStatus trace_segment(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
-                                      PathCounters& counters) {
+PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
+                                       PathCounters& counters) {
     const Hit hit = closest_solid_hit<F>(context.scene, intersector, state.ray);
     const VertexNumbers numbers = draw_vertex_numbers<F>(context.settings, state);
     ShadowRequest<M> shadow;
@@ -28,14 +28,20 @@ PL_HD inline PathStatus trace_segment(const PathContext<M>& context, const I& in
     return status;
 }
 
+/// `store`: for what the path keeps outside of its state.
+template <FeatureSet F, Method M, Intersector I>
+PL_HD inline void trace_path(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
+                             PathStore<M>& store, PathCounters& counters) {
+    keep_store(state, &store);
+    PathStatus status = PathStatus::Continues;
+    while (status == PathStatus::Continues) status = trace_segment<F>(context, intersector, state, counters);
+}
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline void trace_path(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
                              PathCounters& counters) {
-    ForkMemory<M> forks;
-    keep_forks(state, &forks);
-    PathStatus status = PathStatus::Continues;
-    while (status == PathStatus::Continues) status = trace_segment<F>(context, intersector, state, counters);
-    keep_forks<F, M>(state, nullptr);  // their memory ends here
+    PathStore<M> store;
+    trace_path<F>(context, intersector, state, store, counters);
+    drop_store(state);
 }
 
 }  // namespace pl

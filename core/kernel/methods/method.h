@@ -48,13 +48,15 @@ struct ScatterEvent {
 };
 
 /// Events that a method counts.
-struct MethodCounters {
-    std::uint64_t records = 0;          ///< training samples
-    std::uint64_t clamped_records = 0;  ///< training samples whose target exceeds the range of the pending sums
-    std::uint64_t lookups = 0;
-    std::uint64_t lookup_misses = 0;  ///< lookups without a location
-    std::uint64_t cut_returns = 0;    ///< Monte-Carlo returns of paths with more vertices than their memory holds
+template <class Count>
+struct MethodCountersOf {
+    Count records = 0;          ///< training samples
+    Count clamped_records = 0;  ///< training samples whose target exceeds the range of the pending sums
+    Count lookups = 0;
+    Count lookup_misses = 0;  ///< lookups without a location
+    Count cut_returns = 0;    ///< Monte-Carlo returns of paths with more vertices than their memory holds
 };
+using MethodCounters = MethodCountersOf<std::uint64_t>;
 
 /// The training hooks of a method that does not learn: each does nothing and compiles to nothing. The integrator
 /// calls them in this order; a method that learns derives from this and hides the types and the hooks it needs.
@@ -73,8 +75,10 @@ struct MethodCounters {
 ///
 /// Branches of a split path run through it one after the other, each with a Memory of its own.
 struct MethodHooks {
-    struct Vertex {};       ///< data of a surface point, e.g. its location in a field
-    struct Memory {};       ///< part of the path's state: training samples whose targets are not complete
+    struct Vertex {};  ///< data of a surface point, e.g. its location in a field
+    struct Memory {};  ///< part of the path's state: training samples whose targets are not complete
+    struct Store {
+    };  ///< the larger part of Memory, kept outside of the path's state: given to it by keep(Store*) if not empty
     struct Sample {};       ///< a complete training sample made by observe(), added by record() before the pass ends
     struct Light {};        ///< a light sample made by light_sampled(), added by record_light() before the pass ends
     struct Expectation {};  ///< part of the path's state: the contribution expected at its first vertex

@@ -23,6 +23,8 @@ struct alignas(16) TrianglePlane {
     Vec3f normal;          ///< unit, on the front side
     float position_error;  ///< distance to offset ray origins from the plane
     float edge_margin;     ///< smallest barycentric weight of a ray origin
+    /// Complete 32 bytes, so that equal planes have equal bytes.
+    std::uint32_t zero1 = 0, zero2 = 0, zero3 = 0;
 };
 
 /// Shading normals of a triangle's corners: indices into SceneView::normals.

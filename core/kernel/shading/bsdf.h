@@ -178,8 +178,8 @@ template <FeatureSet F>
 PL_HD inline Bsdf<F> make_bsdf(const SceneView& scene, const SurfacePoint& surface, Vec3f b, Vec3f wo) {
     const Vec3f albedo = albedo_at<F>(scene, surface, b);
     if constexpr (F.has_any(kLobeFeatures)) {
-        if (scene.lobes.empty()) return {surface, wo, albedo, SurfaceLobes{}, {}};
-        return {surface, wo, albedo, lobes_at<F>(scene, surface, b), scene.directional_albedo};
+        const SurfaceLobes lobes = scene.lobes.empty() ? SurfaceLobes{} : lobes_at<F>(scene, surface, b);
+        return {surface, wo, albedo, lobes, scene.directional_albedo};
     } else {
         return {albedo};
     }

@@ -97,7 +97,7 @@ PL_HD constexpr Base& base_of(T& value) {
 }
 PL_HD constexpr auto members(TableView& v) {
     const auto all = std::tie(base_of<PlacementView>(v), base_of<TableArrays<ConstSpan, Span>>(v), v.cells,
-                              v.light_clusters, v.radiance_unit, v.writers);
+                              v.light_clusters, v.radiance_unit, v.writers, v.records);
     static_assert(std::tuple_size_v<decltype(all)> == member_count<TableView>());
     return all;
 }
@@ -168,6 +168,7 @@ PL_HD inline void walk_kernels(Sink& sink) {
         walk_parameters(sink, cuda::ProbeKernel{});
         walk_parameters(sink, cuda::ViewKernel{});
         walk_parameters(sink, cuda::EmissionKernel{});
+        walk_parameters(sink, cuda::GatherRecordsKernel{});
         walk_parameters(sink, cuda::VolumeValueKernel{});
         walk_parameters(sink, cuda::AddSamplesKernel{});
         walk_parameters(sink, cuda::ReadFilmKernel{});

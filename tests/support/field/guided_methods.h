@@ -10,6 +10,18 @@ using ReinforcementMethod = Guided<TableField, ExpectedSarsa>;
 using SarsaMethod = Guided<TableField, Sarsa>;
 using MonteCarloMethod = Guided<TableField, MonteCarlo>;
 
+/// The memory of a path with its store, which else belongs to the driver of the path.
+template <Method M>
+struct OwnMemory : M::Memory {
+    OwnMemory() {
+        if constexpr (requires { this->keep(&store); }) this->keep(&store);
+    }
+    OwnMemory(const OwnMemory&) = delete;
+    OwnMemory& operator=(const OwnMemory&) = delete;
+
+    typename M::Store store;
+};
+
 template <GuidedMethod M = ReinforcementMethod>
 M guided_by(const TableField& field, const MixtureSettings& mixture = {}) {
     M method;

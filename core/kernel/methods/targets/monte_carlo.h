@@ -33,12 +33,18 @@ struct MonteCarlo : FieldTrainer<F> {
         Vec3f brought{0.0f};    ///< s L_e + D
         Vec3f weight{0.0f};     ///< w
     };
+    struct Store {
+        Step steps[kMostSteps];
+    };
     struct Memory {
+        Step* steps = nullptr;
         std::int32_t count = 0;
         std::int32_t lit = -1;  ///< step of the light sample whose shadow ray is pending; negative: none
         std::uint32_t is_cut = 0;
         Vec3f light{0.0f};  ///< reflected radiance of that light sample
-        Step steps[kMostSteps];
+
+        PL_HD void keep(Store* store) { steps = store->steps; }
+        PL_HD Memory emptied() const { return {.steps = steps}; }
     };
 
     PL_HD typename FieldTrainer<F>::Sample observe(Memory& memory, const Observation& observation, const Vertex&,

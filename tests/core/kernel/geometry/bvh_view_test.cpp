@@ -1,6 +1,8 @@
 // The hierarchy gives the same bits as looking at every triangle, in scenes made to be hard for boxes.
 #include <functional>
 
+#include "core/kernel/geometry/postponed_traversal.h"
+#include "core/kernel/geometry/small_scene.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/rays/brute_force.h"
 #include "tests/support/scenes/shapes.h"
@@ -72,6 +74,11 @@ std::vector<NamedShape> hard_shapes() {
              test::add_box(s, Vec3f{-1}, Vec3f{1}, true);
              test::add_box(s, {-0.5f, -1, -0.5f}, {0.5f, 0, 0.5f}, false);
          }},
+        {"room twice",
+         [](auto& s, auto&) {
+             test::add_box(s, Vec3f{-1}, Vec3f{1}, true);
+             test::add_box(s, Vec3f{-1}, Vec3f{1}, true);
+         }},
         {"everything twice",
          [](auto& s, auto&) {
              test::add_spiky_sphere(s, 8, 8, 1.0f, 2.0f, 4);
@@ -124,24 +131,42 @@ Ray hard_ray(const SceneView& scene, Uniforms& random) {
     return ray;
 }
 
-void check_against_all(int rays) {
+SmallScene small_scene(const SceneView& scene) {
+    return {scene.bvh.nodes.data, scene.bvh.leaves.data, scene.bvh.triangles.data, scene.bvh.leaves.count};
+}
+
+/// Whether every traversal that serves a scene finds the expected hit, and whether there is one.
+bool all_find(const SceneView& scene, const Ray& ray, const Hit& expected) {
+    const auto finds = [&](const auto& hierarchy) {
+        return test::same_bits(expected, find_hit(hierarchy, ray, false)) &&
+               expected.found() == find_hit(hierarchy, ray, true).found();
+    };
+    return finds(scene.bvh) && finds(PostponingBvh{scene.bvh}) &&
+           (scene.bvh.leaves.empty() || finds(small_scene(scene)));
+}
+
+/// The first triangles of a scene.
+SceneDescription first_triangles(SceneDescription scene, std::size_t count) {
+    if (count < scene.triangles.size()) scene.triangles.resize(count);
+    return scene;
+}
+
+void check_against_all(int rays, std::size_t most_triangles = 1000000) {
     for (const NamedShape& shape : hard_shapes()) {
         Uniforms random(11);
         SceneDescription description;
         description.materials.push_back(test::gray());
         shape.build(description, random);
-        const HostScene packed = pack_scene(description);
+        const HostScene packed = pack_scene(first_triangles(description, most_triangles));
         const SceneView scene = packed.view();
-        const BvhIntersector intersector{scene};
+        CHECK(scene.bvh.leaves.empty() == (scene.triangles.count > kMostSmallTriangles));
         int hits = 0;
         int differences = 0;
         for (int i = 0; i < rays; ++i) {
             const Ray ray = hard_ray(scene, random);
             const Hit expected = test::closest_hit_by_all(scene, ray);
-            const bool same = test::same_bits(expected, intersector.closest_hit(ray)) &&
-                              expected.found() == intersector.occluded(ray);
             hits += expected.found() ? 1 : 0;
-            differences += same ? 0 : 1;
+            differences += all_find(scene, ray, expected) ? 0 : 1;
         }
         INFO(shape.name);
         CHECK(differences == 0);
@@ -253,11 +278,14 @@ TEST_CASE("Boxes pass where distances are beyond the range of numbers, and rays 
 
 TEST_CASE("The hierarchy agrees with all triangles for 2e4 rays a scene") { check_against_all(20000); }
 
+TEST_CASE("Every traversal of a small scene agrees with all triangles for 5e3 rays a scene") {
+    for (const std::uint32_t most : {kMostSmallTriangles, kMostSmallTriangles / 2 + 1, 1u})
+        check_against_all(5000, most);
+}
+
 TEST_CASE("The hierarchy agrees with all triangles for 1e6 rays a scene", "[nightly]") { check_against_all(1000000); }
 
 TEST_CASE("An empty scene is missed") {
     const HostScene scene = pack_scene(SceneDescription{});
-    const BvhIntersector intersector{scene.view()};
-    CHECK_FALSE(intersector.closest_hit({}).found());
-    CHECK_FALSE(intersector.occluded({}));
+    CHECK(all_find(scene.view(), {}, {}));
 }

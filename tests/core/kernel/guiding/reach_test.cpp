@@ -46,7 +46,7 @@ double reach_after_one_path(LearningSettings learning) {
     direction.pdf_sa = direction.bsdf_pdf_sa = 1.0f;
     direction.bin = 3;
     for (int path = 0; path < 100; ++path) {
-        typename M::Memory memory;
+        OwnMemory<M> memory;
         method.scattered(memory, {0}, {.direction = direction}, counters);
         method.record(method.observe(memory, {.emitted = Vec3f{1.0f}, .distance = 2.0f}, {kNoVolume}, counters));
         method.finished(memory, counters);

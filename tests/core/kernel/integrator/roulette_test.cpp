@@ -54,8 +54,8 @@ struct Family {
 /// A path and its branches, one after the other as the integrator takes them.
 Family trace_family(const Splitting& method, const PathSettings& settings, Uniforms& random) {
     PathState<FeatureSet{}, Splitting> state;
-    ForkMemory<Splitting> forks;
-    keep_forks(state, &forks);
+    PathStore<Splitting> store;
+    keep_store(state, &store);
     Family family;
     for (;;) {
         bool ends = state.vertices == kVertices;
@@ -164,8 +164,8 @@ TEST_CASE("Split paths keep the mean and no path has more branches than it may")
 
 TEST_CASE("Branches wait in the order of their vertices, the newest first, and draw numbers of their own") {
     PathState<FeatureSet{}, Splitting> state;
-    ForkMemory<Splitting> forks;
-    keep_forks(state, &forks);
+    PathStore<Splitting> store;
+    keep_store(state, &store);
     std::set<std::uint32_t> drawn;
     const auto wait = [&](std::uint32_t vertices, std::uint32_t waiting) {
         state.branches.wait({{}, {}, Vec3f{1.0f}, 1.0f, vertices, waiting, {}});

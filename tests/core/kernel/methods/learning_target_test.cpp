@@ -98,7 +98,7 @@ TEST_CASE("Training samples that are too bright for the sums are counted by ever
     const float most = kMaxRecordedUnits * sarsa.field.radiance_unit;
     Learner whole;
     const auto monte_carlo = whole.method<MonteCarloMethod>(LearningTarget::MonteCarlo, LearnedLight::All);
-    const auto walk = [&](const auto& method, auto memory, Learner& learner) {
+    const auto walk = [&](const auto& method, auto&& memory, Learner& learner) {
         for (const float emitted : {most, 1.01f * most}) {
             method.scattered(memory, kVertex, going(1.0f, 1), learner.counters);
             method.observe(memory, meeting(emitted, 1.0f, 0.0f), {kNoVolume}, learner.counters);
@@ -109,7 +109,7 @@ TEST_CASE("Training samples that are too bright for the sums are counted by ever
         CHECK(learner.counters.clamped_records == 1);
     };
     walk(sarsa, SarsaMethod::Memory{}, late);
-    walk(monte_carlo, MonteCarloMethod::Memory{}, whole);
+    walk(monte_carlo, OwnMemory<MonteCarloMethod>{}, whole);
 }
 
 TEST_CASE("Sarsa takes the volume's mean for a cell without visits, and has no sample without a volume") {
@@ -178,7 +178,7 @@ TEST_CASE("Monte-Carlo targets are the radiance of the path") {
     for (const LearnedLight light : {LearnedLight::All, LearnedLight::Indirect}) {
         Learner learner;
         const auto method = learner.method<MonteCarloMethod>(LearningTarget::MonteCarlo, light);
-        MonteCarloMethod::Memory memory;
+        OwnMemory<MonteCarloMethod> memory;
         method.observe(memory, meeting(9.0f), kVertex, learner.counters);  // the camera learns nothing
         method.light_sampled(memory, kVertex, {.reflected = Vec3f{9.0f}});
         method.scattered(memory, kVertex, going(1.0f, 0), learner.counters);
@@ -210,7 +210,7 @@ TEST_CASE("Monte Carlo cuts paths that are too long, takes the table for the res
     for (const LearnedLight light : {LearnedLight::All, LearnedLight::Indirect}) {
         Learner learner;
         const auto method = learner.method<MonteCarloMethod>(LearningTarget::MonteCarlo, light);
-        MonteCarloMethod::Memory memory;
+        OwnMemory<MonteCarloMethod> memory;
         for (int i = 0; i < 3 * MonteCarloMethod::kMostSteps; ++i) {
             method.observe(memory, meeting(0.0f), kVertex, learner.counters);
             method.light_sampled(memory, kVertex,
