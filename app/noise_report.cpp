@@ -111,14 +111,4 @@ Json tile_gains_json(const TileGains& gains) {
     return json;
 }
 
-std::string gain_text(const Interval& net) {
-    const Verdict verdict = verdict_of(net);
-    const bool is_decided = verdict == Verdict::Faster || verdict == Verdict::Slower;
-    const std::string factor = is_decided
-                                   ? fmt::format(" {:.2g}x", verdict == Verdict::Faster ? net.value : 1.0 / net.value)
-                                   : std::string();
-    return fmt::format("{}{} (time to the same noise, default's over its own: 95 %: {:.2g} to {:.2g})",
-                       mark_name(verdict), factor, net.low, net.high);
-}
-
 }  // namespace pl

@@ -25,7 +25,4 @@ Json noise_json(const NoiseOfPicture& noise);
 /// The members of docs/manual.md, "Where guiding gains".
 Json tile_gains_json(const TileGains& gains);
 
-/// "gains 1.8x (95 %: 1.6 to 2.1)", "undecided (95 %: 0.8 to 1.4)".
-std::string gain_text(const Interval& net);
-
 }  // namespace pl

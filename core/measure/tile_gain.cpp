@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/format.h>
+
 #include "core/measure/jackknife.h"
 #include "core/measure/window_means.h"
 
@@ -110,6 +112,16 @@ std::string_view mark_name(Verdict verdict) {
     case Verdict::Unresolved: break;
     }
     return "undecided";
+}
+
+std::string mark_text(const Interval& net) {
+    const Verdict verdict = verdict_of(net);
+    const std::string_view name = mark_name(verdict);
+    if (verdict == Verdict::Faster)
+        return fmt::format("{} {:.2g}x ({:.2g} to {:.2g})", name, net.value, net.low, net.high);
+    if (verdict == Verdict::Slower)
+        return fmt::format("{} {:.2g}x ({:.2g} to {:.2g})", name, 1.0 / net.value, 1.0 / net.high, 1.0 / net.low);
+    return fmt::format("{} ({:.2g} to {:.2g})", name, net.low, net.high);
 }
 
 std::uint32_t mark_color(Verdict verdict) {

@@ -1,6 +1,7 @@
 // Where in a picture a method gains or loses: the noise of two pictures, tile by tile, at equal time.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +39,8 @@ TileGains tile_gains(const TimedHalves& base, const TimedHalves& method, int wid
 
 /// The mark of a verdict: "gains", "loses", "no difference", "undecided".
 std::string_view mark_name(Verdict verdict);
+/// "gains 1.8x (1.6 to 2.1)", "loses 1.2x (1.1 to 1.3)", "undecided (0.8 to 1.4)": a gain in time with its 95 % interval.
+std::string mark_text(const Interval& net);
 /// Its color, opaque ARGB.
 std::uint32_t mark_color(Verdict verdict);
 

@@ -29,6 +29,8 @@ void draw_effects_tab(ViewerModel& model);
 void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hovered);
 void draw_statistics_tab(const ViewerModel& model);
 void draw_paths_tab(ViewerModel& model);
+/// A part of that tab: the noise of its pixel.
+void draw_noise_section(PathExplorer& explorer);
 void draw_log_tab(const ViewerModel& model);
 
 }  // namespace pl
