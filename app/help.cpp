@@ -26,11 +26,12 @@ constexpr std::array kCommands{
                 "Training takes --spp samples per pixel with method reinforcement; method precomputed\n"
                 "only computes its radiance map. The suffix decides the kind of file: .json, .csv (one\n"
                 "row per direction cell) or .png (the hemisphere as an equal-area disc)."},
-    CommandInfo{Command::Trace, "trace", "SCENE --pixel X,Y --sample N[-M]",
+    CommandInfo{Command::Trace, "trace", "SCENE --pixel X,Y (--sample N[-M] | --why)",
                 "Prints one path of a picture: every vertex with its densities and weights.\n"
                 "It is the path that 'render' with the same options traces, to the bit. A method that learns\n"
                 "renders the samples before it first, so that the field is the one that the path sampled from.\n"
-                "Of several samples a line each, the brightest first; with --json each whole path."},
+                "Of several samples a line each, the brightest first; with --json each whole path. --why: the noise\n"
+                "of the pixel by technique and bounces, and whether guiding gains there."},
     CommandInfo{
         Command::Compare, "compare", "IMAGE REFERENCE",
         "Measures the error of a picture against another, in all metrics.\n"

@@ -31,7 +31,7 @@ ImageMetadata metadata_of(const VolumeInspection& volume, const InspectionSource
     return metadata;
 }
 
-Json interval_json(const Interval& interval) {
+Json bounds_json(const Interval& interval) {
     return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
 }
 
@@ -40,9 +40,9 @@ Json truth_json(const LightReport& truth) {
     return {{"paths_per_cell", truth.paths_per_cell},
             {"invalid_paths", truth.invalid_paths},
             {"target_light", name_of(truth.target)},
-            {"table_divergence", interval_json(figures.table)},
-            {"mixture_divergence", interval_json(figures.mixture)},
-            {"variance_factor", figures.variance_factor ? interval_json(*figures.variance_factor) : Json()},
+            {"table_divergence", bounds_json(figures.table)},
+            {"mixture_divergence", bounds_json(figures.mixture)},
+            {"variance_factor", figures.variance_factor ? bounds_json(*figures.variance_factor) : Json()},
             {"radiance", truth.light.radiance},
             {"radiance_error", truth.light.radiance_error},
             {"target", truth.light.target},

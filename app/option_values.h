@@ -87,11 +87,14 @@ struct Options {
     std::optional<ScenePoint> at;
     std::optional<glm::ivec2> pixel;
     std::optional<SampleNumbers> samples;  ///< trace: numbers of the pixel's samples
+    bool why = false;                      ///< trace: the noise of the pixel
+    std::uint32_t why_samples = 4096;      ///< paths by each method for it
     bool truth = false;                   ///< inspect: also the light that reaches the volume
     std::uint32_t truth_samples = 256;    ///< paths per cell for it
 
     std::string stats_file;
     std::string diagnostics_file;  ///< render: picture of the places of diagnostics
+    std::string gain_file;         ///< render: where its method gains or loses
     std::string log_file;
     bool json = false;
     bool quiet = false;

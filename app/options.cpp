@@ -145,8 +145,8 @@ void require_complete(Command command, const Options& options) {
         fail(fmt::format("'{}' needs a folder to write to: -o DIR", command_name(command)));
     if (command == Command::Inspect && options.at.has_value() == options.pixel.has_value())
         fail("'inspect' needs a place: either --at X,Y,Z[,NX,NY,NZ] or --pixel X,Y");
-    if (command == Command::Trace && !(options.pixel && options.samples))
-        fail("'trace' needs a path: --pixel X,Y and --sample N[-M]");
+    if (command == Command::Trace && !(options.pixel && options.samples.has_value() != options.why))
+        fail("'trace' needs a path: --pixel X,Y and --sample N[-M], or --why in place of --sample");
     if (command == Command::Report && options.inputs.size() != 1)
         fail(fmt::format("'report' needs one folder of 'bench', DIR: got {}", options.inputs.size()));
     if (command == Command::Compare && options.inputs.size() != 2)

@@ -4,6 +4,7 @@
 #include "app/commands.h"
 #include "app/diagnostics_file.h"
 #include "app/field_files.h"
+#include "app/gain_file.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
@@ -144,6 +145,7 @@ int run_render(const CommandLine& line, Console& console) {
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_paths(options);
+    require_gain(options);
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
@@ -159,17 +161,19 @@ int run_render(const CommandLine& line, Console& console) {
     const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
     save_picture(options.output, snapshot, options.display, metadata);
-    bool is_searched = true;
+    bool is_complete = true;  // the files beside the picture
     if (!options.diagnostics_file.empty()) {
         const DiagnosticsMap found =
             write_diagnostics(diagnostics_input(session, slot), snapshot, options, metadata, interrupt, console);
         stats["diagnostics"] = diagnostics_json(snapshot, &found);
-        is_searched = found.is_complete;
+        is_complete = found.is_complete;
     }
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
+    if (!options.gain_file.empty() && !outcome.interrupted())
+        is_complete &= write_gain(session, snapshot, options, interrupt, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, console);
-    if (outcome.interrupted() || !is_searched) return kExitInterrupted;
+    if (outcome.interrupted() || !is_complete) return kExitInterrupted;
     require_target(aim, outcome);
     return 0;
 }

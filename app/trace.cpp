@@ -1,10 +1,11 @@
-// `pathlight trace`: one path of a picture, every vertex with its densities and weights; or several of one pixel.
+// `pathlight trace`: one path of a picture, every vertex with its densities and weights; several of one pixel; or its noise.
 #include "app/commands.h"
 #include "app/field_files.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/run_passes.h"
+#include "app/trace_noise.h"
 #include "app/trace_report.h"
 #include "core/diagnose/pixel_paths.h"
 #include "core/diagnose/record_path.h"
@@ -56,9 +57,13 @@ int run_trace(const CommandLine& line, Console& console) {
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_pixel_inside(options);
-    Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
+    RenderSettings settings = options.render;
+    if (options.why)
+        settings.guiding = GuidingRule::Always;  // the field is wanted, not the picture: every pass trains it
+    Session session(make_backend(options.backend, options.threads), loaded.scene, settings,
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
+    if (options.why) return trace_noise(session, options, interrupt, console);
 
     const std::vector<PathRecord> paths = trace_samples(session, options, interrupt, console);
     if (paths.empty()) {

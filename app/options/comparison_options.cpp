@@ -20,6 +20,14 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
     {.name = "sample", .flags = "--sample", .value = "N[-M]", .group = kPlace,
      .help = "The sample of that pixel, from 0 on; of N to M all, the brightest first",
      .commands = CommandSet(Command::Trace), .parse = parse_samples},
+    {.name = "why", .flags = "--why", .value = "", .group = kPlace,
+     .help = "The noise of that pixel by technique, by number of bounces and by light, and whether guiding gains there: by "
+             "further paths of default and of the method, after it has been trained by --spp passes",
+     .commands = CommandSet(Command::Trace), .parse = parse_flag<&Options::why>},
+    {.name = "why-samples", .flags = "--why-samples", .value = "N", .group = kPlace,
+     .help = "Paths by each method for --why, at least 256 (default 4096)",
+     .commands = CommandSet(Command::Trace),
+     .parse = [](Options& o, Text text) { o.why_samples = static_cast<std::uint32_t>(parse_whole(text, 256, 100000000)); }},
     {.name = "truth", .flags = "--truth", .value = "", .group = kPlace,
      .help = "Also the light that reaches the volume, by paths of default from there: beside the learned radiance, with "
              "the divergence of the learned densities from it",

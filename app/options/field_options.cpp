@@ -54,6 +54,13 @@ constexpr auto kFieldOptions = std::to_array<OptionSpec>({
              "light that light samples do not bring, or all",
      .commands = kSampling, .in_scene_files = true, .parse = parse_learn_from,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.light)); }},
+    {.name = "learn-passes", .flags = "--learn-passes", .value = "N", .group = kField,
+     .help = "Passes that train the field of reinforcement; later ones sample from it as it is then (default: all train it)",
+     .commands = kSampling, .in_scene_files = true,
+     .parse = [](Options& o, Text text) { o.render.learn_passes = parse_whole(text, 1, 1000000000); },
+     .print = [](const Options& o) {
+         return o.render.learn_passes == kEveryPass ? "" : std::to_string(o.render.learn_passes);
+     }},
     {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,
      .help = "Search for the volume of a point: grid (default), kdtree, or linear, which is slow; all find the "
              "same one",

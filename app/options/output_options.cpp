@@ -24,6 +24,10 @@ constexpr auto kOutputOptions = std::to_array<OptionSpec>({
              "paths again: .png marks their pixels in the picture, .exr and .pfm hold their counts per pixel; "
              "--stats has both as numbers",
      .commands = CommandSet(Command::Render), .parse = parse_text<&Options::diagnostics_file>},
+    {.name = "gain", .flags = "--gain", .value = "FILE", .group = kOutput,
+     .help = "Where a guided method gains or loses against default, tile by tile: renders default for the same time "
+             "after the picture, and compares their noise. .json: numbers; .png: the picture with a mark for each tile",
+     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::gain_file>},
 });
 // clang-format on
 

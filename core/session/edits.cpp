@@ -19,6 +19,8 @@ struct Table {
     Invalidation operator()(const EditBackend& edit) const { return {.tables = edit.abandon_old}; }
     Invalidation operator()(const EditRestart&) const { return {.films = true}; }
     Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }
+    Invalidation operator()(const EditLearning&) const { return {}; }
+    Invalidation operator()(const EditForgetVolume&) const { return {}; }
     // Replaces tables and volumes itself: clearing them here would clear the new ones.
     Invalidation operator()(const EditLearned&) const { return {.films = true}; }
 };

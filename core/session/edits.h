@@ -59,8 +59,25 @@ struct EditLearned {
     std::shared_ptr<const LearnedField> field;
 };
 
-using SessionEdit = std::variant<EditCamera, EditSize, EditSeed, EditEstimator, EditMixture, EditField, EditScene,
-                                 EditMaterial, EditEffects, EditBackend, EditRestart, EditForget, EditLearned>;
+/// Of a method that learns, between passes.
+enum class LearningControl {
+    Freeze,    ///< the field stays as it is after the pass under way; sampling goes on
+    Step,      ///< one more pass trains it, with its update
+    Continue,  ///< every pass trains it again
+};
+struct EditLearning {
+    MethodId method;
+    LearningControl control;
+};
+/// One volume of a method that learns begins anew. The film stays: its passes are unbiased with any field.
+struct EditForgetVolume {
+    MethodId method;
+    std::int32_t volume;
+};
+
+using SessionEdit =
+    std::variant<EditCamera, EditSize, EditSeed, EditEstimator, EditMixture, EditField, EditScene, EditMaterial,
+                 EditEffects, EditBackend, EditRestart, EditForget, EditLearned, EditLearning, EditForgetVolume>;
 
 /// The parts of a session that an edit clears. Display settings clear nothing: they are no part of a session.
 struct Invalidation {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/fields/refine_placement.h"
 #include "core/scene/description.h"
@@ -12,8 +13,9 @@ namespace pl {
 
 /// Progress of a method's learning. Exact: interrupted work continues where it stopped.
 struct FieldProgress {
-    std::uint64_t passes = 0;           ///< of the method, unguided ones included: each has random numbers of its own
-    std::uint64_t unguided_passes = 0;  ///< of these, since the field was made or loaded; they train nothing
+    std::uint64_t passes = 0;  ///< of the method, unguided ones included: each has random numbers of its own
+    std::uint64_t untrained_passes =
+        0;  ///< of these, since the field was made or loaded: unguided ones, and those of a frozen field
     std::uint64_t records = 0;          ///< training samples
     std::uint64_t clamped_records = 0;  ///< of them
     std::uint64_t lookup_misses = 0;
@@ -21,6 +23,11 @@ struct FieldProgress {
     std::uint32_t next_probe = 0;          ///< of the running slice
     double precompute_seconds = 0.0;
     bool has_part = false;  ///< the field was updated within a pass that is incomplete
+    std::uint64_t idle_paths =
+        0;  ///< since the field was frozen: their training samples wait in the pending sums to be dropped
+    std::vector<std::int32_t> forgotten{};  ///< volumes that forget what they learned before the next pass
+    bool was_edited =
+        false;  ///< was stepped, continued after a freeze, or has forgotten volumes: no command line repeats it
 
     /// The progress for a picture that does not continue that pass: it skips the pass's random numbers, because paths
     /// would sample densities that were trained by the same numbers, a bias.

@@ -47,11 +47,13 @@ std::optional<FieldStatus> Session::field_status(MethodId method) const {
                        .bytes =
                            volume_bytes(*placement_.volumes()) +
                            placement_.count() * table_bytes(placement_.bins(), placement_.shape().light_clusters),
-                       .passes = state.passes - state.unguided_passes,
+                       .passes = trained_passes(method),
                        .records = state.records,
                        .clamped_records = state.clamped_records,
                        .lookup_misses = state.lookup_misses,
-                       .precomputed_share = 1.0};
+                       .precomputed_share = 1.0,
+                       .is_frozen = info_of(method).learns && is_frozen(method),
+                       .was_edited = state.was_edited};
     if (info_of(method).precomputes)
         status.precomputed_share = static_cast<double>(state.precomputed_slices) / settings_.field.precompute_samples;
     return status;

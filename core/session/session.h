@@ -43,7 +43,7 @@ public:
     /// Applies a change and clears the parts of invalidated_by(). Throws Error if a back end fails; if it is the new
     /// one of EditBackend, the session keeps the old one, unchanged, and a second try uploads everything to the new
     /// one again. EditLearned throws as import_field() does, EditMaterial Error(Input) for materials refused by
-    /// validate_material(); then nothing has changed.
+    /// validate_material(), EditLearning and EditForgetVolume Error(Usage) for methods that do not learn; then nothing has changed.
     void apply(const SessionEdit& edit);
 
     /// Does the next piece of work on a film: a slice of precomputation if the method still needs it, else one sample for
@@ -145,6 +145,14 @@ private:
     std::uint32_t trial_step() const;
     void measure_guiding(FilmSlot slot);
     GuidingTerms guiding_terms(FilmSlot slot) const;
+    std::uint64_t trained_passes(MethodId method) const;
+    bool is_frozen(MethodId method) const { return trained_passes(method) >= settings_.learn_passes; }
+    void control_learning(const EditLearning& edit);
+    void prepare_training(FilmSlot slot);
+    void drop_idle_samples(MethodId method);
+    std::uint32_t idle_passes_left(MethodId method) const;
+    void forget_volume(const EditForgetVolume& edit);
+    void forget_due_volumes(MethodId method);
     std::uint32_t end_of_part(FilmSlot slot) const;
     void finish_learning_part(FilmSlot slot);
     void finish_learning_pass(FilmSlot slot);

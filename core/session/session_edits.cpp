@@ -31,6 +31,8 @@ struct Assign {
     void operator()(const EditRestart&) const {}
     void operator()(const EditForget&) const {}
     void operator()(const EditLearned&) const {}
+    void operator()(const EditLearning&) const {}
+    void operator()(const EditForgetVolume&) const {}
 };
 
 }  // namespace
@@ -39,6 +41,8 @@ void Session::apply(const SessionEdit& edit) {
     if (const auto* change = std::get_if<EditLearned>(&edit)) import_field(*change->field);
     if (const auto* change = std::get_if<EditBackend>(&edit)) switch_backend(*change);
     if (const auto* change = std::get_if<EditMaterial>(&edit)) change_material(*change);
+    if (const auto* change = std::get_if<EditLearning>(&edit)) control_learning(*change);
+    if (const auto* change = std::get_if<EditForgetVolume>(&edit)) forget_volume(*change);
     const Invalidation clear = invalidated_by(edit);
     std::visit(Assign{settings_}, edit);
     if (clear.films) clear_films();

@@ -1,5 +1,6 @@
 // The part of Session that exports and imports learned fields.
 #include "core/base/error.h"
+#include "core/fields/reset_tables.h"
 #include "core/scene/scene_hash.h"
 #include "core/session/path_settings.h"
 #include "core/session/session.h"
@@ -52,14 +53,18 @@ VolumeInspection Session::inspect_volume(MethodId method, std::int32_t volume) c
 LearnedField Session::export_field(MethodId method) const {
     if (!placement_.is_placed() || !backend_->has_field(method))
         throw Error(ErrorKind::Usage, "method '" + std::string(info_of(method).name) + "' has learned nothing yet");
+    HostField arrays = backend_->download_field(method);
+    FieldProgress progress = field(method).without_part();
+    if (progress.idle_paths > 0) drop_pending(arrays);
+    progress.idle_paths = 0;
     return {.method = method,
             .scene_hash = scene_hash(scene()),
             .settings = settings_.field,
             .shape = placement_.shape(),
             .volumes = placement_.volumes(),
             .refinement = placement_.refinement(),
-            .field = backend_->download_field(method),
-            .progress = field(method).without_part()};
+            .field = std::move(arrays),
+            .progress = std::move(progress)};
 }
 
 void Session::import_field(LearnedField learned) {

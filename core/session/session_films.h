@@ -29,6 +29,7 @@ struct FilmProgress {
 
     GuidingChoice guiding{};
     bool is_guided = true;    ///< the pass under way, or the last one; of methods without a field, too
+    bool trains = true;       ///< the pass under way, or the last one, trains the field if its method learns
     PassCounters measured{};  ///< of the pass under way
     std::uint32_t unguided_passes = 0;
     TrialProgress trial{};

@@ -40,7 +40,7 @@ GuidingTerms Session::guiding_terms(FilmSlot slot) const {
 bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
     if (!chooses_guiding(slot)) return true;
     FilmProgress& state = films_[slot];
-    const bool knows = info_of(slot.method).learns && field(slot.method).passes > 0;
+    const bool knows = info_of(slot.method).learns && (field(slot.method).passes > 0 || is_frozen(slot.method));
     if (knows && state.guiding.is_warming_up()) state.guiding.trust_field();
     if (!warms_up(slot)) state.guiding.begin_guided();
     if (state.guiding.is_warming_up() && !warm_up(slot, stop)) return false;
@@ -88,8 +88,12 @@ bool Session::run_trial_paths(FilmSlot slot, bool is_guided, const StopFlag* sto
     done += counters;
     state.trial_paths += counters.paths;
     FieldProgress& learned = field(slot.method);
-    learned.records += counters.path.method.records;
-    learned.clamped_records += counters.path.method.clamped_records;
+    if (state.trains) {
+        learned.records += counters.path.method.records;
+        learned.clamped_records += counters.path.method.clamped_records;
+    } else {
+        learned.idle_paths += counters.paths;
+    }
     learned.lookup_misses += counters.path.method.lookup_misses;
     state.learn_seconds += watch.seconds();
     return done.paths >= end;
@@ -117,7 +121,8 @@ PassRequest Session::trial_request(FilmSlot slot, bool is_guided, const StopFlag
 void Session::finish_trial(FilmSlot slot) {
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
-    if (state.trial.guided.paths > 0 && info_of(slot.method).learns) backend_->update_field(slot.method);
+    const bool has_trained = state.trial.guided.paths > 0 && state.trains && info_of(slot.method).learns;
+    if (has_trained) backend_->update_field(slot.method);
     state.trial = {};
     state.learn_seconds += watch.seconds();
 }

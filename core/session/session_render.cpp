@@ -1,4 +1,5 @@
 // The part of Session that renders: precomputation and passes, piece by piece, and the updates of learned fields.
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/timer.h"
@@ -107,7 +108,10 @@ void Session::prepare_pass(FilmSlot slot) {
     ensure_film(slot);
     const FilmProgress& state = films_[slot];
     if (state.next_pixel > 0) return;
-    if (learns_from(slot)) field(slot.method) = field(slot.method).without_part();
+    if (learns_from(slot)) {
+        field(slot.method) = field(slot.method).without_part();
+        prepare_training(slot);
+    }
     // The map shows a changing field: restarting at powers of two keeps at least half of the samples recent.
     if (slot.view == View::RadianceMap && is_power_of_two(state.passes))
         backend_->reset_film(slot, settings_.width, settings_.height);
@@ -130,8 +134,10 @@ std::uint32_t Session::equal_passes(FilmSlot slot, std::uint32_t most) const {
     if (slot.view != View::Beauty || state.next_pixel > 0 || chooses_guiding(slot)) return 1;
     if (!learns_from(slot)) return most;
     if (has_early_settings(field(slot.method).passes)) return 1;
+    if (!state.trains) return std::clamp(idle_passes_left(slot.method), 1u, most);
     std::uint32_t passes = 1;
-    while (passes < most && !is_updated_after(state.passes + passes)) ++passes;
+    const std::uint64_t left = settings_.learn_passes - trained_passes(slot.method);
+    while (passes < most && passes < left && !is_updated_after(state.passes + passes)) ++passes;
     return passes;
 }
 
@@ -152,7 +158,8 @@ bool Session::render_parts_before(FilmSlot slot, std::uint32_t pixel, const Stop
 }
 
 std::uint32_t Session::end_of_part(FilmSlot slot) const {
-    if (!learns_from(slot) || warms_up(slot) || field(slot.method).passes > 0) return pixel_count();
+    const bool trains = learns_from(slot) && films_[slot].trains;
+    if (!trains || warms_up(slot) || field(slot.method).passes > 0) return pixel_count();
     return end_of_first_part(films_[slot].next_pixel, pixel_count(), static_cast<std::uint32_t>(placement_.count()));
 }
 
@@ -193,11 +200,13 @@ void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop
     state.measured += counters;
     note_escapes(slot, counters);
     state.next_pixel += static_cast<std::uint32_t>(counters.paths);
-    if (slot.view == View::Beauty) {
+    if (!state.trains) {
+        learned.idle_paths += counters.paths;
+    } else if (slot.view == View::Beauty) {
         learned.records += counters.path.method.records;
         learned.clamped_records += counters.path.method.clamped_records;
-        learned.lookup_misses += counters.path.method.lookup_misses;
     }
+    if (slot.view == View::Beauty) learned.lookup_misses += counters.path.method.lookup_misses;
 }
 
 void Session::finish_learning_part(FilmSlot slot) {
@@ -210,12 +219,14 @@ void Session::finish_learning_part(FilmSlot slot) {
 void Session::finish_learning_pass(FilmSlot slot) {
     const Stopwatch watch;
     const FilmProgress& state = films_[slot];
-    // Where guiding does not pay, passes that learn are rare.
-    const bool is_updated = state.is_guided && (is_updated_after(state.passes) || !state.guiding.pays());
-    if (is_updated) backend_->update_field(slot.method);
+    const bool has_trained = state.is_guided && state.trains;
     FieldProgress& learned = field(slot.method);
     ++learned.passes;
-    learned.unguided_passes += state.is_guided ? 0u : 1u;
+    learned.untrained_passes += has_trained ? 0u : 1u;
+    // Where guiding does not pay, passes that learn are rare.
+    const bool is_updated =
+        has_trained && (is_updated_after(state.passes) || !state.guiding.pays() || is_frozen(slot.method));
+    if (is_updated) backend_->update_field(slot.method);
     learned.has_part = false;
     if (is_updated) refine_if_due(slot.method);
     films_[slot].learn_seconds += watch.seconds();

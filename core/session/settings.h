@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "core/fields/field_settings.h"
 #include "core/kernel/base/features.h"
@@ -13,6 +14,9 @@
 #include "core/session/methods.h"
 
 namespace pl {
+
+/// RenderSettings::learn_passes without an end of learning.
+inline constexpr std::uint64_t kEveryPass = std::numeric_limits<std::uint64_t>::max();
 
 /// All settings besides the scene and the back end that decide the values of a film.
 struct RenderSettings {
@@ -29,6 +33,7 @@ struct RenderSettings {
     GuidingRule guiding = GuidingRule::Paying;
     MixtureSettings mixture{};
     FieldSettings field{};
+    std::uint64_t learn_passes = kEveryPass;  ///< that train the field of a method that learns; then it is frozen
     FeatureSet forced_effects{};  ///< effects that kernels cover besides the needed ones; no picture changes by it
 };
 

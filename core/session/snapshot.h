@@ -45,6 +45,8 @@ struct FieldStatus {
     std::uint64_t clamped_records = 0;
     std::uint64_t lookup_misses = 0;
     double precomputed_share = 0.0;  ///< of the radiance map, in [0, 1]; 1 for methods that need none
+    bool is_frozen = false;          ///< further passes of a method that learns do not train it
+    bool was_edited = false;         ///< FieldProgress::was_edited
 };
 
 /// The choice between guided passes and those of the baseline method, see GuidingChoice.

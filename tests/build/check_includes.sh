@@ -50,7 +50,7 @@ core/session: $below_session
 core/measure: core/session $below_session
 core/plot:    core/base
 core/io:      core/session/learned_field.h core/session/settings.h core/session/snapshot.h core/session/shown_range.h core/scene core/fields core/base core/kernel/
-core/diagnose: core/session $below_session
+core/diagnose: core/measure core/session $below_session
 core/inspect: core/measure core/session $below_session
 core/selftest: core/session $below_session
 core/bench:   core/measure core/io core/session $below_session

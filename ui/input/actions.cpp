@@ -72,6 +72,7 @@ std::vector<Action> actions_after_methods() {
         {PinVolume, Group::Overlay, "K", "pin the selected volume, or unpin it", {sign(SDLK_k)}},
         {Flowers, Group::Overlay, "U", "lobes of many volumes", {sign(SDLK_u)}},
         {TracePaths, Group::Overlay, "J", "paths of the clicked pixel as lines", {sign(SDLK_j)}},
+        {ShowGain, Group::Overlay, "Y", "mark where guiding gains or loses", {sign(SDLK_y)}},
         {ShowDiagnostics, Group::Overlay, "T", "mark pixels with invalid samples, lost paths, ...", {sign(SDLK_t)}},
 
         {Accuracy, Group::Compare, "P", "accuracy panel: error against time", {sign(SDLK_p)}},

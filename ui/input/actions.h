@@ -64,6 +64,7 @@ enum class ActionId {
     LoadField,
     CopyCommand,
     TracePaths,
+    ShowGain,
     PinVolume,
     LobesOrDome,
     Flowers,

@@ -26,6 +26,11 @@ void copy_command(ViewerModel& model) {
     messages.say(MessageLevel::Info, "copied: " + command);
     if (warm)
         messages.say(MessageLevel::Info, "it continues from the field as it is now: the same light with other noise");
+    const std::optional<FieldStatus>& field_status = model.status().field;
+    if (field_status && field_status->was_edited && !warm)
+        messages.say(
+            MessageLevel::Warning,
+            "it learns without the steps, pauses and forgotten volumes of this field: those are not reproducible");
     if (!model.scene().materials().are_edits_named())
         messages.say(MessageLevel::Warning,
                      "it lacks edits of materials that have no name of their own in the files");
@@ -115,6 +120,7 @@ bool perform_compare_action(ViewerModel& model, ActionId id) {
     case ActionId::PinVolume: model.selection().toggle_pin(); return true;
     case ActionId::Flowers: model.flowers().set_shown(!model.flowers().is_shown()); return true;
     case ActionId::TracePaths: model.paths().set_shown(!model.paths().is_shown()); return true;
+    case ActionId::ShowGain: model.gain_marks().set_shown(!model.gain_marks().is_shown()); return true;
     case ActionId::ShowDiagnostics: model.diagnostics().toggle(); return true;
     case ActionId::CompareNext: comparison.step_mode(1); return true;
     case ActionId::CompareBack: comparison.step_mode(-1); return true;

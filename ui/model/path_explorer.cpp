@@ -11,25 +11,26 @@ void PathExplorer::set_shown(bool shown) {
 
 void PathExplorer::drop() {
     job_.reset();
-    is_asked_ = false;
+    click_.is_asked = false;
+    noise_.drop();
     passes_.reset();
     paths_.reset();
     begun_ = {.count = 0};
     selected_.reset();
-    key_ = {};
-    pieces_.clear();
+    lines_.key = {};
+    lines_.pieces.clear();
 }
 
 void PathExplorer::pick(Vec2f image_point) {
     if (!is_shown_) return;
-    point_ = image_point;
-    is_asked_ = true;
+    click_.point = image_point;
+    click_.is_asked = true;
     link_.worker().request_paths();
 }
 
 void PathExplorer::take_answer() {
     std::optional<PathsAnswer> answer = link_.worker().take_paths();
-    if (!answer || !is_asked_) return;
+    if (!answer || !click_.is_asked) return;
     drop();
     if (answer->passes == nullptr) {
         messages_.say(MessageLevel::Info, answer->reason);
@@ -45,7 +46,7 @@ PixelPathsRequest PathExplorer::wanted() const {
         return std::clamp(static_cast<int>(share * static_cast<float>(size)), 0, size - 1);
     };
     const int width = passes_->plain.width;
-    const int pixel = cell(point_.y, passes_->plain.height) * width + cell(point_.x, width);
+    const int pixel = cell(click_.point.y, passes_->plain.height) * width + cell(click_.point.x, width);
     return {.pixel = static_cast<std::uint32_t>(pixel),
             .count = static_cast<std::uint32_t>(std::clamp(options_.count, 1, kMostPaths)),
             .choice = options_.choice};
@@ -79,6 +80,7 @@ void PathExplorer::update() {
     take_answer();
     drop_with_scene();
     take_paths();
+    noise_.update(passes_, passes_ ? wanted().pixel : 0);
     if (!passes_ || wanted() == begun_) return;
     job_.reset();  // ends the search of before
     begun_ = wanted();
@@ -121,11 +123,11 @@ const std::vector<PathPiece>& PathExplorer::pieces(const PublishedFrame& frame) 
                  .sides = options_.sides,
                  .has_shadow_rays = options_.has_shadow_rays,
                  .selected = selected()};
-    if (key == key_) return pieces_;
-    key_ = std::move(key);
-    pieces_.clear();
-    if (!paths_) return pieces_;
-    ++times_made_;
+    if (key == lines_.key) return lines_.pieces;
+    lines_.key = std::move(key);
+    lines_.pieces.clear();
+    if (!paths_) return lines_.pieces;
+    ++lines_.times_made;
     const float escape_length = frame.facts.diagonal;
     std::vector<PathPiece> lines;
     const bool two = has_two_sides();
@@ -138,8 +140,8 @@ const std::vector<PathPiece>& PathExplorer::pieces(const PublishedFrame& frame) 
                   .has_shadow_rays = true,
                   .is_dashed = !lists_guided() && two,
                   .is_selected = true});
-    pieces_ = split_by_visibility(lines, frame.scene->view(), key_.eye);
-    return pieces_;
+    lines_.pieces = split_by_visibility(lines, frame.scene->view(), lines_.key.eye);
+    return lines_.pieces;
 }
 
 }  // namespace pl

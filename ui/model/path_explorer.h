@@ -8,6 +8,7 @@
 #include "ui/draw/path_lines.h"
 #include "ui/model/background_job.h"
 #include "ui/model/messages.h"
+#include "ui/model/noise_tracing.h"
 #include "ui/model/render_link.h"
 
 namespace pl {
@@ -44,7 +45,10 @@ public:
     int x() const { return static_cast<int>(paths_->pixel) % passes_->plain.width; }
     int y() const { return static_cast<int>(paths_->pixel) / passes_->plain.width; }
     MethodId guided_method() const { return passes_->guided_method; }
-    bool is_tracing() const { return is_asked_ || job_ != nullptr; }
+    bool is_tracing() const { return click_.is_asked || job_ != nullptr; }
+    /// The noise of the same pixel.
+    NoiseTracing& noise() { return noise_; }
+    const NoiseTracing& noise() const { return noise_; }
 
     /// The paths that the table lists and of which one is selected: by the method of the picture, or as drawn.
     bool lists_guided() const;
@@ -58,7 +62,7 @@ public:
     /// The paths as lines, as seen by a camera in this place; made again only when something has changed.
     const std::vector<PathPiece>& pieces(const PublishedFrame& frame);
     /// Number of times that lines were made.
-    std::uint64_t times_made() const { return times_made_; }
+    std::uint64_t times_made() const { return lines_.times_made; }
 
 private:
     using Traced = std::shared_ptr<const PixelPaths>;
@@ -74,6 +78,15 @@ private:
 
         friend bool operator==(const LinesKey&, const LinesKey&) = default;
     };
+    struct Lines {
+        LinesKey key{};
+        std::vector<PathPiece> pieces{};
+        std::uint64_t times_made = 0;
+    };
+    struct Click {
+        bool is_asked = false;  ///< its passes come later
+        Vec2f point{0.0f};
+    };
 
     void take_answer();
     void take_paths();
@@ -87,18 +100,16 @@ private:
     RenderLink& link_;
     Messages& messages_;
     bool is_shown_ = false;
-    bool is_asked_ = false;
-    Vec2f point_{0.0f};
+    Click click_;
     PathOptions options_;
-    std::shared_ptr<PassPair> passes_;  ///< only of the job while there is one, but for its constants
+    std::shared_ptr<PassPair> passes_;  ///< only read; the job has a view of its field
     std::uint64_t generation_ = 0;      ///< of the picture of passes_
     PixelPathsRequest begun_{.count = 0};
     Traced paths_;
     ValueRange range_;
     std::optional<std::size_t> selected_;
-    LinesKey key_;
-    std::vector<PathPiece> pieces_;
-    std::uint64_t times_made_ = 0;
+    Lines lines_;
+    NoiseTracing noise_;
     std::unique_ptr<BackgroundJob<Traced>> job_;
 };
 

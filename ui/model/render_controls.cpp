@@ -16,6 +16,8 @@ RenderControls::RenderControls(const ModelServices& services, CameraMotion& came
 RenderSettings RenderControls::settings() const {
     RenderSettings settings = settings_;
     settings.camera = camera_.camera();
+    // The session counts the passes after which a field was frozen.
+    if (link_.frame()) settings.learn_passes = link_.frame()->settings.learn_passes;
     return settings;
 }
 
@@ -136,6 +138,20 @@ void RenderControls::restart() { worker_.submit(EditRestart{}); }
 void RenderControls::forget() {
     worker_.submit(EditForget{});
     messages_.say(MessageLevel::Info, "forgot the learned field");
+}
+
+void RenderControls::control_learning(LearningControl control) {
+    if (!info_of(settings_.method).learns) {
+        messages_.say(MessageLevel::Info,
+                      fmt::format("{} does not learn while it renders", info_of(settings_.method).name));
+        return;
+    }
+    worker_.submit(EditLearning{settings_.method, control});
+}
+
+void RenderControls::forget_volume(std::int32_t volume) {
+    worker_.submit(EditForgetVolume{settings_.method, volume});
+    messages_.say(MessageLevel::Info, fmt::format("volume {} has forgotten what it learned", volume));
 }
 
 void RenderControls::cancel_precomputation() {

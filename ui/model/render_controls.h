@@ -43,6 +43,10 @@ public:
     void single_pass();
     void restart();
     void forget();
+    /// Freezes, steps or continues the learning of the method; a message if it does not learn.
+    void control_learning(LearningControl control);
+    /// Lets one volume of the method begin anew.
+    void forget_volume(std::int32_t volume);
     void cancel_precomputation();
 
     /// The back end requested last; the one in use is in WorkerStatus.

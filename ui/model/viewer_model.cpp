@@ -33,7 +33,7 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       self_test_({options, messages_, jobs_, link_}),
       files_({options, messages_, jobs_, link_}, scene_, render_, display_),
       open_dialog_({options, messages_, jobs_, link_}, files_), paths_(link_, messages_), time_(link_),
-      flowers_(link_, time_) {
+      flowers_(link_, time_), gain_marks_(link_) {
     if (options.field) link_.worker().submit(EditLearned{options.field});
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.note(MessageLevel::Info,
@@ -64,6 +64,7 @@ void ViewerModel::update(double seconds) {
     paths_.update();
     time_.update(seconds);
     flowers_.update();
+    gain_marks_.update(seconds);
     self_test_.update();
     jobs_.update();
     tour_.update(*this, seconds);
@@ -101,6 +102,8 @@ void ViewerModel::cancel() {
         diagnostics_.toggle();
     else if (paths_.is_shown())
         paths_.set_shown(false);
+    else if (gain_marks_.is_shown())
+        gain_marks_.set_shown(false);
     else if (selection_.volume() == kNoVolume && tour_.phase() != GuidedTour::Phase::Off)
         tour_.leave();
     else if (selection_.volume() != kNoVolume || comparison_.state().mode == CompareMode::Off)

@@ -9,6 +9,7 @@
 #include "ui/model/diagnostics_search.h"
 #include "ui/model/effect_trials.h"
 #include "ui/model/field_flowers.h"
+#include "ui/model/gain_marks.h"
 #include "ui/model/guided_tour.h"
 #include "ui/model/open_dialog.h"
 #include "ui/model/path_explorer.h"
@@ -70,6 +71,8 @@ public:
     const LearningTime& time() const { return time_; }
     FieldFlowers& flowers() { return flowers_; }
     const FieldFlowers& flowers() const { return flowers_; }
+    GainMarks& gain_marks() { return gain_marks_; }
+    const GainMarks& gain_marks() const { return gain_marks_; }
     PathExplorer& paths() { return paths_; }
     const PathExplorer& paths() const { return paths_; }
 
@@ -101,6 +104,7 @@ private:
     PathExplorer paths_;
     LearningTime time_;
     FieldFlowers flowers_;
+    GainMarks gain_marks_;
 };
 
 }  // namespace pl

@@ -162,6 +162,27 @@ void add_diagnostics_badges(BadgeRow& row, const ViewerModel& model) {
         row.add("with the present field", colors::kText);
 }
 
+/// The gain of the picture, and the number of tiles of each mark.
+void add_gain_badges(BadgeRow& row, const GainMarks& marks) {
+    if (!marks.is_shown()) return;
+    const TileGains* gains = marks.gains();
+    if (gains == nullptr) {
+        row.add("gain marks: " + (marks.reason().empty() ? "measuring" : marks.reason()), colors::kWarning);
+        return;
+    }
+    const auto color = [](Verdict verdict) { return to_imgui_color(mark_color(verdict)); };
+    row.add(fmt::format("{} {}", info_of(marks.method()).label, mark_text(gains->picture)),
+            color(verdict_of(gains->picture)));
+    for (const Verdict verdict :
+         {Verdict::Faster, Verdict::Slower, Verdict::NoDifference, Verdict::Undecided, Verdict::Unresolved}) {
+        const auto count =
+            std::ranges::count_if(gains->tiles, [&](const Interval& tile) { return verdict_of(tile) == verdict; });
+        if (count > 0)
+            row.add(fmt::format("{} of {} tiles: {}", count, gains->tiles.size(), mark_name(verdict)),
+                    color(verdict));
+    }
+}
+
 void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     const WorkerStatus& status = model.status();
     if (status.state == WorkerState::Starting) row.add("starting", colors::kWarning);
@@ -171,7 +192,10 @@ void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     if (model.render().paused()) row.add("paused", colors::kWarning);
     if (status.state == WorkerState::Done) row.add("done", colors::kGood);
     if (status.state == WorkerState::Failed) row.add("rendering failed, see the log", colors::kError);
-    if (info_of(model.render().settings().method).learns && status.state == WorkerState::Rendering && status.field)
+    if (!info_of(model.render().settings().method).learns || !status.field) return;
+    if (status.field->is_frozen)
+        row.add(fmt::format("learning frozen after {}", passes_text(status.field->passes)), colors::kWarning);
+    else if (status.state == WorkerState::Rendering)
         row.add(fmt::format("learning  {}", status.field->passes), colors::kGood);
 }
 
@@ -188,6 +212,7 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     add_turns_badge(row, status);
     add_reference_badge(row, model);
     if (plan.tiles.empty()) add_diagnostics_badges(row, model);
+    if (plan.at_image) add_gain_badges(row, model.gain_marks());
     add_state_badges(row, model);
     if (model.display().cells())
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.display().cells_opacity()), colors::kText);

@@ -15,6 +15,9 @@ void draw_flowers(ViewerModel& model, const Rect& image);
 /// The paths of the clicked pixel as lines.
 void draw_path_lines(ViewerModel& model, const Rect& image);
 
+/// A mark for each tile of the picture: whether its method gains or loses there against default.
+void draw_gain_marks(const ViewerModel& model, const Rect& image);
+
 /// Labels of the compared pictures, and the line between two of them, which can be dragged.
 void draw_comparison(ViewerModel& model, const ComparePlan& plan);
 /// Upper edge of the labels; infinite without a comparison.

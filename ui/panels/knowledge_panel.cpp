@@ -140,7 +140,6 @@ void draw_log_tab(const ViewerModel& model) {
 void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered) {
     model.selection().hover_cell(-1);  // the volume tab sets it again if it is in front
     begin_fixed_window("knowledge", layout.right);
-    const bool is_research = model.window().layout == WindowLayout::Research;
     if (ImGui::BeginTabBar("tabs")) {
         // A click shows what was asked for: the paths of the pixel, or else the volume.
         const bool is_new = model.selection().take_new_volume();
@@ -152,7 +151,7 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
             draw_volume_tab(model);
             ImGui::EndTabItem();
         }
-        if ((is_research || traces) && begin_tab("Paths", front(traces))) {
+        if ((is_research(model) || traces) && begin_tab("Paths", front(traces))) {
             draw_paths_tab(model);
             ImGui::EndTabItem();
         }
@@ -160,7 +159,7 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
             draw_material_tab(model);
             ImGui::EndTabItem();
         }
-        if (is_research && begin_tab("Effects")) {
+        if (is_research(model) && begin_tab("Effects")) {
             draw_effects_tab(model);
             ImGui::EndTabItem();
         }
@@ -168,11 +167,11 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
             draw_pixel_tab(model, hovered);
             ImGui::EndTabItem();
         }
-        if (is_research && begin_tab("Statistics")) {
+        if (is_research(model) && begin_tab("Statistics")) {
             draw_statistics_tab(model);
             ImGui::EndTabItem();
         }
-        if (is_research && begin_tab("Log")) {
+        if (is_research(model) && begin_tab("Log")) {
             draw_log_tab(model);
             ImGui::EndTabItem();
         }

@@ -22,6 +22,11 @@ void draw_status_bar(ViewerModel& model, const Layout& layout);
 /// The borders between panels and picture: dragged they change sizes, their arrows fold the panels.
 void draw_borders(ViewerModel& model, const Layout& layout);
 
+/// Whether every setting is shown, or only those of a first look.
+inline bool is_research(const ViewerModel& model) { return model.window().layout == WindowLayout::Research; }
+/// A part of the settings: the learned field, and how it learns.
+void draw_learning_section(ViewerModel& model);
+
 // Tabs of the right panel.
 void draw_volume_tab(ViewerModel& model);
 void draw_material_tab(ViewerModel& model);
@@ -29,6 +34,8 @@ void draw_effects_tab(ViewerModel& model);
 void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hovered);
 void draw_statistics_tab(const ViewerModel& model);
 void draw_paths_tab(ViewerModel& model);
+/// A part of that tab: the noise of its pixel.
+void draw_noise_section(PathExplorer& explorer);
 void draw_log_tab(const ViewerModel& model);
 
 }  // namespace pl

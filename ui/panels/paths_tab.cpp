@@ -195,6 +195,7 @@ void draw_paths_tab(ViewerModel& model) {
                     explorer.is_tracing() ? ", tracing" : ""),
         "The paths shown, of the samples that were searched. Guided paths sample from the field as it was at the "
         "click.");
+    draw_noise_section(explorer);
     draw_table_with_legend(explorer);
     draw_path(explorer, *model.frame()->description);
 }

@@ -92,6 +92,28 @@ void draw_summary(const VolumeInspection& volume) {
     text_row("Irradiance", fmt::format("{:.4g}", volume.mean_radiance * kPi), "Learned irradiance, as luminance.");
 }
 
+/// Freezing and stepping of the whole field, and forgetting of this volume.
+void draw_learning_buttons(ViewerModel& model) {
+    if (!info_of(model.render().method()).learns) return;
+    const bool is_frozen = model.status().field && model.status().field->is_frozen;
+    if (ImGui::SmallButton(is_frozen ? "continue" : "freeze"))
+        model.render().control_learning(is_frozen ? LearningControl::Continue : LearningControl::Freeze);
+    note_place("freeze");
+    tooltip("Freezes the learned field of all volumes as it is after the present pass; the picture goes on. Or lets "
+            "every pass "
+            "train it again.");
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!is_frozen);
+    if (ImGui::SmallButton("step")) model.render().control_learning(LearningControl::Step);
+    note_place("step");
+    ImGui::EndDisabled();
+    tooltip("One more pass trains the frozen field, with one update.");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("forget volume")) model.render().forget_volume(model.selection().volume());
+    note_place("forget volume");
+    tooltip("This volume begins anew, as if it had never been trained; all others keep what they learned.");
+}
+
 }  // namespace
 
 void draw_volume_tab(ViewerModel& model) {
@@ -126,6 +148,7 @@ void draw_volume_tab(ViewerModel& model) {
         return;
     }
     CellDisplay& display = model.window().cell_display;
+    draw_learning_buttons(model);
     draw_choices(display);
     if (display.truth) model.selection().light().show();
     const std::shared_ptr<const VolumeInspection> past = model.time().inspection(model.selection().volume());

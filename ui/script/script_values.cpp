@@ -10,14 +10,12 @@
 #include "ui/draw/imgui_compat.h"
 #include "ui/model/viewer_model.h"
 #include "ui/model/window_memory.h"
+#include "ui/script/overlay_values.h"
 
 namespace pl {
 namespace {
 
-struct Value {
-    std::string_view name;
-    std::string (*read)(const ViewerModel& model);
-};
+using Value = ScriptValue;
 
 std::string word(bool value) { return value ? "yes" : "no"; }
 
@@ -88,14 +86,6 @@ std::string headline_text(const ViewerModel& model) {
     return text;
 }
 
-/// "12,34: 32 of 40", "none".
-std::string traced_paths(const ViewerModel& model) {
-    const PathExplorer& explorer = model.paths();
-    if (explorer.paths() == nullptr) return "none";
-    return fmt::format("{},{}: {} of {}", explorer.x(), explorer.y(), explorer.paths()->passes.size(),
-                       explorer.paths()->searched);
-}
-
 /// "opening=17.9", "none".
 std::string knob_text(const std::vector<KnobDescription>& knobs) {
     std::string text;
@@ -110,6 +100,7 @@ constexpr std::array kValues{
     Value{"state", [](const ViewerModel& m) { return std::string(name_of(m.status().state)); }},
     Value{"spp", [](const ViewerModel& m) { return fmt::format("{}", m.status().passes); }},
     Value{"learned", learned_passes},
+    Value{"frozen", [](const ViewerModel& m) { return word(m.status().field && m.status().field->is_frozen); }},
     Value{"backend", [](const ViewerModel& m) { return m.status().backend; }},
     Value{"nee", [](const ViewerModel& m) { return word(m.render().settings().next_event); }},
     Value{"exposure", [](const ViewerModel& m) { return fmt::format("{}", m.display().settings().exposure_ev); }},
@@ -248,43 +239,6 @@ constexpr std::array kValues{
           }},
     Value{"kernel",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
-    Value{"pins",
-          [](const ViewerModel& m) {
-              const auto& places = m.selection().pins().places();
-              return fmt::format("{}", std::ranges::count_if(places, [](std::int32_t p) { return p != kNoVolume; }));
-          }},
-    Value{"lobes",
-          [](const ViewerModel& m) {
-              return std::string(m.window().lobe_shape == LobeShape::Lobe ? "lobes" : "dome");
-          }},
-    Value{"flowers",
-          [](const ViewerModel& m) {
-              const bool shown = m.flowers().is_shown() && m.flowers().flowers() != nullptr;
-              return fmt::format("{}", shown ? m.flowers().flowers()->flowers.size() : 0);
-          }},
-    Value{"flowers_drawn", [](const ViewerModel& m) { return fmt::format("{}", m.flowers().counts().drawn); }},
-    Value{"flower_triangles", [](const ViewerModel& m) { return fmt::format("{}", m.flowers().counts().triangles); }},
-    Value{"flowers_made", [](const ViewerModel& m) { return fmt::format("{}", m.flowers().times_made()); }},
-    Value{"key_frames", [](const ViewerModel& m) { return fmt::format("{}", m.time().history()->frames.size()); }},
-    Value{"shown_pass",
-          [](const ViewerModel& m) {
-              return m.time().frame() != nullptr ? fmt::format("{}", m.time().frame()->passes()) : std::string("now");
-          }},
-    Value{"curve_points",
-          [](const ViewerModel& m) { return fmt::format("{}", m.selection().light().curve().size()); }},
-    Value{"tracing_pixels", [](const ViewerModel& m) { return word(m.paths().is_shown()); }},
-    Value{"tracing", [](const ViewerModel& m) { return word(m.paths().is_tracing()); }},
-    Value{"paths", traced_paths},
-    Value{"guided_paths",
-          [](const ViewerModel& m) {
-              return fmt::format("{}", m.paths().paths() != nullptr ? m.paths().paths()->guided.size() : 0);
-          }},
-    Value{"selected_path",
-          [](const ViewerModel& m) {
-              const auto index = m.paths().selected();
-              return index ? fmt::format("{}", m.paths().paths()->passes[*index]) : std::string("none");
-          }},
-    Value{"path_lines", [](const ViewerModel& m) { return fmt::format("{}", m.paths().times_made()); }},
     Value{"diagnostics", diagnostics_found},
     Value{"searching", [](const ViewerModel& m) { return word(m.diagnostics().share().has_value()); }},
     Value{"selftest", [](const ViewerModel& m) { return std::string(name_of(m.self_test().run().outcome())); }},
@@ -296,21 +250,27 @@ constexpr std::array kValues{
           }},
 };
 
+const ScriptValue* find_value(std::string_view name) {
+    for (const std::span<const ScriptValue> values : {std::span<const ScriptValue>(kValues), overlay_values()})
+        if (const auto value = std::ranges::find(values, name, &ScriptValue::name); value != values.end())
+            return &*value;
+    return nullptr;
+}
+
 }  // namespace
 
-bool is_script_value(std::string_view name) {
-    return std::ranges::find(kValues, name, &Value::name) != kValues.end();
-}
+bool is_script_value(std::string_view name) { return find_value(name) != nullptr; }
 
 std::string script_value_names() {
     std::string text;
-    for (const Value& value : kValues) text += (text.empty() ? "" : ", ") + std::string(value.name);
+    for (const std::span<const ScriptValue> values : {std::span<const ScriptValue>(kValues), overlay_values()})
+        for (const ScriptValue& value : values) text += (text.empty() ? "" : ", ") + std::string(value.name);
     return text;
 }
 
 std::string script_value(const ViewerModel& model, std::string_view name) {
-    const auto value = std::ranges::find(kValues, name, &Value::name);
-    return value != kValues.end() ? value->read(model) : "";
+    const ScriptValue* const value = find_value(name);
+    return value != nullptr ? value->read(model) : "";
 }
 
 }  // namespace pl

@@ -14,6 +14,7 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
     }
     if (plan.at_image) draw_flowers(model, image);
     if (plan.at_image) draw_hemisphere(model, image);
+    if (plan.at_image) draw_gain_marks(model, image);
     if (plan.at_image) draw_path_lines(model, image);
     draw_comparison(model, plan);
     if (layout.panels) draw_badges(model, layout, plan);

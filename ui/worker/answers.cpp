@@ -33,6 +33,16 @@ PathsAnswer answer_paths(const Session& session, FilmSlot slot, std::uint64_t ge
     return answer;
 }
 
+GainAnswer answer_gain(const Session& session, FilmSlot slot) {
+    const FilmSlot base{baseline_method(), View::Beauty};
+    const FilmSlot method{field_owner(slot.method), View::Beauty};
+    for (const FilmSlot& needed : {base, method})
+        if (session.passes(needed) < 2)
+            return {.reason = std::string(info_of(needed.method).label) + " has no picture to compare with yet"};
+    return {.base = std::make_shared<const Snapshot>(session.snapshot_with_halves(base)),
+            .method = std::make_shared<const Snapshot>(session.snapshot_with_halves(method))};
+}
+
 DiagnosticsAnswer answer_diagnostics(const Session& session, FilmSlot slot, std::uint64_t generation) {
     DiagnosticsAnswer answer{.generation = generation};
     try {

@@ -12,6 +12,8 @@ PickAnswer answer_pick(Session& session, Vec2f image_point);
 LearnedAnswer answer_learned(const Session& session, MethodId method);
 /// The input of trace_pixel() for a film, or the reason why there is none.
 PathsAnswer answer_paths(const Session& session, FilmSlot slot, std::uint64_t generation);
+/// The pictures of default and of the guided method of a film, by field_owner(), or the reason why they cannot be compared.
+GainAnswer answer_gain(const Session& session, FilmSlot slot);
 /// The input of find_diagnostics() for a film, or the reason why there is none. A lost device is such a reason; the
 /// next pass fails, too.
 DiagnosticsAnswer answer_diagnostics(const Session& session, FilmSlot slot, std::uint64_t generation);

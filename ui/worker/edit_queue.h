@@ -1,4 +1,4 @@
-// Edits queued for the render thread: of each kind, and of each material, only the newest is kept.
+// Edits queued for the render thread: of each kind, and of each material and forgotten volume, only the newest is kept.
 #pragma once
 
 #include <algorithm>
@@ -47,6 +47,11 @@ private:
         if (const auto* old = find_edit<EditMaterial>(other)) {
             const auto* material = find_edit<EditMaterial>(edit);
             return material != nullptr ? material->index == old->index : find_edit<EditScene>(edit) != nullptr;
+        }
+        if (const auto* old = find_edit<EditForgetVolume>(other)) {
+            const auto* forget = find_edit<EditForgetVolume>(edit);
+            if (forget != nullptr) return forget->volume == old->volume && forget->method == old->method;
+            return find_edit<EditScene>(edit) != nullptr || find_edit<EditForget>(edit) != nullptr;
         }
         if (edit.index() != other.index()) return false;
         const auto* change = std::get_if<SessionEdit>(&edit);

@@ -7,7 +7,7 @@
 namespace pl {
 namespace {
 
-constexpr std::uint64_t kEveryPass = 16;
+constexpr std::uint64_t kFirstPasses = 16;
 
 bool is_continued(const FieldKeyFrame& last, const FieldKeyFrame& next) {
     return last.method() == next.method() && last.bins() == next.bins() && last.volumes() <= next.volumes() &&
@@ -76,7 +76,7 @@ bool FieldHistoryRecorder::is_due(std::uint64_t passes) const {
     if (history_->frames.empty()) return true;
     const std::uint64_t last = history_->frames.back()->passes();
     if (passes <= last) return passes < last;
-    return passes <= kEveryPass || 4 * passes >= 5 * last;
+    return passes <= kFirstPasses || 4 * passes >= 5 * last;
 }
 
 void FieldHistoryRecorder::add(std::shared_ptr<const FieldKeyFrame> frame) {

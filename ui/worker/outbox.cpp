@@ -45,6 +45,11 @@ std::optional<PathsAnswer> Outbox::take_paths() {
     return std::exchange(paths_, std::nullopt);
 }
 
+std::optional<GainAnswer> Outbox::take_gain() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(gain_, std::nullopt);
+}
+
 std::shared_ptr<const FieldHistory> Outbox::history() const {
     const std::lock_guard lock(mutex_);
     return history_;
@@ -101,6 +106,11 @@ void Outbox::answer(DiagnosticsAnswer answer) {
 void Outbox::answer(PathsAnswer answer) {
     const std::lock_guard lock(mutex_);
     paths_ = std::move(answer);
+}
+
+void Outbox::answer(GainAnswer answer) {
+    const std::lock_guard lock(mutex_);
+    gain_ = std::move(answer);
 }
 
 void Outbox::set_history(std::shared_ptr<const FieldHistory> history) {

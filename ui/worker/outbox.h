@@ -27,6 +27,7 @@ public:
     std::optional<LearnedAnswer> take_learned();
     std::optional<DiagnosticsAnswer> take_diagnostics();
     std::optional<PathsAnswer> take_paths();
+    std::optional<GainAnswer> take_gain();
     std::shared_ptr<const FieldHistory> history() const;  ///< never null
     std::exception_ptr failure() const;
 
@@ -43,6 +44,7 @@ public:
     void answer(LearnedAnswer answer);
     void answer(DiagnosticsAnswer answer);
     void answer(PathsAnswer answer);
+    void answer(GainAnswer answer);
     void set_history(std::shared_ptr<const FieldHistory> history);
     /// The error that ended the thread.
     void fail(std::exception_ptr failure);
@@ -56,6 +58,7 @@ private:
     std::optional<LearnedAnswer> learned_;
     std::optional<DiagnosticsAnswer> diagnostics_;
     std::optional<PathsAnswer> paths_;
+    std::optional<GainAnswer> gain_;
     std::shared_ptr<const FieldHistory> history_ = std::make_shared<const FieldHistory>();
     std::shared_ptr<const PublishedFrame> frame_;
     bool is_frame_taken_ = true;

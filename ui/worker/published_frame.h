@@ -130,6 +130,13 @@ struct PathsAnswer {
     std::uint64_t generation = 0;        ///< of the newest edit that the picture shows
 };
 
+/// Answer to RenderWorker::request_gain: the pictures of default and of a guided method so far, with their halves.
+struct GainAnswer {
+    std::shared_ptr<const Snapshot> base{};  ///< null if one of both has less than two passes
+    std::shared_ptr<const Snapshot> method{};
+    std::string reason{};  ///< for the lack of them
+};
+
 /// Answer to RenderWorker::request_pick.
 struct PickAnswer {
     std::optional<PickedPoint> point;

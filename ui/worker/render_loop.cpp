@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/base/timer.h"
-#include "ui/worker/answers.h"
 
 namespace pl {
 namespace {
@@ -27,9 +26,11 @@ bool changes_cells(const WorkerEdit& edit) {
 
 RenderLoop::RenderLoop(const WorkerSetup& setup, Inbox& inbox, Outbox& outbox)
     : inbox_(inbox), outbox_(outbox), backends_(setup.make_backend, setup.backends, setup.first_backend),
-      shown_(slot_of(setup.settings)), size_(setup.settings.width, setup.settings.height),
-      trial_(setup.settings.forced_effects), facts_(facts_of(*setup.scene)) {
-    outbox_.set_runs(recorder_.runs());
+      shown_(slot_of(setup.settings)),
+      size_(setup.settings.width, setup.settings.height), measured_{.trial =
+                                                                        EffectTrial(setup.settings.forced_effects)},
+      facts_(facts_of(*setup.scene)) {
+    outbox_.set_runs(measured_.runs.runs());
 }
 
 void RenderLoop::run(const WorkerSetup& setup) {
@@ -69,24 +70,23 @@ bool RenderLoop::take_requests() {
     if (now_.backend != backends_.current()) change_backend();
     settle_turns();
     if (!attempt([this] { settle_preview(wanted_preview()); })) failed_ = true;
-    trial_.settle(*session_, now_.trial);
+    measured_.trial.settle(*session_, now_.trial);
     adopt_reference();
     inbox_.begin_pass(!is_coarse(), now_, backends_.current());
     return true;
 }
 
 bool RenderLoop::has_work() const {
-    const bool is_asked = now_.once.pick || now_.once.learned || now_.once.diagnostics || now_.once.paths;
-    const bool is_other = now_.turns.has_value() != turns_.has_value() || !trial_.matches(now_.trial) ||
-                          now_.history_bytes != history_.limit() || now_.reference != recorder_.reference() ||
-                          now_.backend != backends_.current();
-    if (is_asked || is_other) return true;
+    const bool is_other = now_.turns.has_value() != turns_.has_value() || !measured_.trial.matches(now_.trial) ||
+                          now_.history_bytes != watched_.history.limit() ||
+                          now_.reference != measured_.runs.reference() || now_.backend != backends_.current();
+    if (now_.once.has_question() || is_other) return true;
     if (passes() > 0 && frames_.is_stale(now_)) return true;
     if (failed_) return false;
     if (preview_.now() != wanted_preview()) return true;
     const bool size_is_stale = !size_.is_whole() && !is_coarse();
-    return size_is_stale || wants_pass() || frames_.is_asked() || inspection_.wants(now_.volume) || wants_pins() ||
-           (now_.cells && !cells_.is_current(*session_));
+    return size_is_stale || wants_pass() || frames_.is_asked() || watched_.selected.wants(now_.volume) ||
+           wants_pins() || (now_.cells && !cells_.is_current(*session_));
 }
 
 /// Begins or ends turns as requested, and reads the time of both methods again: edits may have emptied their films.
@@ -111,9 +111,9 @@ void RenderLoop::settle_preview(Preview wanted) {
 }
 
 void RenderLoop::adopt_reference() {
-    if (now_.reference == recorder_.reference()) return;
-    attempt([this] { recorder_.set_reference(now_.reference); });
-    outbox_.set_runs(recorder_.runs());
+    if (now_.reference == measured_.runs.reference()) return;
+    attempt([this] { measured_.runs.set_reference(now_.reference); });
+    outbox_.set_runs(measured_.runs.runs());
 }
 
 void RenderLoop::apply_edits(const std::vector<WorkerEdit>& edits) {
@@ -121,8 +121,8 @@ void RenderLoop::apply_edits(const std::vector<WorkerEdit>& edits) {
         failed_ = false;
         if (changes_cells(edit)) cells_.invalidate();
         if (find_edit<EditCamera>(edit)) size_.move_camera();
-        inspection_.invalidate();
-        for (Inspection& pin : pins_) pin.invalidate();
+        watched_.selected.invalidate();
+        for (Inspection& pin : watched_.pins) pin.invalidate();
         frames_.ask();
         attempt([&] {
             // Other edits belong to the session's own estimator.
@@ -150,7 +150,7 @@ void RenderLoop::apply(const SessionEdit& edit) {
     session_->apply(edit);
     if (std::holds_alternative<EditScene>(edit) || std::holds_alternative<EditMaterial>(edit))
         facts_ = facts_of(session_->scene());
-    if (const auto* effects = std::get_if<EditEffects>(&edit)) trial_.set_forced(effects->forced);
+    if (const auto* effects = std::get_if<EditEffects>(&edit)) measured_.trial.set_forced(effects->forced);
     if (const auto* learned = std::get_if<EditLearned>(&edit)) shown_.method = learned->field->method;
 }
 
@@ -185,15 +185,15 @@ void RenderLoop::take_turn() {
 void RenderLoop::render() {
     const Stopwatch watch;
     const bool is_whole = !is_coarse() && size_.is_whole();
-    trial_.begin_pass(*session_, slot(), is_whole);
+    measured_.trial.begin_pass(*session_, slot(), is_whole);
     const std::uint32_t before = passes();
     const Progress progress = session_->advance(slot(), inbox_.stop_flag(), is_whole ? most_passes() : 1);
-    trial_.end_pass(*session_, slot(), backends_.current(), progress);
+    measured_.trial.end_pass(*session_, slot(), backends_.current(), progress);
     if (progress == Progress::Rendered) {
         if (passes() == 1) frames_.ask();
         size_.observe(watch.seconds() / std::max(1u, passes() - before));
     }
-    if (is_whole && recorder_.observe(*session_, slot())) outbox_.set_runs(recorder_.runs());
+    if (is_whole && measured_.runs.observe(*session_, slot())) outbox_.set_runs(measured_.runs.runs());
     if (turns_) turns_->count(*session_, shown_.view);
     update_status();
     if (now_.once.steps > 0 || limit_reached() || now_.paused) frames_.ask();
@@ -206,50 +206,6 @@ std::uint32_t RenderLoop::most_passes() const {
     if (is_watched || passes() == 0) return 1;
     if (now_.limits.spp == 0) return kMostAtOnce;
     return now_.limits.spp > passes() ? std::min(now_.limits.spp - passes(), kMostAtOnce) : 1;
-}
-
-void RenderLoop::answer_questions() {
-    if (now_.once.pick) outbox_.answer(answer_pick(*session_, *now_.once.pick));
-    now_.once.pick.reset();
-    if (now_.once.learned) outbox_.answer(answer_learned(*session_, asked_method()));
-    now_.once.learned = false;
-    if (now_.once.diagnostics)
-        outbox_.answer(size_.is_whole()
-                           ? answer_diagnostics(*session_, slot(), now_.generation)
-                           : DiagnosticsAnswer{.reason = "the camera moves: let the picture come to rest first",
-                                               .generation = now_.generation});
-    now_.once.diagnostics = false;
-    if (now_.once.paths)
-        outbox_.answer(size_.is_whole()
-                           ? answer_paths(*session_, slot(), now_.generation)
-                           : PathsAnswer{.reason = "the camera moves: let the picture come to rest first",
-                                         .generation = now_.generation});
-    now_.once.paths = false;
-}
-
-void RenderLoop::refresh_inspection() {
-    if (passes() == 0) return;  // there may be no tables yet
-    const bool is_other = now_.volume != inspection_.shown() || wants_pins();
-    bool is_fresh = inspection_.refresh(*session_, asked_method(), now_.volume);
-    pins_.resize(now_.pins.size());
-    for (std::size_t i = 0; i < pins_.size(); ++i)
-        is_fresh |= pins_[i].refresh(*session_, asked_method(), now_.pins[i]);
-    if (is_fresh && (is_other || !wants_pass())) frames_.ask();
-}
-
-bool RenderLoop::wants_pins() const {
-    if (pins_.size() != now_.pins.size()) return true;
-    for (std::size_t i = 0; i < pins_.size(); ++i)
-        if (pins_[i].wants(now_.pins[i])) return true;
-    return false;
-}
-
-/// Key frames of the field, if the window requests them.
-void RenderLoop::observe_field() {
-    const bool is_other = now_.history_bytes != history_.limit();
-    if (is_other) history_.set_limit(now_.history_bytes);
-    const bool has_frame = history_.observe(*session_, asked_method());
-    if (is_other || has_frame) outbox_.set_history(history_.history());
 }
 
 bool RenderLoop::wants_pass() const {
@@ -289,7 +245,7 @@ void RenderLoop::publish() {
     frame->settings = session_->settings_for(slot());
     frame->settings.width = size_.width();
     frame->settings.height = size_.height();
-    frame->settings.forced_effects = trial_.forced();
+    frame->settings.forced_effects = measured_.trial.forced();
     frame->generation = now_.generation;
     frame->divider = size_.divider();
     frame->preview = preview_.now();
@@ -299,8 +255,8 @@ void RenderLoop::publish() {
     frame->scene = session_->packed_scene();
     frame->facts = facts_;
     frame->cells = now_.cells ? cells_.image(*session_) : nullptr;
-    frame->volume = inspection_.volume();
-    for (const Inspection& pin : pins_)
+    frame->volume = watched_.selected.volume();
+    for (const Inspection& pin : watched_.pins)
         if (pin.volume()) frame->pins.push_back(pin.volume());
     size_.note_frame();
     preview_.note_frame();
@@ -319,11 +275,12 @@ WorkerState RenderLoop::state_of(const WorkerStatus& status) const {
 WorkerStatus RenderLoop::make_status() const {
     WorkerStatus status;
     status.passes = passes();
-    status.picture =
-        size_.is_whole() && preview_.now() == Preview::None ? recorder_.picture(session_->film_origin(slot())) : 0;
+    status.picture = size_.is_whole() && preview_.now() == Preview::None
+                         ? measured_.runs.picture(session_->film_origin(slot()))
+                         : 0;
     status.scene = session_->shared_scene();
     status.divider = size_.divider();
-    status.effect_cost = trial_.cost();
+    status.effect_cost = measured_.trial.cost();
     status.generation = now_.generation;
     status.field = session_->field_status(shown_.method);
     status.seconds = work_seconds(session_->clocks(slot()));

@@ -36,6 +36,18 @@ public:
     void run(const WorkerSetup& setup);
 
 private:
+    /// Measurements of the passes.
+    struct Measured {
+        EffectTrial trial;
+        Recorder runs{};
+    };
+    /// The parts of the learned field that the window shows.
+    struct Watched {
+        Inspection selected{};
+        std::vector<Inspection> pins{};  ///< in the order of Requests::pins
+        FieldHistoryRecorder history{};
+    };
+
     bool start_session(const WorkerSetup& setup);
     bool take_requests();
     bool has_work() const;
@@ -87,12 +99,9 @@ private:
     PictureSize size_;
     std::optional<MethodTurns> turns_;
     MotionPreview preview_;
-    EffectTrial trial_;
-    Recorder recorder_;
+    Measured measured_;
     CellRenderer cells_;
-    Inspection inspection_;
-    std::vector<Inspection> pins_;  ///< in the order of Requests::pins
-    FieldHistoryRecorder history_;
+    Watched watched_;
     FrameSchedule frames_;
     SceneFacts facts_;  ///< of the session's scene
     bool failed_ = false;

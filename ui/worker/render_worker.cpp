@@ -163,6 +163,13 @@ void RenderWorker::request_paths() {
     });
 }
 
+void RenderWorker::request_gain() {
+    inbox_.request([](Requests& requests) {
+        requests.once.gain = true;
+        return Interrupts::Nothing;
+    });
+}
+
 void RenderWorker::set_pins(std::vector<std::int32_t> volumes) {
     inbox_.request([&](Requests& requests) {
         requests.pins = std::move(volumes);

@@ -50,6 +50,8 @@ public:
     void request_diagnostics();
     /// Requests the input of trace_pixel(), after the pass under way.
     void request_paths();
+    /// Requests the input of tile_gains(), after the pass under way.
+    void request_gain();
     /// Further volumes whose inspections frames carry.
     void set_pins(std::vector<std::int32_t> volumes);
     /// Memory for key frames of the field from now on; 0 gives them up.
@@ -68,6 +70,7 @@ public:
     std::optional<LearnedAnswer> take_learned() { return outbox_.take_learned(); }
     std::optional<DiagnosticsAnswer> take_diagnostics() { return outbox_.take_diagnostics(); }
     std::optional<PathsAnswer> take_paths() { return outbox_.take_paths(); }
+    std::optional<GainAnswer> take_gain() { return outbox_.take_gain(); }
     /// Key frames of the field; never null.
     std::shared_ptr<const FieldHistory> history() const { return outbox_.history(); }
     /// The error that ended the thread, or null. Only a session that cannot be made ends it.

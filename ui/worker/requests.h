@@ -20,6 +20,10 @@ struct OneShotRequests {
     bool learned = false;       ///< the learned field
     bool diagnostics = false;   ///< the input of find_diagnostics()
     bool paths = false;         ///< the input of trace_pixel()
+    bool gain = false;          ///< the input of tile_gains()
+
+    /// Whether one is to be answered.
+    bool has_question() const { return pick || learned || diagnostics || paths || gain; }
 };
 
 struct Requests {

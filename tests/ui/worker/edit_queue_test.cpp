@@ -53,3 +53,20 @@ TEST_CASE("Edit queue: of each material only the newest edit is left, and a scen
     REQUIRE(edits.size() == 2);
     CHECK(find_edit<EditScene>(edits[0]));
 }
+
+TEST_CASE("Edit queue: every volume that is to be forgotten is left once, until all or another scene's are") {
+    EditQueue queue;
+    queue.push(EditForgetVolume{MethodId::Reinforcement, 3});
+    queue.push(EditForgetVolume{MethodId::Reinforcement, 5});
+    queue.push(EditForgetVolume{MethodId::Reinforcement, 3});
+    queue.push(EditSeed{1});
+    auto edits = queue.take();
+    REQUIRE(edits.size() == 3);
+    CHECK(find_edit<EditForgetVolume>(edits[0])->volume == 5);
+    CHECK(find_edit<EditForgetVolume>(edits[1])->volume == 3);
+    queue.push(EditForgetVolume{MethodId::Reinforcement, 3});
+    queue.push(EditForget{});
+    edits = queue.take();
+    REQUIRE(edits.size() == 1);
+    CHECK(find_edit<EditForget>(edits[0]));
+}

@@ -1,7 +1,8 @@
-#include "core/inspect/jackknife.h"
+#include "core/measure/jackknife.h"
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace pl {
@@ -22,6 +23,13 @@ Interval jackknife_interval(const GroupFigure& figure) {
     const double half = student_quantile(0.5 + 0.5 * kConfidence, kPairs - 1) * error;
     const double value = figure(kAllGroups);
     return {value, value - half, value + half};
+}
+
+Interval jackknife_ratio(const GroupFigure& figure) {
+    const Interval log = jackknife_interval([&](GroupSet set) { return std::log(figure(set)); });
+    if (!std::isfinite(log.low) || !std::isfinite(log.high))
+        return {figure(kAllGroups), 0.0, std::numeric_limits<double>::infinity()};
+    return {std::exp(log.value), std::exp(log.low), std::exp(log.high)};
 }
 
 }  // namespace pl

@@ -1,4 +1,4 @@
-#include "core/inspect/jackknife.h"
+#include "core/measure/jackknife.h"
 
 #include <array>
 #include <bit>

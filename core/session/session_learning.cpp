@@ -1,0 +1,84 @@
+// The part of Session by which learning is frozen, stepped, and forgotten for single volumes.
+#include "core/base/error.h"
+#include "core/fields/reset_tables.h"
+#include "core/session/session.h"
+#include "core/session/update_schedule.h"
+
+namespace pl {
+
+std::uint64_t Session::trained_passes(MethodId method) const {
+    return field(method).passes - field(method).untrained_passes;
+}
+
+/// Between passes: a pass under way is completed as it was begun.
+void Session::control_learning(const EditLearning& edit) {
+    if (!info_of(edit.method).learns)
+        throw Error(ErrorKind::Usage, "method '" + std::string(info_of(edit.method).name) +
+                                          "' does not learn while it renders: there is nothing to freeze");
+    const FilmProgress& film = films_[{edit.method, View::Beauty}];
+    const bool is_under_way = film.next_pixel > 0;
+    const std::uint64_t trained = trained_passes(edit.method) + (is_under_way && film.trains ? 1 : 0);
+    switch (edit.control) {
+    case LearningControl::Freeze:
+        // As the last pass that trains: its training samples are waiting for an update.
+        if (!is_under_way && backend_->has_field(edit.method) && !is_frozen(edit.method))
+            backend_->update_field(edit.method);
+        settings_.learn_passes = trained;
+        return;
+    case LearningControl::Step: settings_.learn_passes = trained + 1; break;
+    case LearningControl::Continue: settings_.learn_passes = kEveryPass; break;
+    }
+    field(edit.method).was_edited = true;
+}
+
+/// The paths of a frozen field leave training samples in its pending sums, which could overflow, and which later updates must not
+/// absorb.
+void Session::drop_idle_samples(MethodId method) {
+    if (field(method).idle_paths == 0) return;
+    HostField learned = backend_->download_field(method);
+    drop_pending(learned);
+    backend_->upload_field(method, std::move(learned));
+    field(method).idle_paths = 0;
+}
+
+/// Passes of a frozen field until drop_idle_samples() is due.
+std::uint32_t Session::idle_passes_left(MethodId method) const {
+    const std::uint64_t most = std::uint64_t{kMostPassesWithoutUpdate} * pixel_count();
+    const std::uint64_t idle = field(method).idle_paths;
+    return idle < most ? static_cast<std::uint32_t>((most - idle) / pixel_count()) : 0;
+}
+
+/// Decides whether the pass that begins trains the field.
+void Session::prepare_training(FilmSlot slot) {
+    FilmProgress& state = films_[slot];
+    state.trains = !is_frozen(slot.method);
+    if (state.trains || idle_passes_left(slot.method) == 0) drop_idle_samples(slot.method);
+    forget_due_volumes(slot.method);
+}
+
+void Session::forget_volume(const EditForgetVolume& edit) {
+    if (!info_of(edit.method).learns || !placement_.is_placed() || !backend_->has_field(edit.method))
+        throw Error(ErrorKind::Usage, "method '" + std::string(info_of(edit.method).name) +
+                                          "' has learned nothing that could be forgotten");
+    if (edit.volume < 0 || static_cast<std::size_t>(edit.volume) >= placement_.count())
+        throw Error(ErrorKind::Usage, "radiance volume " + std::to_string(edit.volume) +
+                                          " does not exist: expected 0 to " + std::to_string(placement_.count()) +
+                                          " (exclusive)");
+    FieldProgress& learned = field(edit.method);
+    learned.was_edited = true;
+    learned.forgotten.push_back(edit.volume);
+    if (films_[{edit.method, View::Beauty}].next_pixel == 0) forget_due_volumes(edit.method);
+}
+
+/// The films stay: tables only guide the sampling.
+void Session::forget_due_volumes(MethodId method) {
+    FieldProgress& learned = field(method);
+    if (learned.forgotten.empty()) return;
+    HostField arrays = backend_->download_field(method);
+    for (const std::int32_t volume : learned.forgotten)
+        pl::forget_volume(placement_.shape(), arrays, static_cast<std::size_t>(volume));
+    backend_->upload_field(method, std::move(arrays));
+    learned.forgotten.clear();
+}
+
+}  // namespace pl

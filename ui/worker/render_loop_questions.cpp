@@ -1,0 +1,54 @@
+// The part of RenderLoop that answers questions of the window, and follows the learned field for it.
+#include "ui/worker/answers.h"
+#include "ui/worker/render_loop.h"
+
+namespace pl {
+
+void RenderLoop::answer_questions() {
+    if (now_.once.pick) outbox_.answer(answer_pick(*session_, *now_.once.pick));
+    now_.once.pick.reset();
+    if (now_.once.learned) outbox_.answer(answer_learned(*session_, asked_method()));
+    now_.once.learned = false;
+    if (now_.once.diagnostics)
+        outbox_.answer(size_.is_whole()
+                           ? answer_diagnostics(*session_, slot(), now_.generation)
+                           : DiagnosticsAnswer{.reason = "the camera moves: let the picture come to rest first",
+                                               .generation = now_.generation});
+    now_.once.diagnostics = false;
+    if (now_.once.paths)
+        outbox_.answer(size_.is_whole()
+                           ? answer_paths(*session_, slot(), now_.generation)
+                           : PathsAnswer{.reason = "the camera moves: let the picture come to rest first",
+                                         .generation = now_.generation});
+    now_.once.paths = false;
+    if (now_.once.gain)
+        outbox_.answer(size_.is_whole() ? answer_gain(*session_, slot()) : GainAnswer{.reason = "the camera moves"});
+    now_.once.gain = false;
+}
+
+void RenderLoop::refresh_inspection() {
+    if (passes() == 0) return;  // there may be no tables yet
+    const bool is_other = now_.volume != watched_.selected.shown() || wants_pins();
+    bool is_fresh = watched_.selected.refresh(*session_, asked_method(), now_.volume);
+    watched_.pins.resize(now_.pins.size());
+    for (std::size_t i = 0; i < watched_.pins.size(); ++i)
+        is_fresh |= watched_.pins[i].refresh(*session_, asked_method(), now_.pins[i]);
+    if (is_fresh && (is_other || !wants_pass())) frames_.ask();
+}
+
+bool RenderLoop::wants_pins() const {
+    if (watched_.pins.size() != now_.pins.size()) return true;
+    for (std::size_t i = 0; i < watched_.pins.size(); ++i)
+        if (watched_.pins[i].wants(now_.pins[i])) return true;
+    return false;
+}
+
+/// Key frames of the field, if the window requests them.
+void RenderLoop::observe_field() {
+    const bool is_other = now_.history_bytes != watched_.history.limit();
+    if (is_other) watched_.history.set_limit(now_.history_bytes);
+    const bool has_frame = watched_.history.observe(*session_, asked_method());
+    if (is_other || has_frame) outbox_.set_history(watched_.history.history());
+}
+
+}  // namespace pl
