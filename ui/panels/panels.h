@@ -22,6 +22,13 @@ void draw_status_bar(ViewerModel& model, const Layout& layout);
 /// The borders between panels and picture: dragged they change sizes, their arrows fold the panels.
 void draw_borders(ViewerModel& model, const Layout& layout);
 
+/// Bookmarks and the path through them, in the settings.
+void draw_cameras(ViewerModel& model);
+/// In the settings: the switch of the automatic exposure.
+void draw_auto_exposure(ViewerModel& model);
+/// The histogram of the picture with marks of the exposure, in the pixel tab.
+void draw_histogram(ViewerModel& model);
+
 // Tabs of the right panel.
 void draw_volume_tab(ViewerModel& model);
 void draw_material_tab(ViewerModel& model);
