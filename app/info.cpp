@@ -6,6 +6,7 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/parse_values.h"
+#include "core/io/camera_file.h"
 #include "core/scene/default_light.h"
 #include "core/scene/effect_reasons.h"
 #include "core/scene/needed_effects.h"
@@ -102,13 +103,7 @@ Json json_of(const SceneReport& report) {
             {"bytes_per_triangle", bytes_per_triangle(report.packed)},
             {"knobs", knobs},
             {"bounds", {{"low", vector_json(report.bounds.low)}, {"high", vector_json(report.bounds.high)}}},
-            {"camera",
-             {{"eye", vector_json(scene.camera.eye)},
-              {"target", vector_json(scene.camera.target)},
-              {"up", vector_json(scene.camera.up)},
-              {"fov_deg", scene.camera.fov_deg},
-              {"aperture_radius", scene.camera.aperture_radius},
-              {"focus_distance", scene.camera.focus_distance}}},
+            {"camera", camera_json(scene.camera)},
             {"effects_needed", effects},
             {"effects_compiled", report.compiled},
             {"kernel", report.kernel}};

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/io/camera_file.h"
 #include "core/io/load_settings.h"
 #include "core/scene/description.h"
 #include "core/session/settings.h"
@@ -27,16 +28,6 @@ enum class Command : std::uint32_t {
     Bench,
     Report,
     SelfTest
-};
-
-/// The given parts of the camera; the other parts are the scene's.
-struct CameraChoice {
-    std::optional<glm::vec3> eye;
-    std::optional<glm::vec3> target;
-    std::optional<glm::vec3> up;
-    std::optional<float> fov_deg;
-    std::optional<float> aperture_radius;
-    std::optional<float> focus_distance;
 };
 
 /// A point in the scene; its normal, if given, selects a side of the surface.
@@ -66,7 +57,9 @@ struct Options {
     std::optional<double> target_error;  ///< of Metrics::relmse
     int width = 0;                       ///< 0: not given
     int height = 0;                      ///< 0: not given
-    CameraChoice camera;
+    CameraChoice camera;                 ///< given parts; the others are the scene's
+    std::string camera_path;             ///< render: file of cameras for a sequence of pictures
+    int frames = 0;                      ///< of that; 0: 24 from each camera to the next
 
     std::vector<MethodId> methods;       ///< bench: all to compare; empty: every one
     std::vector<std::string> backends;   ///< bench: empty: all that are available
@@ -89,8 +82,8 @@ struct Options {
     std::optional<SampleNumbers> samples;  ///< trace: numbers of the pixel's samples
     bool why = false;                      ///< trace: the noise of the pixel
     std::uint32_t why_samples = 4096;      ///< paths by each method for it
-    bool truth = false;                   ///< inspect: also the light that reaches the volume
-    std::uint32_t truth_samples = 256;    ///< paths per cell for it
+    bool truth = false;                    ///< inspect: also the light that reaches the volume
+    std::uint32_t truth_samples = 256;     ///< paths per cell for it
 
     std::string stats_file;
     std::string diagnostics_file;  ///< render: picture of the places of diagnostics

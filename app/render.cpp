@@ -8,8 +8,9 @@
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
-#include "app/parse_values.h"
+#include "app/picture_metadata.h"
 #include "app/progress.h"
+#include "app/render_sequence.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
@@ -24,7 +25,10 @@ namespace {
 
 void require_outputs(const Options& options) {
     image_kind(options.output);
-    require_writable(options.output);
+    if (options.camera_path.empty())
+        require_writable(options.output);
+    else
+        require_sequence(options);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
     if (options.diagnostics_file.empty()) return;
@@ -63,22 +67,6 @@ void announce(const Session& session, Console& console) {
                             {"width", session.settings().width},
                             {"height", session.settings().height},
                             {"kernel", session.served_kernel(slot).name}});
-}
-
-ImageMetadata metadata_of(const Session& session, const Snapshot& snapshot, const Json& stats,
-                          const std::string& command, bool interrupted) {
-    ImageMetadata metadata{{"Software", "pathlight " PL_VERSION}, {"command", command}};
-    if (snapshot.slot.view == View::Beauty)
-        metadata.emplace_back(kPictureHashKey, picture_hash(session.scene(), session.settings()));
-    if (interrupted) metadata.emplace_back("partial", "true");
-    for (const char* key : {"scene", "scene_hash", "light", "method", "view", "backend", "width", "height", "spp",
-                            "seed", "max_depth", "nee", "kernel"}) {
-        const Json& value = stats.at(key);
-        metadata.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
-    }
-    if (const std::string range = legend(snapshot); !range.empty()) metadata.emplace_back("range", range);
-    metadata.emplace_back("seconds", print_real(stats.at("seconds").at("total").get<double>()));
-    return metadata;
 }
 
 /// ", noise 0.0098 (target 0.01)"; empty without a target.
@@ -150,6 +138,8 @@ int run_render(const CommandLine& line, Console& console) {
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
     announce(session, console);
+    const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
+    if (!options.camera_path.empty()) return render_sequence(session, options, command, fields, interrupt, console);
     const FilmSlot slot = slot_of(options.render);
 
     std::optional<ErrorTarget> target = make_target(session, options);
@@ -158,7 +148,6 @@ int run_render(const CommandLine& line, Console& console) {
     if (aim != nullptr) aim->measure_last(session, slot);
     const Snapshot snapshot = session.snapshot(slot);
     Json stats = stats_json(session, snapshot, options, outcome, aim);
-    const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
     save_picture(options.output, snapshot, options.display, metadata);
     bool is_complete = true;  // the files beside the picture

@@ -33,12 +33,7 @@ void settle_size(Options& options) {
 
 void settle_camera(Options& options) {
     CameraDescription& camera = options.render.camera;
-    camera.eye = options.camera.eye.value_or(camera.eye);
-    camera.target = options.camera.target.value_or(camera.target);
-    camera.up = options.camera.up.value_or(camera.up);
-    camera.fov_deg = options.camera.fov_deg.value_or(camera.fov_deg);
-    camera.aperture_radius = options.camera.aperture_radius.value_or(camera.aperture_radius);
-    camera.focus_distance = options.camera.focus_distance.value_or(camera.focus_distance);
+    camera = replaced(camera, options.camera);
     if (camera.eye == camera.target)
         throw Error(ErrorKind::Usage, fmt::format("--eye, --target: expected two different points, got {} for both",
                                                   print_vector(camera.eye)));
@@ -99,6 +94,18 @@ void require_learning(const Options& options) {
                                 view.name, info_of(View::Beauty).name, info_of(View::RadianceMap).name));
 }
 
+/// Throws Error(Usage) for options that need --camera-path, and for those of a single picture with it.
+void check_sequence(const Options& options) {
+    if (options.camera_path.empty()) {
+        if (options.frames > 0) throw Error(ErrorKind::Usage, "--frames: expected --camera-path FILE with it");
+        return;
+    }
+    if (!options.diagnostics_file.empty())
+        throw Error(ErrorKind::Usage, "--diagnostics: expected a single picture, got --camera-path with it");
+    if (!options.reference_folder.empty())
+        throw Error(ErrorKind::Usage, "--reference: expected a single picture, got --camera-path with it");
+}
+
 void check_combinations(Command command, const Options& options) {
     const MethodInfo& method = info_of(options.render.method);
     const bool needs_field = command == Command::Render && info_of(options.render.view).needs_tables;
@@ -108,6 +115,7 @@ void check_combinations(Command command, const Options& options) {
             fmt::format("--view {}: shows the learned field, and --method {} learns nothing: expected --method {}",
                         info_of(options.render.view).name, method.name, field_method_choices()));
     if (!options.save_field.empty()) require_learning(options);
+    check_sequence(options);
 }
 
 bool is_given(const CommandLine& line, std::string_view name) {

@@ -47,6 +47,9 @@ std::string command_of(const ViewerPicture& picture, const Options& opened, cons
     shown.threads = opened.threads;
     if (picture.spp > 0) shown.spp = picture.spp;
     shown.load_field = picture.field;
+    shown.camera_path = picture.camera_path;
+    shown.frames = picture.frames;
+    if (!picture.output.empty()) shown.output = picture.output;
     return command_text(shown, defaults);
 }
 

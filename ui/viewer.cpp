@@ -11,6 +11,8 @@
 
 #include "core/base/error.h"
 #include "ui/compare/compare_layer.h"
+#include "ui/compare/pointed_pixel.h"
+#include "ui/draw/magnifier.h"
 #include "ui/draw/style.h"
 #include "ui/input/input_router.h"
 #include "ui/model/remembered_window.h"
@@ -81,11 +83,14 @@ private:
     WindowActivity activity() const;
     void trace_inputs();
     void build_panels();
+    void zoom_to_pixels();
+    void point_at_pixel();
     std::optional<HoveredPixel> hovered_pixel() const;
     void show();
     void answer_requests();
     WindowMemory memory_now() const;
     void reset_window();
+    void set_folders(const std::filesystem::path& folder);
     Layout current_layout() const;
     RenderSettings first_settings(const SceneDescription& scene) const;
 
@@ -102,6 +107,7 @@ private:
     std::optional<UiTrace> trace_;
     Layout layout_;
     Rect image_;
+    std::optional<Magnifier> magnifier_;
     double start_ = steady_seconds();
     FramePacing pacing_{start_};
     std::string title_;
@@ -116,8 +122,7 @@ Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescript
       model_(options, scene, first_settings(*scene), load_seconds) {
     model_.messages().note(MessageLevel::Info, "window drawn by " + display_.renderer_name());
     restore(memory_.last(), model_);
-    if (const auto file = memory_file(options); !file.empty())
-        model_.open_dialog().gallery().set_folder(file.parent_path() / "thumbnails");
+    if (const auto file = memory_file(options); !file.empty()) set_folders(file.parent_path());
     if (!memory_.problem().empty()) model_.messages().say(MessageLevel::Warning, memory_.problem());
     model_.window().ui_scale = display_.ui_scale();
     if (options.remember && !options.script) model_.tour().offer();
@@ -125,6 +130,12 @@ Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescript
     if (options.ui_trace) trace_.emplace(*options.ui_trace);
     layout_ = current_layout();
     image_ = image_layer_.place(model_, layout_.view);
+}
+
+/// The folders of what is remembered beside the window's state.
+void Viewer::set_folders(const std::filesystem::path& folder) {
+    model_.open_dialog().gallery().set_folder(folder / "thumbnails");
+    model_.bookmarks().set_folder(folder / "cameras");
 }
 
 Layout Viewer::current_layout() const {
@@ -230,22 +241,41 @@ void Viewer::trace_inputs() {
 
 void Viewer::build_panels() {
     layout_ = current_layout();
+    if (std::exchange(model_.window().requests.zoom, false)) zoom_to_pixels();
     image_ = image_layer_.place(model_, layout_.view);
-    plan_ = model_.comparison().plan(layout_.view);
-    model_.window().values_shown = false;  // the pixel tab sets it again
-    draw_interface(model_, layout_, image_, plan_, layout_.panels ? hovered_pixel() : std::nullopt);
+    plan_ = model_.comparison().plan(layout_.view, model_.window().zoom);
+    point_at_pixel();
+    model_.window().values_shown = false;  // what shows values sets it again
+    draw_interface(model_, layout_, image_, plan_, layout_.panels ? hovered_pixel() : std::nullopt,
+                   magnifier_ ? &*magnifier_ : nullptr);
+}
+
+/// 1:1 around the pointer, or the whole picture.
+void Viewer::zoom_to_pixels() {
+    const RenderSettings settings = model_.render().settings();
+    const Vec2f pointer = layout_.view.contains(input_.pointer()) ? input_.pointer() : layout_.view.center();
+    model_.window().zoom.toggle(pointer, layout_.view, settings.width, settings.height);
+}
+
+/// The pixel under the pointer: of the compared picture there, else of the picture.
+void Viewer::point_at_pixel() {
+    WindowState& window = model_.window();
+    const bool is_over = layout_.view.contains(input_.pointer()) && !ImGui::GetIO().WantCaptureMouse;
+    window.pointed = is_over && model_.frame() != nullptr
+                         ? pointed_pixel(plan_, *model_.frame(), image_, input_.pointer())
+                         : std::nullopt;
+    magnifier_.reset();
+    window.magnifier = window.pointed && input_.is_held(ActionId::Magnify);
+    if (window.magnifier)
+        magnifier_ = magnifier_at(plan_, *model_.frame(), image_, input_.pointer(), layout_.view, em(1.0f));
 }
 
 std::optional<HoveredPixel> Viewer::hovered_pixel() const {
-    const PublishedFrame* frame = model_.frame();
-    if (frame == nullptr || !plan_.at_image || !image_.contains(input_.pointer()) || ImGui::GetIO().WantCaptureMouse)
-        return std::nullopt;
-    const Vec2f at = input_.pointer() - Vec2f{image_.x, image_.y};
-    const auto pixel = [](float share, int size) {
-        return std::min(static_cast<int>(share * static_cast<float>(size)), size - 1);
-    };
-    return HoveredPixel{pixel(at.x / image_.width, frame->snapshot.width),
-                        pixel(at.y / image_.height, frame->snapshot.height)};
+    const auto& pointed = model_.window().pointed;
+    if (!pointed || !plan_.at_image) return std::nullopt;
+    const Snapshot& snapshot = model_.frame()->snapshot;
+    const PixelPosition pixel = pixel_under(image_, input_.pointer(), snapshot.width, snapshot.height);
+    return HoveredPixel{pixel.x, pixel.y};
 }
 
 void Viewer::answer_requests() {
@@ -288,9 +318,13 @@ void Viewer::remember() {
 void Viewer::show() {
     SDL_SetRenderDrawColor(display_.renderer(), 12, 13, 16, 255);
     SDL_RenderClear(display_.renderer());
-    if (plan_.tiles.empty()) image_layer_.draw(model_, image_);
+    if (plan_.tiles.empty()) image_layer_.draw(model_, image_, layout_.view);
     compare_layer_.draw(plan_, model_.display().settings());
     gui_.draw();
+    if (magnifier_) {  // over the overlays, whose lines are not magnified
+        if (plan_.tiles.empty()) image_layer_.magnify(*magnifier_);
+        compare_layer_.magnify(plan_, *magnifier_);
+    }
     if (std::exchange(model_.window().requests.window_shot, false))
         model_.files().pictures().save_window(display_.read_pixels(), model_.files().pictures().next_window_shot());
     if (script_) {

@@ -62,6 +62,9 @@ struct ViewerPicture {
     std::string field{};  ///< file with the learned field that a picture like this one continues from; empty for none
     std::string materials{};  ///< file with the materials of the window; empty if they are those of the scene's files
     std::vector<std::string> edited_materials{};  ///< names of those that are not as in the scene's files
+    std::string camera_path{};                    ///< file of cameras of a sequence; empty for a single picture
+    int frames = 0;                               ///< of the sequence
+    std::string output{};                         ///< file, or pattern of files; empty: by the scene's name
 };
 
 /// The scene that is open, with the materials that were changed in the window.

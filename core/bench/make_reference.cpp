@@ -6,6 +6,7 @@
 
 #include "core/base/hash.h"
 #include "core/base/timer.h"
+#include "core/io/camera_file.h"
 
 namespace pl {
 namespace {
@@ -103,13 +104,7 @@ private:
     Json about() const {
         const RenderSettings& settings = session_.settings();
         return {{"scene", plan_.scene},
-                {"camera",
-                 {{"eye", vector_json(settings.camera.eye)},
-                  {"target", vector_json(settings.camera.target)},
-                  {"up", vector_json(settings.camera.up)},
-                  {"fov_deg", settings.camera.fov_deg},
-                  {"aperture_radius", settings.camera.aperture_radius},
-                  {"focus_distance", settings.camera.focus_distance}}},
+                {"camera", camera_json(settings.camera)},
                 {"method", info_of(settings.method).name},
                 {"nee", settings.next_event},
                 {"seed", seed_},

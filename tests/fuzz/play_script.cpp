@@ -91,7 +91,7 @@ public:
         ImGui::NewFrame();
         memory_.places.clear();
         memory_.pointer_rest_seconds = 1.0f;  // tooltips, too
-        draw_interface(model, layout, image, plan, HoveredPixel{});
+        draw_interface(model, layout, image, plan, HoveredPixel{}, nullptr);
         ImGui::Render();
     }
 

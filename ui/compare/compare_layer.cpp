@@ -48,12 +48,27 @@ void CompareLayer::draw(const ComparePlan& plan, const DisplaySettings& display)
             slot.shown = tile.content;
             slot.display = display;
         }
-        if (slot.filled) slot.texture.draw(tile.place, tile.clip);
+        if (slot.filled)
+            slot.texture.draw(tile.place, tile.clip, plan.is_zoomed ? Scaling::Nearest : Scaling::Smooth);
     }
     // Releases the pictures of tiles that are not shown any more.
     for (std::size_t i = plan.tiles.size(); i < slots_.size(); ++i) {
         slots_[i].shown = {};
         slots_[i].filled = false;
+    }
+}
+
+void CompareLayer::magnify(const ComparePlan& plan, const Magnifier& magnifier) {
+    for (std::size_t i = 0; i < std::min(plan.tiles.size(), slots_.size()); ++i) {
+        const CompareTile& tile = plan.tiles[i];
+        const bool is_under = tile.place.x == magnifier.source.x && tile.place.y == magnifier.source.y;
+        if (!slots_[i].filled || !is_under) continue;
+        // From the window to the magnified picture.
+        const auto magnified = [&](Vec2f at) { return window_point(magnifier.image, picture_point(tile.place, at)); };
+        const Vec2f low = magnified({tile.clip.x, tile.clip.y});
+        const Vec2f high = magnified({tile.clip.x + tile.clip.width, tile.clip.y + tile.clip.height});
+        const Rect part = common_part(magnifier.box, {low.x, low.y, high.x - low.x, high.y - low.y});
+        slots_[i].texture.draw(magnifier.image, part, Scaling::Nearest);
     }
 }
 

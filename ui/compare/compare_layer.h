@@ -6,6 +6,7 @@
 
 #include "ui/compare/compare_plan.h"
 #include "ui/compare/half_image.h"
+#include "ui/draw/magnifier.h"
 #include "ui/draw/stream_texture.h"
 
 namespace pl {
@@ -15,6 +16,9 @@ public:
     explicit CompareLayer(SDL_Renderer* renderer) : slots_{Slot(renderer), Slot(renderer)} {}
 
     void draw(const ComparePlan& plan, const DisplaySettings& display);
+
+    /// The tiles as drawn last, again in the magnifier's box: each as far as it is visible.
+    void magnify(const ComparePlan& plan, const Magnifier& magnifier);
 
 private:
     struct Slot {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/compare/half_image.h"
 #include "ui/draw/method_keys.h"
 
 namespace pl {
@@ -19,50 +20,62 @@ TileContent content_of(const CompareSide& side) {
     return {.what = What::Picture, .picture = side.picture, .other = {}, .frame = {}};
 }
 
-Rect place_of(const TileContent& content, const Rect& view) {
-    if (content.frame) return place_image(view, content.frame->snapshot.width, content.frame->snapshot.height);
-    return place_image(view, content.picture->width, content.picture->height);
+/// The room of a picture, and how much of it is shown there.
+struct Stage {
+    Rect view;
+    PictureZoom zoom;
+};
+
+Rect place_of(const TileContent& content, const Stage& stage) {
+    const auto place = [&](const auto& picture) {
+        return stage.zoom.place(stage.view, picture.width, picture.height);
+    };
+    return content.frame ? place(content.frame->snapshot) : place(*content.picture);
 }
 
-CompareTile whole_tile(TileContent content, const CompareSide& side, const Rect& view) {
-    const Rect place = place_of(content, view);
-    return {std::move(content), place, place, side.label, side.color, false};
+CompareTile whole_tile(TileContent content, const CompareSide& side, const Stage& stage) {
+    const Rect place = place_of(content, stage);
+    return {std::move(content), place, common_part(place, stage.view), side.label, side.color, false};
 }
 
 /// Cuts two tiles in the same place; the first lies left of the line.
 void split_tiles(ComparePlan& plan, float share) {
     CompareTile& left = plan.tiles[0];
     CompareTile& right = plan.tiles[1];
-    const float x = std::round(left.place.x + std::clamp(share, 0.0f, 1.0f) * left.place.width);
-    left.clip.width = x - left.place.x;
+    const Rect& seen = left.clip;
+    const float line = std::round(left.place.x + std::clamp(share, 0.0f, 1.0f) * left.place.width);
+    const float x = std::clamp(line, seen.x, seen.x + seen.width);  // within reach of the pointer
+    right.clip.width = right.clip.x + right.clip.width - x;
     right.clip.x = x;
-    right.clip.width = right.place.x + right.place.width - x;
+    left.clip.width = x - left.clip.x;
     right.label_right = true;
     plan.split_x = x;
 }
 
-void plan_split(ComparePlan& plan, const CompareSides& sides, const CompareState& state, const Rect& view) {
-    plan.tiles = {whole_tile(content_of(*sides.a), *sides.a, view), whole_tile(content_of(*sides.b), *sides.b, view)};
+void plan_split(ComparePlan& plan, const CompareSides& sides, const CompareState& state, const Stage& stage) {
+    plan.tiles = {whole_tile(content_of(*sides.a), *sides.a, stage),
+                  whole_tile(content_of(*sides.b), *sides.b, stage)};
     split_tiles(plan, state.split);
 }
 
-void plan_side_by_side(ComparePlan& plan, const CompareSides& sides, const Rect& view) {
+void plan_side_by_side(ComparePlan& plan, const CompareSides& sides, const Stage& stage) {
+    const Rect& view = stage.view;
     const float half = std::floor(0.5f * view.width);
-    const Rect left{view.x, view.y, half, view.height};
-    const Rect right{view.x + half, view.y, view.width - half, view.height};
+    const Stage left{{view.x, view.y, half, view.height}, stage.zoom};
+    const Stage right{{view.x + half, view.y, view.width - half, view.height}, stage.zoom};
     plan.tiles = {whole_tile(content_of(*sides.a), *sides.a, left),
                   whole_tile(content_of(*sides.b), *sides.b, right)};
     plan.at_image = false;
 }
 
-void plan_difference(ComparePlan& plan, const CompareSides& sides, const Rect& view) {
+void plan_difference(ComparePlan& plan, const CompareSides& sides, const Stage& stage) {
     if (!sides.fit_together()) {
         plan.hint = "the difference needs two stored pictures";
         return;
     }
     const TileContent content{
         .what = What::Difference, .picture = sides.a->picture, .other = sides.b->picture, .frame = {}};
-    CompareTile tile = whole_tile(content, *sides.a, view);
+    CompareTile tile = whole_tile(content, *sides.a, stage);
     tile.label = "|A - B|  A: " + sides.a->label + "   B: " + sides.b->label;
     tile.color = 0xffe4e6eau;
     plan.tiles = {std::move(tile)};
@@ -74,7 +87,7 @@ bool can_be_scored(const std::optional<CompareSide>& side, const HalfPicture& re
 }
 
 void plan_error_map(ComparePlan& plan, const CompareSides& sides, const CompareState& state,
-                    const ReferencePicture* reference, const Rect& view) {
+                    const ReferencePicture* reference, const Stage& stage) {
     if (reference == nullptr || !reference->pixels) {
         plan.hint = "the error map needs a reference of this picture";
         return;
@@ -83,7 +96,7 @@ void plan_error_map(ComparePlan& plan, const CompareSides& sides, const CompareS
         if (!can_be_scored(*side, *reference->pixels)) continue;
         const TileContent content{
             .what = What::ErrorMap, .picture = (*side)->picture, .other = reference->pixels, .frame = {}};
-        plan.tiles.push_back(whole_tile(content, **side, view));
+        plan.tiles.push_back(whole_tile(content, **side, stage));
     }
     if (plan.tiles.empty()) plan.hint = "the error map needs a stored picture of a run";
     if (plan.tiles.size() == 2) split_tiles(plan, state.split);
@@ -91,38 +104,58 @@ void plan_error_map(ComparePlan& plan, const CompareSides& sides, const CompareS
 }
 
 /// Modes that need both sides, with only one or none.
-void plan_incomplete(ComparePlan& plan, const CompareSides& sides, const Rect& view) {
+void plan_incomplete(ComparePlan& plan, const CompareSides& sides, const Stage& stage) {
     for (const auto* side : {&sides.a, &sides.b})
-        if (plan.tiles.empty() && has_pixels(*side)) plan.tiles = {whole_tile(content_of(**side), **side, view)};
+        if (plan.tiles.empty() && has_pixels(*side)) plan.tiles = {whole_tile(content_of(**side), **side, stage)};
     for (const auto* side : {&sides.a, &sides.b})
         if (*side && !has_pixels(*side)) plan.hint += (plan.hint.empty() ? "" : "; ") + (*side)->label;
     if (plan.hint.empty())
         plan.hint = fmt::format("nothing to compare with yet: {} render with other methods", method_keys());
 }
 
+std::size_t index_of(PixelPosition pixel, int width) {
+    return static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(pixel.x);
+}
+
 }  // namespace
 
 ComparePlan plan_comparison(const CompareSides& sides, const CompareState& state, const ReferencePicture* reference,
-                            const Rect& view) {
+                            const Rect& view, const PictureZoom& zoom) {
+    const Stage stage{view, zoom};
     ComparePlan plan;
     if (state.mode == CompareMode::Off) return plan;
+    plan.is_zoomed = !zoom.is_whole();
     const bool both = has_pixels(sides.a) && has_pixels(sides.b);
     if (state.mode == CompareMode::ErrorMap) {
-        plan_error_map(plan, sides, state, reference, view);
+        plan_error_map(plan, sides, state, reference, stage);
     } else if (!both) {
-        plan_incomplete(plan, sides, view);
+        plan_incomplete(plan, sides, stage);
     } else if (state.mode == CompareMode::Difference) {
-        plan_difference(plan, sides, view);
+        plan_difference(plan, sides, stage);
     } else if (state.mode == CompareMode::SideBySide) {
-        plan_side_by_side(plan, sides, view);
+        plan_side_by_side(plan, sides, stage);
     } else if (state.mode == CompareMode::Split) {
-        plan_split(plan, sides, state, view);
+        plan_split(plan, sides, state, stage);
     } else {
         const CompareSide& shown = state.shows_second ? *sides.b : *sides.a;
-        plan.tiles = {whole_tile(content_of(shown), shown, view)};
+        plan.tiles = {whole_tile(content_of(shown), shown, stage)};
         plan.tiles[0].label_right = state.shows_second;
     }
     return plan;
+}
+
+std::optional<Vec3f> value_of(const PublishedFrame& frame, PixelPosition pixel) {
+    if (!frame.has_values()) return std::nullopt;
+    return frame.snapshot.pixels[index_of(pixel, frame.snapshot.width)];
+}
+
+std::optional<Vec3f> value_of(const TileContent& content, PixelPosition pixel) {
+    if (content.frame) return value_of(*content.frame, pixel);
+    const std::size_t index = index_of(pixel, content.picture->width);
+    const Vec3f value = pixel_of(*content.picture, index);
+    if (content.what == What::Picture) return value;
+    const Vec3f other = pixel_of(*content.other, index);
+    return content.what == What::Difference ? glm::abs(value - other) : Vec3f{pixel_error(value, other)};
 }
 
 }  // namespace pl

@@ -7,7 +7,7 @@
 
 #include "core/session/settings.h"
 #include "ui/compare/sides.h"
-#include "ui/draw/layout.h"
+#include "ui/draw/picture_zoom.h"
 
 namespace pl {
 
@@ -36,11 +36,19 @@ struct ComparePlan {
     std::optional<float> split_x;    ///< the line between two tiles
     std::string hint;                ///< the missing input of the mode; empty if it has all
     bool has_heat = false;           ///< colors are those of error_map_legend()
+    bool is_zoomed = false;          ///< tiles show a part of their pictures, pixel by pixel
     bool at_image = true;            ///< the picture has its place as without a comparison, so that it can be picked
 };
 
-/// `view` is the part of the window for pictures, `reference` that of the picture, or null.
+/// `view` is the part of the window for pictures, `reference` that of the picture, or null. Pictures side by side show the same
+/// part of both.
 ComparePlan plan_comparison(const CompareSides& sides, const CompareState& state, const ReferencePicture* reference,
-                            const Rect& view);
+                            const Rect& view, const PictureZoom& zoom = {});
+
+/// Value of a tile's pixel, linear: of a difference the difference, of an error map the relative error in every channel. Empty if
+/// its picture has no values.
+std::optional<Vec3f> value_of(const TileContent& content, PixelPosition pixel);
+/// Of a frame; empty if it has no values.
+std::optional<Vec3f> value_of(const PublishedFrame& frame, PixelPosition pixel);
 
 }  // namespace pl

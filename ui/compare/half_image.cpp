@@ -11,11 +11,6 @@
 namespace pl {
 namespace {
 
-Vec3f pixel_of(const HalfPicture& picture, std::size_t index) {
-    const std::uint16_t* rgb = picture.rgb.data() + 3 * index;
-    return {from_half(rgb[0]), from_half(rgb[1]), from_half(rgb[2])};
-}
-
 /// Calls `color` with the index of every pixel, and writes what it returns.
 template <class Color>
 void write_pixels(const HalfPicture& size, std::uint32_t* out, std::size_t pitch, Color color) {
@@ -25,6 +20,11 @@ void write_pixels(const HalfPicture& size, std::uint32_t* out, std::size_t pitch
 }
 
 }  // namespace
+
+Vec3f pixel_of(const HalfPicture& picture, std::size_t index) {
+    const std::uint16_t* rgb = picture.rgb.data() + 3 * index;
+    return {from_half(rgb[0]), from_half(rgb[1]), from_half(rgb[2])};
+}
 
 HalfCodes::HalfCodes(const DisplaySettings& display) : display_(display), codes_(1u << 16) {
     const ToneTable table(display.curve);

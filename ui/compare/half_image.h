@@ -27,6 +27,9 @@ private:
     std::vector<std::uint16_t> codes_;
 };
 
+/// Linear value of a pixel by its index.
+Vec3f pixel_of(const HalfPicture& picture, std::size_t index);
+
 /// ARGB rows, `pitch` pixels apart.
 void write_half_picture(const HalfPicture& picture, const HalfCodes& codes, std::uint32_t* out, std::size_t pitch);
 

@@ -1,17 +1,22 @@
 #include "ui/draw/stream_texture.h"
 
+#include <cmath>
 #include <string>
 
 #include <SDL.h>
 
 #include "core/base/error.h"
+#include "ui/draw/picture_zoom.h"
 
 namespace pl {
 namespace {
 
 SDL_Rect to_sdl(const Rect& rect) {
-    return {static_cast<int>(rect.x), static_cast<int>(rect.y), static_cast<int>(rect.width),
-            static_cast<int>(rect.height)};
+    // By its edges, so that neighbors meet.
+    const auto pixel = [](float at) { return static_cast<int>(std::lround(at)); };
+    const int x = pixel(rect.x);
+    const int y = pixel(rect.y);
+    return {x, y, pixel(rect.x + rect.width) - x, pixel(rect.y + rect.height) - y};
 }
 
 }  // namespace
@@ -41,8 +46,9 @@ void StreamTexture::fill(const std::function<void(std::uint32_t* out, std::size_
     SDL_UnlockTexture(texture_);
 }
 
-void StreamTexture::draw(const Rect& target, const Rect& clip) {
+void StreamTexture::draw(const Rect& target, const Rect& clip, Scaling scaling) {
     if (texture_ == nullptr) return;
+    if (scaling == Scaling::Nearest && target.width > static_cast<float>(width_)) return draw_slices(target, clip);
     const SDL_Rect place = to_sdl(target);
     const SDL_Rect part = to_sdl(clip);
     const bool exact = place.w == width_ && place.h == height_;
@@ -50,6 +56,16 @@ void StreamTexture::draw(const Rect& target, const Rect& clip) {
     SDL_RenderSetClipRect(renderer_, &part);
     SDL_RenderCopy(renderer_, texture_, nullptr, &place);
     SDL_RenderSetClipRect(renderer_, nullptr);
+}
+
+/// The renderer cuts a large target at whole pixels of the texture, and would show them too wide or too narrow.
+void StreamTexture::draw_slices(const Rect& target, const Rect& clip) {
+    SDL_SetTextureScaleMode(texture_, SDL_ScaleModeNearest);
+    for (const PictureSlice& slice : visible_slices(target, clip, width_, height_)) {
+        const SDL_Rect from{slice.x, slice.y, slice.width, slice.height};
+        const SDL_Rect to = to_sdl(slice.place);
+        if (to.w > 0 && to.h > 0) SDL_RenderCopy(renderer_, texture_, &from, &to);
+    }
 }
 
 }  // namespace pl

@@ -11,6 +11,12 @@ struct SDL_Texture;
 
 namespace pl {
 
+/// The look of a texture that is drawn larger than it is.
+enum class Scaling {
+    Smooth,   ///< interpolated
+    Nearest,  ///< each pixel is a square
+};
+
 class StreamTexture {
 public:
     explicit StreamTexture(SDL_Renderer* renderer) : renderer_(renderer) {}
@@ -23,9 +29,11 @@ public:
     /// Calls `write` with ARGB8888 pixels and the length of a row in pixels, unless the texture cannot be locked.
     void fill(const std::function<void(std::uint32_t* out, std::size_t pitch)>& write);
     /// Draws it over `target`, clipped to `clip`. Nothing before the first resize().
-    void draw(const Rect& target, const Rect& clip);
+    void draw(const Rect& target, const Rect& clip, Scaling scaling = Scaling::Smooth);
 
 private:
+    void draw_slices(const Rect& target, const Rect& clip);
+
     SDL_Renderer* renderer_;
     SDL_Texture* texture_ = nullptr;
     int width_ = 0;

@@ -299,6 +299,7 @@ std::string short_number(double value) {
 }
 
 std::string short_value(double value) {
+    if (!std::isfinite(value)) return fmt::format("{}", value);
     const double magnitude = std::fabs(value);
     if (magnitude == 0.0 || (magnitude >= 0.01 && magnitude < 10000.0)) return fmt::format("{:.3g}", value);
     const int exponent = static_cast<int>(std::floor(std::log10(magnitude)));

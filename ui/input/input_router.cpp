@@ -17,6 +17,24 @@ KeyStroke stroke_of(const SDL_KeyboardEvent& event) {
             {.shift = (mod & KMOD_SHIFT) != 0, .ctrl = (mod & KMOD_CTRL) != 0, .alt = (mod & KMOD_ALT) != 0}};
 }
 
+std::optional<PointerButton> button_of(int button) {
+    switch (button) {
+    case SDL_BUTTON_LEFT: return PointerButton::Left;
+    case SDL_BUTTON_RIGHT: return PointerButton::Right;
+    case SDL_BUTTON_MIDDLE: return PointerButton::Middle;
+    default: return std::nullopt;
+    }
+}
+
+/// The meaning of a drag with the keys that are down now.
+Drag drag_of(PointerButton button) {
+    if (button == PointerButton::Right) return Drag::Look;
+    const SDL_Keymod mod = SDL_GetModState();
+    if ((mod & KMOD_CTRL) != 0) return Drag::PanPicture;
+    if ((mod & KMOD_SHIFT) != 0) return Drag::PanCamera;
+    return (mod & KMOD_ALT) != 0 || button == PointerButton::Middle ? Drag::Orbit : Drag::Look;
+}
+
 /// Actions that repeat while the key is held down.
 bool repeats(ActionId action) {
     switch (action) {
@@ -39,11 +57,8 @@ void InputRouter::handle(const SDL_Event& event, ViewerModel& model, const Conte
     case SDL_KEYUP: key_up(event.key); break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP: button(event.button, model, context); break;
-    case SDL_MOUSEMOTION: motion(event.motion, model); break;
-    case SDL_MOUSEWHEEL:
-        if (context.view.contains(pointer_) && !context.panels_want_pointer)
-            model.camera().change_speed(static_cast<float>(event.wheel.y));
-        break;
+    case SDL_MOUSEMOTION: motion(event.motion, model, context); break;
+    case SDL_MOUSEWHEEL: wheel(event.wheel.y, model, context); break;
     case SDL_DROPFILE:
         model.files().open(event.drop.file);
         SDL_free(event.drop.file);
@@ -77,28 +92,38 @@ void InputRouter::key_up(const SDL_KeyboardEvent& event) {
 }
 
 void InputRouter::button(const SDL_MouseButtonEvent& event, ViewerModel& model, const Context& context) {
-    if (event.button != SDL_BUTTON_LEFT && event.button != SDL_BUTTON_RIGHT) return;
-    const PointerButton which = event.button == SDL_BUTTON_LEFT ? PointerButton::Left : PointerButton::Right;
+    const auto which = button_of(event.button);
+    if (!which) return;
     const Vec2f position{static_cast<float>(event.x), static_cast<float>(event.y)};
     const bool was_captured = gesture_.captured();
     if (event.type == SDL_MOUSEBUTTONDOWN) {
         pointer_ = position;
-        gesture_.press(which, position, context.seconds,
-                       context.view.contains(position) && !context.panels_want_pointer);
-    } else if (const auto click = gesture_.release(which, context.seconds)) {
-        const Rect& image = context.image;
-        if (image.contains(*click)) {
-            const Vec2f point{(click->x - image.x) / image.width, (click->y - image.y) / image.height};
-            model.selection().pick(point);
-            model.paths().pick(point);
-        }
+        gesture_.press(*which, position, context.seconds,
+                       context.view.contains(position) && !context.panels_want_pointer, drag_of(*which));
+    } else if (const auto clicked = gesture_.release(*which, context.seconds)) {
+        click(*clicked, model, context);
     }
     if (gesture_.captured() != was_captured) SDL_SetRelativeMouseMode(gesture_.captured() ? SDL_TRUE : SDL_FALSE);
     // A drag continues outside the window.
     if (!gesture_.captured()) SDL_CaptureMouse(event.type == SDL_MOUSEBUTTONDOWN ? SDL_TRUE : SDL_FALSE);
 }
 
-void InputRouter::motion(const SDL_MouseMotionEvent& event, ViewerModel& model) {
+void InputRouter::click(Vec2f position, ViewerModel& model, const Context& context) const {
+    if (gesture_.is_double() && !model.window().zoom.is_whole()) return model.window().zoom.reset();
+    if (!context.image.contains(position)) return;
+    const Vec2f point = picture_point(context.image, position);
+    model.selection().pick(point);
+    model.paths().pick(point);
+}
+
+void InputRouter::wheel(int notches, ViewerModel& model, const Context& context) const {
+    if (!context.view.contains(pointer_) || context.panels_want_pointer) return;
+    if ((SDL_GetModState() & KMOD_CTRL) == 0) return model.camera().change_speed(static_cast<float>(notches));
+    const RenderSettings settings = model.render().settings();
+    model.window().zoom.step(notches, pointer_, context.view, settings.width, settings.height);
+}
+
+void InputRouter::motion(const SDL_MouseMotionEvent& event, ViewerModel& model, const Context& context) {
     if (!gesture_.captured()) pointer_ = {static_cast<float>(event.x), static_cast<float>(event.y)};
     if (skip_next_motion_) {
         skip_next_motion_ = false;
@@ -106,7 +131,20 @@ void InputRouter::motion(const SDL_MouseMotionEvent& event, ViewerModel& model) 
     }
     const Vec2f turn = gesture_.move({static_cast<float>(event.x), static_cast<float>(event.y)},
                                      {static_cast<float>(event.xrel), static_cast<float>(event.yrel)});
-    model.camera().look(turn);
+    switch (gesture_.drag()) {
+    case Drag::Look: model.camera().look(turn); break;
+    case Drag::Orbit: model.camera().orbit(turn, model.orbit_center()); break;
+    case Drag::PanCamera: {
+        const float height = context.image.height > 0.0f ? context.image.height : context.view.height;
+        model.camera().pan(turn, model.orbit_center(), height);
+        break;
+    }
+    case Drag::PanPicture: {
+        const RenderSettings settings = model.render().settings();
+        model.window().zoom.pan(turn, settings.width, settings.height);
+        break;
+    }
+    }
 }
 
 void InputRouter::let_go() {

@@ -29,6 +29,9 @@ public:
     /// The motion of the held keys.
     MoveKeys move_keys() const;
 
+    /// Whether the key of a held action is down.
+    bool is_held(ActionId action) const { return held_.contains(action); }
+
     /// The last position of the pointer.
     Vec2f pointer() const { return pointer_; }
 
@@ -39,7 +42,9 @@ private:
     void key_down(const SDL_KeyboardEvent& event, ViewerModel& model, const Context& context);
     void key_up(const SDL_KeyboardEvent& event);
     void button(const SDL_MouseButtonEvent& event, ViewerModel& model, const Context& context);
-    void motion(const SDL_MouseMotionEvent& event, ViewerModel& model);
+    void click(Vec2f position, ViewerModel& model, const Context& context) const;
+    void motion(const SDL_MouseMotionEvent& event, ViewerModel& model, const Context& context);
+    void wheel(int notches, ViewerModel& model, const Context& context) const;
     void let_go();
 
     SDL_Window* window_;

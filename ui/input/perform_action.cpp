@@ -70,13 +70,33 @@ void switch_lobe_shape(WindowState& window) {
     window.hemisphere = true;
 }
 
+/// The whole picture first: a camera that the user has set is not lost by a look at pixels.
+void go_home(ViewerModel& model) {
+    if (model.window().zoom.is_whole())
+        model.camera().go_home();
+    else
+        model.window().zoom.reset();
+}
+
+void look_at_point(ViewerModel& model) {
+    if (const auto& picked = model.selection().picked())
+        model.camera().look_at(picked->position);
+    else
+        model.messages().say(MessageLevel::Info, "click a surface first: the camera turns to that point");
+}
+
 /// Each function does a part of the actions; false for the others.
 bool perform_render_action(ViewerModel& model, ActionId id) {
     RenderControls& render = model.render();
     switch (id) {
     case ActionId::SpeedUp: model.camera().change_speed(1.0f); return true;
     case ActionId::SpeedDown: model.camera().change_speed(-1.0f); return true;
-    case ActionId::CameraHome: model.camera().go_home(); return true;
+    case ActionId::CameraHome: go_home(model); return true;
+    case ActionId::LookAtPoint: look_at_point(model); return true;
+    case ActionId::AddBookmark: model.bookmarks().add(); return true;
+    case ActionId::NextBookmark: model.bookmarks().step(1); return true;
+    case ActionId::PreviousBookmark: model.bookmarks().step(-1); return true;
+    case ActionId::PlayPath: model.flight().toggle(); return true;
     case ActionId::Restart: render.restart(); return true;
     case ActionId::Forget: render.forget(); return true;
     case ActionId::Pause: render.set_paused(!render.paused()); return true;
@@ -95,6 +115,8 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
     switch (id) {
     case ActionId::ExposureDown: step_exposure(display, -kExposureStep); return true;
     case ActionId::ExposureUp: step_exposure(display, kExposureStep); return true;
+    case ActionId::FollowExposure: model.exposure().set_on(!model.exposure().is_on()); return true;
+    case ActionId::Zoom: window.requests.zoom = true; return true;
     case ActionId::Cells: display.set_cells(!display.cells()); return true;
     case ActionId::CellsFainter: step_opacity(display, -kOpacityStep); return true;
     case ActionId::CellsStronger: step_opacity(display, kOpacityStep); return true;

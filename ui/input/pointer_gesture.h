@@ -9,20 +9,28 @@
 
 namespace pl {
 
-enum class PointerButton { Left, Right };
+enum class PointerButton { Left, Right, Middle };
+
+/// The meaning of a drag, decided when it begins.
+enum class Drag { Look, Orbit, PanCamera, PanPicture };
 
 class PointerGesture {
 public:
     static constexpr float kClickPixels = 4.0f;
     static constexpr double kClickSeconds = 0.25;
 
+    static constexpr double kDoubleClickSeconds = 0.4;  ///< between the clicks of a double click
+
     /// A button goes down, over the image or not. A second button does not interrupt the first.
-    void press(PointerButton button, Vec2f position, double seconds, bool over_image) {
+    void press(PointerButton button, Vec2f position, double seconds, bool over_image, Drag drag = Drag::Look) {
         if (active_ || !over_image) return;
-        active_ = Press{button, position, seconds, button == PointerButton::Right};
+        active_ = Press{button, position, seconds, button == PointerButton::Right, drag};
     }
 
-    /// The pointer moves. Returns the mouse movement that turns the camera.
+    /// Meaning of the drag under way.
+    Drag drag() const { return active_ ? active_->drag : Drag::Look; }
+
+    /// The pointer moves. Returns the mouse movement of the drag.
     Vec2f move(Vec2f position, Vec2f delta) {
         if (!active_) return Vec2f{0.0f};
         if (active_->turning) return delta;
@@ -37,9 +45,15 @@ public:
         if (!active_ || active_->button != button) return std::nullopt;
         const Press press = *active_;
         active_.reset();
-        if (press.turning || seconds - press.seconds > kClickSeconds) return std::nullopt;
+        if (press.turning || button != PointerButton::Left || seconds - press.seconds > kClickSeconds)
+            return std::nullopt;
+        const bool is_near = last_click_ && glm::length(press.position - last_click_->position) < kClickPixels;
+        is_double_ = is_near && seconds - last_click_->seconds < kDoubleClickSeconds;
+        last_click_ = Click{press.position, seconds};
         return press.position;
     }
+    /// Whether the last click followed another one in the same place.
+    bool is_double() const { return is_double_; }
 
     /// The window lost the focus: no button is held any more.
     void cancel() { active_.reset(); }
@@ -54,8 +68,15 @@ private:
         Vec2f position;
         double seconds;
         bool turning;
+        Drag drag;
+    };
+    struct Click {
+        Vec2f position;
+        double seconds;
     };
     std::optional<Press> active_;
+    std::optional<Click> last_click_;
+    bool is_double_ = false;
 };
 
 }  // namespace pl

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/gtc/quaternion.hpp>
+
 namespace pl {
 namespace {
 
@@ -68,6 +70,29 @@ void CameraControls::look(Vec2f pixels) {
     const float pitch = std::asin(std::clamp(glm::dot(forward, up), -1.0f, 1.0f));
     const float lifted = std::clamp(pitch - radians(pixels.y * deg_per_pixel), -limit, limit);
     camera_.target = camera_.eye + distance * (std::cos(lifted) * turned + std::sin(lifted) * up);
+}
+
+void CameraControls::orbit(Vec2f pixels, Vec3f center) {
+    const Vec3f up = up_axis(camera_);
+    const Vec3f forward = view_direction(camera_);
+    const Vec3f flat = horizontal_part(forward, up);
+    const Vec3f right = glm::cross(flat, up);
+    const float limit = radians(kMaxPitchDeg);
+    const float pitch = std::asin(std::clamp(glm::dot(forward, up), -1.0f, 1.0f));
+    const float lift = std::clamp(pitch - radians(pixels.y * kOrbitDegPerPixel), -limit, limit) - pitch;
+    const glm::quat turn = glm::angleAxis(-radians(pixels.x * kOrbitDegPerPixel), up) * glm::angleAxis(lift, right);
+    camera_.eye = center + turn * (camera_.eye - center);
+    camera_.target = center + turn * (camera_.target - center);
+}
+
+void CameraControls::pan(Vec2f pixels, float depth, float height_px) {
+    const Vec3f forward = view_direction(camera_);
+    const Vec3f right = glm::cross(horizontal_part(forward, up_axis(camera_)), up_axis(camera_));
+    const Vec3f above = glm::cross(right, forward);
+    const float per_pixel = 2.0f * depth * std::tan(0.5f * radians(camera_.fov_deg)) / std::max(height_px, 1.0f);
+    const Vec3f shift = per_pixel * (pixels.y * above - pixels.x * right);
+    camera_.eye += shift;
+    camera_.target += shift;
 }
 
 void CameraControls::change_speed(float notches) {

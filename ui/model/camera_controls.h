@@ -21,6 +21,7 @@ public:
     /// A slow frame must not make the camera jump: longer steps are cut.
     static constexpr double kLongestStepSeconds = 0.1;
     static constexpr float kLookDegPerPixel = 0.2f;
+    static constexpr float kOrbitDegPerPixel = 0.4f;
     static constexpr float kMaxPitchDeg = 89.0f;
 
     /// `scene_diagonal` > 0 sets the speed: a fifth of it per second.
@@ -35,6 +36,13 @@ public:
 
     /// Turns by a mouse movement in pixels; right and down are positive. The distance to the target is kept.
     void look(Vec2f pixels);
+
+    /// Turns the camera around `center` by a mouse movement in pixels, as if the scene was turned by it: the center keeps its
+    /// distance and its place in the picture. The horizon stays level.
+    void orbit(Vec2f pixels, Vec3f center);
+    /// Moves the camera across its view, so that a point at `depth` along the view follows a mouse movement in pixels.
+    /// `height_px` is the height of the picture in the window.
+    void pan(Vec2f pixels, float depth, float height_px);
 
     /// Scene units per second, from diagonal/1000 to 10 diagonals.
     float speed() const { return speed_; }

@@ -31,6 +31,30 @@ void CameraMotion::look(Vec2f pixels) {
     submit();
 }
 
+void CameraMotion::orbit(Vec2f pixels, Vec3f center) {
+    if (pixels.x == 0.0f && pixels.y == 0.0f) return;
+    controls_.orbit(pixels, center);
+    submit();
+}
+
+void CameraMotion::pan(Vec2f pixels, Vec3f at, float height_px) {
+    if (pixels.x == 0.0f && pixels.y == 0.0f) return;
+    const CameraDescription& camera = controls_.camera();
+    const Vec3f ahead = camera.target - camera.eye;
+    const float depth = glm::dot(at - camera.eye, glm::normalize(ahead));
+    controls_.pan(pixels, depth > 0.0f ? depth : glm::length(ahead), height_px);
+    submit();
+}
+
+void CameraMotion::look_at(Vec3f position) {
+    CameraDescription camera = controls_.camera();
+    const float distance = glm::length(position - camera.eye);
+    if (!(distance > 0.0f)) return;
+    camera.target = position;
+    if (camera.aperture_radius > 0.0f) camera.focus_distance = distance;
+    set(camera);
+}
+
 void CameraMotion::change_speed(float notches) {
     constexpr double kShownSeconds = 1.5;
     controls_.change_speed(notches);

@@ -28,11 +28,16 @@ public:
 
     void fly(const MoveKeys& keys, double seconds);
     void look(Vec2f pixels);
+    void orbit(Vec2f pixels, Vec3f center);
+    /// See CameraControls::pan().
+    void pan(Vec2f pixels, Vec3f at, float height_px);
     void change_speed(float notches);
     void go_home();
     void set(const CameraDescription& camera);
     /// Sets the focus distance to a point in front of the camera.
     void focus_on(Vec3f position);
+    /// Looks at a point; a lens is focused on it.
+    void look_at(Vec3f position);
     /// Another scene: its own camera is home, and the camera stays if `keep` is set.
     void open(const CameraDescription& home, float scene_diagonal, bool keep);
     /// The picture changes with every frame of the window, as in motion: it may be coarse until the changes end.

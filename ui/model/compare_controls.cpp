@@ -20,7 +20,7 @@ CompareInput CompareControls::input() const {
             .reference = references_.current()};
 }
 
-ComparePlan CompareControls::plan(const Rect& view) const {
+ComparePlan CompareControls::plan(const Rect& view, const PictureZoom& zoom) const {
     if (state_.mode == CompareMode::Off || link_.status().picture == 0) return {};
     CompareSides sides;
     if (const auto& turns = link_.turns()) {
@@ -31,7 +31,7 @@ ComparePlan CompareControls::plan(const Rect& view) const {
         for (auto* side : {&sides.a, &sides.b})
             if (*side) show_newer(**side, link_.frame());
     }
-    return plan_comparison(sides, state_, references_.current(), view);
+    return plan_comparison(sides, state_, references_.current(), view, zoom);
 }
 
 void CompareControls::set_mode(CompareMode mode) {

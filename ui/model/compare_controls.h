@@ -21,7 +21,7 @@ public:
 
     const CompareState& state() const { return state_; }
     /// The tiles of the comparison in `view`; none without a comparison, and while the camera moves.
-    ComparePlan plan(const Rect& view) const;
+    ComparePlan plan(const Rect& view, const PictureZoom& zoom = {}) const;
     void set_mode(CompareMode mode);
     void step_mode(int steps);
     void flip();  ///< to the other side

@@ -58,7 +58,11 @@ void PictureFiles::save(std::initializer_list<const char*> suffixes) {
         return;
     }
     const std::filesystem::path name = names_.next(scene_, info_of(link_.frame()->settings.method).name, suffixes);
-    for (const char* suffix : suffixes) unsaved_.push_back(name.string() + suffix);
+    for (const char* suffix : suffixes) save_as(name.string() + suffix);
+}
+
+void PictureFiles::save_as(const std::filesystem::path& path) {
+    unsaved_.push_back(path);
     deadline_ = messages_.now() + kSaveSeconds;
     link_.worker().set_values_wanted(true);
     write_unsaved();

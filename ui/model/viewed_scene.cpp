@@ -12,7 +12,7 @@ namespace pl {
 namespace {
 
 /// Means the same in every working directory.
-std::string lasting_name(const std::string& name) {
+std::string lasting(const std::string& name) {
     const std::filesystem::path path(name);
     return path.has_extension() ? std::filesystem::absolute(path).lexically_normal().string() : name;
 }
@@ -33,9 +33,11 @@ ViewedScene::ViewedScene(const ModelServices& services, CameraMotion& camera, Se
       name_(services.options.scene_name), materials_(scene), knobs_(scene->knobs),
       loader_(services, [this](const LoadOrder& order, std::shared_ptr<const SceneDescription> loaded,
                                const std::string& failure) { finish(order, std::move(loaded), failure); }) {
-    recent_.add(lasting_name(name_));
+    recent_.add(lasting(name_));
     watch_.watch(files_of(*scene));
 }
+
+std::string ViewedScene::lasting_name() const { return lasting(name_); }
 
 void ViewedScene::update() {
     const auto changed = watch_.take_change();
@@ -44,7 +46,7 @@ void ViewedScene::update() {
 
 void ViewedScene::remember(const std::vector<std::string>& recent) {
     recent_.set(recent);
-    recent_.add(lasting_name(name_));
+    recent_.add(lasting(name_));
 }
 
 KnobValues ViewedScene::turned(const std::vector<KnobDescription>& knobs) {
@@ -105,7 +107,7 @@ void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescr
     materials_.open(scene);
     watch_.watch(files_of(*scene));
     name_ = order.scene.name;
-    recent_.add(lasting_name(name_));
+    recent_.add(lasting(name_));
     camera_.open(scene->camera, bounds_of(*scene).diagonal(), order.reason == LoadReason::Reload);
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.say(MessageLevel::Info, fmt::format("opened {}: {} triangles", name_, scene->triangles.size()));

@@ -27,6 +27,8 @@ public:
 
     /// As load_scene takes it.
     const std::string& name() const { return name_; }
+    /// The name as it means the same in every working directory.
+    std::string lasting_name() const;
     /// The name with the knobs of the loaded scene that are not at their defaults.
     SceneRequest shown() const { return {name_, turned(materials_.file()->knobs)}; }
     /// The rendered scene, with the edited materials.

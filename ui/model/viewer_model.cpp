@@ -33,7 +33,9 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       self_test_({options, messages_, jobs_, link_}),
       files_({options, messages_, jobs_, link_}, scene_, render_, display_),
       open_dialog_({options, messages_, jobs_, link_}, files_), paths_(link_, messages_), time_(link_),
-      flowers_(link_, time_), gain_marks_(link_) {
+      flowers_(link_, time_), gain_marks_(link_), exposure_(link_, display_),
+      bookmarks_({options, messages_, jobs_, link_}, scene_, camera_), flight_(bookmarks_, camera_, messages_),
+      sequence_({options, messages_, jobs_, link_}, bookmarks_, camera_, render_, files_.pictures()) {
     if (options.field) link_.worker().submit(EditLearned{options.field});
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.note(MessageLevel::Info,
@@ -52,7 +54,12 @@ void ViewerModel::update(double seconds) {
     scene_.update();
     open_dialog_.update();
     files_.pictures().update();
-    link_.worker().set_values_wanted(window_.values_shown || files_.pictures().is_waiting());
+    link_.worker().set_values_wanted(window_.values_shown || files_.pictures().is_waiting() ||
+                                     exposure_.needs_values());
+    exposure_.update();
+    bookmarks_.update();
+    flight_.update(seconds);
+    sequence_.update();
     references_.update();
     comparison_.update();
     for (const WorkerMessage& message : link_.worker().take_messages())
@@ -71,9 +78,14 @@ void ViewerModel::update(double seconds) {
     messages_.drop_expired();
 }
 
+Vec3f ViewerModel::orbit_center() const {
+    const auto& picked = selection_.picked();
+    return picked ? picked->position : camera_.camera().target;
+}
+
 bool ViewerModel::busy() const {
     return jobs_.pending() > 0 || files_.pictures().is_waiting() || references_.is_making() ||
-           diagnostics_.is_searching() || self_test_.run().is_running();
+           diagnostics_.is_searching() || self_test_.run().is_running() || sequence_.progress().has_value();
 }
 
 std::string ViewerModel::title() const {
@@ -94,6 +106,10 @@ void ViewerModel::cancel() {
         self_test_.stop();
     else if (self_test_.is_shown())
         self_test_.is_shown() = false;
+    else if (sequence_.progress())
+        sequence_.stop();
+    else if (flight_.is_flying())
+        flight_.stop();
     else if (status().state == WorkerState::Precomputing)
         render_.cancel_precomputation();
     else if (references_.is_making())

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "ui/model/auto_exposure.h"
+#include "ui/model/camera_flight.h"
 #include "ui/model/compare_controls.h"
 #include "ui/model/diagnostics_search.h"
 #include "ui/model/effect_trials.h"
@@ -75,6 +77,17 @@ public:
     const GainMarks& gain_marks() const { return gain_marks_; }
     PathExplorer& paths() { return paths_; }
     const PathExplorer& paths() const { return paths_; }
+    AutoExposure& exposure() { return exposure_; }
+    const AutoExposure& exposure() const { return exposure_; }
+    CameraBookmarks& bookmarks() { return bookmarks_; }
+    const CameraBookmarks& bookmarks() const { return bookmarks_; }
+    CameraFlight& flight() { return flight_; }
+    const CameraFlight& flight() const { return flight_; }
+    SequenceWriter& sequence() { return sequence_; }
+    const SequenceWriter& sequence() const { return sequence_; }
+
+    /// The center of orbits: the picked point, else the camera's target.
+    Vec3f orbit_center() const;
 
     /// Background work or unsaved files.
     bool busy() const;
@@ -105,6 +118,10 @@ private:
     LearningTime time_;
     FieldFlowers flowers_;
     GainMarks gain_marks_;
+    AutoExposure exposure_;
+    CameraBookmarks bookmarks_;
+    CameraFlight flight_;
+    SequenceWriter sequence_;
 };
 
 }  // namespace pl

@@ -1,9 +1,12 @@
 // The look of the window: panels, overlays, scale. Nothing in it reaches the rendering.
 #pragma once
 
+#include <optional>
+
 #include "ui/draw/direction_disc.h"
 #include "ui/draw/layout.h"
 #include "ui/draw/lobes.h"
+#include "ui/draw/picture_zoom.h"
 #include "ui/plot/plot_drag.h"
 
 namespace pl {
@@ -34,6 +37,7 @@ struct WindowRequests {
     bool window_shot = false;
     bool quit = false;
     bool reset = false;     ///< everything as at a first start
+    bool zoom = false;      ///< 1:1 around the pointer, or the whole picture
     bool fit_size = false;  ///< sets the largest picture that fits into the window
 };
 
@@ -43,7 +47,10 @@ struct WindowState {
     bool help = false;
     bool hemisphere = true;                  ///< of the selected volume and the pinned ones, in the picture
     LobeShape lobe_shape = LobeShape::Lobe;  ///< of that
-    bool values_shown = false;               ///< the pixel tab shows values of the picture
+    bool values_shown = false;               ///< something shows values of the picture
+    PictureZoom zoom;                        ///< of the picture
+    bool magnifier = false;                  ///< beside the pointer
+    std::optional<PointedPixel> pointed{};   ///< the pixel under the pointer; empty away from the picture
     float ui_scale = 1.0f;
     CellDisplay cell_display;
     PlotState plot;

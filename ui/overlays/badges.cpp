@@ -190,6 +190,13 @@ void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     if (model.frame() != nullptr && model.frame()->backend.name != wanted && status.state != WorkerState::Failed)
         row.add("switching to " + back_end_label(wanted), colors::kWarning);
     if (model.render().paused()) row.add("paused", colors::kWarning);
+    if (!model.window().zoom.is_whole())
+        row.add(fmt::format("zoom {:.4g}x", model.window().zoom.scale()), colors::kAccent);
+    if (model.exposure().is_on())
+        row.add(fmt::format("automatic exposure {:+.2f} EV", model.display().settings().exposure_ev), colors::kText);
+    if (const auto writing = model.sequence().progress())
+        row.add(fmt::format("writing frame {} of {}, Esc stops", writing->written + 1, writing->frames),
+                colors::kWarning);
     if (status.state == WorkerState::Done) row.add("done", colors::kGood);
     if (status.state == WorkerState::Failed) row.add("rendering failed, see the log", colors::kError);
     if (!info_of(model.render().settings().method).learns || !status.field) return;

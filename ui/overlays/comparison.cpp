@@ -40,16 +40,18 @@ void draw_label(ImDrawList& list, const CompareTile& tile) {
 }
 
 /// A narrow window around the line, which takes the presses on it and no others.
-void draw_handle(ViewerModel& model, const Rect& place, float x) {
-    ImGui::SetNextWindowPos({x - 0.5f * kHandlePixels, place.y});
-    ImGui::SetNextWindowSize({kHandlePixels, place.height});
+void draw_handle(ViewerModel& model, const CompareTile& tile, float x) {
+    const Rect& place = tile.place;
+    const Rect& seen = tile.clip;
+    ImGui::SetNextWindowPos({x - 0.5f * kHandlePixels, seen.y});
+    ImGui::SetNextWindowSize({kHandlePixels, seen.height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
     ImGui::Begin("split", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
-    ImGui::InvisibleButton("line", {kHandlePixels, place.height});
+    ImGui::InvisibleButton("line", {kHandlePixels, seen.height});
     const bool held = ImGui::IsItemActive();
     const bool lit = held || ImGui::IsItemHovered();
     if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
@@ -57,10 +59,9 @@ void draw_handle(ViewerModel& model, const Rect& place, float x) {
     ImGui::PopStyleVar(2);
     if (held) model.comparison().set_split((ImGui::GetIO().MousePos.x - place.x) / place.width);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const float middle = place.y + 0.5f * place.height;
+    const float middle = seen.y + 0.5f * seen.height;
     note_place("split line", {x - em(0.5f), middle - em(0.5f), em(1.0f), em(1.0f)});
-    list.AddRectFilled({x - 1.0f, place.y}, {x + 1.0f, place.y + place.height},
-                       lit ? colors::kAccent : colors::kText);
+    list.AddRectFilled({x - 1.0f, seen.y}, {x + 1.0f, seen.y + seen.height}, lit ? colors::kAccent : colors::kText);
     list.AddCircleFilled({x, middle}, em(0.5f), lit ? colors::kAccent : colors::kText, 20);
 }
 
@@ -75,7 +76,7 @@ float top_of_names(const ComparePlan& plan) {
 void draw_comparison(ViewerModel& model, const ComparePlan& plan) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const CompareTile& tile : plan.tiles) draw_label(list, tile);
-    if (plan.split_x) draw_handle(model, plan.tiles.front().place, *plan.split_x);
+    if (plan.split_x) draw_handle(model, plan.tiles.front(), *plan.split_x);
 }
 
 }  // namespace pl

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ui/draw/layout.h"
+#include "ui/draw/magnifier.h"
 #include "ui/model/viewer_model.h"
 
 namespace pl {
@@ -17,6 +18,10 @@ void draw_path_lines(ViewerModel& model, const Rect& image);
 
 /// A mark for each tile of the picture: whether its method gains or loses there against default.
 void draw_gain_marks(const ViewerModel& model, const Rect& image);
+
+/// The values of pixels that are large enough for them, and the border and label of the magnifier.
+void draw_pixels(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan,
+                 const Magnifier* magnifier);
 
 /// Labels of the compared pictures, and the line between two of them, which can be dragged.
 void draw_comparison(ViewerModel& model, const ComparePlan& plan);

@@ -105,6 +105,8 @@ void draw_surface(const PublishedFrame& frame, const HoveredPixel& pixel) {
 }  // namespace
 
 void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hovered) {
+    draw_histogram(model);
+    if (!section("Under the pointer", true)) return;
     const PublishedFrame* frame = model.frame();
     if (!hovered || frame == nullptr) {
         faint_text("Move the pointer over the picture.");

@@ -26,6 +26,12 @@ void draw_borders(ViewerModel& model, const Layout& layout);
 inline bool is_research(const ViewerModel& model) { return model.window().layout == WindowLayout::Research; }
 /// A part of the settings: the learned field, and how it learns.
 void draw_learning_section(ViewerModel& model);
+/// Bookmarks and the path through them, in the settings.
+void draw_cameras(ViewerModel& model);
+/// In the settings: the switch of the automatic exposure.
+void draw_auto_exposure(ViewerModel& model);
+/// The histogram of the picture with marks of the exposure, in the pixel tab.
+void draw_histogram(ViewerModel& model);
 
 // Tabs of the right panel.
 void draw_volume_tab(ViewerModel& model);

@@ -177,6 +177,7 @@ void draw_view(ViewerModel& model) {
     float exposure = model.display().settings().exposure_ev;
     if (slider_row("Exposure", "In stops; display only.", &exposure, {-8.0f, 8.0f, 0.0f, "%+.2f EV"}))
         model.display().set_exposure(exposure);
+    draw_auto_exposure(model);
 }
 
 void draw_tone_curve(ViewerModel& model) {
@@ -261,6 +262,7 @@ void draw_settings_panel(ViewerModel& model, const Layout& layout) {
     draw_method(model);
     draw_back_end(model);
     draw_display(model);
+    draw_cameras(model);
     draw_sampling(model);
     draw_learning_section(model);
     if (is_research(model)) draw_camera(model);

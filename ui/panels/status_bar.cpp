@@ -64,6 +64,18 @@ void draw_diagnostics(StatusLine& line, ViewerModel& model) {
     if (is_clicked) model.diagnostics().toggle();
 }
 
+/// Place and value of the pixel under the pointer.
+void draw_pointed(StatusLine& line, ViewerModel& model) {
+    const std::optional<PointedPixel>& pointed = model.window().pointed;
+    if (!pointed) return;
+    model.window().values_shown = true;
+    std::string text = fmt::format("{},{}", pointed->at.x, pointed->at.y);
+    if (const auto& value = pointed->value)
+        text += fmt::format(":  {}  {}  {}", short_value(value->x), short_value(value->y), short_value(value->z));
+    line.add(text, "Pixel under the pointer, from the top left, and its linear red, green and blue.");
+    note_place("pointed pixel");
+}
+
 std::string samples_text(const ViewerModel& model) {
     const SampleLimits& limits = model.render().limits();
     std::string text = limits.spp > 0 ? fmt::format("{}/{} spp", model.status().passes, limits.spp)
@@ -98,6 +110,7 @@ void draw_status_bar(ViewerModel& model, const Layout& layout) {
     line.add(fmt::format("{:.2f} Mpaths/s", model.link().throughput().mpaths_per_second()),
              "Camera paths per second of rendering.");
     draw_counts(line, model);
+    draw_pointed(line, model);
     ImGui::End();
 }
 

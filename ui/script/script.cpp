@@ -92,23 +92,28 @@ int read_button(LineReader& line) {
     line.fail(fmt::format("expected left, right or middle, got '{}'", name));
 }
 
+/// The rest of the line.
+Modifiers read_modifiers(LineReader& line) {
+    Modifiers modifiers;
+    while (const auto modifier = line.next()) {
+        if (*modifier == "shift")
+            modifiers.shift = true;
+        else if (*modifier == "ctrl")
+            modifiers.ctrl = true;
+        else if (*modifier == "alt")
+            modifiers.alt = true;
+        else
+            line.fail(fmt::format("expected shift, ctrl or alt, got '{}'", *modifier));
+    }
+    return modifiers;
+}
+
 KeyStroke read_key(LineReader& line) {
     const std::string name = line.word("a key");
     const SDL_Scancode scancode = SDL_GetScancodeFromName(name.c_str());
     if (scancode == SDL_SCANCODE_UNKNOWN)
         line.fail(fmt::format("expected the name of a key such as W, Space, F12 or [, got '{}'", name));
-    KeyStroke key{scancode, 0, {}};  // the symbol follows from the keyboard layout
-    while (const auto modifier = line.next()) {
-        if (*modifier == "shift")
-            key.modifiers.shift = true;
-        else if (*modifier == "ctrl")
-            key.modifiers.ctrl = true;
-        else if (*modifier == "alt")
-            key.modifiers.alt = true;
-        else
-            line.fail(fmt::format("expected shift, ctrl or alt, got '{}'", *modifier));
-    }
-    return key;
+    return {scancode, 0, read_modifiers(line)};  // the symbol follows from the keyboard layout
 }
 
 ScriptCondition read_condition(LineReader& line) {
@@ -142,8 +147,14 @@ void read_arguments(LineReader& line, std::string_view word, ScriptCommand& comm
         if (command.x < 1.0 || command.y < 1.0) line.fail("expected a width and a height of at least 1");
         break;
     case Kind::Down:
+        command.button = read_button(line);
+        command.key.modifiers = read_modifiers(line);
+        break;
     case Kind::Up: command.button = read_button(line); break;
-    case Kind::Wheel: command.x = line.number("a number of notches"); break;
+    case Kind::Wheel:
+        command.x = line.number("a number of notches");
+        command.key.modifiers = read_modifiers(line);
+        break;
     case Kind::Key:
     case Kind::KeyUp:
     case Kind::Tap: command.key = read_key(line); break;

@@ -1,6 +1,7 @@
 // Scripted input: keys and mouse as events of the real window, counted in frames of the window. The automated test of
 // the user interface, on SDL's dummy driver. One command per line, '#' starts a comment:
-//   FRAME move X Y | aim U V | aim_plot U V | aim_at U V LABEL | down B | up B | wheel N | key K [MODS] | keyup K
+//   FRAME move X Y | aim U V | aim_plot U V | aim_at U V LABEL | down B [MODS] | up B | wheel N [MODS]
+//   FRAME key K [MODS] | keyup K
 //   FRAME tap K [MODS] | resize W H | drop FILE
 //   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE | wait_spp N | quit
 // B is left, right or middle; MODS are shift, ctrl, alt. `aim` points at the image: (0, 0) is its top left corner and

@@ -54,6 +54,7 @@ ScriptPlayer::ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* wind
 
 void ScriptPlayer::step(ViewerModel& model, const Rect& image, double seconds) {
     for (const KeyStroke& key : std::exchange(tapped_, {})) push_key(key, false);
+    if (buttons_ == 0) SDL_SetModState(KMOD_NONE);  // of a wheel, or of a button that is up again
     while (next_ < commands_.size() && commands_[next_].frame <= frame_) {
         if (!run(commands_[next_], model, image, seconds)) return;  // the frame count stands still
         ++next_;
@@ -83,9 +84,10 @@ bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const R
     case Kind::Aim: push_motion(point_in(image, command)); break;
     case Kind::AimPlot: push_motion(point_in(model.window().plot.frame, command)); break;
     case Kind::AimAt: push_motion(point_in(place_of(command), command)); break;
-    case Kind::Down:
+    case Kind::Down: SDL_SetModState(static_cast<SDL_Keymod>(sdl_modifiers(command.key.modifiers))); [[fallthrough]];
     case Kind::Up: push_button(command.button, command.kind == Kind::Down); break;
     case Kind::Wheel: {
+        SDL_SetModState(static_cast<SDL_Keymod>(sdl_modifiers(command.key.modifiers)));
         SDL_Event event{};
         event.type = SDL_MOUSEWHEEL;
         event.wheel.windowID = SDL_GetWindowID(window_);

@@ -86,6 +86,18 @@ std::string headline_text(const ViewerModel& model) {
     return text;
 }
 
+/// "96,134", "none".
+std::string pointed_at(const ViewerModel& model) {
+    const auto& pointed = model.window().pointed;
+    return pointed ? fmt::format("{},{}", pointed->at.x, pointed->at.y) : "none";
+}
+
+/// Linear red, green and blue, "none".
+std::string pointed_value(const ViewerModel& model) {
+    const auto& pointed = model.window().pointed;
+    return pointed && pointed->value ? comma_text(*pointed->value) : "none";
+}
+
 /// "opening=17.9", "none".
 std::string knob_text(const std::vector<KnobDescription>& knobs) {
     std::string text;
@@ -239,6 +251,26 @@ constexpr std::array kValues{
           }},
     Value{"kernel",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
+    Value{"zoom", [](const ViewerModel& m) { return fmt::format("{:.4g}", m.window().zoom.scale()); }},
+    Value{"pixel", pointed_at},
+    Value{"pixel_value", pointed_value},
+    Value{"magnifier", [](const ViewerModel& m) { return word(m.window().magnifier); }},
+    Value{"values_shown", [](const ViewerModel& m) { return word(m.window().values_shown); }},
+    Value{"histograms", [](const ViewerModel& m) { return fmt::format("{}", m.exposure().times_made()); }},
+    Value{"auto_exposure", [](const ViewerModel& m) { return word(m.exposure().is_on()); }},
+    Value{"bookmarks", [](const ViewerModel& m) { return fmt::format("{}", m.bookmarks().list().size()); }},
+    Value{"bookmark",
+          [](const ViewerModel& m) {
+              const auto current = m.bookmarks().current();
+              return current ? fmt::format("{}", *current + 1) : std::string("none");
+          }},
+    Value{"flying", [](const ViewerModel& m) { return word(m.flight().is_flying()); }},
+    Value{"writing", [](const ViewerModel& m) { return word(m.sequence().progress().has_value()); }},
+    Value{"picked",
+          [](const ViewerModel& m) {
+              const auto& picked = m.selection().picked();
+              return picked ? comma_text(picked->position) : std::string("none");
+          }},
     Value{"diagnostics", diagnostics_found},
     Value{"searching", [](const ViewerModel& m) { return word(m.diagnostics().share().has_value()); }},
     Value{"selftest", [](const ViewerModel& m) { return std::string(name_of(m.self_test().run().outcome())); }},

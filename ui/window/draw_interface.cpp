@@ -3,7 +3,7 @@
 namespace pl {
 
 void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan,
-                    const std::optional<HoveredPixel>& hovered) {
+                    const std::optional<HoveredPixel>& hovered, const Magnifier* magnifier) {
     if (layout.panels) {
         draw_menu_bar(model, layout);
         if (layout.left.width > 0.0f) draw_settings_panel(model, layout);
@@ -16,9 +16,10 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
     if (plan.at_image) draw_hemisphere(model, image);
     if (plan.at_image) draw_gain_marks(model, image);
     if (plan.at_image) draw_path_lines(model, image);
+    draw_pixels(model, layout, image, plan, magnifier);
     draw_comparison(model, plan);
     if (layout.panels) draw_badges(model, layout, plan);
-    draw_tour(model, layout, image, plan);
+    draw_tour(model, layout, common_part(image, layout.view), plan);
     draw_toasts(model, layout, plan);
     draw_self_test(model, layout);
     draw_open_dialog(model, layout);

@@ -9,7 +9,7 @@ namespace pl {
 
 Rect ImageLayer::place(const ViewerModel& model, const Rect& view) const {
     const RenderSettings settings = model.frame() != nullptr ? model.frame()->settings : model.render().settings();
-    return place_image(view, settings.width, settings.height);
+    return model.window().zoom.place(view, settings.width, settings.height);
 }
 
 /// At a time of the past: the entropy of the volumes at that time; null for the present.
@@ -41,7 +41,7 @@ void ImageLayer::fill(const ViewerModel& model, const Key& key) {
     });
 }
 
-void ImageLayer::draw(const ViewerModel& model, const Rect& image) {
+void ImageLayer::draw(const ViewerModel& model, const Rect& image, const Rect& view) {
     if (model.frame() == nullptr) return;
     const Snapshot& snapshot = model.frame()->snapshot;
     if (texture_.resize(snapshot.width, snapshot.height)) key_ = {};
@@ -51,7 +51,8 @@ void ImageLayer::draw(const ViewerModel& model, const Rect& image) {
         fill(model, key);
         key_ = key;
     }
-    texture_.draw(image, image);
+    texture_.draw(image, common_part(image, view),
+                  model.window().zoom.is_whole() ? Scaling::Smooth : Scaling::Nearest);
 }
 
 }  // namespace pl

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "ui/draw/layout.h"
+#include "ui/draw/magnifier.h"
 #include "ui/draw/stream_texture.h"
 #include "ui/model/viewer_model.h"
 #include "ui/worker/cell_colors.h"
@@ -17,8 +17,10 @@ public:
     /// The rectangle of the picture within `view`: of the frame in the window, else of the settings.
     Rect place(const ViewerModel& model, const Rect& view) const;
 
-    /// Nothing before the first frame.
-    void draw(const ViewerModel& model, const Rect& image);
+    /// The part of the picture in `view`. Nothing before the first frame.
+    void draw(const ViewerModel& model, const Rect& image, const Rect& view);
+    /// The picture as drawn last, again in the magnifier's box.
+    void magnify(const Magnifier& magnifier) { texture_.draw(magnifier.image, magnifier.box, Scaling::Nearest); }
 
 private:
     /// Everything that the texture's pixels depend on.

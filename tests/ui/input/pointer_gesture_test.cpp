@@ -43,3 +43,31 @@ TEST_CASE("Pointer gesture: who owns a drag is decided at the press") {
     gesture.cancel();
     CHECK_FALSE(gesture.captured());
 }
+
+TEST_CASE("Pointer gesture: the meaning of a drag is that of its press") {
+    PointerGesture gesture;
+    gesture.press(PointerButton::Middle, {100.0f, 100.0f}, 1.0, true, Drag::Orbit);
+    CHECK(gesture.drag() == Drag::Orbit);
+    CHECK_FALSE(gesture.captured());
+    CHECK(gesture.move({110.0f, 100.0f}, {10.0f, 0.0f}) == Vec2f{10.0f, 0.0f});
+    gesture.press(PointerButton::Left, {110.0f, 100.0f}, 1.1, true, Drag::PanCamera);  // does not interrupt
+    CHECK(gesture.drag() == Drag::Orbit);
+    CHECK_FALSE(gesture.release(PointerButton::Middle, 1.2));
+    CHECK(gesture.drag() == Drag::Look);
+    // Only the left button selects.
+    gesture.press(PointerButton::Middle, {100.0f, 100.0f}, 2.0, true, Drag::Orbit);
+    CHECK_FALSE(gesture.release(PointerButton::Middle, 2.1));
+}
+
+TEST_CASE("Pointer gesture: two clicks in one place within a short time are a double click") {
+    PointerGesture gesture;
+    const auto click = [&](Vec2f at, double seconds) {
+        gesture.press(PointerButton::Left, at, seconds, true);
+        REQUIRE(gesture.release(PointerButton::Left, seconds + 0.05));
+        return gesture.is_double();
+    };
+    CHECK_FALSE(click({50.0f, 50.0f}, 1.0));
+    CHECK(click({51.0f, 50.0f}, 1.2));
+    CHECK_FALSE(click({51.0f, 50.0f}, 2.0));
+    CHECK_FALSE(click({80.0f, 50.0f}, 2.2));
+}

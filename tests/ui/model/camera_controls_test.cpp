@@ -106,3 +106,39 @@ TEST_CASE("Camera controls: speed follows the scene and stays within its limits"
     // A scene without extent still has a speed.
     CHECK(CameraControls(home_camera(), 0.0f).speed() > 0.0f);
 }
+
+TEST_CASE("Camera controls: an orbit keeps the center's distance and its place in the picture, and the horizon") {
+    const Vec3f center{250.0f, 200.0f, 100.0f};
+    CameraControls controls(home_camera(), 1000.0f);
+    const auto seen = [&] {  // in the camera's own frame
+        const CameraDescription& camera = controls.camera();
+        const Vec3f forward = direction(camera);
+        const Vec3f right = glm::normalize(glm::cross(forward, camera.up));
+        const Vec3f away = center - camera.eye;
+        return Vec3f{glm::dot(away, right), glm::dot(away, glm::cross(right, forward)), glm::dot(away, forward)};
+    };
+    const Vec3f before = seen();
+    for (const Vec2f pixels :
+         {Vec2f{40.0f, 0.0f}, Vec2f{0.0f, -60.0f}, Vec2f{-333.0f, 20.0f}, Vec2f{10.0f, 5000.0f}}) {
+        controls.orbit(pixels, center);
+        check_close(seen(), before, 0.05f);
+        CHECK(std::fabs(pitch_deg(controls.camera())) <= CameraControls::kMaxPitchDeg + 0.01f);
+        CHECK(controls.camera().up == home_camera().up);
+    }
+    // To the right: the scene turns with the pointer, the camera goes left around it.
+    CameraControls right(home_camera(), 1000.0f);
+    right.orbit({50.0f, 0.0f}, center);
+    const Vec3f own_right = glm::cross(direction(home_camera()), home_camera().up);
+    CHECK(glm::dot(right.camera().eye - home_camera().eye, own_right) < 0.0f);
+}
+
+TEST_CASE("Camera controls: a pan moves a point at the depth by the pointer's pixels") {
+    CameraControls controls(home_camera(), 1000.0f);
+    const float depth = 500.0f;
+    const float height_px = 400.0f;
+    controls.pan({30.0f, -20.0f}, depth, height_px);
+    const float per_pixel = 2.0f * depth * std::tan(0.5f * home_camera().fov_deg * kPi / 180.0f) / height_px;
+    // Right is -x for a camera that looks along +z with +y up.
+    check_close(controls.camera().eye - home_camera().eye, {30.0f * per_pixel, -20.0f * per_pixel, 0.0f}, 1.0e-3f);
+    check_close(direction(controls.camera()), direction(home_camera()), 1.0e-6f);
+}

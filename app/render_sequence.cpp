@@ -1,0 +1,125 @@
+#include "app/render_sequence.h"
+
+#include <fmt/format.h>
+
+#include "app/frame_names.h"
+#include "app/picture_metadata.h"
+#include "app/run_passes.h"
+#include "app/stats_json.h"
+#include "core/base/error.h"
+#include "core/io/camera_file.h"
+#include "core/io/files.h"
+#include "core/io/picture_file.h"
+#include "core/scene/camera_path.h"
+
+namespace pl {
+namespace {
+
+constexpr int kFirstNumber = 1;
+constexpr int kFramesPerCamera = 24;
+
+/// Throws Error(Input) that names the file of a path with too few cameras.
+CameraPath load_path(const Options& options) {
+    std::vector<CameraDescription> cameras = load_cameras(options.camera_path, options.render.camera);
+    if (cameras.size() < CameraPath::kFewest)
+        throw Error(ErrorKind::Input, fmt::format("{}: 'cameras': expected at least {} cameras, got {}",
+                                                  options.camera_path, CameraPath::kFewest, cameras.size()));
+    return CameraPath(std::move(cameras));
+}
+
+class Sequence {
+public:
+    Sequence(Session& session, const Options& options, const std::string& command, const InterruptGuard& interrupt,
+             Console& console)
+        : session_(session), options_(options), command_(command), interrupt_(interrupt), console_(console),
+          path_(load_path(options)), names_(options.output),
+          frames_(options.frames > 0 ? options.frames : kFramesPerCamera * static_cast<int>(path_.size() - 1) + 1) {}
+
+    /// Until all frames are written, or the run is interrupted.
+    void render() {
+        while (written_ < frames_ && render_frame(written_)) ++written_;
+    }
+    bool is_complete() const { return written_ == frames_; }
+
+    void report() {
+        if (!options_.stats_file.empty()) {
+            stats_["frames"] = rows_;
+            write_text_file_atomic(options_.stats_file, stats_.dump(2) + "\n");
+        }
+        console_.event("done", {{"output", options_.output}, {"frames", written_}, {"interrupted", !is_complete()}});
+        if (!is_complete())
+            console_.log().warning(fmt::format("interrupted: {} of {} frames are written, the one under way is lost",
+                                               written_, frames_));
+        if (is_complete() && missed_ > 0)
+            throw Error(ErrorKind::Threshold,
+                        fmt::format("--target-error: expected noise of at most {:.3g} as relMSE in every frame, got "
+                                    "more in {} of {}",
+                                    *options_.target_error, missed_, frames_));
+    }
+
+private:
+    /// False if it was interrupted; then it leaves no file.
+    bool render_frame(int index) {
+        const CameraDescription camera = path_.frame(index, frames_);
+        session_.apply(EditCamera{camera});
+        std::optional<ErrorTarget> target;
+        if (options_.target_error) target.emplace(*options_.target_error, nullptr);
+        ErrorTarget* const aim = target ? &*target : nullptr;
+        const RunOutcome outcome = run_passes(session_, options_, interrupt_, console_, Until::Rendered, aim);
+        if (outcome.interrupted()) return false;
+        const FilmSlot slot = slot_of(options_.render);
+        if (aim != nullptr) aim->measure_last(session_, slot);
+        if (aim != nullptr && !aim->is_low_enough()) ++missed_;
+        const Snapshot snapshot = session_.snapshot(slot);
+        const std::string name = names_.name(kFirstNumber + index);
+        stats_ = stats_json(session_, snapshot, options_, outcome, aim);
+        save_picture(name, snapshot, options_.display, metadata_of(session_, snapshot, stats_, command_, false));
+        note(name, camera, snapshot, outcome);
+        return true;
+    }
+
+    void note(const std::string& name, const CameraDescription& camera, const Snapshot& snapshot,
+              const RunOutcome& outcome) {
+        Json row{{"output", name},
+                 {"camera", camera_json(camera)},
+                 {"spp", snapshot.passes},
+                 {"seconds", outcome.seconds},
+                 {"learned_passes", snapshot.field ? Json(snapshot.field->passes) : Json(nullptr)}};
+        console_.remark(fmt::format("{}: {} of {}, {} spp, {:.2f} s\n", name, rows_.size() + 1, frames_,
+                                    snapshot.passes, outcome.seconds));
+        console_.event("frame", row);
+        rows_.push_back(std::move(row));
+    }
+
+    Session& session_;
+    const Options& options_;
+    const std::string& command_;
+    const InterruptGuard& interrupt_;
+    Console& console_;
+    CameraPath path_;
+    FrameNames names_;
+    int frames_;
+    int written_ = 0;
+    int missed_ = 0;               ///< frames that missed --target-error
+    Json rows_ = Json::array();    ///< of the frames written
+    Json stats_ = Json::object();  ///< of the last one
+};
+
+}  // namespace
+
+void require_sequence(const Options& options) {
+    const FrameNames names(options.output);
+    require_writable(names.name(kFirstNumber));
+    (void)read_text_file(options.camera_path);  // a missing file is told before the scene is read
+}
+
+int render_sequence(Session& session, const Options& options, const std::string& command, const FieldFiles& fields,
+                    const InterruptGuard& interrupt, Console& console) {
+    Sequence sequence(session, options, command, interrupt, console);
+    sequence.render();
+    fields.save(session, options, console);
+    sequence.report();
+    return sequence.is_complete() ? 0 : kExitInterrupted;
+}
+
+}  // namespace pl

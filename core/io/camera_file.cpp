@@ -1,0 +1,79 @@
+#include "core/io/camera_file.h"
+
+#include <fmt/format.h>
+
+#include "core/io/files.h"
+#include "core/io/json_document.h"
+
+namespace pl {
+namespace {
+
+/// The camera in the object at `pointer`. Throws Error(Input).
+CameraChoice read_camera(const JsonDocument& file, const std::string& pointer) {
+    if (file.object(pointer, {"eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance"}) == nullptr)
+        file.fail(pointer, "expected a camera { ... }");
+    const CameraChoice camera{.eye = file.vector(pointer + "/eye"),
+                              .target = file.vector(pointer + "/target"),
+                              .up = file.vector(pointer + "/up"),
+                              .fov_deg = file.number(pointer + "/fov_deg"),
+                              .aperture_radius = file.number(pointer + "/aperture_radius"),
+                              .focus_distance = file.number(pointer + "/focus_distance")};
+    if (camera.fov_deg && !(*camera.fov_deg > 0.0f && *camera.fov_deg < 180.0f))
+        file.fail(pointer + "/fov_deg", "expected an angle between 0 and 180 degrees");
+    if (camera.aperture_radius && !(*camera.aperture_radius >= 0.0f))
+        file.fail(pointer + "/aperture_radius", "expected a number of at least 0");
+    if (camera.focus_distance && !(*camera.focus_distance > 0.0f))
+        file.fail(pointer + "/focus_distance", "expected a number above 0");
+    return camera;
+}
+
+}  // namespace
+
+CameraDescription replaced(CameraDescription camera, const CameraChoice& choice) {
+    camera.eye = choice.eye.value_or(camera.eye);
+    camera.target = choice.target.value_or(camera.target);
+    camera.up = choice.up.value_or(camera.up);
+    camera.fov_deg = choice.fov_deg.value_or(camera.fov_deg);
+    camera.aperture_radius = choice.aperture_radius.value_or(camera.aperture_radius);
+    camera.focus_distance = choice.focus_distance.value_or(camera.focus_distance);
+    return camera;
+}
+
+Json camera_json(const CameraDescription& camera) {
+    return {{"eye", vector_json(camera.eye)},
+            {"target", vector_json(camera.target)},
+            {"up", vector_json(camera.up)},
+            {"fov_deg", camera.fov_deg},
+            {"aperture_radius", camera.aperture_radius},
+            {"focus_distance", camera.focus_distance}};
+}
+
+CameraChoice load_camera_file(const std::filesystem::path& path) {
+    return read_camera(JsonDocument(read_text_file(path), path), "");
+}
+
+std::vector<CameraDescription> load_cameras(const std::filesystem::path& path, const CameraDescription& standard) {
+    const JsonDocument file(read_text_file(path), path);
+    file.object("", {"schema", "cameras"});
+    const std::string schema = file.text("/schema").value_or("none");
+    if (schema != kCamerasSchema)
+        file.fail("/schema", fmt::format("expected \"{}\", got \"{}\"", kCamerasSchema, schema));
+    std::vector<CameraDescription> cameras;
+    for (std::size_t i = 0; i < file.array_size("/cameras"); ++i) {
+        const std::string pointer = fmt::format("/cameras/{}", i);
+        const CameraDescription camera = replaced(standard, read_camera(file, pointer));
+        if (camera.eye == camera.target)
+            file.fail(pointer + "/eye", "expected an eye away from the target, got the same point for both");
+        if (camera.up == glm::vec3(0.0f)) file.fail(pointer + "/up", "expected a direction, got [0, 0, 0]");
+        cameras.push_back(camera);
+    }
+    return cameras;
+}
+
+void save_cameras(const std::filesystem::path& path, std::span<const CameraDescription> cameras) {
+    Json list = Json::array();
+    for (const CameraDescription& camera : cameras) list.push_back(camera_json(camera));
+    write_json_file(path, {{"schema", kCamerasSchema}, {"cameras", std::move(list)}});
+}
+
+}  // namespace pl

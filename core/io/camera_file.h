@@ -1,0 +1,42 @@
+// Cameras in JSON files: one of --camera, or those of a path in their order.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/io/json_file.h"
+#include "core/scene/description.h"
+
+namespace pl {
+
+/// The given parts of a camera; the other parts come from elsewhere.
+struct CameraChoice {
+    std::optional<glm::vec3> eye;
+    std::optional<glm::vec3> target;
+    std::optional<glm::vec3> up;
+    std::optional<float> fov_deg;
+    std::optional<float> aperture_radius;
+    std::optional<float> focus_distance;
+};
+
+/// The camera with the given parts replaced.
+CameraDescription replaced(CameraDescription camera, const CameraChoice& choice);
+
+/// {"eye": [x,y,z], "target": [x,y,z], "up": [x,y,z], "fov_deg": vertical, "aperture_radius": r, "focus_distance": d}.
+Json camera_json(const CameraDescription& camera);
+
+/// Reads the members of camera_json(); every one may be missing. Throws Error(Input) with file and line.
+CameraChoice load_camera_file(const std::filesystem::path& path);
+
+inline constexpr const char* kCamerasSchema = "pathlight.cameras/1";
+
+/// Reads {"schema": kCamerasSchema, "cameras": [camera_json(), ...]}; missing members of a camera are those of `standard`.
+/// Throws Error(Input) with file and line.
+std::vector<CameraDescription> load_cameras(const std::filesystem::path& path, const CameraDescription& standard);
+
+/// Writes a file for load_cameras(), which reads the same bits. Throws Error(Runtime).
+void save_cameras(const std::filesystem::path& path, std::span<const CameraDescription> cameras);
+
+}  // namespace pl
