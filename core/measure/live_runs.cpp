@@ -35,8 +35,9 @@ double passing_seconds(const Clocks& clocks) { return clocks.learn + clocks.rend
 
 }  // namespace
 
-LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details, double share)
-    : picture_bytes_cap_(picture_bytes_cap), details_(std::move(details)), budget_(share) {
+LiveRuns::LiveRuns(std::size_t picture_bytes_cap, Details details, double share, Clock clock)
+    : picture_bytes_cap_(picture_bytes_cap), details_(std::move(details)), clock_(std::move(clock)), budget_(share) {
+    if (!clock_) clock_ = [watch = Stopwatch()] { return watch.seconds(); };
     update_current();
 }
 
@@ -49,7 +50,7 @@ void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
                                               std::to_string(reference->second.size()));
     }
     reference_ = std::move(reference);
-    const Stopwatch watch;
+    const double start = clock_();
     const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     int caught_up = 0;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
@@ -63,8 +64,9 @@ void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
         });
     }
     // Points to come are decomposed as well (take_apart), which takes about as long again.
-    if (caught_up > 0) budget_.expect_more(2.0 * watch.seconds() / caught_up);
-    unbudgeted_seconds_ += watch.seconds();
+    const double spent = clock_() - start;
+    if (caught_up > 0) budget_.expect_more(2.0 * spent / caught_up);
+    unbudgeted_seconds_ += spent;
     update_current();
 }
 
@@ -121,7 +123,7 @@ bool LiveRuns::is_due(const Session& session, FilmSlot slot, const FilmOrigin& o
 }
 
 bool LiveRuns::add_point(const Session& session, FilmSlot slot, const FilmOrigin& origin) {
-    const Stopwatch watch;
+    const double start = clock_();
     const std::optional<std::size_t> known = find(origin.number);
     RunLabel label = known ? runs_[*known]->label : label_of(session, slot, origin);
     if (known && details_) label.details = details_(session, slot);
@@ -137,11 +139,12 @@ bool LiveRuns::add_point(const Session& session, FilmSlot slot, const FilmOrigin
         limit_runs();
         limit_pictures(label.picture);
     }
+    const double spent = clock_() - start;
     if (session.passes(slot) > kLastMeasured) {
-        budget_.spend(watch.seconds());
+        budget_.spend(spent);
     } else {
-        budget_.note(watch.seconds());
-        unbudgeted_seconds_ += watch.seconds();
+        budget_.note(spent);
+        unbudgeted_seconds_ += spent;
     }
     return point.has_value();
 }

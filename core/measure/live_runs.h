@@ -28,7 +28,10 @@ public:
     static constexpr std::uint32_t kFirstMeasured = 2;  ///< the first pass after which a film has two halves
     static constexpr std::uint32_t kLastMeasured = kFirstMeasured + 9;
 
-    explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {}, double share = kShare);
+    /// Seconds since any fixed moment. It times the measuring; empty: the steady clock of the machine.
+    using Clock = std::function<double()>;
+
+    explicit LiveRuns(std::size_t picture_bytes_cap, Details details = {}, double share = kShare, Clock clock = {});
 
     /// Errors of its picture are measured against it from now on, and for past points that still have their pictures,
     /// in about the time of their first measurement. Existing errors stay. Null: no reference. Throws Error(Input) if
@@ -80,6 +83,7 @@ private:
     std::map<std::uint64_t, Track> tracks_;  ///< by number of their film, of the present generation
     std::uint64_t number_ = 0;               ///< of the film observed last; 0 for one that is not measured
     std::uint64_t generation_ = 0;
+    Clock clock_;
     MeasureBudget budget_;
     double charged_seconds_ = 0.0;     ///< to all runs
     double unbudgeted_seconds_ = 0.0;  ///< for measuring first passes, and past points in set_reference()

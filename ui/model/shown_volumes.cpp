@@ -24,15 +24,18 @@ std::shared_ptr<const VolumeInspection> present(const PublishedFrame& frame, std
     return pin != frame.pins.end() ? *pin : nullptr;
 }
 
-/// The caption of the learned disc, and the true light in its quantity; empty if that is not known.
-ShownDisc true_disc(const LightReport& report, CellQuantity quantity) {
-    switch (quantity) {
-    case CellQuantity::Radiance: return {"true", report.light.target};
-    case CellQuantity::Probability: return {"true", normalized(report.light.target)};
-    case CellQuantity::Density: return {"light x BSDF", relative_to_cosine(report.product_shares)};
-    case CellQuantity::Visits: break;
-    }
-    return {};
+/// The true light in the quantity of the learned disc, without values as long as it is not known: the discs beside it would jump
+/// away from under the pointer. Nothing where a quantity has no truth.
+std::optional<ShownDisc> true_disc(const LightReport* report, CellQuantity quantity) {
+    if (quantity == CellQuantity::Visits) return std::nullopt;
+    const bool is_product = quantity == CellQuantity::Density;
+    ShownDisc disc{is_product ? "light x BSDF" : "true", {}};
+    if (report == nullptr) return disc;
+    if (is_product)
+        disc.values = relative_to_cosine(report->product_shares);
+    else
+        disc.values = quantity == CellQuantity::Radiance ? report->light.target : normalized(report->light.target);
+    return disc;
 }
 
 /// The learned disc beside the true one.
@@ -73,8 +76,8 @@ std::vector<ShownDisc> shown_discs(const ViewerModel& model, const VolumeInspect
     } else {
         discs.push_back(learned_disc(selected, report, display.quantity));
     }
-    if (report == nullptr) return discs;
-    if (ShownDisc disc = true_disc(*report, display.quantity); !disc.values.empty()) discs.push_back(std::move(disc));
+    if (!display.truth) return discs;
+    if (auto disc = true_disc(report, display.quantity)) discs.push_back(*std::move(disc));
     return discs;
 }
 

@@ -17,10 +17,10 @@ struct ShownVolume {
 /// The selected volume, then the pinned ones, each once; without those that no frame has brought yet.
 std::vector<ShownVolume> shown_volumes(ViewerModel& model);
 
-/// One disc of the selected volume: what was learned, at the shown time and now, and the true light where it is known.
+/// One disc of the selected volume: what was learned, at the shown time and now, and the true light if it is to be shown.
 struct ShownDisc {
     std::string caption;
-    std::vector<float> values;  ///< [cell]
+    std::vector<float> values;  ///< [cell]; empty as long as the true light is not known
 };
 /// `selected`: of shown_volumes().
 std::vector<ShownDisc> shown_discs(const ViewerModel& model, const VolumeInspection& selected);

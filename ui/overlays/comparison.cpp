@@ -73,6 +73,8 @@ float top_of_names(const ComparePlan& plan) {
     return top;
 }
 
+float names_height() { return 2.0f * (ImGui::GetTextLineHeight() + label_padding().y) + em(0.6f); }
+
 void draw_comparison(ViewerModel& model, const ComparePlan& plan) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const CompareTile& tile : plan.tiles) draw_label(list, tile);

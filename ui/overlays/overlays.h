@@ -27,6 +27,8 @@ void draw_pixels(ViewerModel& model, const Layout& layout, const Rect& image, co
 void draw_comparison(ViewerModel& model, const ComparePlan& plan);
 /// Upper edge of the labels; infinite without a comparison.
 float top_of_names(const ComparePlan& plan);
+/// Of labels of two lines, from the lower edge of the picture: room for them whether they are there or not.
+float names_height();
 
 /// Badges of the picture: method, samples, and everything that could be misread.
 void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& plan);

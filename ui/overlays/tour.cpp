@@ -86,7 +86,9 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, cons
         draw_frame(place);
     }
     const Rect& view = layout.clear;
-    const float bottom = std::min(view.y + view.height, top_of_names(plan)) - em(0.6f);
+    // Names come, go and wrap while pictures render; the card stays where its buttons are being aimed at.
+    const float names = std::min(top_of_names(plan), image.y + image.height - names_height());
+    const float bottom = std::min(view.y + view.height, names) - em(0.6f);
     const float width = std::min(view.width - em(1.2f), em(34.0f));
     ImGui::SetNextWindowPos({view.x + 0.5f * view.width, bottom}, ImGuiCond_Always, {0.5f, 1.0f});
     ImGui::SetNextWindowSize({width, 0.0f});

@@ -25,7 +25,8 @@ void draw_cell_tooltip(const VolumeInspection& volume, const std::vector<ShownDi
     ImGui::Text("cell %d (column %d, row %d)", cell, cell % volume.side, cell / volume.side);
     ImGui::Text("%.0f\xc2\xb0 from the normal", static_cast<double>(std::acos(cosine) * kToDeg));
     if (discs.size() > 1)
-        for (const ShownDisc& disc : discs) text_row(disc.caption.c_str(), fmt::format("{:.4g}", disc.values[index]));
+        for (const ShownDisc& disc : discs)
+            if (!disc.values.empty()) text_row(disc.caption.c_str(), fmt::format("{:.4g}", disc.values[index]));
     ImGui::Separator();
     text_row("radiance Q", fmt::format("{:.4g}", volume.radiance[index]));
     text_row("probability P", fmt::format("{:.4g}", volume.probability[index]));

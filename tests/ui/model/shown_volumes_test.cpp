@@ -37,6 +37,7 @@ TEST_CASE("Shown volumes: the selected one and the pinned ones, each once, on on
         for (const float value : cell_values(*volume.volume, model.window().cell_display.quantity))
             CHECK(value <= range.high);
 
+    model.window().cell_display.truth = false;
     CHECK(shown_discs(model, *shown[1].volume).size() == 1);
     model.time().show(0);
     shown = shown_volumes(model);
@@ -47,6 +48,29 @@ TEST_CASE("Shown volumes: the selected one and the pinned ones, each once, on on
     const CellQuantity quantity = model.window().cell_display.quantity;
     CHECK(discs[0].values == cell_values(model.time().frame()->inspect(selected), quantity));
     CHECK(discs[1].values == cell_values(*model.selection().inspection(), quantity));
+}
+
+TEST_CASE("Shown volumes: the true light has its place before it is known, so that no disc jumps away") {
+    FileBench bench;
+    bench.options.settings.method = MethodId::Reinforcement;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    model.selection().pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.selection().inspection() != nullptr; }));
+    const VolumeInspection& volume = *model.selection().inspection();
+    REQUIRE(model.selection().light().report() == nullptr);  // no panel has shown it
+    CellDisplay& display = model.window().cell_display;
+    for (const CellQuantity quantity : {CellQuantity::Radiance, CellQuantity::Probability, CellQuantity::Density}) {
+        display.quantity = quantity;
+        const std::vector<ShownDisc> discs = shown_discs(model, volume);
+        REQUIRE(discs.size() == 2);
+        CHECK(discs[1].caption == (quantity == CellQuantity::Density ? "light x BSDF" : "true"));
+        CHECK(discs[1].values.empty());
+    }
+    display.quantity = CellQuantity::Visits;
+    CHECK(shown_discs(model, volume).size() == 1);
+    display.quantity = CellQuantity::Radiance;
+    display.truth = false;
+    CHECK(shown_discs(model, volume).size() == 1);
 }
 
 TEST_CASE(
