@@ -20,7 +20,7 @@ namespace pl::test {
 namespace {
 
 RenderSettings settings_of(const SceneDescription& scene, const std::string& method, bool forced) {
-    RenderSettings settings;
+    RenderSettings settings{.next_event = false};
     for (const MethodInfo& info : all_methods())
         if (info.name == method) settings.method = info.id;
     if (info_of(settings.method).name != method) throw Error(ErrorKind::Usage, "no such method: " + method);

@@ -40,7 +40,7 @@ export program work
     for scene in "${scenes[@]}"; do
         for method in "${methods[@]}"; do
             for view in "${views[@]}"; do
-                echo "hash_picture '$scene $method $view' $scene --method $method --view $view --spp 3"
+                echo "hash_picture '$scene $method $view' $scene --method $method --view $view --nee off --spp 3"
             done
             echo "hash_picture '$scene $method beauty nee' $scene --method $method --nee on --spp 5"
         done
@@ -48,11 +48,11 @@ export program work
             for from in all indirect; do
                 echo "hash_picture '$scene $target $from nee' $scene --method reinforcement --nee on --learn-target $target --learn-from $from --spp 4"
             done
-            echo "hash_field '$scene field $target' $scene --method reinforcement --learn-target $target"
+            echo "hash_field '$scene field $target' $scene --method reinforcement --nee off --learn-target $target"
             echo "hash_field '$scene field $target nee' $scene --method reinforcement --nee on --learn-target $target"
         done
         for roulette in albedo field; do
-            echo "hash_picture '$scene roulette $roulette' $scene --method reinforcement --roulette $roulette --spp 4"
+            echo "hash_picture '$scene roulette $roulette' $scene --method reinforcement --nee off --roulette $roulette --spp 4"
         done
     done
 } | xargs -P "$jobs" -d '\n' -n 1 bash -c 'eval "$0"' | sort
