@@ -86,6 +86,12 @@ void draw_magnifier(const Magnifier& magnifier, const PointedPixel& pointed) {
     const Rect& box = magnifier.box;
     list.AddRectFilled({box.x - 2.0f, box.y - 2.0f}, {box.x + box.width + 2.0f, box.y + box.height + 2.0f},
                        colors::kAccent);
+    // The row and the column of the pixel, on the border.
+    const Rect& middle = magnifier.middle;
+    list.AddRectFilled({middle.x, box.y - 4.0f}, {middle.x + middle.width, box.y}, colors::kText);
+    list.AddRectFilled({box.x - 4.0f, middle.y}, {box.x, middle.y + middle.height}, colors::kText);
+    list.AddRectFilled({box.x + box.width, middle.y}, {box.x + box.width + 4.0f, middle.y + middle.height},
+                       colors::kText);
     draw_label(list, magnifier, pointed);
 }
 

@@ -266,6 +266,11 @@ constexpr std::array kValues{
           }},
     Value{"flying", [](const ViewerModel& m) { return word(m.flight().is_flying()); }},
     Value{"writing", [](const ViewerModel& m) { return word(m.sequence().progress().has_value()); }},
+    Value{"written",
+          [](const ViewerModel& m) {
+              const auto progress = m.sequence().progress();
+              return fmt::format("{}", progress ? progress->written : 0);
+          }},
     Value{"picked",
           [](const ViewerModel& m) {
               const auto& picked = m.selection().picked();
