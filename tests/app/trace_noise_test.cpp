@@ -35,7 +35,7 @@ double sum_of(const json& shares) {
 }  // namespace
 
 TEST_CASE("the noise of a pixel is that of both methods, and its shares add up") {
-    const Arguments settings{"--method", "reinforcement", "--spp", "12", "--why-samples", "1024"};
+    const Arguments settings{"--method", "reinforcement", "--nee", "off", "--spp", "12", "--why-samples", "1024"};
     const json event = noise(why(settings));
     CHECK(event["event"] == "noise");
     CHECK(event["pixel"] == json({24, 20}));

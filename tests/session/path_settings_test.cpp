@@ -30,7 +30,7 @@ TEST_CASE("Path settings: with light samples only the rule that follows the fiel
 }
 
 TEST_CASE("Path settings: the first passes of a field split no paths") {
-    const PathSettings path = path_settings({}, MethodId::Reinforcement);
+    const PathSettings path = path_settings({.next_event = false}, MethodId::Reinforcement);
     REQUIRE(path.split_threshold == 2.0f);
     for (const std::uint64_t pass : {0u, 3u}) {
         CHECK(at_pass(path, pass).split_threshold == kInfinity);

@@ -186,7 +186,7 @@ TEST_CASE("learning is controlled only where there is some") {
     CHECK_FALSE(session.field_status(kLearner)->was_edited);
 }
 
-// A field frozen early is worse, not wrong: the picture has the mean of default's by rule S2. 40 x 40 pixels, 12 batches of 40 passes,
+// A field frozen early is worse, not wrong: the picture has the mean of default's by rule S2. 40 x 40 pixels, 64 batches of 8 passes,
 // seed 3; a relative difference of 3 % would be seen with probability 0.999.
 TEST_CASE("a picture by a frozen field converges to that of default") {
     const SceneDescription scene = shipped_scene("cornell");
@@ -196,7 +196,7 @@ TEST_CASE("a picture by a frozen field converges to that of default") {
     Session plain = make_session(scene, settings_for(scene, {MethodId::Default, true}, 40, 40), 2);
     Picture a(40, 40);
     Picture b(40, 40);
-    render_batches(frozen, a, 12, 40);
-    render_batches(plain, b, 12, 40);
+    render_batches(frozen, a, 64, 8);
+    render_batches(plain, b, 64, 8);
     CHECK(same_picture(a, b, 0.03));
 }
