@@ -34,7 +34,9 @@ TEST_CASE("Gain marks: they need both pictures, say so, and go with the picture"
 
     // Another camera shows another picture.
     const std::uint64_t picture = model.status().picture;
-    model.render().set_next_event(!model.render().settings().next_event);
+    CameraDescription camera = model.camera().camera();
+    camera.fov_deg *= 0.9f;
+    model.camera().set(camera);
     REQUIRE(bench.run_until(model, [&] { return model.status().picture != picture; }));
     model.comparison().set_turns(false);
     model.cancel();  // Esc
