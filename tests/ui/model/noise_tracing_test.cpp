@@ -3,17 +3,10 @@
 
 #include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
+#include "tests/ui/traced_floor.h"
 
 using namespace pl;
 using namespace pl::test;
-
-namespace {
-
-constexpr Vec2f kFloor{0.5f, 0.65f};
-
-bool is_traced(const ViewerModel& model) { return model.paths().paths() != nullptr && !model.paths().is_tracing(); }
-
-}  // namespace
 
 TEST_CASE("Noise tracing: works while it is shown, rests while it is hidden, and ends with the paths") {
     FileBench bench;

@@ -2,18 +2,10 @@
 
 #include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
+#include "tests/ui/traced_floor.h"
 
 using namespace pl;
 using namespace pl::test;
-
-namespace {
-
-/// On the floor of the small scene.
-constexpr Vec2f kFloor{0.5f, 0.65f};
-
-bool is_traced(const ViewerModel& model) { return model.paths().paths() != nullptr && !model.paths().is_tracing(); }
-
-}  // namespace
 
 TEST_CASE("Path explorer: hidden it traces nothing, shown it has the paths of the clicked pixel") {
     FileBench bench;
