@@ -50,7 +50,7 @@ private:
     double paths_ = 0.0;
 };
 
-/// The setting of a choice.
+/// The costs of paths, the picture and the field that a choice is about.
 struct GuidingTerms {
     PathCosts costs{};
     double pixels = 1.0;   ///< of the picture

@@ -15,7 +15,7 @@ struct VarianceSums {
     /// Contributions of one sample are clamped here, so that a single path decides nothing: far above white, because rare bright
     /// paths are most of the variance that guiding can take away (docs/notebook/2026-11-25-choice-at-512.md).
     static constexpr float kMost = 4096.0f;
-    static constexpr double kSteps = 0x1p24;  ///< per unit: 2^27 samples of the largest size do not overflow
+    static constexpr double kSteps = 0x1p24;  ///< per unit: 2^26 samples of the largest size do not overflow
 
     VarianceSums& operator+=(const VarianceSums& other) {
         sum += other.sum;
