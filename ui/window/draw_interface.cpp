@@ -17,6 +17,7 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
     if (plan.at_image) draw_path_lines(model, image);
     draw_comparison(model, plan);
     if (layout.panels) draw_badges(model, layout, plan);
+    if (!layout.panels) draw_show_panels(model);
     draw_tour(model, layout, image, plan);
     draw_toasts(model, layout, plan);
     draw_self_test(model, layout);
