@@ -1,4 +1,4 @@
-// A small picture to draw on: filled rectangles, colored pixels and text in a built-in font.
+// A small picture to draw on: filled rectangles, colored pixels and text in the font of the viewer's window.
 #pragma once
 
 #include <array>
@@ -18,16 +18,17 @@ public:
     /// Clipped to the picture.
     void put(int x, int y, Rgb color);
     void fill(int x, int y, int width, int height, Rgb color);
-    /// (x, y) is the upper left corner. Lower case is drawn as upper case, characters that the font lacks as a box.
-    void text(int x, int y, std::string_view words, Rgb color, int scale = 2);
+    /// (x, y) is the upper left corner. Characters that the font lacks are a box.
+    void text(int x, int y, std::string_view words, Rgb color);
 
-    static constexpr int kAdvance = 6;     ///< width of a character, in units of the scale
-    static constexpr int kLineHeight = 9;  ///< of a line of text, in units of the scale
+    static constexpr int kLineHeight = 18;  ///< of a line of text, pixels
+    /// Of text on one line, pixels.
+    static int text_width(std::string_view words);
 
     const ByteImage& image() const { return image_; }
 
 private:
-    void glyph(int x, int y, char c, Rgb color, int scale);
+    void blend(int x, int y, Rgb color, int level);
 
     ByteImage image_;
 };

@@ -16,10 +16,6 @@ constexpr Rgb kShadow{0, 0, 0};
 
 std::string three_digits(float value) { return fmt::format("{:.3g}", value); }
 
-int text_width(const std::string& text) {
-    return static_cast<int>(text.size()) * Canvas::kAdvance * DiscPicture::kTextScale;
-}
-
 }  // namespace
 
 Rgb map_color_of(float position) {
@@ -78,10 +74,10 @@ void DiscPicture::draw_legend(const DiscSpot& spot, const ValueRange& range) {
     const std::string middle = three_digits(range.value_at(0.5f));
     const std::string high = three_digits(range.high);
     text(spot.x, below, low);
-    if (text_width(low + " ") + text_width(middle) / 2 < spot.diameter / 2 &&
-        text_width(middle) / 2 + text_width(" " + high) < spot.diameter / 2)
-        text(spot.x + (spot.diameter - text_width(middle)) / 2, below, middle);
-    text(spot.x + spot.diameter - text_width(high), below, high);
+    if (Canvas::text_width(low + " ") + Canvas::text_width(middle) / 2 < spot.diameter / 2 &&
+        Canvas::text_width(middle) / 2 + Canvas::text_width(" " + high) < spot.diameter / 2)
+        text(spot.x + (spot.diameter - Canvas::text_width(middle)) / 2, below, middle);
+    text(spot.x + spot.diameter - Canvas::text_width(high), below, high);
 }
 
 }  // namespace pl

@@ -22,17 +22,16 @@ class DiscPicture {
 public:
     static constexpr Rgb kBackground{24, 24, 28};
     static constexpr Rgb kInk{230, 230, 230};
-    static constexpr int kMargin = 24;  ///< around discs and text, pixels
-    static constexpr int kTextScale = 2;
-    static constexpr int kLine = Canvas::kLineHeight * kTextScale;  ///< height of a line of text, pixels
-    static constexpr int kLegendHeight = 12 + 3 * kLine;            ///< of draw_legend(), pixels
+    static constexpr int kMargin = 24;                    ///< around discs and text, pixels
+    static constexpr int kLine = Canvas::kLineHeight;     ///< height of a line of text, pixels
+    static constexpr int kLegendHeight = 12 + 3 * kLine;  ///< of draw_legend(), pixels
 
     DiscPicture(int width, int height, const VolumeInspection& volume, const CameraDescription& camera);
 
     const DiscFrame& frame() const { return frame_; }
     const ByteImage& image() const { return canvas_.image(); }
 
-    void text(int x, int y, const std::string& words) { canvas_.text(x, y, words, kInk, kTextScale); }
+    void text(int x, int y, const std::string& words) { canvas_.text(x, y, words, kInk); }
     /// One value per cell in the colors of `range`; a cross at the normal, a ring at the camera, an arrow up.
     void draw_disc(const DiscSpot& spot, const std::string& caption, std::span<const float> values,
                    const ValueRange& range);

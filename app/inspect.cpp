@@ -1,4 +1,6 @@
 // `pathlight inspect`: trains, then writes the learned hemisphere at a point.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/closest_surface.h"
@@ -11,6 +13,7 @@
 #include "app/open_scene.h"
 #include "app/parse_values.h"
 #include "app/run_passes.h"
+#include "app/scene_picture.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
 #include "core/base/timer.h"
@@ -23,7 +26,15 @@ namespace pl {
 namespace {
 
 void require_outputs(const Options& options) {
-    inspection_kind(options.output);
+    const InspectionKind kind = inspection_kind(options.output);
+    if (options.history) require_viewer_code("--history");
+    if (options.drawn != "disc") {
+        require_viewer_code("--drawn");
+        if (kind != InspectionKind::AsPng || options.history)
+            throw Error(ErrorKind::Usage, fmt::format("{}: --drawn {} is a picture of cells: expected a .png and no "
+                                                      "--history",
+                                                      options.output, options.drawn));
+    }
     require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
@@ -64,16 +75,30 @@ bool is_trained(const Options& options) {
            !options.time_limit_seconds;
 }
 
-/// The light that reaches the volume; empty if it was interrupted before it had figures.
-std::optional<LightReport> trace_light(const Session& session, const VolumeInspection& volume, const Options& options,
-                                       const InterruptGuard& interrupt) {
-    const RenderSettings& settings = options.render;
-    LightGatherer gatherer(session.packed_scene(), LightReceiver::of(volume, settings.camera.eye),
-                           path_settings(settings, baseline_method()));
+/// The light that reaches the volume; without figures if it was interrupted before it had any.
+LightGatherer trace_light(const Session& session, const VolumeInspection& volume, const Options& options,
+                          const InterruptGuard& interrupt) {
+    LightGatherer gatherer(session.packed_scene(), LightReceiver::of(volume, options.render.camera.eye),
+                           path_settings(options.render, baseline_method()));
     for (std::uint32_t i = 0; i < options.truth_samples && gatherer.advance(interrupt.flag()); ++i) {
     }
-    if (!gatherer.light().has_all_groups()) return std::nullopt;
-    return report_light(gatherer.light(), volume, target_light(session.settings(), settings.method));
+    return gatherer;
+}
+
+/// Trains as run_passes() does; with --history in pieces, as long as the key frames are apart, and observed by `past`.
+RunOutcome train(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
+                 FieldPast& past) {
+    if (!options.history) return run_passes(session, options, interrupt, console, Until::Learned);
+    const FilmSlot slot = slot_of(options.render);
+    Options piece = options;
+    RunOutcome outcome;
+    for (std::uint32_t passes = 1; !outcome.interrupted(); passes = passes < 16 ? passes + 1 : (5 * passes + 3) / 4) {
+        piece.spp = std::min(passes, options.spp_limit());
+        outcome = run_passes(session, piece, interrupt, console, Until::Learned);
+        past.observe(session, slot.method);
+        if (session.passes(slot) >= options.spp_limit() || outcome.ended_by != EndedBy::Spp) break;
+    }
+    return outcome;
 }
 
 void report_truth(const LightReport& truth, double seconds, Console& console) {
@@ -111,26 +136,39 @@ int run_inspect(const CommandLine& line, Console& console) {
     // Before training, so that a place without a volume fails at once.
     const std::int32_t index = options.at ? volume_at(session, *options.at) : volume_under(session, *options.pixel);
 
-    const RunOutcome outcome =
-        is_trained(options) ? RunOutcome{} : run_passes(session, options, interrupt, console, Until::Learned);
+    FieldPast past;
+    const RunOutcome outcome = is_trained(options) ? RunOutcome{} : train(session, options, interrupt, console, past);
     const FilmSlot slot = slot_of(options.render);
     const VolumeInspection volume = session.inspect_volume(slot.method, index);
     std::optional<LightReport> truth;
-    if (options.truth) {
+    std::vector<HistoryPoint> history;
+    if (options.truth || options.history) {
         const Stopwatch watch;
-        truth = trace_light(session, volume, options, interrupt);
-        if (truth) report_truth(*truth, watch.seconds(), console);
+        const LightGatherer gatherer = trace_light(session, volume, options, interrupt);
+        const TargetLight target = target_light(session.settings(), options.render.method);
+        if (gatherer.light().has_all_groups()) {
+            truth = report_light(gatherer.light(), volume, target);
+            history = past.points(gatherer.light(), index, target);
+            report_truth(*truth, watch.seconds(), console);
+        }
     }
     const bool interrupted = outcome.interrupted() || interrupt.raised();
-    save_inspection(options.output, volume,
-                    {.scene = options.scene,
-                     .scene_hash = scene_hash(*loaded.scene),
-                     .method = std::string(info_of(options.render.method).name),
-                     .spp = session.passes(slot),
-                     .seed = options.render.seed,
-                     .partial = interrupted,
-                     .camera = options.render.camera,
-                     .truth = std::move(truth)});
+    if (options.history && history.empty())
+        throw Error(ErrorKind::Runtime, "--history: no pass has trained the field, so that there is no key frame");
+    const InspectionSource source{.scene = options.scene,
+                                  .scene_hash = scene_hash(*loaded.scene),
+                                  .method = std::string(info_of(options.render.method).name),
+                                  .spp = session.passes(slot),
+                                  .seed = options.render.seed,
+                                  .partial = interrupted,
+                                  .camera = options.render.camera,
+                                  .truth = std::move(truth)};
+    if (options.history)
+        save_history(options.output, history, volume, source);
+    else if (options.drawn != "disc")
+        write_png8(options.output, draw_in_scene(session, index, options));
+    else
+        save_inspection(options.output, volume, source);
     if (!options.stats_file.empty())
         write_text_file_atomic(options.stats_file,
                                stats_json(session, session.snapshot(slot), options, outcome).dump(2) + "\n");

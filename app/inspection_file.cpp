@@ -1,11 +1,14 @@
 #include "app/inspection_file.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "app/draw_hemisphere.h"
 #include "app/draw_truth.h"
 #include "app/parse_values.h"
 #include "core/base/error.h"
+#include "core/bench/bench_results.h"
 #include "core/io/files.h"
 #include "core/kernel/base/frame.h"
 #include "core/kernel/guiding/direction_cells.h"
@@ -110,6 +113,56 @@ std::string inspection_csv(const VolumeInspection& volume, const std::optional<L
         text += "\n";
     }
     return text;
+}
+
+Json history_json(const std::vector<HistoryPoint>& points) {
+    Json list = Json::array();
+    for (const HistoryPoint& point : points) {
+        const GuidingFigures& figures = point.figures;
+        const bool is_finite = std::isfinite(point.divergence_to_end);
+        list.push_back(
+            {{"passes", point.passes},
+             {"table_divergence", interval_json(figures.table)},
+             {"mixture_divergence", interval_json(figures.mixture)},
+             {"variance_factor", figures.variance_factor ? interval_json(*figures.variance_factor) : Json()},
+             {"divergence_to_end", is_finite ? Json(point.divergence_to_end) : Json()},
+             {"variation_to_end", point.variation_to_end}});
+    }
+    return list;
+}
+
+std::string history_csv(const std::vector<HistoryPoint>& points) {
+    std::string text =
+        "passes,table,table_low,table_high,mixture,mixture_low,mixture_high,variance,variance_low,variance_high,"
+        "divergence_to_end,variation_to_end\n";
+    const auto columns = [](const Interval& i) {
+        return fmt::format(",{:.9g},{:.9g},{:.9g}", i.value, i.low, i.high);
+    };
+    for (const HistoryPoint& point : points) {
+        const auto& variance = point.figures.variance_factor;
+        text += fmt::format("{}{}{}{},{:.9g},{:.9g}\n", point.passes, columns(point.figures.table),
+                            columns(point.figures.mixture), variance ? columns(*variance) : ",,,",
+                            point.divergence_to_end, point.variation_to_end);
+    }
+    return text;
+}
+
+void save_history(const std::filesystem::path& path, const std::vector<HistoryPoint>& points,
+                  const VolumeInspection& volume, const InspectionSource& source) {
+    switch (inspection_kind(path)) {
+    case InspectionKind::AsJson:
+        write_text_file_atomic(path, json_line({{"schema", "pathlight.history/1"},
+                                                {"scene", source.scene},
+                                                {"scene_hash", source.scene_hash},
+                                                {"method", source.method},
+                                                {"seed", source.seed},
+                                                {"partial", source.partial},
+                                                {"volume", volume.volume},
+                                                {"frames", history_json(points)}}));
+        return;
+    case InspectionKind::AsCsv: write_text_file_atomic(path, history_csv(points)); return;
+    case InspectionKind::AsPng: write_png8(path, draw_history(points), metadata_of(volume, source)); return;
+    }
 }
 
 void save_inspection(const std::filesystem::path& path, const VolumeInspection& volume,

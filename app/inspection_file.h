@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/events.h"
+#include "app/scene_picture.h"
 #include "core/inspect/guiding_figures.h"
 #include "core/io/image.h"
 #include "core/session/snapshot.h"
@@ -36,6 +37,14 @@ Json inspection_json(const VolumeInspection& volume, const InspectionSource& sou
 /// Header "cell,row,column,dx,dy,dz,radiance,probability,visits", then one row per cell; (dx, dy, dz) is the world
 /// direction through the cell's middle. With a truth also "true_radiance,true_error,true_target,true_product,mixture".
 std::string inspection_csv(const VolumeInspection& volume, const std::optional<LightReport>& truth);
+
+/// The figures of key frames: "passes,table,table_low,table_high,mixture,...,variance,...,divergence_to_end,variation_to_end".
+std::string history_csv(const std::vector<HistoryPoint>& points);
+/// The same as an array of objects; intervals as in the truth, infinite divergences null.
+Json history_json(const std::vector<HistoryPoint>& points);
+/// Instead of save_inspection(): JSON {"schema": "pathlight.history/1", ...}, CSV or curves.
+void save_history(const std::filesystem::path& path, const std::vector<HistoryPoint>& points,
+                  const VolumeInspection& volume, const InspectionSource& source);
 
 /// Writes the file whole or not at all. Throws Error: Usage for another suffix, Runtime.
 void save_inspection(const std::filesystem::path& path, const VolumeInspection& volume,

@@ -147,6 +147,8 @@ void require_complete(Command command, const Options& options) {
         fail("'inspect' needs a place: either --at X,Y,Z[,NX,NY,NZ] or --pixel X,Y");
     if (command == Command::Trace && !(options.pixel && options.samples.has_value() != options.why))
         fail("'trace' needs a path: --pixel X,Y and --sample N[-M], or --why in place of --sample");
+    if (command == Command::Trace && options.why && !options.output.empty())
+        fail("'trace --why' prints figures and draws no lines: -o FILE goes with --sample N[-M]");
     if (command == Command::Report && options.inputs.size() != 1)
         fail(fmt::format("'report' needs one folder of 'bench', DIR: got {}", options.inputs.size()));
     if (command == Command::Compare && options.inputs.size() != 2)

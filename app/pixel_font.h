@@ -1,22 +1,25 @@
-// Letters of 5 x 7 pixels, for pictures that are made without a font file.
+// The letters of the viewer's window as bitmaps, for pictures that are made without it.
 #pragma once
 
 #include <string_view>
 
 namespace pl {
 
-inline constexpr int kGlyphWidth = 5;
-inline constexpr int kGlyphHeight = 7;
-
-/// Seven rows of five characters with a space between rows; '#' is ink.
+/// A letter of 16 pixels height.
 struct PixelGlyph {
-    std::string_view rows;
-    bool is_set(int column, int row) const {
-        return rows[static_cast<std::size_t>(row * (kGlyphWidth + 1) + column)] == '#';
-    }
+    int advance;  ///< to the next letter, pixels
+    int left;     ///< of the bitmap, from the pen
+    int top;      ///< of the bitmap, from the upper edge of the line
+    int width;    ///< of the bitmap
+    int height;
+    std::string_view coverage;  ///< of its pixels, a hexadecimal digit each, row by row
+
+    static constexpr int kMostCoverage = 15;
+    /// 0 to kMostCoverage.
+    int level(int column, int row) const;
 };
 
-/// Digits, upper case letters and the punctuation of numbers; anything else is a box.
-PixelGlyph pixel_glyph(char c);
+/// Printable ASCII; anything else is a box.
+const PixelGlyph& pixel_glyph(char c);
 
 }  // namespace pl

@@ -5,10 +5,14 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/run_passes.h"
+#include "app/scene_picture.h"
 #include "app/trace_noise.h"
 #include "app/trace_report.h"
+#include "core/base/error.h"
 #include "core/diagnose/pixel_paths.h"
 #include "core/diagnose/record_path.h"
+#include "core/io/files.h"
+#include "core/io/picture_file.h"
 
 namespace pl {
 namespace {
@@ -49,10 +53,19 @@ std::vector<PathRecord> trace_samples(Session& session, const Options& options, 
     return paths;
 }
 
+/// Before any work is done for it.
+void require_picture(const std::string& output) {
+    if (output.empty()) return;
+    require_viewer_code("-o");
+    if (image_kind(output) != ImageKind::Png) throw Error(ErrorKind::Usage, output + ": lines are drawn into a .png");
+    require_writable(output);
+}
+
 }  // namespace
 
 int run_trace(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
+    require_picture(line.options.output);
     const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
@@ -78,6 +91,7 @@ int run_trace(const CommandLine& line, Console& console) {
         else
             console.result(paths.size() == 1 ? path_text(traced) : path_line(traced));
     }
+    if (!options.output.empty()) write_png8(options.output, draw_path_lines(session, paths, options));
     return 0;
 }
 

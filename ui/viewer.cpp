@@ -78,6 +78,7 @@ public:
     void print_trace();
 
 private:
+    bool is_over();
     void wait_for_events();
     void dispatch(const SDL_Event& event);
     WindowActivity activity() const;
@@ -163,8 +164,14 @@ RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
     return settings;
 }
 
+bool Viewer::is_over() {
+    bool& quit = model_.window().requests.quit;
+    if (script_ && script_->ignores_quit()) quit = false;
+    return quit;
+}
+
 void Viewer::run() {
-    while (!model_.window().requests.quit) {
+    while (!is_over()) {
         wait_for_events();
         const double now = steady_seconds();
         const double cpu_start = thread_seconds();

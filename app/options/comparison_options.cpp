@@ -1,9 +1,23 @@
 #include "app/options/groups.h"
 
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/error.h"
 #include "core/inspect/incident_light.h"
 
 namespace pl {
 namespace {
+
+void parse_drawn(Options& options, Text text) {
+    constexpr std::array<std::string_view, 4> kNames{"disc", "lobe", "dome", "flowers"};
+    if (std::ranges::find(kNames, text) == kNames.end())
+        throw Error(ErrorKind::Usage, fmt::format("expected {}, got '{}'", fmt::join(kNames, ", "), text));
+    options.drawn = text;
+}
 
 // clang-format off
 constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
@@ -36,6 +50,13 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
      .help = "Paths through every cell for --truth, at least 32 (default 256)",
      .commands = CommandSet(Command::Inspect),
      .parse = [](Options& o, Text text) { o.truth_samples = static_cast<std::uint32_t>(parse_whole(text, kLightGroups, 1000000)); }},
+    {.name = "history", .flags = "--history", .value = "", .group = kPlace,
+     .help = "Key frames of the field: divergences from the light that reaches the volume, variance factor and "
+             "difference to the last frame, over the passes",
+     .commands = CommandSet(Command::Inspect), .parse = parse_flag<&Options::history>},
+    {.name = "drawn", .flags = "--drawn", .value = "NAME", .group = kPlace,
+     .help = "What a PNG shows: disc, or in the scene lobe, dome, or flowers of every n-th volume (default disc)",
+     .commands = CommandSet(Command::Inspect), .parse = parse_drawn},
 
     {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,
      .help = "Sampling of directions: default, precomputed, reinforcement (see --list-methods)",

@@ -6,7 +6,6 @@
 namespace pl {
 namespace {
 
-constexpr int kScale = 2;  ///< of the font
 constexpr Rgb kInk{40, 40, 40};
 constexpr Rgb kMajor{204, 204, 204};
 constexpr Rgb kMinor{238, 238, 238};
@@ -17,8 +16,6 @@ Rgb faded(const Rgb& color) {
     for (std::size_t c = 0; c < 3; ++c) result[c] = static_cast<std::uint8_t>(204 + color[c] / 5);
     return result;
 }
-
-int text_width(const std::string& text) { return static_cast<int>(text.size()) * Canvas::kAdvance * kScale; }
 
 class PngPlot {
 public:
@@ -51,17 +48,17 @@ private:
             for (const AxisTick& tick : x_axis_.ticks(8)) {
                 if (tick.label.empty() == labeled) continue;
                 canvas_.fill(x(tick.value), layout_.top, 1, bottom() - layout_.top, line);
-                canvas_.text(x(tick.value) - text_width(tick.label) / 2, bottom() + 8, tick.label, kInk, kScale);
+                canvas_.text(x(tick.value) - Canvas::text_width(tick.label) / 2, bottom() + 8, tick.label, kInk);
             }
             for (const AxisTick& tick : y_axis_.ticks(10)) {
                 if (tick.label.empty() == labeled) continue;
                 canvas_.fill(layout_.left, y(tick.value), right() - layout_.left, 1, line);
-                canvas_.text(layout_.left - 8 - text_width(tick.label), y(tick.value) - 7, tick.label, kInk, kScale);
+                canvas_.text(layout_.left - 8 - Canvas::text_width(tick.label), y(tick.value) - 7, tick.label, kInk);
             }
         }
-        canvas_.text(layout_.left, 12, plot_.title + ": " + plot_.y_label, kInk, kScale);
-        canvas_.text((layout_.left + right() - text_width(plot_.x_label)) / 2, layout_.height - 28, plot_.x_label,
-                     kInk, kScale);
+        canvas_.text(layout_.left, 12, plot_.title + ": " + plot_.y_label, kInk);
+        canvas_.text((layout_.left + right() - Canvas::text_width(plot_.x_label)) / 2, layout_.height - 28,
+                     plot_.x_label, kInk);
     }
 
     /// Fills the columns between the lines through the bounds.
@@ -110,10 +107,10 @@ private:
         const int left = right() + 14;
         for (const PlotSeries& series : plot_.series) {
             stroke(left, at + 7, left + 40, at + 7, series, 0.0);
-            canvas_.text(left + 50, at, series.name, kInk, kScale);
+            canvas_.text(left + 50, at, series.name, kInk);
             at += 28;
         }
-        if (plot_.floor > y_axis_.low()) canvas_.text(left, at, "gray: reference noise", kInk, kScale);
+        if (plot_.floor > y_axis_.low()) canvas_.text(left, at, "gray: reference noise", kInk);
     }
 
     const Plot& plot_;

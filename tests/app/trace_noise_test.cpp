@@ -86,6 +86,7 @@ TEST_CASE("a path and the noise of a pixel exclude each other") {
     CHECK(result.code == 2);
     CHECK(result.err.find("--why in place of --sample") != std::string::npos);
     CHECK(run_program(why({"--why-samples", "12"})).code == 2);
+    CHECK(run_program(why({"-o", "lines.png"})).code == 2);
 }
 
 }  // namespace pl::test

@@ -273,10 +273,33 @@ bool section(const char* title, bool open_at_first) {
     return open;
 }
 
-bool begin_tab(const char* title, ImGuiTabItemFlags flags) {
-    const bool open = ImGui::BeginTabItem(title, nullptr, flags);
+TabRow::TabRow(const char* id)
+    : key_(ImGui::GetID(id)), chosen_(static_cast<ImGuiID>(ImGui::GetStateStorage()->GetInt(key_))),
+      end_(ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x) {}
+
+bool TabRow::add(const char* title) {
+    const ImGuiID tab = ImGui::GetID(title);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    if (first_ == 0) {
+        first_ = tab;
+    } else {
+        const float width = ImGui::CalcTextSize(title).x + 2.0f * style.FramePadding.x;
+        const float start = ImGui::GetItemRectMax().x + em(0.25f);
+        if (start + width <= end_) ImGui::SameLine(0.0f, em(0.25f));
+    }
+    const bool was_front = tab == chosen_;
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(was_front ? ImGuiCol_ButtonActive : ImGuiCol_Button));
+    if (ImGui::Button(title)) chosen_ = tab;
+    ImGui::PopStyleColor();
     note_place(title);
-    return open;
+    is_found_ = is_found_ || tab == chosen_;
+    return was_front;
+}
+
+void TabRow::end() {
+    if (!is_found_) chosen_ = first_;
+    ImGui::GetStateStorage()->SetInt(key_, static_cast<int>(chosen_));
+    ImGui::Separator();
 }
 
 void text_line(const char* text, ImU32 color) {

@@ -70,8 +70,24 @@ bool wide_button(const char* label, const char* tip);
 /// A section of the panel that can be folded.
 bool section(const char* title, bool open_at_first);
 
-/// A tab; if true, draw its content and end it with ImGui::EndTabItem().
-bool begin_tab(const char* title, ImGuiTabItemFlags flags = ImGuiTabItemFlags_None);
+/// Tabs in as many rows as their whole titles need. The one in front is remembered by the window that they are in; where it is not
+/// added any more, the first is.
+class TabRow {
+public:
+    explicit TabRow(const char* id);
+    /// Brings a tab to the front.
+    void choose(const char* title) { chosen_ = ImGui::GetID(title); }
+    /// The next tab; true if it is in front: then draw its content after end().
+    bool add(const char* title);
+    void end();
+
+private:
+    ImGuiID key_;
+    ImGuiID chosen_;
+    float end_;  ///< of a row, in the window
+    ImGuiID first_ = 0;
+    bool is_found_ = false;
+};
 
 /// Text that breaks lines.
 void text_line(const char* text, ImU32 color);

@@ -19,7 +19,12 @@ LightReceiver receiver_of(const PublishedFrame& frame, const VolumeInspection& v
     return receiver;
 }
 
-/// Of the key frames that have the volume.
+bool has_room(const LightGatherer& gatherer) {
+    return gatherer.light().paths_per_cell() * gatherer.light().cells() < LightTracing::kMostPaths;
+}
+
+}  // namespace
+
 std::vector<FigurePoint> past_figures(const IncidentLight& light, const FieldHistory& history, std::int32_t volume,
                                       TargetLight target) {
     std::vector<FigurePoint> points;
@@ -29,12 +34,6 @@ std::vector<FigurePoint> past_figures(const IncidentLight& light, const FieldHis
             points.push_back({frame->passes(), LightComparison(light, frame->inspect(volume), target).figures()});
     return points;
 }
-
-bool has_room(const LightGatherer& gatherer) {
-    return gatherer.light().paths_per_cell() * gatherer.light().cells() < LightTracing::kMostPaths;
-}
-
-}  // namespace
 
 LightTracing::Subject LightTracing::subject_of(const PublishedFrame& frame, const LightReceiver& receiver) {
     return {.scene = frame.scene,

@@ -18,6 +18,10 @@ struct FigurePoint {
     GuidingFigures figures;
 };
 
+/// Of the key frames that have the volume, compared with its light.
+std::vector<FigurePoint> past_figures(const IncidentLight& light, const FieldHistory& history, std::int32_t volume,
+                                      TargetLight target);
+
 class LightTracing {
 public:
     /// A panel shows the light during this frame of the window.

@@ -3,6 +3,45 @@
 #include <algorithm>
 
 namespace pl {
+namespace {
+
+void add_side(std::vector<PathPiece>& lines, const PixelPaths& paths, bool is_guided, const DrawnPaths& drawn) {
+    const std::vector<PathRecord>& side = is_guided ? paths.guided : paths.plain;
+    const std::vector<std::size_t> order = by_light(side);
+    for (auto i = order.rbegin(); i != order.rend(); ++i) {
+        if (is_guided == drawn.lists_guided && *i == drawn.selected) continue;
+        add_path(lines, side[*i],
+                 {.range = drawn.range,
+                  .escape_length = drawn.escape_length,
+                  .has_shadow_rays = drawn.has_shadow_rays,
+                  .is_dashed = !is_guided && !paths.guided.empty()});
+    }
+}
+
+}  // namespace
+
+ValueRange light_range(const PixelPaths& paths) {
+    std::vector<float> light;
+    for (const PathRecord& path : paths.plain) light.push_back(path_light(path));
+    for (const PathRecord& path : paths.guided) light.push_back(path_light(path));
+    std::erase(light, 0.0f);  // paths without light have a color of their own
+    return range_of(light, {.scale = ColorScale::Logarithmic});
+}
+
+std::vector<PathPiece> lines_of(const PixelPaths& paths, const DrawnPaths& drawn) {
+    std::vector<PathPiece> lines;
+    const bool two = !paths.guided.empty();
+    if (!two || drawn.sides != PathSides::Guided) add_side(lines, paths, false, drawn);
+    if (two && drawn.sides != PathSides::Plain) add_side(lines, paths, true, drawn);
+    if (drawn.selected)
+        add_path(lines, (drawn.lists_guided ? paths.guided : paths.plain)[*drawn.selected],
+                 {.range = drawn.range,
+                  .escape_length = drawn.escape_length,
+                  .has_shadow_rays = true,
+                  .is_dashed = !drawn.lists_guided && two,
+                  .is_selected = true});
+    return lines;
+}
 
 void PathExplorer::set_shown(bool shown) {
     is_shown_ = shown;
@@ -63,11 +102,7 @@ void PathExplorer::take_paths() {
     }
     paths_ = result->value;
     selected_.reset();
-    std::vector<float> light;
-    for (const PathRecord& path : paths_->plain) light.push_back(path_light(path));
-    for (const PathRecord& path : paths_->guided) light.push_back(path_light(path));
-    std::erase(light, 0.0f);  // paths without light have a color of their own
-    range_ = range_of(light, {.scale = ColorScale::Logarithmic});
+    range_ = light_range(*paths_);
 }
 
 /// Paths of another scene would hang in the air. A moved camera leaves them as they are.
@@ -102,20 +137,6 @@ std::optional<std::size_t> PathExplorer::selected() const {
     return selected_ && *selected_ < listed().size() ? *selected_ : by_light(listed()).front();
 }
 
-void PathExplorer::add_side(std::vector<PathPiece>& lines, const std::vector<PathRecord>& paths, bool is_guided,
-                            float escape_length) const {
-    const bool is_listed = is_guided == lists_guided();
-    const std::vector<std::size_t> order = by_light(paths);
-    for (auto i = order.rbegin(); i != order.rend(); ++i) {
-        if (is_listed && *i == selected()) continue;
-        add_path(lines, paths[*i],
-                 {.range = range_,
-                  .escape_length = escape_length,
-                  .has_shadow_rays = options_.has_shadow_rays,
-                  .is_dashed = !is_guided && has_two_sides()});
-    }
-}
-
 const std::vector<PathPiece>& PathExplorer::pieces(const PublishedFrame& frame) {
     LinesKey key{.paths = paths_,
                  .scene = frame.scene,
@@ -128,18 +149,12 @@ const std::vector<PathPiece>& PathExplorer::pieces(const PublishedFrame& frame) 
     lines_.pieces.clear();
     if (!paths_) return lines_.pieces;
     ++lines_.times_made;
-    const float escape_length = frame.facts.diagonal;
-    std::vector<PathPiece> lines;
-    const bool two = has_two_sides();
-    if (!two || options_.sides != PathSides::Guided) add_side(lines, paths_->plain, false, escape_length);
-    if (two && options_.sides != PathSides::Plain) add_side(lines, paths_->guided, true, escape_length);
-    if (selected())
-        add_path(lines, listed()[*selected()],
-                 {.range = range_,
-                  .escape_length = escape_length,
-                  .has_shadow_rays = true,
-                  .is_dashed = !lists_guided() && two,
-                  .is_selected = true});
+    const std::vector<PathPiece> lines = lines_of(*paths_, {.range = range_,
+                                                            .sides = options_.sides,
+                                                            .has_shadow_rays = options_.has_shadow_rays,
+                                                            .lists_guided = lists_guided(),
+                                                            .selected = selected(),
+                                                            .escape_length = frame.facts.diagonal});
     lines_.pieces = split_by_visibility(lines, frame.scene->view(), lines_.key.eye);
     return lines_.pieces;
 }

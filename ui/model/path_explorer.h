@@ -23,6 +23,21 @@ struct PathOptions {
     bool has_shadow_rays = false;
 };
 
+/// The light of all paths, for their colors; those without light are left out.
+ValueRange light_range(const PixelPaths& paths);
+
+/// The paths of a pixel, as they are drawn.
+struct DrawnPaths {
+    ValueRange range;  ///< of the light that colors stand for
+    PathSides sides = PathSides::Both;
+    bool has_shadow_rays = false;
+    bool lists_guided = false;              ///< `selected` is one of the guided paths
+    std::optional<std::size_t> selected{};  ///< drawn last and wide, with its shadow rays
+    float escape_length = 1.0f;             ///< of rays that leave the scene, in scene units
+};
+/// Darkest first. Those of the baseline are dashed where there are others.
+std::vector<PathPiece> lines_of(const PixelPaths& paths, const DrawnPaths& drawn);
+
 class PathExplorer {
 public:
     static constexpr int kMostPaths = 256;
@@ -93,8 +108,6 @@ private:
     void drop_with_scene();
     void drop();
     PixelPathsRequest wanted() const;
-    void add_side(std::vector<PathPiece>& lines, const std::vector<PathRecord>& paths, bool is_guided,
-                  float escape_length) const;
     bool has_two_sides() const;
 
     RenderLink& link_;

@@ -122,10 +122,14 @@ void ViewerModel::cancel() {
         gain_marks_.set_shown(false);
     else if (selection_.volume() == kNoVolume && tour_.phase() != GuidedTour::Phase::Off)
         tour_.leave();
-    else if (selection_.volume() != kNoVolume || comparison_.state().mode == CompareMode::Off)
+    else if (selection_.volume() != kNoVolume)
         selection_.deselect();
-    else
+    else if (comparison_.state().mode != CompareMode::Off)
         comparison_.set_mode(CompareMode::Off);
+    else if (!window_.panels.shown)
+        window_.panels.shown = true;
+    else
+        selection_.deselect();
 }
 
 }  // namespace pl

@@ -1,161 +1,43 @@
-#include <algorithm>
-#include <cmath>
-
 #include "core/kernel/geometry/intersector.h"
-#include "ui/draw/lobes.h"
 #include "ui/draw/widgets.h"
-#include "ui/model/shown_volumes.h"
 #include "ui/overlays/overlays.h"
+#include "ui/overlays/scene_shapes.h"
 
 namespace pl {
 namespace {
 
-constexpr float kLobeShare = 0.09f;  ///< of the scene's diagonal: the longest of the shown lobes
-constexpr float kDomeShare = 0.05f;
-constexpr std::uint8_t kAlpha = 235;
-constexpr std::uint8_t kHiddenAlpha = 90;  ///< if the scene hides it from the camera
-constexpr int kRimSteps = 48;
-
-/// The picture, and the list that draws over it.
-struct Canvas {
-    ImDrawList& out;
-    const PublishedFrame& frame;
-    Projection projection;
-
-    void line(Vec3f from, Vec3f to, ImU32 color, float width) const {
-        if (const auto ends = projection.clipped(from, to))
-            out.AddLine({(*ends)[0].x, (*ends)[0].y}, {(*ends)[1].x, (*ends)[1].y}, color, width);
-    }
-};
-
-void draw_mesh(ImDrawList& out, const ScreenMesh& mesh) {
-    constexpr std::size_t kBatch = 3 * 4096;  // points have 16-bit numbers in some versions of ImGui
-    const ImVec2 uv = ImGui::GetFontTexUvWhitePixel();
-    for (std::size_t first = 0; first < mesh.indices.size(); first += kBatch) {
-        const std::size_t count = std::min(kBatch, mesh.indices.size() - first);
-        out.PrimReserve(static_cast<int>(count), static_cast<int>(count));
-        for (std::size_t i = first; i < first + count; ++i) {
-            const Vec2f point = mesh.points[mesh.indices[i]];
-            out.PrimVtx({point.x, point.y}, uv, mesh.colors[mesh.indices[i]]);
-        }
-    }
-}
-
-/// Whether the scene hides the top of the hemisphere from the camera.
-bool is_hidden(const PublishedFrame& frame, const VolumeInspection& volume, float radius) {
-    const Vec3f top = volume.position + radius * volume.normal;
-    const Vec3f eye = frame.snapshot.camera.eye;
-    return BvhIntersector{frame.scene->view()}.occluded({.origin = eye, .direction = top - eye, .t_max = 1.0f});
-}
-
-/// The rim in the color of the pin.
-void draw_rim(const Canvas& canvas, const VolumeInspection& volume, float radius, ImU32 color) {
-    const Frame frame = make_frame(volume.normal);
-    const auto at = [&](int step) {
-        const float angle = 2.0f * kPi * static_cast<float>(step) / kRimSteps;
-        return volume.position + radius * (std::cos(angle) * frame.x + std::sin(angle) * frame.y);
-    };
-    for (int step = 0; step < kRimSteps; ++step) canvas.line(at(step), at(step + 1), color, em(0.1f));
-}
-
-/// From the volume through the peak, beyond the shape.
-void draw_peak(const Canvas& canvas, const VolumeInspection& volume, float length, ImU32 color) {
-    const Vec3f direction = peak_direction(volume.normal, volume.side, volume.probability);
-    const Vec3f tip = volume.position + length * direction;
-    canvas.line(volume.position, tip, color, em(0.12f));
-    const auto tip_point = canvas.projection(tip);
-    const auto start_point = canvas.projection(volume.position);
-    if (!tip_point || !start_point) return;
-    const Vec2f along = tip_point->window - start_point->window;
-    const float pixels = glm::length(along);
-    if (!(pixels > 1.0f)) return;
-    const Vec2f unit = along / pixels;
-    const Vec2f back = tip_point->window - em(0.7f) * unit;
-    const Vec2f aside{-em(0.3f) * unit.y, em(0.3f) * unit.x};
-    canvas.out.AddTriangleFilled({tip_point->window.x, tip_point->window.y}, {back.x + aside.x, back.y + aside.y},
-                                 {back.x - aside.x, back.y - aside.y}, color);
-}
-
 /// The direction of the hovered cell, up to the surface in that direction.
-void draw_hovered_ray(const Canvas& canvas, const VolumeInspection& volume, int cell, float radius) {
+void draw_hovered_ray(ImDrawList& out, const PublishedFrame& frame, const Projection& projection,
+                      const VolumeInspection& volume, int cell) {
     if (cell < 0 || cell >= volume.side * volume.side) return;
     const CellFan fan = make_cell_fans(volume.side)[static_cast<std::size_t>(cell)];
     const Vec3f direction = direction_of(volume, fan[0]);
+    const float radius = kDomeShare * frame.facts.diagonal;
     const Vec3f start = volume.position + 0.01f * radius * volume.normal;
-    const Hit hit = BvhIntersector{canvas.frame.scene->view()}.closest_hit({.origin = start, .direction = direction});
-    canvas.line(start, start + (hit.found() ? hit.t : 10.0f * radius) * direction, IM_COL32(255, 255, 255, 220),
-                em(0.12f));
-}
-
-/// Densities of sampling the field, relative to those of cosine sampling.
-std::vector<float> densities_of(const VolumeInspection& volume) { return cell_values(volume, CellQuantity::Density); }
-
-float largest_density(const std::vector<ShownVolume>& volumes) {
-    float largest = 0.0f;
-    for (const ShownVolume& shown : volumes)
-        for (const float density : densities_of(*shown.volume)) largest = std::max(largest, density);
-    return largest;
-}
-
-struct SharedScale {
-    ValueRange range;
-    float largest_density;
-    LobeShape shape;
-    CellQuantity quantity;
-};
-
-void draw_volume(const Canvas& canvas, const ShownVolume& shown, const SharedScale& scale) {
-    const VolumeInspection& volume = *shown.volume;
-    const float share = scale.shape == LobeShape::Lobe ? kLobeShare : kDomeShare;
-    const float radius = share * canvas.frame.facts.diagonal;
-    const bool hidden = is_hidden(canvas.frame, volume, 0.3f * radius);
-    const std::uint8_t alpha = hidden ? kHiddenAlpha : kAlpha;
-    std::vector<float> lengths = densities_of(volume);
-    for (float& length : lengths) length /= std::max(scale.largest_density, 1.0e-30f);
-    const float longest = scale.shape == LobeShape::Lobe ? *std::ranges::max_element(lengths) : 1.0f;
-    const std::vector<float> positions = positions_in(scale.range, cell_values(volume, scale.quantity));
-    const ImU32 color = (shown.color & 0x00ffffffu) | static_cast<ImU32>(alpha) << 24;
-    draw_rim(canvas, volume, kDomeShare * canvas.frame.facts.diagonal, color);
-    ScreenMesh mesh;
-    add_glyph(mesh,
-              {.position = volume.position,
-               .normal = volume.normal,
-               .radius = radius,
-               .side = volume.side,
-               .lengths = lengths,
-               .positions = positions,
-               .alpha = alpha},
-              scale.shape, canvas.projection);
-    draw_mesh(canvas.out, mesh);
-    draw_peak(canvas, volume, radius * longest + 0.02f * canvas.frame.facts.diagonal, color);
+    const Hit hit = BvhIntersector{frame.scene->view()}.closest_hit({.origin = start, .direction = direction});
+    draw_scene_line(out, projection, start, start + (hit.found() ? hit.t : 10.0f * radius) * direction,
+                    IM_COL32(255, 255, 255, 220), em(0.12f));
 }
 
 }  // namespace
 
 void draw_hemisphere(ViewerModel& model, const Rect& image) {
     if (!model.window().hemisphere || model.frame() == nullptr) return;
-    std::vector<ShownVolume> volumes = shown_volumes(model);
+    const std::vector<ShownVolume> volumes = shown_volumes(model);
     if (volumes.empty()) return;
     const PublishedFrame& frame = *model.frame();
     const Snapshot& snapshot = frame.snapshot;
-    const Canvas canvas{*ImGui::GetBackgroundDrawList(), frame,
-                        Projection(snapshot.camera, snapshot.width, snapshot.height, image)};
-    const SharedScale scale{.range = shown_range(model, volumes),
-                            .largest_density = largest_density(volumes),
-                            .shape = model.window().lobe_shape,
-                            .quantity = model.window().cell_display.quantity};
-    const auto distance = [&](const ShownVolume& shown) {
-        return glm::length(shown.volume->position - canvas.projection.eye());
-    };
-    std::ranges::stable_sort(volumes, std::ranges::greater{}, distance);
-    canvas.out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
-    for (const ShownVolume& shown : volumes) {
-        draw_volume(canvas, shown, scale);
+    const Projection projection(snapshot.camera, snapshot.width, snapshot.height, image);
+    ImDrawList& out = *ImGui::GetBackgroundDrawList();
+    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
+    draw_shapes(out, frame, projection, volumes,
+                {.range = shown_range(model, volumes),
+                 .shape = model.window().lobe_shape,
+                 .quantity = model.window().cell_display.quantity});
+    for (const ShownVolume& shown : volumes)
         if (shown.is_selected)
-            draw_hovered_ray(canvas, *shown.volume, model.selection().hovered_cell(),
-                             kDomeShare * frame.facts.diagonal);
-    }
-    canvas.out.PopClipRect();
+            draw_hovered_ray(out, frame, projection, *shown.volume, model.selection().hovered_cell());
+    out.PopClipRect();
 }
 
 void draw_flowers(ViewerModel& model, const Rect& image) {

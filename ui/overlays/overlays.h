@@ -45,6 +45,9 @@ void draw_self_test(ViewerModel& model, const Layout& layout);
 /// The dialog that opens scenes: known ones, recent ones, and files.
 void draw_open_dialog(ViewerModel& model, const Layout& layout);
 
+/// While the panels are hidden and the pointer moves: the button that shows them.
+void draw_show_panels(ViewerModel& model);
+
 /// All keys, from the table that dispatches them.
 void draw_help(ViewerModel& model, const Layout& layout);
 

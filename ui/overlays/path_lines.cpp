@@ -2,11 +2,12 @@
 
 #include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
+#include "ui/overlays/scene_shapes.h"
 
 namespace pl {
 namespace {
 
-/// The numbers of the selected path's vertices, at their positions.
+/// The numbers of a path's vertices, at their positions.
 void draw_numbers(ImDrawList& out, const PathRecord& path, const Projection& projection) {
     for (std::size_t i = 0; i < path.vertices.size(); ++i) {
         if (path.vertices[i].is_escape) continue;
@@ -24,6 +25,13 @@ void draw_numbers(ImDrawList& out, const PathRecord& path, const Projection& pro
 
 }  // namespace
 
+void draw_strokes(ImDrawList& out, std::span<const PathPiece> pieces, const Projection& projection,
+                  const PathRecord* numbered) {
+    for (const Stroke& stroke : strokes_of(pieces, projection, em(1.0f) / kFontPixels))
+        out.AddLine({stroke.from.x, stroke.from.y}, {stroke.to.x, stroke.to.y}, stroke.color, stroke.width_px);
+    if (numbered != nullptr) draw_numbers(out, *numbered, projection);
+}
+
 void draw_path_lines(ViewerModel& model, const Rect& image) {
     PathExplorer& explorer = model.paths();
     if (!explorer.is_shown() || explorer.paths() == nullptr || model.frame() == nullptr) return;
@@ -32,9 +40,8 @@ void draw_path_lines(ViewerModel& model, const Rect& image) {
     const Projection projection(snapshot.camera, snapshot.width, snapshot.height, image);
     ImDrawList& out = *ImGui::GetBackgroundDrawList();
     out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
-    for (const Stroke& stroke : strokes_of(explorer.pieces(frame), projection, em(1.0f) / kFontPixels))
-        out.AddLine({stroke.from.x, stroke.from.y}, {stroke.to.x, stroke.to.y}, stroke.color, stroke.width_px);
-    if (const auto selected = explorer.selected()) draw_numbers(out, explorer.listed()[*selected], projection);
+    const auto selected = explorer.selected();
+    draw_strokes(out, explorer.pieces(frame), projection, selected ? &explorer.listed()[*selected] : nullptr);
     out.PopClipRect();
 }
 

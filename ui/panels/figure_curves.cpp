@@ -132,9 +132,7 @@ void draw_scrubber(LearningTime& time) {
 
 }  // namespace
 
-void draw_figure_curves(const ViewerModel& model) {
-    const std::vector<FigurePoint>& curve = model.selection().light().curve();
-    if (curve.size() < 2) return;
+void draw_figures(const std::vector<FigurePoint>& curve, std::uint64_t shown) {
     std::vector<NamedCurve> divergences{{"KL of table", kTableColor, {}}, {"KL of paths", kPathsColor, {}}};
     std::vector<NamedCurve> variance{{"variance over that of the BSDF", kVarianceColor, {}}};
     for (const FigurePoint& point : curve) {
@@ -143,9 +141,14 @@ void draw_figure_curves(const ViewerModel& model) {
         if (point.figures.variance_factor)
             variance[0].points.push_back(point_of(point.passes, *point.figures.variance_factor));
     }
-    const std::uint64_t shown = model.time().frame() != nullptr ? model.time().frame()->passes() : 0;
     draw_plot(divergences, 0.0, shown);
     if (!variance[0].points.empty()) draw_plot(variance, 1.0, shown);
+}
+
+void draw_figure_curves(const ViewerModel& model) {
+    const std::vector<FigurePoint>& curve = model.selection().light().curve();
+    if (curve.size() < 2) return;
+    draw_figures(curve, model.time().frame() != nullptr ? model.time().frame()->passes() : 0);
 }
 
 void draw_time(ViewerModel& model, const VolumeInspection& shown) {

@@ -5,7 +5,11 @@
 
 namespace pl {
 
-/// Divergences of table and paths, and below them the variance factor, over the passes that trained the field.
+/// Divergences of table and paths, and below them the variance factor, over the passes that trained the field. `shown`: passes of
+/// the time that is shown, 0 for now.
+void draw_figures(const std::vector<FigurePoint>& curve, std::uint64_t shown);
+
+/// Those of the selected volume, if there are several.
 void draw_figure_curves(const ViewerModel& model);
 
 /// Keeping the past, the slider through it, and the difference of the shown time to now.

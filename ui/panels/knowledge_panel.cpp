@@ -142,43 +142,26 @@ void draw_log_tab(const ViewerModel& model) {
 void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered) {
     model.selection().hover_cell(-1);  // the volume tab sets it again if it is in front
     begin_fixed_window("knowledge", layout.right);
-    if (ImGui::BeginTabBar("tabs")) {
-        // A click shows what was asked for: the paths of the pixel, or else the volume.
-        const bool is_new = model.selection().take_new_volume();
-        const bool traces = model.paths().is_shown();
-        const auto front = [&](bool wanted) {
-            return is_new && wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
-        };
-        if (begin_tab("Volume", front(!traces))) {
-            draw_volume_tab(model);
-            ImGui::EndTabItem();
-        }
-        if ((is_research(model) || traces) && begin_tab("Paths", front(traces))) {
-            draw_paths_tab(model);
-            ImGui::EndTabItem();
-        }
-        if (begin_tab("Material")) {
-            draw_material_tab(model);
-            ImGui::EndTabItem();
-        }
-        if (is_research(model) && begin_tab("Effects")) {
-            draw_effects_tab(model);
-            ImGui::EndTabItem();
-        }
-        if (begin_tab("Pixel")) {
-            draw_pixel_tab(model, hovered);
-            ImGui::EndTabItem();
-        }
-        if (is_research(model) && begin_tab("Statistics")) {
-            draw_statistics_tab(model);
-            ImGui::EndTabItem();
-        }
-        if (is_research(model) && begin_tab("Log")) {
-            draw_log_tab(model);
-            ImGui::EndTabItem();
-        }
-        ImGui::EndTabBar();
-    }
+    const bool research = is_research(model);
+    const bool traces = model.paths().is_shown();
+    TabRow tabs("tabs");
+    // A click shows what was asked for: the paths of the pixel, or else the volume.
+    if (model.selection().take_new_volume()) tabs.choose(traces ? "Paths" : "Volume");
+    const bool volume = tabs.add("Volume");
+    const bool paths = (research || traces) && tabs.add("Paths");
+    const bool material = tabs.add("Material");
+    const bool effects = research && tabs.add("Effects");
+    const bool pixel = tabs.add("Pixel");
+    const bool statistics = research && tabs.add("Statistics");
+    const bool log = research && tabs.add("Log");
+    tabs.end();
+    if (volume) draw_volume_tab(model);
+    if (paths) draw_paths_tab(model);
+    if (material) draw_material_tab(model);
+    if (effects) draw_effects_tab(model);
+    if (pixel) draw_pixel_tab(model, hovered);
+    if (statistics) draw_statistics_tab(model);
+    if (log) draw_log_tab(model);
     ImGui::End();
 }
 

@@ -1,5 +1,7 @@
 #include <cctype>
 
+#include <fmt/format.h>
+
 #include "ui/draw/widgets.h"
 #include "ui/input/perform_action.h"
 #include "ui/panels/panels.h"
@@ -17,12 +19,15 @@ void draw_recent_menu(ViewerModel& model) {
 
 /// One menu per group of the key table, without the held keys.
 void draw_group(ViewerModel& model, ActionGroup group) {
-    if (!ImGui::BeginMenu(name_of(group))) return;
+    const bool is_open = ImGui::BeginMenu(name_of(group));
+    note_place(fmt::format("menu {}", name_of(group)).c_str());
+    if (!is_open) return;
     for (const Action& action : all_actions()) {
         if (action.group != group || action.is_held) continue;
         std::string label = action.text;
         label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
         if (ImGui::MenuItem(label.c_str(), action.keys.c_str())) perform(model, action);
+        note_place(action.text.c_str());
     }
     if (group == ActionGroup::File) draw_recent_menu(model);
     ImGui::EndMenu();

@@ -29,8 +29,9 @@ constexpr std::array kWords{
     CommandWord{"aim_at", Kind::AimAt},  CommandWord{"down", Kind::Down},     CommandWord{"up", Kind::Up},
     CommandWord{"wheel", Kind::Wheel},   CommandWord{"key", Kind::Key},       CommandWord{"keyup", Kind::KeyUp},
     CommandWord{"tap", Kind::Tap},       CommandWord{"resize", Kind::Resize}, CommandWord{"drop", Kind::Drop},
-    CommandWord{"shot", Kind::Shot},     CommandWord{"expect", Kind::Expect}, CommandWord{"wait", Kind::Wait},
-    CommandWord{"wait_spp", Kind::Wait}, CommandWord{"quit", Kind::Quit},
+    CommandWord{"type", Kind::Type},     CommandWord{"monkey", Kind::Monkey}, CommandWord{"shot", Kind::Shot},
+    CommandWord{"expect", Kind::Expect}, CommandWord{"wait", Kind::Wait},     CommandWord{"wait_spp", Kind::Wait},
+    CommandWord{"quit", Kind::Quit},
 };
 constexpr std::array<std::string_view, 7> kOperators{"==", "!=", "<", "<=", ">", ">=", "~"};
 
@@ -158,6 +159,12 @@ void read_arguments(LineReader& line, std::string_view word, ScriptCommand& comm
     case Kind::Key:
     case Kind::KeyUp:
     case Kind::Tap: command.key = read_key(line); break;
+    case Kind::Monkey:
+        command.x = line.number("a seed");
+        command.y = line.number("a number of events");
+        if (command.x < 0.0 || command.y < 0.0) line.fail("expected a seed and a number of events of at least 0");
+        break;
+    case Kind::Type: command.text = line.rest("a text"); break;
     case Kind::Drop:
     case Kind::Shot: command.text = line.rest("a file name"); break;
     case Kind::Expect: command.condition = read_condition(line); break;

@@ -3,11 +3,12 @@
 //   FRAME move X Y | aim U V | aim_plot U V | aim_at U V LABEL | down B [MODS] | up B | wheel N [MODS]
 //   FRAME key K [MODS] | keyup K
 //   FRAME tap K [MODS] | resize W H | drop FILE
+//   FRAME type TEXT | monkey SEED EVENTS
 //   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE | wait_spp N | quit
 // B is left, right or middle; MODS are shift, ctrl, alt. `aim` points at the image: (0, 0) is its top left corner and
 // (1, 1) its bottom right one. `aim_plot` points at the curves of the accuracy panel in the same way, and beyond (1, 1)
 // at the numbers of its axes. `aim_at` points at the control with this label: also a tab or a button. OP is one of
-// == != < <= > >= ~ (contains). The frame count stands still while a script waits.
+// == != < <= > >= ~ (contains). `monkey` plays random input. The frame count stands still while a script waits, and meanwhile.
 #pragma once
 
 #include <filesystem>
@@ -42,6 +43,8 @@ struct ScriptCommand {
         Tap,
         Resize,
         Drop,
+        Type,
+        Monkey,
         Shot,
         Expect,
         Wait,
@@ -50,11 +53,11 @@ struct ScriptCommand {
     Kind kind = Kind::Quit;
     int frame = 0;
     std::string where;  ///< file:line, for messages
-    double x = 0.0;     ///< also width, notches
-    double y = 0.0;     ///< also height
+    double x = 0.0;     ///< also width, notches, seed
+    double y = 0.0;     ///< also height, number of events
     int button = 0;     ///< SDL's number
     KeyStroke key{};
-    std::string text;  ///< file name, label
+    std::string text;  ///< file name, label, what is typed
     ScriptCondition condition;
 };
 

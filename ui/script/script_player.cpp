@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "ui/draw/gui_memory.h"
+#include "ui/draw/imgui_compat.h"
 #include "ui/model/viewer_model.h"
 #include "ui/script/script_values.h"
 
@@ -78,6 +79,19 @@ bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, 
                             script_value(model, command.condition.name)));
 }
 
+/// One event in each frame of the window.
+bool ScriptPlayer::play_monkey(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds) {
+    if (!monkey_) monkey_.emplace(static_cast<std::uint64_t>(command.x), static_cast<int>(command.y));
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const auto next = monkey_->next({size.x, size.y}, gui_memory().places);
+    ++monkey_frames_;
+    if (next)
+        run(*next, model, image, seconds);
+    else
+        monkey_.reset();
+    return !next;
+}
+
 bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds) {
     switch (command.kind) {
     case Kind::Move: push_motion({static_cast<float>(command.x), static_cast<float>(command.y)}); break;
@@ -110,6 +124,8 @@ bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const R
         SDL_PushEvent(&event);
         break;
     }
+    case Kind::Type: push_text(command.text); break;
+    case Kind::Monkey: return play_monkey(command, model, image, seconds);
     case Kind::Shot: shot_ = command.text; break;
     case Kind::Expect: require(command, model); break;
     case Kind::Wait: return wait(command, model, seconds);
@@ -145,12 +161,21 @@ void ScriptPlayer::push_button(int button, bool down) {
     SDL_PushEvent(&event);
 }
 
+void ScriptPlayer::push_text(const std::string& text) {
+    SDL_Event event{};
+    event.type = SDL_TEXTINPUT;
+    event.text.windowID = SDL_GetWindowID(window_);
+    SDL_strlcpy(event.text.text, text.c_str(), sizeof(event.text.text));
+    SDL_PushEvent(&event);
+}
+
 void ScriptPlayer::push_key(const KeyStroke& key, bool down) {
     SDL_Event event{};
     event.type = down ? SDL_KEYDOWN : SDL_KEYUP;
     event.key.windowID = SDL_GetWindowID(window_);
     event.key.state = down ? SDL_PRESSED : SDL_RELEASED;
-    event.key.keysym.scancode = static_cast<SDL_Scancode>(key.scancode);
+    event.key.keysym.scancode = key.symbol != 0 ? SDL_GetScancodeFromKey(static_cast<SDL_Keycode>(key.symbol))
+                                                : static_cast<SDL_Scancode>(key.scancode);
     event.key.keysym.sym = SDL_GetKeyFromScancode(event.key.keysym.scancode);
     event.key.keysym.mod = sdl_modifiers(key.modifiers);
     SDL_PushEvent(&event);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ui/draw/layout.h"
+#include "ui/script/monkey.h"
 #include "ui/script/script.h"
 
 struct SDL_Window;
@@ -29,22 +30,29 @@ public:
 
     /// The clock of the script: its frames at a sixtieth of a second. Clicks are timed by it, so that a slow frame makes
     /// no difference.
-    double seconds() const { return frame_ * kFrameSeconds; }
+    double seconds() const { return (frame_ + monkey_frames_) * kFrameSeconds; }
+
+    /// Random input is played, whose requests to quit do not count.
+    bool ignores_quit() const { return monkey_.has_value(); }
 
     /// The file to save the finished frame to, once.
     std::optional<std::filesystem::path> take_shot();
 
 private:
     bool run(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds);
+    bool play_monkey(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds);
     bool wait(const ScriptCommand& command, const ViewerModel& model, double seconds);
     void push_motion(Vec2f position);
     void push_button(int button, bool down);
+    void push_text(const std::string& text);
     void push_key(const KeyStroke& key, bool down);
 
     std::vector<ScriptCommand> commands_;
     SDL_Window* window_;
     std::size_t next_ = 0;
     int frame_ = 0;
+    std::optional<Monkey> monkey_;
+    int monkey_frames_ = 0;  ///< in which random input was played
     std::optional<double> waiting_since_;
     std::vector<KeyStroke> tapped_;  ///< keys that go up in the next frame
     std::optional<std::filesystem::path> shot_;

@@ -165,6 +165,12 @@ constexpr std::array kValues{
     Value{"busy", [](const ViewerModel& m) { return word(m.busy()); }},
     Value{"volume", [](const ViewerModel& m) { return fmt::format("{}", m.selection().volume()); }},
     Value{"inspected", [](const ViewerModel& m) { return word(m.selection().inspection() != nullptr); }},
+    Value{"at_home",
+          [](const ViewerModel& m) {
+              const CameraDescription& home = m.scene().materials().file()->camera;
+              const CameraDescription& now = m.camera().camera();
+              return word(now.eye == home.eye && now.target == home.target);
+          }},
     Value{"eye", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.eye); }},
     Value{"eye_z", [](const ViewerModel& m) { return fmt::format("{}", m.render().settings().camera.eye.z); }},
     Value{"target", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.target); }},
@@ -278,6 +284,7 @@ constexpr std::array kValues{
           }},
     Value{"diagnostics", diagnostics_found},
     Value{"searching", [](const ViewerModel& m) { return word(m.diagnostics().share().has_value()); }},
+    Value{"selftest_shown", [](const ViewerModel& m) { return word(m.self_test().is_shown()); }},
     Value{"selftest", [](const ViewerModel& m) { return std::string(name_of(m.self_test().run().outcome())); }},
     Value{"checks", [](const ViewerModel& m) { return fmt::format("{}", m.self_test().run().checks().size()); }},
     Value{"invalid",

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "ui/window/icon.h"
+#include "ui/window/offscreen.h"
 
 namespace pl {
 namespace {
@@ -169,13 +170,6 @@ std::optional<WindowPlace> Display::place(const std::optional<WindowPlace>& befo
     return now;
 }
 
-ScreenPixels Display::read_pixels() const {
-    ScreenPixels pixels;
-    SDL_GetRendererOutputSize(renderer_, &pixels.width, &pixels.height);
-    pixels.rgb.resize(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height) * 3);
-    if (SDL_RenderReadPixels(renderer_, nullptr, SDL_PIXELFORMAT_RGB24, pixels.rgb.data(), pixels.width * 3) != 0)
-        throw Error(ErrorKind::Runtime, fmt::format("cannot read the window's pixels: {}", SDL_GetError()));
-    return pixels;
-}
+ScreenPixels Display::read_pixels() const { return pl::read_pixels(renderer_); }
 
 }  // namespace pl

@@ -20,6 +20,7 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
     draw_comparison(model, plan);
     if (layout.panels) draw_badges(model, layout, plan);
     draw_tour(model, layout, common_part(image, layout.view), plan);
+    if (!layout.panels) draw_show_panels(model);
     draw_toasts(model, layout, plan);
     draw_self_test(model, layout);
     draw_open_dialog(model, layout);

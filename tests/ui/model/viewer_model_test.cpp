@@ -29,6 +29,25 @@ TEST_CASE("Viewer model: Esc closes the help, then interrupts precomputation, th
     bench.control->hold = false;
 }
 
+TEST_CASE("Viewer model: Esc shows hidden panels when nothing else is left to close") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.window().panels.shown = false;
+    model.comparison().set_mode(CompareMode::Split);
+    model.selection().select_volume(0);
+    model.cancel();
+    CHECK(model.selection().volume() == kNoVolume);
+    CHECK(model.comparison().state().mode == CompareMode::Split);
+    model.cancel();
+    CHECK(model.comparison().state().mode == CompareMode::Off);
+    CHECK_FALSE(model.window().panels.shown);
+    model.cancel();
+    CHECK(model.window().panels.shown);
+    model.cancel();
+    CHECK(model.window().panels.shown);
+}
+
 TEST_CASE("Viewer model: title and command line describe the picture") {
     FileBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);

@@ -30,12 +30,12 @@ TEST_CASE("Script: every command is understood") {
                                        "2 down left\n2 up right\n3 wheel -2\n4 key W shift alt\n5 keyup W\n"
                                        "6 tap F12 shift\n7 resize 1280 720\n8 drop a file.obj\n9 shot out dir/a.png\n"
                                        "10 expect method == default\n11 wait spp >= 16\n12 wait_spp 4\n13 quit\n"
-                                       "14 aim_plot 0.5 1.1",
+                                       "14 aim_plot 0.5 1.1\n15 type a text\n16 monkey 7 100",
                                        "tour.script");
     using Kind = ScriptCommand::Kind;
-    const std::vector<Kind> kinds{Kind::Move,  Kind::Aim,  Kind::Down,   Kind::Up,     Kind::Wheel, Kind::Key,
-                                  Kind::KeyUp, Kind::Tap,  Kind::Resize, Kind::Drop,   Kind::Shot,  Kind::Expect,
-                                  Kind::Wait,  Kind::Wait, Kind::Quit,   Kind::AimPlot};
+    const std::vector<Kind> kinds{Kind::Move,  Kind::Aim,  Kind::Down,   Kind::Up,      Kind::Wheel, Kind::Key,
+                                  Kind::KeyUp, Kind::Tap,  Kind::Resize, Kind::Drop,    Kind::Shot,  Kind::Expect,
+                                  Kind::Wait,  Kind::Wait, Kind::Quit,   Kind::AimPlot, Kind::Type,  Kind::Monkey};
     REQUIRE(commands.size() == kinds.size());
     for (std::size_t i = 0; i < kinds.size(); ++i) CHECK(commands[i].kind == kinds[i]);
     CHECK(commands[0].where == "tour.script:2");
@@ -51,6 +51,9 @@ TEST_CASE("Script: every command is understood") {
     CHECK(commands[13].condition.name == "spp");
     CHECK(commands[13].condition.op == ">=");
     CHECK(commands[15].y == 1.1);
+    CHECK(commands[16].text == "a text");
+    CHECK(commands[17].x == 7.0);
+    CHECK(commands[17].y == 100.0);
     CHECK(parse_script("", "x").empty());
 }
 
@@ -71,6 +74,9 @@ TEST_CASE("Script: a bad line names file, line and what was expected") {
         {"0 key Hyper", "expected the name of a key"},
         {"0 key W meta", "expected shift, ctrl or alt, got 'meta'"},
         {"0 resize 0 5", "expected a width and a height of at least 1"},
+        {"0 type", "expected a text, got the end of the line"},
+        {"0 monkey 1", "expected a number of events, got the end of the line"},
+        {"0 monkey -1 5", "expected a seed and a number of events of at least 0"},
         {"0 shot", "expected a file name, got the end of the line"},
         {"0 expect colour == red", "unknown value 'colour', expected one of: method"},
         {"0 expect method = default", "expected one of == != < <= > >= ~, got '='"},

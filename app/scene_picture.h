@@ -1,0 +1,50 @@
+// Pictures of what was learned and of paths, in the scene: drawn by the viewer's code, which a build without a viewer lacks.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "app/options.h"
+#include "core/diagnose/path_record.h"
+#include "core/inspect/guiding_figures.h"
+#include "core/io/image.h"
+#include "core/session/session.h"
+
+namespace pl {
+
+/// Throws Error(Unavailable) in a build without a viewer.
+void require_viewer_code(const std::string& option);
+
+/// The first surfaces as the camera sees them, lit by light samples of a few passes, with a volume as Options::drawn says.
+ByteImage draw_in_scene(Session& session, std::int32_t volume, const Options& options);
+
+/// The same with paths of a pixel as lines.
+ByteImage draw_path_lines(Session& session, const std::vector<PathRecord>& paths, const Options& options);
+
+/// A volume at one of the key frames of a field.
+struct HistoryPoint {
+    std::uint64_t passes = 0;  ///< that trained the field
+    GuidingFigures figures;
+    double divergence_to_end = 0.0;  ///< Kullback-Leibler, of the last frame from this one, nats; may be infinite
+    double variation_to_end = 0.0;   ///< total variation, in [0, 1]
+};
+
+/// Key frames of the field that a session trains, see FieldHistoryRecorder.
+class FieldPast {
+public:
+    FieldPast();
+    ~FieldPast();
+    /// After each piece of work.
+    void observe(const Session& session, MethodId method);
+    std::vector<HistoryPoint> points(const IncidentLight& light, std::int32_t volume, TargetLight target) const;
+
+private:
+    struct Kept;
+    std::unique_ptr<Kept> kept_;
+};
+
+/// Their figures as curves.
+ByteImage draw_history(const std::vector<HistoryPoint>& points);
+
+}  // namespace pl

@@ -1,0 +1,41 @@
+// The displays over the picture drawn into memory, by the code that draws them in the window: for files and tests, without a display.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "core/io/image.h"
+#include "ui/draw/lobes.h"
+#include "ui/model/light_tracing.h"
+#include "ui/worker/field_history.h"
+#include "ui/worker/published_frame.h"
+
+namespace pl {
+
+/// A film as the window would show it. It has a pass.
+PublishedFrame frame_of(Session& session, FilmSlot slot, const DisplaySettings& display);
+
+/// Draws pictures with the window's font, see load_fonts().
+class PicturePainter {
+public:
+    explicit PicturePainter(std::filesystem::path font) : font_(std::move(font)) {}
+
+    /// Volumes as lobes or domes at their places, with ring and peak: at most PinnedVolumes::kMost in their colors, one alone in white.
+    ByteImage volumes(const PublishedFrame& frame,
+                      const std::vector<std::shared_ptr<const VolumeInspection>>& volumes, LobeShape shape) const;
+    /// Lobes of every n-th volume, at most kMostFlowers.
+    ByteImage flowers(const PublishedFrame& frame, const FieldKeyFrame& field) const;
+    /// Paths as lines; the brightest wide, with its shadow rays and the numbers of its vertices.
+    ByteImage paths(const PublishedFrame& frame, const PixelPaths& paths) const;
+    /// Divergences and variance factor over the passes. Size in pixels.
+    ByteImage figures(const std::vector<FigurePoint>& points, int width, int height) const;
+
+private:
+    template <class Draw>
+    ByteImage over(const PublishedFrame& frame, Draw&& draw) const;
+
+    std::filesystem::path font_;
+};
+
+}  // namespace pl
