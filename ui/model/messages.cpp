@@ -1,5 +1,7 @@
 #include "ui/model/messages.h"
 
+#include <algorithm>
+
 namespace pl {
 namespace {
 
@@ -15,6 +17,15 @@ void Messages::drop_expired() {
 void Messages::note(MessageLevel level, const std::string& text) {
     if (log_.size() >= kMaxLogLines) log_.erase(log_.begin());
     log_.push_back({now_, level, text});
+    ++count_;
+}
+
+std::string Messages::texts_after(std::uint64_t count) const {
+    const std::uint64_t wanted = std::min<std::uint64_t>(count_ - std::min(count, count_), log_.size());
+    std::string texts;
+    for (std::size_t i = log_.size() - wanted; i < log_.size(); ++i)
+        texts += (texts.empty() ? "" : "\n") + log_[i].text;
+    return texts;
 }
 
 void Messages::say(MessageLevel level, const std::string& text) {

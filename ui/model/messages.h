@@ -1,6 +1,7 @@
 // Messages to the user: toasts over the picture, which expire, and the log, which keeps them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,16 @@ public:
     void note(MessageLevel level, const std::string& text);  ///< log only
 
     const std::vector<LogLine>& log() const { return log_; }
+    /// Messages so far, with those that the log has dropped.
+    std::uint64_t count() const { return count_; }
+    /// The texts of the messages after the first `count`, each on a line, as far as the log keeps them.
+    std::string texts_after(std::uint64_t count) const;
     const std::vector<Toast>& toasts() const { return toasts_; }
 
 private:
     double now_ = 0.0;
     std::vector<LogLine> log_;
+    std::uint64_t count_ = 0;
     std::vector<Toast> toasts_;
 };
 

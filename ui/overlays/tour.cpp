@@ -75,6 +75,17 @@ void draw_card(ViewerModel& model, Phase phase) {
     if (phase == Phase::Finished) draw_end(model);
 }
 
+/// Above the names of the pictures. These come, go and wrap while pictures render: during a click the card stays, so that its
+/// buttons are still under the pointer when it ends.
+float bottom_of_card(const Rect& view, const Rect& image, const ComparePlan& plan) {
+    float& bottom = gui_memory().card_bottom;
+    const bool is_click = ImGui::IsAnyMouseDown() || ImGui::IsMouseReleased(ImGuiMouseButton_Left);
+    if (is_click && bottom > 0.0f) return bottom;
+    const float names = std::min(top_of_names(plan), image.y + image.height - names_height());
+    bottom = std::min(view.y + view.height, names) - em(0.6f);
+    return bottom;
+}
+
 }  // namespace
 
 void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan) {
@@ -86,9 +97,7 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, cons
         draw_frame(place);
     }
     const Rect& view = layout.clear;
-    // Names come, go and wrap while pictures render; the card stays where its buttons are being aimed at.
-    const float names = std::min(top_of_names(plan), image.y + image.height - names_height());
-    const float bottom = std::min(view.y + view.height, names) - em(0.6f);
+    const float bottom = bottom_of_card(layout.clear, image, plan);
     const float width = std::min(view.width - em(1.2f), em(34.0f));
     ImGui::SetNextWindowPos({view.x + 0.5f * view.width, bottom}, ImGuiCond_Always, {0.5f, 1.0f});
     ImGui::SetNextWindowSize({width, 0.0f});

@@ -25,12 +25,10 @@ Uint16 sdl_modifiers(const Modifiers& modifiers) {
     return static_cast<Uint16>(mod);
 }
 
-void require(const ScriptCommand& command, const ViewerModel& model) {
-    const ScriptCondition& condition = command.condition;
-    const std::string actual = script_value(model, condition.name);
-    if (!holds(condition, actual))
-        throw Error(ErrorKind::Runtime, fmt::format("{}: expected {} {} {}, got '{}'", command.where, condition.name,
-                                                    condition.op, condition.value, actual));
+/// Kinds of input that begin something: messages before them are not their answer.
+bool begins_input(Kind kind) {
+    return kind == Kind::Down || kind == Kind::Wheel || kind == Kind::Key || kind == Kind::Tap ||
+           kind == Kind::Drop || kind == Kind::Type;
 }
 
 Vec2f point_in(const Rect& frame, const ScriptCommand& command) {
@@ -66,17 +64,36 @@ void ScriptPlayer::step(ViewerModel& model, const Rect& image, double seconds) {
 
 std::optional<std::filesystem::path> ScriptPlayer::take_shot() { return std::exchange(shot_, std::nullopt); }
 
+std::string ScriptPlayer::value_of(const ScriptCondition& condition, const ViewerModel& model) const {
+    return condition.name == "message" ? model.messages().texts_after(messages_before_)
+                                       : script_value(model, condition.name);
+}
+
+void ScriptPlayer::require(const ScriptCommand& command, const ViewerModel& model) const {
+    const ScriptCondition& condition = command.condition;
+    const std::string actual = value_of(condition, model);
+    if (!holds(condition, actual))
+        throw Error(ErrorKind::Runtime, fmt::format("{}: expected {} {} {}, got '{}'", command.where, condition.name,
+                                                    condition.op, condition.value, actual));
+}
+
 bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, double seconds) {
-    if (holds(command.condition, script_value(model, command.condition.name))) {
+    if (holds(command.condition, value_of(command.condition, model))) {
         waiting_since_.reset();
         return true;
     }
     if (!waiting_since_) waiting_since_ = seconds;
     if (seconds - *waiting_since_ < kHangSeconds) return false;
-    throw Error(ErrorKind::Runtime,
-                fmt::format("{}: waited {:.0f} s for {} {} {}, got '{}'", command.where, kHangSeconds,
-                            command.condition.name, command.condition.op, command.condition.value,
-                            script_value(model, command.condition.name)));
+    throw Error(ErrorKind::Runtime, fmt::format("{}: waited {:.0f} s for {} {} {}, got '{}'", command.where,
+                                                kHangSeconds, command.condition.name, command.condition.op,
+                                                command.condition.value, value_of(command.condition, model)));
+}
+
+/// The layout may have moved a control since it was aimed at, as a line appears above it.
+void ScriptPlayer::follow_control() {
+    if (!aimed_at_ || !gui_memory().places.contains(aimed_at_->text)) return;
+    const Vec2f point = point_in(place_of(*aimed_at_), *aimed_at_);
+    if (point != pointer_) push_motion(point);
 }
 
 /// One event in each frame of the window.
@@ -93,13 +110,22 @@ bool ScriptPlayer::play_monkey(const ScriptCommand& command, ViewerModel& model,
 }
 
 bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds) {
+    if (begins_input(command.kind)) messages_before_ = model.messages().count();
+    const bool is_motion = command.kind == Kind::Move || command.kind == Kind::Aim || command.kind == Kind::AimPlot;
+    if (is_motion) aimed_at_.reset();
     switch (command.kind) {
     case Kind::Move: push_motion({static_cast<float>(command.x), static_cast<float>(command.y)}); break;
     case Kind::Aim: push_motion(point_in(image, command)); break;
     case Kind::AimPlot: push_motion(point_in(model.window().plot.frame, command)); break;
-    case Kind::AimAt: push_motion(point_in(place_of(command), command)); break;
+    case Kind::AimAt:
+        push_motion(point_in(place_of(command), command));
+        aimed_at_ = command;
+        break;
     case Kind::Down: SDL_SetModState(static_cast<SDL_Keymod>(sdl_modifiers(command.key.modifiers))); [[fallthrough]];
-    case Kind::Up: push_button(command.button, command.kind == Kind::Down); break;
+    case Kind::Up:
+        follow_control();
+        push_button(command.button, command.kind == Kind::Down);
+        break;
     case Kind::Wheel: {
         SDL_SetModState(static_cast<SDL_Keymod>(sdl_modifiers(command.key.modifiers)));
         SDL_Event event{};

@@ -20,7 +20,7 @@ class ScriptPlayer {
 public:
     static constexpr double kFrameSeconds = 1.0 / 60.0;
     /// Only a guard against waits that never end, so that no verdict depends on the speed of the machine.
-    static constexpr double kHangSeconds = 3600.0;
+    static constexpr double kHangSeconds = 600.0;
 
     ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* window);
 
@@ -42,6 +42,10 @@ private:
     bool run(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds);
     bool play_monkey(const ScriptCommand& command, ViewerModel& model, const Rect& image, double seconds);
     bool wait(const ScriptCommand& command, const ViewerModel& model, double seconds);
+    void require(const ScriptCommand& command, const ViewerModel& model) const;
+    /// The value of a condition. "message" is every message since the last input: others may follow the one that is waited for.
+    std::string value_of(const ScriptCondition& condition, const ViewerModel& model) const;
+    void follow_control();
     void push_motion(Vec2f position);
     void push_button(int button, bool down);
     void push_text(const std::string& text);
@@ -54,7 +58,9 @@ private:
     std::optional<Monkey> monkey_;
     int monkey_frames_ = 0;  ///< in which random input was played
     std::optional<double> waiting_since_;
-    std::vector<KeyStroke> tapped_;  ///< keys that go up in the next frame
+    std::uint64_t messages_before_ = 0;      ///< the last input
+    std::optional<ScriptCommand> aimed_at_;  ///< the control under the pointer
+    std::vector<KeyStroke> tapped_;          ///< keys that go up in the next frame
     std::optional<std::filesystem::path> shot_;
     Vec2f pointer_{0.0f};
     unsigned int buttons_ = 0;

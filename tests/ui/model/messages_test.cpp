@@ -30,3 +30,18 @@ TEST_CASE("Messages: the oldest toasts and lines give way") {
     CHECK(messages.toasts().size() == Messages::kMaxToasts);
     CHECK(messages.toasts().back().text == std::to_string(Messages::kMaxLogLines));
 }
+
+TEST_CASE("Messages: the texts after some of them, as far as the log goes back") {
+    Messages messages;
+    messages.say(MessageLevel::Info, "copied");
+    const std::uint64_t before = messages.count();
+    CHECK(messages.texts_after(before).empty());
+    messages.say(MessageLevel::Warning, "not reproducible");
+    messages.note(MessageLevel::Info, "saved");
+    CHECK(messages.texts_after(before) == "not reproducible\nsaved");
+    CHECK(messages.texts_after(0) == "copied\nnot reproducible\nsaved");
+    CHECK(messages.texts_after(100).empty());
+    for (std::size_t i = 0; i < Messages::kMaxLogLines; ++i) messages.note(MessageLevel::Info, "x");
+    CHECK(messages.count() == Messages::kMaxLogLines + 3);
+    CHECK(messages.texts_after(0).size() == 2 * Messages::kMaxLogLines - 1);
+}
