@@ -15,7 +15,7 @@ constexpr double kMature = 640.0;
 /// The least gains that are guided. Below 1 at first, since guided paths make a field better; above 1 in the end, since even numbers
 /// take more noise from the baseline's first vertices than the variance of a sample shows.
 constexpr double kLeastGainOfYoung = 0.1;
-constexpr double kLeastGainOfLearning = 0.85;
+constexpr double kLeastGainOfLearning = 0.9;
 constexpr double kLeastGain = 1.04;
 /// The gain from which on guiding is taken up again.
 constexpr double kReturningGain = 1.1;
@@ -25,6 +25,11 @@ constexpr double kFallOfFastLearning = 0.75;
 /// Rounds of the warm-up: after the first number it ends with a gain that is clear.
 constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
 constexpr std::uint32_t kMostWarmUpRounds = 12;
+/// Round from which on a warm-up also ends where learning does not bring enough: a gain that has risen by less than this factor since
+/// it was first measured. Smaller gains are doubtful, since few paths have found the light so far.
+constexpr std::uint32_t kFirstFlatRound = 7;
+constexpr double kRiseOfLearning = 1.05;
+constexpr double kLeastCertainGain = 0.6;
 /// Rounds after which a field that another film interrupts is trusted.
 constexpr std::uint32_t kRoundsOfTrust = 4;
 
@@ -91,7 +96,15 @@ void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters
     const double gain = gain_.value_or(kLeastGain);
     const double least = least_gain();
     const bool is_clear = rounds_ >= kFewestWarmUpRounds && gain >= std::max(least, kLeastGainOfLearning);
-    if (is_clear || rounds_ >= kMostWarmUpRounds) belief_ = gain >= least;
+    if (is_clear || rounds_ >= kMostWarmUpRounds)
+        belief_ = gain >= least;
+    else if (is_flat())
+        belief_ = false;
+}
+
+bool GuidingChoice::is_flat() const {
+    if (rounds_ < kFirstFlatRound || !gain_ || !first_gain_) return false;
+    return *gain_ >= kLeastCertainGain && *gain_ < kLeastGainOfLearning && *gain_ < kRiseOfLearning * *first_gain_;
 }
 
 Trial GuidingChoice::trial_before(std::uint32_t pass) const {
@@ -149,7 +162,9 @@ void GuidingChoice::learn(const PassCounters& guided, const GuidingTerms& terms)
 void GuidingChoice::predict() {
     if (!guided_.is_measured() || !baseline_.is_measured()) return;
     const double gain = baseline_.variance() * baseline_.cost() / (guided_.variance() * guided_.cost());
-    if (gain > 0.0 && std::isfinite(gain)) gain_ = gain;
+    if (!(gain > 0.0) || !std::isfinite(gain)) return;
+    gain_ = gain;
+    if (!first_gain_) first_gain_ = gain;
 }
 
 double GuidingChoice::least_gain() const {

@@ -105,6 +105,8 @@ private:
     void predict();
     void spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
     double least_gain() const;
+    /// Whether guiding loses clearly, and no less than at first.
+    bool is_flat() const;
     void decide();
 
     PathEfficiency guided_;
@@ -118,6 +120,7 @@ private:
     double spent_ = 0.0;                       ///< on rounds and trials, in passes of the baseline
     double trial_cost_ = 0.0;                  ///< likewise, on the last one
     std::optional<double> gain_;
+    std::optional<double> first_gain_;
     std::optional<bool> belief_;  ///< whether guiding pays
 };
 

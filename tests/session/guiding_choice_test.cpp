@@ -102,15 +102,27 @@ TEST_CASE("Guiding choice: a warm-up ends early with a clear gain or a loss") {
     };
     CHECK(rounds_with(0.4) == std::pair(5u, true));   // a gain of 1.67
     CHECK(rounds_with(0.7) == std::pair(5u, true));   // 0.95: fields get better
-    CHECK(rounds_with(0.8) == std::pair(12u, true));  // 0.83, of a field that is still young
+    CHECK(rounds_with(0.8) == std::pair(7u, false));  // 0.83, and no better than at first
+    CHECK(rounds_with(1.2) == std::pair(12u, true));  // 0.56: of a field that is still young, nothing is certain
     CHECK(rounds_with(20.0) == std::pair(12u, false));
+}
+
+TEST_CASE("Guiding choice: a warm-up goes on as long as its gain rises") {
+    const auto outcome = [](double fall) {
+        GuidingChoice choice;
+        const std::uint32_t rounds = warm_up(choice, [&](std::uint32_t round) { return 0.95 - fall * round; });
+        return std::pair(rounds, choice.pays());
+    };
+    CHECK(outcome(0.005) == std::pair(7u, false));  // 0.71 to 0.72 by the seventh round
+    CHECK(outcome(0.03).first > 7);                 // 0.78 to 0.85
+    CHECK(outcome(0.03).second);
 }
 
 TEST_CASE("Guiding choice: a loss ends a warm-up, unless the variance of guided paths still falls") {
     const GuidingTerms learning = terms_of(4000.0);  // with 12 rounds of 100 paths
     GuidingChoice losing;
     CHECK(warm_up(
-              losing, [](std::uint32_t) { return 0.9; }, learning) == 12);
+              losing, [](std::uint32_t) { return 1.2; }, learning) == 12);
     CHECK_FALSE(losing.pays());
     GuidingChoice falling;
     CHECK(warm_up(
@@ -128,7 +140,7 @@ TEST_CASE("Guiding choice: the more a field has learned, the more is asked of it
         return choice.pays();
     };
     // Five or twelve rounds of 100 paths.
-    CHECK(pays_with(0.9, terms_of(6400.0)));        // 0.74, young
+    CHECK(pays_with(1.2, terms_of(6400.0)));        // 0.56, young
     CHECK_FALSE(pays_with(0.9, terms_of(4000.0)));  // learning
     CHECK(pays_with(0.7, terms_of(2000.0)));        // 0.95
     CHECK_FALSE(pays_with(0.7, terms_of(400.0)));   // mature
