@@ -100,7 +100,7 @@ void write_displays(const std::filesystem::path& path, bool shown) {
         frame += 4;
     };
     if (shown) {
-        for (const char* place : {"aim 0.5 0.92", "aim 0.1 0.5", "aim 0.9 0.5", "aim 0.5 0.45"}) {
+        for (const char* place : {"aim 0.5 0.92", "aim 0.3 0.5", "aim 0.7 0.5", "aim 0.5 0.45"}) {
             click(place);
             script << fmt::format("{} wait inspected == yes\n{} tap K\n", frame, frame);
             frame += 4;
