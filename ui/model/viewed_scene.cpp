@@ -111,8 +111,7 @@ void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescr
     camera_.open(scene->camera, bounds_of(*scene).diagonal(), order.reason == LoadReason::Reload);
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.say(MessageLevel::Info, fmt::format("opened {}: {} triangles", name_, scene->triangles.size()));
-    link_.worker().submit(EditScene{std::move(scene)});
-    link_.worker().submit(EditCamera{camera_.camera()});
+    link_.worker().submit_together({EditScene{std::move(scene)}, EditCamera{camera_.camera()}});
 }
 
 void ViewedScene::adopt_again(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene) {
@@ -126,10 +125,11 @@ void ViewedScene::adopt_again(const LoadOrder& order, std::shared_ptr<const Scen
     }
     camera_.open(scene->camera, bounds_of(*scene).diagonal(), true);
     camera_.touch();
-    link_.worker().submit(EditScene{std::move(scene)});
+    std::vector<WorkerEdit> edits{EditScene{std::move(scene)}};
     for (std::uint32_t i = 0; i < materials_.now().size(); ++i)
-        if (materials_.is_edited(i)) link_.worker().submit(EditMaterial{i, materials_.now()[i]});
-    link_.worker().submit(EditCamera{camera_.camera()});
+        if (materials_.is_edited(i)) edits.push_back(EditMaterial{i, materials_.now()[i]});
+    edits.push_back(EditCamera{camera_.camera()});
+    link_.worker().submit_together(std::move(edits));
 }
 
 std::optional<std::uint32_t> ViewedScene::selected_material() const {

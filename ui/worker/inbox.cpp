@@ -3,8 +3,14 @@
 namespace pl {
 
 std::uint64_t Inbox::submit(WorkerEdit edit) {
+    std::vector<WorkerEdit> edits;
+    edits.push_back(std::move(edit));
+    return submit_together(std::move(edits));
+}
+
+std::uint64_t Inbox::submit_together(std::vector<WorkerEdit> edits) {
     const std::lock_guard lock(mutex_);
-    edits_.push(std::move(edit));
+    for (WorkerEdit& edit : edits) edits_.push(std::move(edit));
     interrupt(Interrupts::Pass);
     return ++requests_.generation;
 }

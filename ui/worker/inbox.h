@@ -27,6 +27,8 @@ public:
 
     /// Queues an edit and returns its number.
     std::uint64_t submit(WorkerEdit edit);
+    /// Queues edits of which the render thread takes all or none; returns the number of them all.
+    std::uint64_t submit_together(std::vector<WorkerEdit> edits);
     /// Changes the requests; returns their generation.
     std::uint64_t request(const std::function<Interrupts(Requests&)>& change);
     /// Requests the end of the render thread.

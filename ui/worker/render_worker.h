@@ -17,6 +17,8 @@ public:
 
     /// Queues an edit and returns its number: frames that show it have at least this generation.
     std::uint64_t submit(WorkerEdit edit) { return inbox_.submit(std::move(edit)); }
+    /// The same for edits that no frame may show apart.
+    std::uint64_t submit_together(std::vector<WorkerEdit> edits) { return inbox_.submit_together(std::move(edits)); }
     /// Requests another back end; returns a number like submit(). If it cannot be used, a message reports the reason,
     /// and nothing changes.
     std::uint64_t switch_backend(const std::string& name);

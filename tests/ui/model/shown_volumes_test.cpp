@@ -43,7 +43,7 @@ TEST_CASE("Shown volumes: the selected one and the pinned ones, each once, on on
     shown = shown_volumes(model);
     const std::vector<ShownDisc> discs = shown_discs(model, *shown[1].volume);
     REQUIRE(discs.size() == 2);
-    CHECK(discs[0].caption == "pass 1");
+    CHECK(discs[0].caption == "pass " + std::to_string(model.time().history()->frames.front()->passes()));
     CHECK(discs[1].caption == "now");
     const CellQuantity quantity = model.window().cell_display.quantity;
     CHECK(discs[0].values == cell_values(model.time().frame()->inspect(selected), quantity));

@@ -38,6 +38,21 @@ TEST_CASE("Inbox: requests hold, questions and edits are handed over once") {
     CHECK_FALSE(now.once.learned);
 }
 
+TEST_CASE("Inbox: edits submitted together are taken together") {
+    Inbox inbox(Requests{});
+    constexpr std::uint32_t kPairs = 2000;
+    std::thread window([&] {
+        for (std::uint32_t i = 1; i <= kPairs; ++i) inbox.submit_together({EditSeed{i}, EditRestart{}});
+        inbox.quit();
+    });
+    Requests now;
+    std::vector<WorkerEdit> edits;
+    std::uint32_t apart = 0;
+    while (inbox.take(now, edits, is_busy)) apart += edits.size() == 1;
+    window.join();
+    CHECK(apart == 0);
+}
+
 TEST_CASE("Inbox: waits for edits, and for the end") {
     Inbox inbox(Requests{});
     std::thread other([&] {
