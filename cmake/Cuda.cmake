@@ -86,12 +86,15 @@ if(PL_CUDA_BUILT)
     set(PL_CUDA_FLAGS -fmad=false --expt-relaxed-constexpr -diag-suppress=20012,445 -Xcompiler=-Wall,-Wextra,-ffp-contract=off)
     # Variants of the kernels among which only a device can decide; see docs/cuda.md.
     set(PL_CUDA_AGGREGATE_ATOMICS ON CACHE BOOL "threads of a warp add up training samples before they are added to memory")
-    set(PL_CUDA_RESIDENT_BLOCKS 0 CACHE STRING "blocks of a tracing kernel that a processor holds at least; 0: no limit, but 3 with lobes")
+    set(PL_CUDA_RESIDENT_BLOCKS 0 CACHE STRING "blocks of a tracing kernel without lobes that a processor holds at least; 0: as registers allow")
+    set(PL_CUDA_RESIDENT_BLOCKS_WITH_LOBES 3 CACHE STRING "the same of a tracing kernel with lobes")
     set(PL_CUDA_SMALL_SCENES 64 CACHE STRING "most triangles of a scene that is traced from shared memory, at most 64; 0: none is")
     set(PL_CUDA_POSTPONE_LEAVES ON CACHE BOOL "leaves of larger hierarchies are postponed, so that lanes descend together")
     add_library(pl_cuda_options INTERFACE)
     target_compile_definitions(pl_cuda_options INTERFACE PL_CUDA_AGGREGATE_ATOMICS=$<BOOL:${PL_CUDA_AGGREGATE_ATOMICS}>
-        PL_CUDA_RESIDENT_BLOCKS=${PL_CUDA_RESIDENT_BLOCKS} PL_CUDA_SMALL_SCENES=${PL_CUDA_SMALL_SCENES}
+        PL_CUDA_RESIDENT_BLOCKS=${PL_CUDA_RESIDENT_BLOCKS}
+        PL_CUDA_RESIDENT_BLOCKS_WITH_LOBES=${PL_CUDA_RESIDENT_BLOCKS_WITH_LOBES}
+        PL_CUDA_SMALL_SCENES=${PL_CUDA_SMALL_SCENES}
         PL_CUDA_POSTPONE_LEAVES=$<BOOL:${PL_CUDA_POSTPONE_LEAVES}>)
     target_compile_options(pl_cuda_options INTERFACE
         "$<$<AND:$<COMPILE_LANGUAGE:CUDA>,$<BOOL:${PL_CUDA_LINE_INFO}>>:-lineinfo>"

@@ -7,6 +7,9 @@ mark_as_advanced(PL_CCACHE)
 if(PL_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER "${PL_CCACHE}")
 endif()
+if(PL_CCACHE AND NOT DEFINED CMAKE_CUDA_COMPILER_LAUNCHER)
+    set(CMAKE_CUDA_COMPILER_LAUNCHER "${PL_CCACHE}")
+endif()
 # Unity builds: most of a file's time is the parsing of headers and the instantiation of the standard library, which
 # files share in one. Presets for development compile file by file: an edit rebuilds one file, and a missing
 # #include line is found. Libraries with kernels and tests always do.

@@ -14,17 +14,19 @@
 #include "core/kernel/methods/method_list.h"
 
 /// Blocks of a kernel that traces paths that a processor is to hold at least, by which the compiler limits registers; 0: as many as
-/// the registers leave room for. Set by the option of this name of the build, so that a device can decide.
+/// the registers leave room for. Set by the options of these names of the build, so that a device can decide.
 #ifndef PL_CUDA_RESIDENT_BLOCKS
 #define PL_CUDA_RESIDENT_BLOCKS 0
+#endif
+/// The same for kernels with lobes, which else take registers for two.
+#ifndef PL_CUDA_RESIDENT_BLOCKS_WITH_LOBES
+#define PL_CUDA_RESIDENT_BLOCKS_WITH_LOBES 3
 #endif
 
 namespace pl::cuda {
 
-/// The same for a set of effects: kernels with lobes, which else take registers for two, are to hold three.
 constexpr int least_resident_blocks(FeatureSet features) {
-    constexpr int kOption = PL_CUDA_RESIDENT_BLOCKS;
-    return features.has_any(kLobeFeatures) && kOption < 3 ? 3 : kOption;
+    return features.has_any(kLobeFeatures) ? PL_CUDA_RESIDENT_BLOCKS_WITH_LOBES : PL_CUDA_RESIDENT_BLOCKS;
 }
 
 /// Path numbers of one launch: [first, end).

@@ -64,28 +64,19 @@ struct Lane {
 
 std::vector<Lane> lanes_of(const std::vector<Ray>& rays) { return {rays.begin(), rays.end()}; }
 
-/// traverse() of a hierarchy: in each of its steps a lane either meets a pair of nodes or the triangles of a leaf. Calls step(0)
-/// or step(triangles) for every step of a lane.
+/// The steps of traverse() of a hierarchy, in its order: those of a lane that visits each leaf before it goes on. In each a lane
+/// either meets a pair of nodes, step(0), or the triangles of a leaf, step(triangles).
 template <class Step>
 void walk_plain(const BvhView& bvh, Lane& lane, Step&& step) {
     NodeMemory memory;
-    NodeStack stack(memory);
-    const BoxRay box_ray = make_box_ray(bvh.nodes[0], *lane.ray);
-    NodeReference current = bvh.nodes[0].reference();
-    while (true) {
-        if (current.count() > 0) {
-            step(lane.visit(bvh.triangles.data, current));
+    PostponedTraversal way(bvh, *lane.ray, lane.best.t, memory);
+    while (way.is_at_inner_node() || way.has_leaf()) {
+        if (way.has_leaf()) {
+            step(lane.visit(bvh.triangles.data, way.take_leaf()));
         } else {
             step(0u);
-            const NodePair pair = intersect_children(bvh, current, box_ray, lane.best.t);
-            if (pair.enters_both()) stack.push(pair.far());
-            if (pair.enters_any()) {
-                current = pair.near();
-                continue;
-            }
+            way.descend(lane.best.t);
         }
-        if (stack.is_empty()) return;
-        current = stack.pop();
     }
 }
 

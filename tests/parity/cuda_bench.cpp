@@ -22,6 +22,7 @@ namespace {
 struct Options {
     double seconds = 1.0;
     std::vector<std::string> sizes{"512x512", "1280x720", "1920x1080"};
+    std::vector<std::string> also;
     std::size_t ball_rows = 0;
     int volumes = 20000;
 };
@@ -144,6 +145,9 @@ void run(const Options& options) {
     if constexpr (RendersSeveral<Session>)
         for (const std::string& size : {options.sizes.front(), options.sizes.back()})
             measure_launches(cornell, parse_size(size), options.seconds);
+    for (const std::string& name : options.also)
+        measure_methods(std::make_shared<const SceneDescription>(load_scene(name, find_assets_dir())), name,
+                        parse_size(options.sizes.back()), options.seconds);
     if (options.volumes > 0) measure_lookups(cornell, parse_size(options.sizes.front()), options);
     if (options.ball_rows == 0) return;
     const test::TemporaryFolder folder;
@@ -160,8 +164,9 @@ int main(int argc, char** argv) {
     CLI::App app{"Speed of the CUDA back end"};
     app.add_option("--seconds", options.seconds, "for each row")->check(CLI::PositiveNumber);
     app.add_option("--sizes", options.sizes,
-                   "WIDTHxHEIGHT of the pictures; lookups have the first one, the ball the last")
+                   "WIDTHxHEIGHT of the pictures; lookups have the first one, --also and the ball the last")
         ->delimiter(',');
+    app.add_option("--also", options.also, "shipped scenes to measure besides the Cornell box")->delimiter(',');
     app.add_option("--ball-rows", options.ball_rows, "rows of a ball of quads, 501 for a million triangles; 0: none")
         ->check(CLI::Range(0, 2000));
     app.add_option("--volumes", options.volumes, "of the comparison of lookups; 0: none")

@@ -232,14 +232,17 @@ def switches(results):
 
 
 def variants(results):
-    plain = {(r["size"], method_name(r)): r for r in results.all("bench", step="variant-none-bench", row="method")}
+    def key(r):
+        return r["scene"], r["size"], method_name(r)
+
+    plain = {key(r): r for r in results.all("bench", step="variant-none-bench", row="method")}
     rows = []
     for r in results.all("bench", row="method"):
         name = r["step"].removeprefix("variant-").removesuffix("-bench")
         if r["step"].startswith("variant-") and name != "none":
-            rows.append((name, r["size"], method_name(r), number(r, "ms_per_pass", digits=3),
-                         ratio(r, plain.get((r["size"], method_name(r))), "ms_per_pass")))
-    return table(("variant", "size", "method", "ms/pass", "times the default build"), rows) if rows else MISSING
+            rows.append((name, *key(r), number(r, "ms_per_pass", digits=3), ratio(r, plain.get(key(r)), "ms_per_pass")))
+    head = ("variant", "scene", "size", "method", "ms/pass", "times the default build")
+    return table(head, rows) if rows else MISSING
 
 
 SECTIONS = {f.__name__: f for f in (steps, parity, goals, speed, ratios, launches, parts, kernels, profile, ceilings,

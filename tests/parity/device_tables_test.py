@@ -66,6 +66,15 @@ class DeviceTables(unittest.TestCase):
         text = tables_of(RUN + row.format(1, 4) + row.format(16, 3), "launches").stdout
         self.assertIn("| 8x8 | default | 16 | 3.000 | 0.75 |", text)
 
+    def test_variants_are_compared_with_the_default_build_of_their_scene(self):
+        step = "@begin\tstep=variant-{}-bench\tlimit=60\tcommand=cuda_bench\n"
+        row = "@bench\tscene={}\trow=method\tmethod=default\tnee=off\tsize=8x8\tpasses=9\tms_per_pass={}\t" \
+              "paths_per_s=1\tsegments_per_s=1\n"
+        text = tables_of(RUN + step.format("other") + row.format("cornell", 2) + row.format("coats", 30) +
+                         step.format("none") + row.format("cornell", 4) + row.format("coats", 40), "variants").stdout
+        self.assertIn("| other | cornell | 8x8 | default | 2.000 | 0.50 |", text)
+        self.assertIn("| other | coats | 8x8 | default | 30.000 | 0.75 |", text)
+
     def test_cases_that_differ_are_listed(self):
         text = tables_of(RUN + "@compare\tcase=door default\tresult=differs\tfilm_values=3\tfilm_share=0.25\t"
                          "film_largest=1e-07\ttable_values=0\ttable_share=0\ttable_largest=0\tcounters=equal\t"

@@ -40,21 +40,24 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export PATHLIGHT_ASSETS=$kit/assets SDL_VIDEODRIVER=dummy
 
+# For variants: a scene that is traced from shared memory, and one with lobes that is not.
+scenes_c=cornell,coats
 # Sizes for a device, and for a rehearsal on a CPU.
 if [[ -z $rehearsal ]]; then
-    compare_options=(--side 128 --passes 16) compare_c=("${compare_options[@]}" --scenes cornell,door)
+    compare_options=(--side 128 --passes 16) compare_c=("${compare_options[@]}" --scenes "$scenes_c")
     bench_a=(--seconds 0.2 --sizes 512x512,1920x1080 --volumes 0)
-    bench_b=(--seconds 0.6 --ball-rows 501)
-    bench_c=(--seconds 0.3 --sizes 512x512,1920x1080 --ball-rows 201)
+    bench_b=(--seconds 0.6 --also coats --ball-rows 501)
+    bench_c=(--seconds 0.3 --sizes 512x512,1920x1080 --also coats --ball-rows 201 --volumes 0)
     times_options=(--scenes cornell,staircase)
     parity_a=('~[merge]') parity_b=('[merge]')
     profiled=(--spp 512 --size 1920x1080) launches_skipped=30
 else
     time_scale=10
-    compare_options=(--side 12 --passes 2 --volumes 20 --scenes cornell,door) compare_c=("${compare_options[@]}")
+    compare_options=(--side 12 --passes 2 --volumes 20 --scenes cornell,door)
+    compare_c=(--side 12 --passes 2 --volumes 20 --scenes "$scenes_c")
     bench_a=(--seconds 0.01 --sizes 16x16 --volumes 0)
     bench_b=(--seconds 0.01 --sizes 16x16 --volumes 50 --ball-rows 20)
-    bench_c=("${bench_a[@]}")
+    bench_c=("${bench_a[@]}" --also coats)
     times_options=(--scenes cornell --width 16 --height 16 --passes 2 --megabytes 1)
     parity_a=('An update with the same training samples is equal to the bit')
     parity_b=('The same seed gives the same bits on the device')
