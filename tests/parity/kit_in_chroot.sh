@@ -1,13 +1,18 @@
 #!/usr/bin/env bash
-# kit_in_chroot.sh KIT.tar.xz [SUITE [MIRROR]]: unpacks a kit in a bare system of another distribution, by default Debian trixie, and
-# runs it there: all libraries are found, CUDA says that there is no device, and stage a passes by the stand-in. Needs root,
-# debootstrap and the network. The system stays in ${TMPDIR:-/tmp}/kit-SUITE for the next run.
-# Exit code: 0 as expected, 1 not, 4 the system could not be made.
+# kit_in_chroot.sh KIT.tar.xz [SUITE [MIRROR]]: unpacks a kit in a bare system of another distribution, by default noble, Ubuntu 24.04,
+# and runs it there: all libraries are found, CUDA says that there is no device, and stage a passes by the stand-in. Needs root,
+# debootstrap and the network; MIRROR is by default that of debootstrap for the suite. The system stays in ${TMPDIR:-/tmp}/kit-SUITE
+# for the next run. Exit code: 0 as expected, 1 not, 4 the system could not be made.
 set -euo pipefail
-kit=$(realpath "$1") suite=${2-trixie} mirror=${3-http://deb.debian.org/debian}
+kit=$(realpath "$1") suite=${2-noble} mirror=${3-}
 system=${TMPDIR:-/tmp}/kit-$suite
 if [[ ! -e $system/bin/bash ]]; then
-    debootstrap --variant=minbase "$suite" "$system" "$mirror" >"$system.log" 2>&1 || {
+    options=(--variant=minbase) script=$suite
+    if [[ ! -e ${DEBOOTSTRAP_DIR:-/usr/share/debootstrap}/scripts/$suite ]]; then
+        # Newer than this debootstrap: one of Ubuntu, all of which have one script, and whose keys other systems lack.
+        options+=(--no-check-gpg) script=gutsy
+    fi
+    debootstrap "${options[@]}" "$suite" "$system" "$mirror" "$script" >"$system.log" 2>&1 || {
         tail -3 "$system.log" >&2
         rm -rf "$system"
         exit 4
