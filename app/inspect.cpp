@@ -92,7 +92,7 @@ RunOutcome train(Session& session, const Options& options, const InterruptGuard&
     const FilmSlot slot = slot_of(options.render);
     Options piece = options;
     RunOutcome outcome;
-    for (std::uint32_t passes = 1; !outcome.interrupted(); passes = passes < 16 ? passes + 1 : (5 * passes + 3) / 4) {
+    for (std::uint32_t passes = 1; !outcome.interrupted(); passes = FieldPast::next(passes)) {
         piece.spp = std::min(passes, options.spp_limit());
         outcome = run_passes(session, piece, interrupt, console, Until::Learned);
         past.observe(session, slot.method);

@@ -85,7 +85,7 @@ struct Options {
     bool truth = false;                    ///< inspect: also the light that reaches the volume
     std::uint32_t truth_samples = 256;     ///< paths per cell for it
     bool history = false;                  ///< inspect: figures over the passes in place of cells
-    std::string drawn = "disc";            ///< inspect: what a PNG shows: disc, lobe, dome, flowers
+    std::string drawn = "disc";            ///< inspect: display in a PNG: disc, lobe, dome, flowers
 
     std::string stats_file;
     std::string diagnostics_file;  ///< render: picture of the places of diagnostics

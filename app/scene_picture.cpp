@@ -15,6 +15,13 @@ namespace {
 
 PicturePainter painter() { return PicturePainter(find_assets_dir() / "fonts" / "roboto-medium-latin.ttf"); }
 
+/// Keeps all frames of a run of the program, up to a gibibyte.
+FieldHistoryRecorder recorder_for_run() {
+    FieldHistoryRecorder recorder;
+    recorder.set_limit(std::size_t{1} << 30);
+    return recorder;
+}
+
 /// Light samples alone: little noise after a few passes, and no sample of it changes what was learned.
 PublishedFrame frame_behind(Session& session, const Options& options) {
     constexpr std::uint32_t kPasses = 8;
@@ -30,8 +37,7 @@ void require_viewer_code(const std::string&) {}
 ByteImage draw_in_scene(Session& session, std::int32_t volume, const Options& options) {
     const MethodId method = options.render.method;
     if (options.drawn == "flowers") {
-        FieldHistoryRecorder recorder;
-        recorder.set_limit(std::size_t{1} << 30);
+        FieldHistoryRecorder recorder = recorder_for_run();
         recorder.observe(session, method);
         return painter().flowers(frame_behind(session, options), *recorder.history()->frames.back());
     }
@@ -47,26 +53,28 @@ ByteImage draw_path_lines(Session& session, const std::vector<PathRecord>& paths
 }
 
 struct FieldPast::Kept {
-    FieldHistoryRecorder recorder;
+    FieldHistoryRecorder recorder = recorder_for_run();
 };
 
-FieldPast::FieldPast() : kept_(std::make_unique<Kept>()) { kept_->recorder.set_limit(std::size_t{1} << 30); }
+FieldPast::FieldPast() : kept_(std::make_unique<Kept>()) {}
 FieldPast::~FieldPast() = default;
+
+std::uint32_t FieldPast::next(std::uint32_t passes) { return static_cast<std::uint32_t>(next_key_frame(passes)); }
 
 void FieldPast::observe(const Session& session, MethodId method) { kept_->recorder.observe(session, method); }
 
 std::vector<HistoryPoint> FieldPast::points(const IncidentLight& light, std::int32_t volume,
                                             TargetLight target) const {
     const FieldHistory& history = *kept_->recorder.history();
-    std::vector<HistoryPoint> points;
-    if (history.frames.empty()) return points;
+    const std::vector<FigurePoint> past = past_figures(light, history, volume, target);
+    if (past.empty()) return {};
     const std::vector<float> end = history.frames.back()->inspect(volume).probability;
-    for (const auto& frame : history.frames) {
-        if (static_cast<std::size_t>(volume) >= frame->volumes()) continue;
-        const VolumeInspection then = frame->inspect(volume);
-        const ShareDifference apart = difference(end, then.probability);
-        points.push_back({.passes = frame->passes(),
-                          .figures = LightComparison(light, then, target).figures(),
+    auto frame = history.frames.end() - static_cast<std::ptrdiff_t>(past.size());  // volumes are only ever added
+    std::vector<HistoryPoint> points;
+    for (const FigurePoint& point : past) {
+        const ShareDifference apart = difference(end, (*frame++)->inspect(volume).probability);
+        points.push_back({.passes = point.passes,
+                          .figures = point.figures,
                           .divergence_to_end = apart.divergence,
                           .variation_to_end = apart.total_variation});
     }
@@ -95,6 +103,7 @@ ByteImage draw_path_lines(Session&, const std::vector<PathRecord>&, const Option
 struct FieldPast::Kept {};
 FieldPast::FieldPast() = default;
 FieldPast::~FieldPast() = default;
+std::uint32_t FieldPast::next(std::uint32_t passes) { return passes + 1; }
 void FieldPast::observe(const Session&, MethodId) {}
 std::vector<HistoryPoint> FieldPast::points(const IncidentLight&, std::int32_t, TargetLight) const { return {}; }
 ByteImage draw_history(const std::vector<HistoryPoint>&) { return {}; }

@@ -35,6 +35,8 @@ class FieldPast {
 public:
     FieldPast();
     ~FieldPast();
+    /// The number of passes for a key frame after that of `passes`.
+    static std::uint32_t next(std::uint32_t passes);
     /// After each piece of work.
     void observe(const Session& session, MethodId method);
     std::vector<HistoryPoint> points(const IncidentLight& light, std::int32_t volume, TargetLight target) const;

@@ -10,16 +10,7 @@
 namespace pl {
 
 PublishedFrame frame_of(Session& session, FilmSlot slot, const DisplaySettings& display) {
-    PublishedFrame frame;
-    ShownFilm shown = session.show_film(slot, display);
-    frame.picture = std::move(shown.frame);
-    frame.range = std::move(shown.range);
-    frame.display = display;
-    frame.snapshot = session.summary(slot);
-    frame.settings = session.settings_for(slot);
-    frame.backend = session.backend();
-    frame.description = session.shared_scene();
-    frame.scene = session.packed_scene();
+    PublishedFrame frame = frame_of_film(session, slot, display, false);
     frame.facts = facts_of(*frame.description);
     return frame;
 }

@@ -55,7 +55,7 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
              "difference to the last frame, over the passes",
      .commands = CommandSet(Command::Inspect), .parse = parse_flag<&Options::history>},
     {.name = "drawn", .flags = "--drawn", .value = "NAME", .group = kPlace,
-     .help = "What a PNG shows: disc, or in the scene lobe, dome, or flowers of every n-th volume (default disc)",
+     .help = "Display in a PNG: disc, or in the scene lobe, dome, or flowers of every n-th volume (default disc)",
      .commands = CommandSet(Command::Inspect), .parse = parse_drawn},
 
     {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,

@@ -25,10 +25,11 @@ constexpr double kFallOfFastLearning = 0.75;
 /// Rounds of the warm-up: after the first number it ends with a gain that is clear.
 constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
 constexpr std::uint32_t kMostWarmUpRounds = 12;
-/// Round from which on a warm-up also ends where learning does not bring enough: a gain that has risen by less than this factor since
-/// it was first measured. Smaller gains are doubtful, since few paths have found the light so far.
+/// From this round on a warm-up gives up where learning does not help: where a gain below kLeastGainOfLearning is less than
+/// kRiseOfLearning times the first one that was measured.
 constexpr std::uint32_t kFirstFlatRound = 7;
 constexpr double kRiseOfLearning = 1.05;
+/// It does not give up on a gain below this one: there few paths have found light so far, and their variance is not yet reliable.
 constexpr double kLeastCertainGain = 0.6;
 /// Rounds after which a field that another film interrupts is trusted.
 constexpr std::uint32_t kRoundsOfTrust = 4;

@@ -105,7 +105,7 @@ private:
     void predict();
     void spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
     double least_gain() const;
-    /// Whether guiding loses clearly, and no less than at first.
+    /// Whether a warm-up measures a reliable loss that has hardly shrunk since its first measurement.
     bool is_flat() const;
     void decide();
 

@@ -7,13 +7,12 @@ Renders small pictures under valgrind's callgrind, which counts instructions per
 effect must not execute a single one of an effect's file; a scene that needs the effect must, or this test would see nothing.
 Exit code 77: there is no valgrind.
 """
-import shutil
 import sys
 import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from callgrind import count_instructions, sum_by
+from callgrind import count_instructions, require_valgrind, sum_by
 
 # File of core/kernel: a scene that needs it.
 EFFECTS = {
@@ -54,9 +53,7 @@ def main():
         sys.exit(__doc__)
     is_quick = sys.argv[2] == "quick"
     effects = {file: scene for file, scene in EFFECTS.items() if not is_quick or scene in QUICK_SCENES}
-    if not shutil.which("valgrind"):
-        print("skipped: there is no valgrind")
-        sys.exit(77)
+    require_valgrind()
     failures = []
     for arguments in QUICK_PLAIN if is_quick else PLAIN:
         counts = instructions_by_file(sys.argv[1], arguments)

@@ -10,12 +10,11 @@ Both render passes of the Cornell box by every method under valgrind's callgrind
   control  the kernel that can do every effect executes more, or this test would see nothing.
 Exit code 77: there is no valgrind.
 """
-import shutil
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
-from callgrind import count_instructions, sum_by
+from callgrind import count_instructions, require_valgrind, sum_by
 
 METHODS = ["default", "precomputed", "reinforcement"]
 PASSES = 3
@@ -30,9 +29,7 @@ def instructions_by_function(command):
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    if not shutil.which("valgrind"):
-        print("skipped: there is no valgrind")
-        sys.exit(77)
+    require_valgrind()
     program, without = sys.argv[1:]
     failures = []
     for method in METHODS:

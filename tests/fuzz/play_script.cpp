@@ -51,17 +51,13 @@ SDL_Window* hidden_window() {
 class Panels {
 public:
     explicit Panels(SDL_Window* window) : window_(window) {
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.LogFilename = nullptr;
-        io.UserData = &memory_;
+        create_gui_context(memory_);
         init_imgui_platform(window, nullptr);
         apply_style(1.0f);
         load_fonts("", 1.0f);
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
-        io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
+        ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
     }
     ~Panels() {
         ImGui_ImplSDL2_Shutdown();

@@ -1,10 +1,18 @@
 """Instructions that a program executes, counted by valgrind's callgrind."""
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 from collections import Counter
 from pathlib import Path
+
+
+def require_valgrind():
+    """Ends the program with 77, "skipped", where there is no valgrind."""
+    if not shutil.which("valgrind"):
+        print("skipped: there is no valgrind")
+        sys.exit(77)
 
 
 def count_instructions(command, text=""):

@@ -8,13 +8,12 @@ script shows them all: every one of the functions is executed, so that none is m
 Exit code 77: there is no valgrind.
 """
 import os
-import shutil
 import sys
 import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from callgrind import count_instructions, sum_by  # noqa: E402
+from callgrind import count_instructions, require_valgrind, sum_by  # noqa: E402
 
 # Functions without which a display cannot be: light, key frames, flowers, paths, discs and shapes.
 DISPLAYS = ["pl::LightGatherer::trace", "pl::FieldKeyFrame::FieldKeyFrame", "pl::make_flowers", "pl::flower_mesh",
@@ -71,9 +70,7 @@ def executed(counts, name):
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    if not shutil.which("valgrind"):
-        print("skipped: there is no valgrind")
-        sys.exit(77)
+    require_valgrind()
     os.environ["SDL_VIDEODRIVER"] = "dummy"
     hidden = counts_of(sys.argv[1], HIDDEN)
     shown = counts_of(sys.argv[1], SHOWN)

@@ -4,6 +4,15 @@
 
 namespace pl {
 
+void create_gui_context(GuiMemory& memory) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.UserData = &memory;
+}
+
 GuiMemory& gui_memory() { return *static_cast<GuiMemory*>(ImGui::GetIO().UserData); }
 
 }  // namespace pl

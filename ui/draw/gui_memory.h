@@ -19,6 +19,9 @@ struct GuiMemory {
     std::map<std::string, Rect, std::less<>> places;
 };
 
+/// A context of Dear ImGui that keeps no files: the layout follows from the window's size. `memory` outlives it.
+void create_gui_context(GuiMemory& memory);
+
 /// Of the present ImGui context.
 GuiMemory& gui_memory();
 

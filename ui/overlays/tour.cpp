@@ -97,7 +97,7 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, cons
         draw_frame(place);
     }
     const Rect& view = layout.clear;
-    const float bottom = bottom_of_card(layout.clear, image, plan);
+    const float bottom = bottom_of_card(view, image, plan);
     const float width = std::min(view.width - em(1.2f), em(34.0f));
     ImGui::SetNextWindowPos({view.x + 0.5f * view.width, bottom}, ImGuiCond_Always, {0.5f, 1.0f});
     ImGui::SetNextWindowSize({width, 0.0f});

@@ -57,7 +57,7 @@ struct ScriptCommand {
     double y = 0.0;     ///< also height, number of events
     int button = 0;     ///< SDL's number
     KeyStroke key{};
-    std::string text;  ///< file name, label, what is typed
+    std::string text;  ///< file name, label, typed text
     ScriptCondition condition;
 };
 

@@ -10,12 +10,7 @@ namespace pl {
 Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
     : display_(display), font_(std::move(font)), draw_(display.renderer()), textures_(display.renderer()) {
     memory_.textures = &textures_;
-    IMGUI_CHECKVERSION();
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // the layout follows from the window's size
-    io.LogFilename = nullptr;
-    io.UserData = &memory_;
+    create_gui_context(memory_);
     if (!init_imgui_platform(display.window(), display.renderer())) {
         ImGui::DestroyContext();
         throw Error(ErrorKind::Unavailable, "cannot connect the user interface to the window");

@@ -31,12 +31,8 @@ Offscreen::Offscreen(int width, int height, const std::filesystem::path& font, f
         SDL_FreeSurface(surface_);
         fail(ErrorKind::Unavailable, "cannot draw into memory");
     }
-    IMGUI_CHECKVERSION();
-    ImGui::CreateContext();
+    create_gui_context(memory_);
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
-    io.LogFilename = nullptr;
-    io.UserData = &memory_;
     io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
     io.DeltaTime = 1.0f;
     apply_style(ui_scale);

@@ -9,6 +9,9 @@ namespace {
 
 constexpr std::uint64_t kFirstPasses = 16;
 
+/// A quarter more, rounded up.
+std::uint64_t grown(std::uint64_t passes) { return (5 * passes + 3) / 4; }
+
 bool is_continued(const FieldKeyFrame& last, const FieldKeyFrame& next) {
     return last.method() == next.method() && last.bins() == next.bins() && last.volumes() <= next.volumes() &&
            last.passes() < next.passes() && last.scene_hash() == next.scene_hash();
@@ -35,6 +38,8 @@ FieldKeyFrame::Cells FieldKeyFrame::probabilities(std::int32_t volume) const {
         return cells;
     });
 }
+
+std::uint64_t next_key_frame(std::uint64_t passes) { return passes < kFirstPasses ? passes + 1 : grown(passes); }
 
 std::size_t frame_to_evict(const std::vector<std::uint64_t>& passes) {
     std::size_t best = 1;
@@ -76,7 +81,7 @@ bool FieldHistoryRecorder::is_due(std::uint64_t passes) const {
     if (history_->frames.empty()) return true;
     const std::uint64_t last = history_->frames.back()->passes();
     if (passes <= last) return passes < last;
-    return passes <= kFirstPasses || 4 * passes >= 5 * last;
+    return passes <= kFirstPasses || passes >= grown(last);
 }
 
 void FieldHistoryRecorder::add(std::shared_ptr<const FieldKeyFrame> frame) {

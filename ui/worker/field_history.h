@@ -55,6 +55,9 @@ struct FieldHistory {
 /// never the first or the last. Frames so stay spread evenly over the logarithm of the passes. `passes`: at least three, ascending.
 std::size_t frame_to_evict(const std::vector<std::uint64_t>& passes);
 
+/// Passes after which a key frame follows one that was taken after `passes`, where passes come one by one.
+std::uint64_t next_key_frame(std::uint64_t passes);
+
 /// Takes key frames: after each of the first 16 passes that train the field, then whenever the passes have grown by a quarter.
 class FieldHistoryRecorder {
 public:

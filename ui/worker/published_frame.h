@@ -67,6 +67,10 @@ struct PublishedFrame {
     bool has_values() const { return !snapshot.pixels.empty(); }
 };
 
+/// The film as it is now, with its values if they are wanted; `facts` is left to the caller, who may know them already. The film has
+/// a pass.
+PublishedFrame frame_of_film(Session& session, FilmSlot slot, const DisplaySettings& display, bool with_values);
+
 enum class WorkerState { Starting, Rendering, Precomputing, Paused, Done, Failed };
 const char* name_of(WorkerState state);
 

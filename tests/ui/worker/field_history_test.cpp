@@ -43,6 +43,8 @@ TEST_CASE("Field history: every one of the first passes, then fewer and fewer") 
           std::vector<std::uint64_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 20, 25, 32});
     CHECK_FALSE(recorder.observe(bench.session, MethodId::Reinforcement));
     CHECK(recorder.history()->evicted == 0);
+    const std::vector<std::uint64_t> passes = passes_of(*recorder.history());
+    for (std::size_t i = 1; i < passes.size(); ++i) CHECK(next_key_frame(passes[i - 1]) == passes[i]);
 }
 
 TEST_CASE("Field history: a frame has the field of its pass") {
