@@ -107,7 +107,7 @@ PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f n
     while (true) {
         while (range.low < range.high) {
             const std::uint32_t middle = range.low + (range.high - range.low) / 2;
-            const KdNode& node = tree.nodes[middle];
+            const KdNode node = tree.nodes[middle];  // all of it: two loads of 16 bytes
             result.consider(node, position, normal);
             const Range below{range.low, middle};
             const Range above{middle + 1, range.high};
@@ -132,7 +132,10 @@ PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f n
 /// Offers every volume to `result`: the reference for the tests and timings of the tree.
 template <class Result>
 PL_HD inline void search_all(const KdTreeView& tree, Vec3f position, Vec3f normal, Result& result) {
-    for (std::uint32_t i = 0; i < tree.nodes.count; ++i) result.consider(tree.nodes[i], position, normal);
+    for (std::uint32_t i = 0; i < tree.nodes.count; ++i) {
+        const KdNode node = tree.nodes[i];
+        result.consider(node, position, normal);
+    }
 }
 
 /// The volume that serves a point given by position and normal alone, or kNoVolume.

@@ -13,8 +13,9 @@ inline constexpr std::uint32_t kNoCluster = 0xffffffffu;
 /// Most clusters of a tree.
 inline constexpr std::uint32_t kMostLightClusters = 32;
 
-/// Bounds of a set of lights: a sphere around them and a cone around the normals of their emitting sides.
-struct LightNode {
+/// Bounds of a set of lights: a sphere around them and a cone around the normals of their emitting sides. Aligned, so that a
+/// device reads them by 16 bytes.
+struct alignas(16) LightNode {
     Vec3f center{0.0f};
     float radius = 0.0f;
     Vec3f axis{0.0f, 0.0f, 1.0f};
@@ -24,6 +25,7 @@ struct LightNode {
     std::uint32_t is_leaf = 0;
     std::uint32_t cluster = kNoCluster;  ///< of which the node is the root
 };
+static_assert(sizeof(LightNode) == 48);
 
 /// The leaf of a light.
 struct LightPlace {
@@ -73,8 +75,8 @@ PL_HD inline float light_importance(const LightNode& node, Vec3f from) {
 /// Probability of descending to the first child: its share of the children's importance, or of their power if both
 /// importances are 0.
 PL_HD inline float first_child_share(const LightTree& tree, std::uint32_t parent, Vec3f from) {
-    const LightNode& first = tree.nodes[parent + 1];
-    const LightNode& second = tree.nodes[tree.nodes[parent].next];
+    const LightNode first = tree.nodes[parent + 1];
+    const LightNode second = tree.nodes[tree.nodes[parent].next];
     float a = light_importance(first, from);
     float b = light_importance(second, from);
     if (!(a + b > 0.0f) || !(a + b < kInfinity)) {
