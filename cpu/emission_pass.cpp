@@ -27,6 +27,16 @@ private:
     RayBatch batch_;
 };
 
+/// Returns the number of rays traced. With all that it calls in one function: how much of it the compiler would put there does not
+/// depend on the kernels of other sets.
+template <FeatureSet F, class Trace>
+[[gnu::flatten, gnu::noinline]] std::uint64_t trace_range(BatchedRays<F>& tracer, IndexRange range,
+                                                          const Trace& trace) {
+    std::uint64_t traced = 0;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) traced += trace(tracer, i);
+    return traced;
+}
+
 template <FeatureSet F>
 PassCounters run_emission_pass(const EmissionPass& pass) {
     const BvhIntersector intersector{pass.setup.scene};
@@ -37,7 +47,7 @@ PassCounters run_emission_pass(const EmissionPass& pass) {
             BatchedRays<F> tracer(scene, pass.tracer, intersector);
             std::uint64_t traced = 0;
             for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
-                for (std::uint32_t i = range.begin; i < range.end; ++i) traced += trace(tracer, i);
+                traced += trace_range(tracer, range, trace);
             rays.fetch_add(traced, std::memory_order_relaxed);
         });
     };

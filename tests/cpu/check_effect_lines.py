@@ -17,7 +17,7 @@ from callgrind import count_instructions, require_valgrind, sum_by
 # File of core/kernel: a scene that needs it.
 EFFECTS = {
     "shading/fresnel.h": "spheres",
-    "shading/conductor.h": "spheres",
+    "shading/conductor.h": "plates",
     "shading/dielectric.h": "coats",
     "shading/microfacet.h": "plates",
     "shading/plastic.h": "coats",
