@@ -14,7 +14,10 @@ PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& i
     const Hit hit = closest_solid_hit<F>(context.scene, intersector, state.ray);
     const VertexNumbers numbers = draw_vertex_numbers<F>(context.settings, state);
     ShadowRequest<M> shadow;
-    PathStatus status = extend_path<F>(context, hit, numbers, state, shadow, counters);
+    const auto request = [&](const ScatterPoint<F, M>& from) {
+        request_light(context, from, numbers.light, state, shadow);
+    };
+    PathStatus status = extend_path<F>(context, hit, numbers, state, request, counters);
     if constexpr (F.has(Feature::NextEventEstimation)) {
         bool is_visible = false;
         if (shadow.wanted) {
