@@ -43,7 +43,6 @@ struct NearestSets::Effort {
 
 /// Result of a search for all candidates within a distance.
 struct NearestSets::Gather {
-    const KdNode* first;
     const FlatRegion& region;
     float limit2;
     std::vector<Candidate>& found;
@@ -57,7 +56,7 @@ struct NearestSets::Gather {
         const double x = glm::dot(v, region.x_axis);
         const double y = glm::dot(v, region.y_axis);
         const double z = glm::dot(v, region.normal);
-        found.push_back({static_cast<std::uint32_t>(&node - first), node.volume, d2, x, y, z, x * x + y * y + z * z});
+        found.push_back({node, d2, x, y, z, x * x + y * y + z * z});
         if (found.size() > kMostGathered) limit2 = -1.0f;  // ends the search
     }
     float limit() const { return limit2; }
@@ -90,7 +89,7 @@ NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) 
     if (nearest_.volume == kNoVolume) return Answer::None;
     const double reach = (distance_above(nearest_.distance2) + 2.0 * radius) * kWiden;
     const auto limit2 = static_cast<float>(reach * reach * kWiden + kUnderflow);
-    Gather result{tree_.nodes.data, region, next_float_up(limit2), candidates_, effort_};
+    Gather result{region, next_float_up(limit2), candidates_, effort_};
     search_kd_tree(tree_, center, normal, result);
     const double farthest = reach + radius;
     margin_ = 2.0 * (kDistanceError + kDoubleError) * farthest * farthest + kUnderflow;
@@ -101,14 +100,13 @@ NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) 
 /// the result of all searches.
 void NearestSets::drop_duplicates() {
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-        return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.volume < b.volume;
+        return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.node.volume < b.node.volume;
     });
     std::size_t kept = 0;
     for (const Candidate& candidate : candidates_) {
         bool duplicate = false;
         for (std::size_t i = kept; i-- > 0 && candidates_[i].distance2 == candidate.distance2;)
-            duplicate =
-                duplicate || tree_.nodes[candidates_[i].node].position == tree_.nodes[candidate.node].position;
+            duplicate = duplicate || candidates_[i].node.position == candidate.node.position;
         if (!duplicate) candidates_[kept++] = candidate;
     }
     candidates_.resize(kept);
@@ -120,7 +118,7 @@ void NearestSets::drop_duplicates() {
 bool NearestSets::can_be_nearest(const Candidate& candidate, const FlatRegion& region) const {
     Polygon left = region.polygon;
     for (const Candidate& other : candidates_) {
-        if (other.node == candidate.node) continue;
+        if (other.node.volume == candidate.node.volume) continue;
         const Vec2d difference{candidate.x - other.x, candidate.y - other.y};
         const double off_plane = 2.0 * region.thickness * std::fabs(candidate.z - other.z);
         left.clip(-2.0 * difference, margin_ + off_plane - (candidate.length2 - other.length2));
@@ -133,9 +131,9 @@ NearestSets::Answer NearestSets::find(const FlatRegion& region, Vec3f normal) {
     nodes_.clear();
     if (const Answer answer = gather(region, normal); answer != Answer::Few) return answer;
     drop_duplicates();
-    hint_ = tree_.nodes[candidates_.front().node];
+    hint_ = candidates_.front().node;
     for (const Candidate& candidate : candidates_)
-        if (can_be_nearest(candidate, region)) nodes_.push_back(candidate.volume);
+        if (can_be_nearest(candidate, region)) nodes_.push_back(candidate.node.volume);
     if (nodes_.size() > kMostListed) return Answer::TooMany;
     std::sort(nodes_.begin(), nodes_.end());
     for (std::uint32_t& node : nodes_) node = trees_.node_of(node);

@@ -53,8 +53,7 @@ public:
 private:
     /// A volume near the region, in the region's frame.
     struct Candidate {
-        std::uint32_t node;
-        std::uint32_t volume;
+        KdNode node;
         float distance2;  ///< from the center of the region
         double x, y, z;
         double length2;
