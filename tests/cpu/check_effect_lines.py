@@ -27,7 +27,7 @@ EFFECTS = {
     "scene/texture.h": "textured-room",
     "shading/light_tree.h": "gallery",
 }
-PLAIN = (["cornell"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinforcement", "--nee", "on"],
+PLAIN = (["cornell", "--nee", "off"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinforcement", "--nee", "on"],
          ["cornell", "--method", "precomputed", "--bins", "16"], ["door", "--nee", "on"], ["sky", "--nee", "on"])
 
 

@@ -23,7 +23,7 @@ inline constexpr float kBrightSky = 2.0f;
 
 /// Whether the camera may see emission with borders.
 PL_HD inline bool has_visible_emission(const SceneView& scene) {
-    return !scene.lights.empty() || !scene.far_lights.empty() || luminance(scene.environment) > kBrightSky;
+    return !scene.lights.empty() || scene.far_probability > 0.0f || luminance(scene.environment) > kBrightSky;
 }
 
 /// The parameters common to all pixels of a pass.
