@@ -13,7 +13,7 @@ namespace pl {
 namespace {
 
 constexpr float kLabelEm = 6.4f;
-constexpr float kTabPaddingEm = 0.28f;  ///< beside a tab's title: all of them in one row of the standard width
+constexpr float kTabPaddingEm = 0.22f;  ///< beside a tab's title: all of them in one row of the standard width
 
 std::string hidden_label(const char* label) { return std::string("##") + label; }
 

@@ -86,18 +86,6 @@ void draw_plot(const std::vector<NamedCurve>& curves, double level, std::uint64_
     list.AddText({rect.x + rect.width - ImGui::CalcTextSize(right.c_str()).x, below}, colors::kFaint, right.c_str());
 }
 
-void draw_memory(LearningTime& time) {
-    if (!time.keeps()) return;
-    ImGui::SetNextItemWidth(-1.0f);
-    int megabytes = time.megabytes();
-    if (ImGui::SliderInt("##memory", &megabytes, 16, 4096, "key frames: at most %d MB",
-                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
-        time.set_megabytes(megabytes);
-    tooltip(
-        "When they are used up, the frame whose neighbors are nearest to each other, in proportion of their passes, "
-        "is given up; never the first or the last.");
-}
-
 void draw_scrubber(LearningTime& time) {
     const auto last = static_cast<int>(time.history()->frames.size());
     if (last == 0) return;
@@ -134,6 +122,18 @@ void draw_keeping(LearningTime& time) {
         "quarter. Ctrl+Shift+R learns anew.");
 }
 
+void draw_memory(LearningTime& time) {
+    if (!time.keeps()) return;
+    ImGui::SetNextItemWidth(-1.0f);
+    int megabytes = time.megabytes();
+    if (ImGui::SliderInt("##memory", &megabytes, 16, 4096, "key frames: at most %d MB",
+                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        time.set_megabytes(megabytes);
+    tooltip(
+        "When they are used up, the frame whose neighbors are nearest to each other, in proportion of their passes, "
+        "is given up; never the first or the last.");
+}
+
 void draw_figures(const std::vector<FigurePoint>& curve, std::uint64_t shown) {
     std::vector<NamedCurve> divergences{{"KL of table", kTableColor, {}}, {"KL of paths", kPathsColor, {}}};
     std::vector<NamedCurve> variance{{"variance over that of the BSDF", kVarianceColor, {}}};
@@ -155,7 +155,6 @@ void draw_figure_curves(const ViewerModel& model) {
 
 void draw_time(ViewerModel& model, const VolumeInspection& shown) {
     LearningTime& time = model.time();
-    draw_memory(time);
     draw_scrubber(time);
     const VolumeInspection* now = model.selection().inspection();
     if (time.frame() == nullptr || now == nullptr) return;

@@ -15,7 +15,10 @@ void draw_figure_curves(const ViewerModel& model);
 /// Whether key frames of the field are kept.
 void draw_keeping(LearningTime& time);
 
-/// The memory of the past, the slider through it, and the difference of the shown time to now; nothing where none is kept.
+/// Most memory of the key frames, if they are kept.
+void draw_memory(LearningTime& time);
+
+/// The slider through the past, and the difference of the shown time to now; nothing where none is kept.
 void draw_time(ViewerModel& model, const VolumeInspection& shown);
 
 }  // namespace pl

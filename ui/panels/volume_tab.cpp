@@ -159,6 +159,7 @@ void draw_volume_tab(ViewerModel& model) {
     if (past != nullptr) volume = past.get();
     draw_time(model, *volume);
     draw_volume_discs(model, *volume);
+    draw_memory(model.time());
     if (display.truth) {
         const auto& guiding = model.frame()->snapshot.guiding;
         draw_truth(model.selection(), guiding ? &*guiding : nullptr);
