@@ -20,6 +20,8 @@ block() {
     done
     echo "$((frame++)) wait busy == no"
     # A scene that was on its way may have arrived, and its camera with it.
+    # Of a zoomed picture Home shows all, then the scene's own camera.
+    echo "$((frame++)) tap Home"
     echo "$((frame++)) tap Home"
     echo "$((frame++)) wait moving == no"
     echo "$((frame++)) expect at_home == yes"

@@ -1,5 +1,6 @@
 #include "ui/model/scene_gallery.h"
 
+#include <algorithm>
 #include <exception>
 
 #include <fmt/format.h>
@@ -95,6 +96,11 @@ std::optional<ByteImage> SceneGallery::make(const std::string& name, const std::
         outcome.failure = fmt::format("pictures of scenes cannot be kept: {}", error.what());
     }
     return image;
+}
+
+std::size_t SceneGallery::shown() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(options_.scenes, [this](const std::string& name) { return picture(name) != nullptr; }));
 }
 
 std::shared_ptr<const ByteImage> SceneGallery::picture(const std::string& scene) const {

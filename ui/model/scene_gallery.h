@@ -29,6 +29,8 @@ public:
 
     /// A draft as long as the whole picture is not there. Null before it is made, and for scenes that cannot be rendered.
     std::shared_ptr<const ByteImage> picture(const std::string& scene) const;
+    /// Number of scenes with a picture, be it a draft.
+    std::size_t shown() const;
     /// Number of whole pictures.
     std::size_t size() const { return pictures_.size(); }
     bool is_working() const { return job_ != nullptr; }

@@ -84,6 +84,7 @@ TEST_CASE("Gallery: drafts of all scenes come before the first whole picture, an
     model.open_dialog().toggle();
     REQUIRE(bench.run_until(model, [&] { return gallery.picture("other") && gallery.picture("small"); }));
     CHECK(gallery.size() == 0);
+    CHECK(gallery.shown() == 2);
     CHECK_FALSE(std::filesystem::exists(bench.cache));
     const auto draft = gallery.picture("small");
     bench.control->pass_microseconds = 0;
