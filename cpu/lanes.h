@@ -30,6 +30,16 @@ using LaneFloat = float __attribute__((vector_size(4 * kLaneWidth)));
 using LaneInt = std::int32_t __attribute__((vector_size(4 * kLaneWidth)));
 using LaneUint = std::uint32_t __attribute__((vector_size(4 * kLaneWidth)));
 
+/// Vectors for the tests of one ray: with the children of a node or the triangles of a leaf, of which there are up to eight.
+constexpr std::uint32_t kTestWidth = kLaneWidth < 8 ? kLaneWidth : 8;
+using TestFloat = float __attribute__((vector_size(4 * kTestWidth)));
+using TestInt = std::int32_t __attribute__((vector_size(4 * kTestWidth)));
+using TestUint = std::uint32_t __attribute__((vector_size(4 * kTestWidth)));
+
+/// The result of comparing vectors.
+template <class Real>
+using MaskOf = decltype(Real{} < Real{});
+
 template <class Lanes, class T>
 PL_INLINE Lanes load_lanes(const T* row) {
     Lanes lanes;
@@ -89,6 +99,12 @@ PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
     return bits;
 #endif
 }
+#if defined(__AVX512F__)
+PL_INLINE std::uint32_t mask_bits(TestInt mask) {
+    const auto lanes = std::bit_cast<__m256i>(mask);
+    return _mm256_test_epi32_mask(lanes, lanes);
+}
+#endif
 
 /// The vector counterpart of One, for arithmetic templated on the number of lanes; see core/kernel/base/numbers.h.
 struct Lanes {
