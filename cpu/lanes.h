@@ -51,8 +51,21 @@ PL_INLINE void store_lanes(const Lanes& lanes, T* row) {
     std::memcpy(row, &lanes, sizeof(lanes));
 }
 
+template <class Vector, class T>
+PL_INLINE Vector broadcast_to(T x) {
+    return x - Vector{};
+}
 PL_INLINE LaneFloat broadcast(float x) { return x - LaneFloat{}; }
 PL_INLINE LaneUint broadcast(std::uint32_t x) { return x - LaneUint{}; }
+
+template <class Vector>
+PL_INLINE Vector larger(Vector a, Vector b) {
+    return a > b ? a : b;
+}
+template <class Vector>
+PL_INLINE Vector smaller(Vector a, Vector b) {
+    return a < b ? a : b;
+}
 
 /// |x|, bit-identical to std::fabs.
 PL_INLINE LaneFloat magnitude(LaneFloat x) {
