@@ -33,7 +33,7 @@ struct DenseView {
 
 /// A scene and its wide hierarchy as plain pointers.
 struct WideView {
-    BvhNode root;  ///< the bounds of the scene
+    BvhNode root;           ///< the bounds of the scene
     const WideNode* nodes;  ///< at least one
     const BvhTriangle* triangles;
     std::uint32_t exceeds_caches;  ///< 1: memory is waited for

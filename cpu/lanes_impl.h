@@ -53,8 +53,8 @@ bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return an
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name,        find_closest,  find_occluded, find_closest_wide, find_occluded_wide, draw, draw_vertices,
-            sample_rows, sample_guided, weigh_guided,  has_samples,       update_table};
+    return {name,          find_closest, find_occluded, find_closest_wide, find_occluded_wide, draw,
+            draw_vertices, sample_rows,  sample_guided, weigh_guided,      has_samples,        update_table};
 }
 
 }  // namespace

@@ -93,7 +93,8 @@ private:
     /// Axes are permuted here, where it is a matter of addresses, and the space permutes none.
     PL_INLINE TestCorner to_space(const TestFloat (&rows)[4]) const {
         constexpr std::uint32_t kCyclic[] = {0, 1, 2, 0, 1};
-        return to_ray_space(space_, rows[first_axis_], rows[kCyclic[first_axis_ + 1]], rows[kCyclic[first_axis_ + 2]]);
+        return to_ray_space(space_, rows[first_axis_], rows[kCyclic[first_axis_ + 1]],
+                            rows[kCyclic[first_axis_ + 2]]);
     }
 
     PL_INLINE bool find_in(const LeafTriangles& triangles, std::uint32_t count, std::uint32_t source,

@@ -80,8 +80,7 @@ private:
         costs.is_leaf = leaf <= inner;
         costs.as[1] = std::min(leaf, inner);
         for (std::uint32_t i = 2; i < kWideChildren; ++i)
-            costs.as[i] =
-                node.count > 0 ? costs.as[1] : std::min(costs.as[i - 1], cheapest_split(index, i).first);
+            costs.as[i] = node.count > 0 ? costs.as[1] : std::min(costs.as[i - 1], cheapest_split(index, i).first);
     }
 
     /// Appends the roots of the cheapest cut of a subtree into at most `most` children, from left to right.

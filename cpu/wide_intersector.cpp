@@ -1,13 +1,6 @@
 #include "cpu/wide_intersector.h"
 
 namespace pl {
-namespace {
-
-/// A core's share of caches that answer within a few instructions.
-constexpr std::size_t kCacheBytes = std::size_t{1} << 24;
-
-}  // namespace
-
 void WideIntersector::find_closest(RayBatch& batch, std::uint32_t count) const {
     if (!nodes_.empty()) return kernels_.find_closest_wide(view(), batch.ray_groups(), batch.hit_groups(), count);
     for (std::uint32_t i = 0; i < count; ++i) batch.set_hit(i, {.t = batch.ray(i).t_max});
@@ -24,7 +17,7 @@ WideView WideIntersector::view() const {
     return {.root = bvh_.nodes[0],
             .nodes = nodes_.data(),
             .triangles = bvh_.triangles.data,
-            .exceeds_caches = all > kCacheBytes ? 1u : 0u};
+            .exceeds_caches = all > cache_bytes_ ? 1u : 0u};
 }
 
 }  // namespace pl

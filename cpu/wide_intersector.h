@@ -1,6 +1,7 @@
 // Intersects rays with scenes of any size by a hierarchy of eight children per node, several rays in turn if it is large.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -14,9 +15,13 @@ namespace pl {
 /// scene's own BvhView::triangles.
 class WideIntersector {
 public:
-    /// The scene's arrays must outlive the intersector.
-    explicit WideIntersector(const SceneView& scene, const LaneKernels& kernels = best_lane_kernels())
-        : nodes_(make_wide_nodes(scene.bvh)), bvh_(scene.bvh), kernels_(kernels) {}
+    /// Hierarchies and triangles up to this size are mostly answered by caches.
+    static constexpr std::size_t kCacheBytes = std::size_t{1} << 24;
+
+    /// The scene's arrays must outlive the intersector. Larger scenes than `cache_bytes` are traced several rays in turn.
+    explicit WideIntersector(const SceneView& scene, const LaneKernels& kernels = best_lane_kernels(),
+                             std::size_t cache_bytes = kCacheBytes)
+        : nodes_(make_wide_nodes(scene.bvh)), bvh_(scene.bvh), kernels_(kernels), cache_bytes_(cache_bytes) {}
 
     void find_closest(RayBatch& batch, std::uint32_t count) const;
     void find_occluded(RayBatch& batch, std::uint32_t count) const;
@@ -33,6 +38,7 @@ private:
     std::vector<WideNode> nodes_;
     BvhView bvh_;
     LaneKernels kernels_;
+    std::size_t cache_bytes_;
 };
 static_assert(BatchIntersector<WideIntersector>);
 

@@ -2,6 +2,9 @@
 // file per instruction set; see lanes.h.
 #pragma once
 
+#include <cstddef>
+#include <type_traits>
+
 #include "cpu/leaf_lanes.h"
 
 namespace pl {
@@ -14,9 +17,7 @@ constexpr EnteredChild kNoChild = ~EnteredChild{0};
 PL_INLINE EnteredChild entered_child(float entry, WideReference child) {
     return (EnteredChild{std::bit_cast<std::uint32_t>(entry)} << 32) | child.bits;
 }
-PL_INLINE float entry_of(EnteredChild child) {
-    return std::bit_cast<float>(static_cast<std::uint32_t>(child >> 32));
-}
+PL_INLINE float entry_of(EnteredChild child) { return std::bit_cast<float>(static_cast<std::uint32_t>(child >> 32)); }
 PL_INLINE WideReference reference_of(EnteredChild child) { return {static_cast<std::uint32_t>(child)}; }
 
 /// One ray's way through the hierarchy, nearer children first; those beyond the closest hit are culled.
@@ -99,10 +100,11 @@ private:
 
     /// Keeps the nearest child as the next one, and those from `first` on sorted, the nearest on top.
     PL_INLINE void push(EnteredChild child, const EnteredChild* first) {
-        if (child < next_) std::swap(child, next_);
+        const EnteredChild farther = max_of(child, next_);
+        next_ = min_of(child, next_);
         EnteredChild* place = top_++;
-        for (; place != first && place[-1] < child; --place) *place = place[-1];
-        *place = child;
+        for (; place != first && place[-1] < farther; --place) *place = place[-1];
+        *place = farther;
     }
     PL_INLINE EnteredChild pop() {
         while (top_ != bottom_) {
@@ -194,7 +196,8 @@ private:
     }
     PL_INLINE void start(std::uint32_t slot) {
         const std::uint32_t place = next_ - first_;
-        ways_[slot].start(rays_[next_ / kGroupSize], prepared_[place / kGroupSize], place % kGroupSize, stacks_[slot]);
+        ways_[slot].start(rays_[next_ / kGroupSize], prepared_[place / kGroupSize], place % kGroupSize,
+                          stacks_[slot]);
         index_[slot] = next_++;
         go_on(slot);
     }
