@@ -114,8 +114,7 @@ PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
 }
 #if defined(__AVX512F__)
 PL_INLINE std::uint32_t mask_bits(TestInt mask) {
-    const auto lanes = std::bit_cast<__m256i>(mask);
-    return _mm256_test_epi32_mask(lanes, lanes);
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(std::bit_cast<__m256>(mask)));
 }
 #endif
 
