@@ -148,7 +148,7 @@ PL_INLINE void trace_one_by_one(const WideView& scene, const RayGroup* rays, std
 }
 
 /// Traces several rays in turn, so that the memory of one arrives while the others are tested. In every round those at inner nodes
-/// go one step, then those at leaves: a branch between the two would be predicted badly.
+/// go one step, then those at leaves.
 template <bool kAny, class Finish>
 class RaysInFlight {
 public:
