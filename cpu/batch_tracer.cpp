@@ -11,14 +11,14 @@ namespace {
 struct NameOf {
     std::string operator()(const BvhBatch&) const { return "bvh"; }
     std::string operator()(const DenseIntersector& dense) const { return fmt::format("dense ({})", dense.isa()); }
+    std::string operator()(const WideIntersector& wide) const { return fmt::format("wide ({})", wide.isa()); }
 #if PL_EMBREE_MAJOR > 0
     std::string operator()(const EmbreeIntersector&) const { return "embree " + EmbreeIntersector::version(); }
 #endif
 };
 
 IntersectorChoice best_for(const SceneView& scene) {
-    if (scene.triangles.count <= kMaxDenseTriangles) return IntersectorChoice::Dense;
-    return PL_EMBREE_MAJOR > 0 ? IntersectorChoice::Embree : IntersectorChoice::Bvh;
+    return scene.triangles.count <= kMaxDenseTriangles ? IntersectorChoice::Dense : IntersectorChoice::Wide;
 }
 
 }  // namespace
@@ -29,6 +29,7 @@ BatchTracer::BatchTracer(const SceneView& scene, IntersectorChoice choice, int t
 BatchTracer::AnyIntersector BatchTracer::choose(const SceneView& scene, IntersectorChoice choice,
                                                 [[maybe_unused]] int threads) {
     if (choice == IntersectorChoice::Dense) return DenseIntersector(scene);
+    if (choice == IntersectorChoice::Wide) return WideIntersector(scene);
     if (choice == IntersectorChoice::Embree) {
 #if PL_EMBREE_MAJOR > 0
         return EmbreeIntersector(scene, threads);

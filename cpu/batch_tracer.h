@@ -6,6 +6,7 @@
 
 #include "cpu/bvh_batch.h"
 #include "cpu/dense_intersector.h"
+#include "cpu/wide_intersector.h"
 #if PL_EMBREE_MAJOR > 0
 #include "cpu/embree_intersector.h"
 #endif
@@ -32,14 +33,14 @@ public:
         std::visit([&](auto& intersector) { intersector.move_to(scene); }, intersector_);
     }
 
-    /// Display name: "dense (avx512)", "embree 3.13.5", "bvh".
+    /// Display name: "dense (avx512)", "wide (avx512)", "embree 3.13.5", "bvh".
     std::string name() const;
 
 private:
 #if PL_EMBREE_MAJOR > 0
-    using AnyIntersector = std::variant<BvhBatch, DenseIntersector, EmbreeIntersector>;
+    using AnyIntersector = std::variant<BvhBatch, DenseIntersector, WideIntersector, EmbreeIntersector>;
 #else
-    using AnyIntersector = std::variant<BvhBatch, DenseIntersector>;
+    using AnyIntersector = std::variant<BvhBatch, DenseIntersector, WideIntersector>;
 #endif
     static AnyIntersector choose(const SceneView& scene, IntersectorChoice choice, int threads);
 

@@ -8,8 +8,8 @@
 
 namespace pl {
 
-/// Intersection algorithm. Auto: Dense up to 64 triangles, else Embree if the build has it, else Bvh.
-enum class IntersectorChoice { Auto, Dense, Bvh, Embree };
+/// Intersection algorithm. Auto: Dense up to 64 triangles, else Wide. The others serve as peers in tests and benchmarks.
+enum class IntersectorChoice { Auto, Dense, Wide, Bvh, Embree };
 
 struct CpuSettings {
     int threads = 0;  ///< 0: all hardware threads

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cpu/lane_kernels.h"
-#include "cpu/lanes.h"
+#include "cpu/lane_triangle.h"
 
 namespace pl {
 namespace {
@@ -21,33 +21,6 @@ PL_INLINE LaneRaySpace load_ray_space(const RayGroup& rays, std::uint32_t first)
                                          load_lanes<LaneFloat>(rays.direction_z + first)};
     return make_ray_space<LaneFloat, LaneInt>(
         origin, direction, {magnitude(direction.x), magnitude(direction.y), magnitude(direction.z)}, broadcast(1.0f));
-}
-
-PL_INLINE RayCorner<float> lane_of(const LaneCorner& corner, std::uint32_t lane) {
-    return {corner.x[lane], corner.y[lane], corner.z[lane]};
-}
-
-/// Mask of the lanes in which two nonzero numbers have the same sign.
-PL_INLINE LaneInt same_sign(LaneFloat x, LaneFloat y) {
-    return (std::bit_cast<LaneInt>(x) ^ std::bit_cast<LaneInt>(y)) >= 0;
-}
-
-/// Recomputes the edge functions exactly in lanes with a zero among them, as intersect_triangle does, and returns the
-/// mask of lanes with consistent signs. Rare, hence not inlined.
-[[gnu::noinline, gnu::cold]] LaneInt repeat_exactly(const LaneCorner& a, const LaneCorner& b, const LaneCorner& c,
-                                                    std::uint32_t lanes, LaneEdges& e) {
-    for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {
-        if (((lanes >> lane) & 1u) == 0) continue;
-        const auto pa = lane_of(a, lane);
-        const auto pb = lane_of(b, lane);
-        const auto pc = lane_of(c, lane);
-        e.u[lane] = exact_edge_function(pc, pb);
-        e.v[lane] = exact_edge_function(pa, pc);
-        e.w[lane] = exact_edge_function(pb, pa);
-    }
-    const LaneInt any_negative = (e.u < 0.0f) | (e.v < 0.0f) | (e.w < 0.0f);
-    const LaneInt any_positive = (e.u > 0.0f) | (e.v > 0.0f) | (e.w > 0.0f);
-    return ~(any_negative & any_positive) & (e.u + e.v + e.w != 0.0f);
 }
 
 /// Intersects one vector of rays with the triangles of a scene.
@@ -109,14 +82,7 @@ private:
         const LaneCorner& a = corners_[triangle.a];
         const LaneCorner& b = corners_[triangle.b];
         const LaneCorner& c = corners_[triangle.c];
-        LaneEdges e = edge_functions(a, b, c);
-        LaneInt inside = same_sign(e.u, e.v) & same_sign(e.u, e.w);
-        const std::uint32_t zero = mask_bits((e.u == 0.0f) | (e.v == 0.0f) | (e.w == 0.0f));
-        if (__builtin_expect(zero != 0, 0)) {
-            LaneEdges repeated = e;
-            inside = repeat_exactly(a, b, c, zero, repeated);
-            e = repeated;
-        }
+        const auto [e, inside] = test_lines(a, b, c);
         const LaneFloat determinant = e.u + e.v + e.w;
         const LaneFloat t = scaled_distance(e, a, b, c) / determinant;
         const LaneInt excluded = (source_ == triangle.primitive) | (target_ == triangle.primitive);

@@ -27,8 +27,8 @@ private:
     RayBatch batch_;
 };
 
-/// Returns the number of rays traced. With all that it calls in one function: how much of it the compiler would put there does not
-/// depend on the kernels of other sets.
+/// Returns the number of rays traced. With everything that it calls inlined, so that the kernels of other sets of features do not
+/// change the instructions executed here.
 template <FeatureSet F, class Trace>
 [[gnu::flatten, gnu::noinline]] std::uint64_t trace_range(BatchedRays<F>& tracer, IndexRange range,
                                                           const Trace& trace) {

@@ -11,6 +11,7 @@
 #include "core/kernel/guiding/table_field.h"
 #include "core/kernel/shading/lights.h"
 #include "cpu/ray_batch.h"
+#include "cpu/wide_hierarchy.h"
 
 namespace pl {
 
@@ -29,6 +30,14 @@ struct DenseView {
     std::uint32_t position_count;
     const DenseTriangle* triangles;  ///< in ascending order of primitive
     std::uint32_t triangle_count;
+};
+
+/// A scene and its wide hierarchy as plain pointers.
+struct WideView {
+    BvhNode root;           ///< the bounds of the scene
+    const WideNode* nodes;  ///< at least one
+    const BvhTriangle* triangles;
+    std::uint32_t exceeds_caches;  ///< 1: memory is waited for
 };
 
 /// The arguments of Rng::draw that a batch has in common.
@@ -135,6 +144,10 @@ struct LaneKernels {
     /// Closest hits of `groups` groups of rays, tested against all triangles.
     void (*find_closest)(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups);
     void (*find_occluded)(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t groups);
+    /// Hits of the first `count` rays by the wide hierarchy.
+    void (*find_closest_wide)(const WideView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t count);
+    void (*find_occluded_wide)(const WideView& scene, const RayGroup* rays, OcclusionMask* masks,
+                               std::uint32_t count);
     /// Evaluates Rng::draw() for every counter.
     void (*draw)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups);
     /// Evaluates vertex_numbers() for every counter.

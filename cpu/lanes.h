@@ -30,6 +30,16 @@ using LaneFloat = float __attribute__((vector_size(4 * kLaneWidth)));
 using LaneInt = std::int32_t __attribute__((vector_size(4 * kLaneWidth)));
 using LaneUint = std::uint32_t __attribute__((vector_size(4 * kLaneWidth)));
 
+/// Vectors for the tests of one ray, with the children of a node or the triangles of a leaf: up to eight of them.
+constexpr std::uint32_t kTestWidth = kLaneWidth < 8 ? kLaneWidth : 8;
+using TestFloat = float __attribute__((vector_size(4 * kTestWidth)));
+using TestInt = std::int32_t __attribute__((vector_size(4 * kTestWidth)));
+using TestUint = std::uint32_t __attribute__((vector_size(4 * kTestWidth)));
+
+/// The result of comparing vectors.
+template <class Real>
+using MaskOf = decltype(Real{} < Real{});
+
 template <class Lanes, class T>
 PL_INLINE Lanes load_lanes(const T* row) {
     Lanes lanes;
@@ -41,8 +51,21 @@ PL_INLINE void store_lanes(const Lanes& lanes, T* row) {
     std::memcpy(row, &lanes, sizeof(lanes));
 }
 
+template <class Vector, class T>
+PL_INLINE Vector broadcast_to(T x) {
+    return x - Vector{};
+}
 PL_INLINE LaneFloat broadcast(float x) { return x - LaneFloat{}; }
 PL_INLINE LaneUint broadcast(std::uint32_t x) { return x - LaneUint{}; }
+
+template <class Vector>
+PL_INLINE Vector larger(Vector a, Vector b) {
+    return a > b ? a : b;
+}
+template <class Vector>
+PL_INLINE Vector smaller(Vector a, Vector b) {
+    return a < b ? a : b;
+}
 
 /// |x|, bit-identical to std::fabs.
 PL_INLINE LaneFloat magnitude(LaneFloat x) {
@@ -89,6 +112,11 @@ PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
     return bits;
 #endif
 }
+#if defined(__AVX512F__)
+PL_INLINE std::uint32_t mask_bits(TestInt mask) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(std::bit_cast<__m256>(mask)));
+}
+#endif
 
 /// The vector counterpart of One, for arithmetic templated on the number of lanes; see core/kernel/base/numbers.h.
 struct Lanes {

@@ -6,6 +6,7 @@
 #include "cpu/guided_lanes.h"
 #include "cpu/light_lanes.h"
 #include "cpu/update_lanes.h"
+#include "cpu/wide_lanes.h"
 
 namespace pl {
 namespace {
@@ -16,6 +17,14 @@ void find_closest(const DenseView& scene, const RayGroup* rays, HitGroup* hits, 
 
 void find_occluded(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t groups) {
     occlusion_of_groups(scene, rays, masks, groups);
+}
+
+void find_closest_wide(const WideView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t count) {
+    closest_in_wide(scene, rays, hits, count);
+}
+
+void find_occluded_wide(const WideView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t count) {
+    occlusion_in_wide(scene, rays, masks, count);
 }
 
 void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups) {
@@ -50,8 +59,9 @@ bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return an
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name,          find_closest, find_occluded, draw,        draw_vertices, sample_rows,
-            sample_guided, weigh_guided, sample_lights, has_samples, update_table};
+    return {name,          find_closest,  find_occluded, find_closest_wide, find_occluded_wide,
+            draw,          draw_vertices, sample_rows,   sample_guided,     weigh_guided,
+            sample_lights, has_samples,   update_table};
 }
 
 }  // namespace

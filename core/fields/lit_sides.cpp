@@ -80,8 +80,7 @@ public:
     }
 
 private:
-    /// In one function: how much of it the compiler would put there does not depend on other code.
-    [[gnu::flatten, gnu::noinline]] void walk(Ray ray, const Rng& rng) {
+    void walk(Ray ray, const Rng& rng) {
         for (std::uint32_t vertex = 0; vertex < kMaxVertices; ++vertex) {
             const Hit hit = closest_solid_hit<features(Feature::CutOuts)>(view_, intersector_, ray);
             if (!hit.found()) return;

@@ -65,10 +65,14 @@ std::string interval_text(const Interval& net) {
     const bool inverted = verdict_of(net) == Verdict::Slower;
     const double low = inverted ? 1.0 / net.high : net.low;
     const double high = inverted ? 1.0 / net.low : net.high;
-    return fmt::format("{:.2g} to {:.2g}", low, high);
+    return fmt::format("{} to {}", ratio_text(low), ratio_text(high));
 }
 
 }  // namespace
+
+std::string ratio_text(double ratio) {
+    return ratio >= 99.5 && ratio < 1e6 ? fmt::format("{:.0f}", ratio) : fmt::format("{:.2g}", ratio);
+}
 
 Gain gain_over(std::span<const RunEnd> base, std::span<const RunEnd> method, std::span<const Curve> base_curves,
                std::span<const Curve> method_curves) {

@@ -50,6 +50,9 @@ enum class Verdict {
 };
 Verdict verdict_of(const Interval& ratio);
 
+/// A ratio or its bound with two significant digits, large ones as whole numbers: never "1.4e+02".
+std::string ratio_text(double ratio);
+
 /// "1.7x faster", "1.2x slower", "no difference", "undecided", "not resolved".
 std::string verdict_text(const Interval& ratio);
 

@@ -118,10 +118,12 @@ std::string mark_text(const Interval& net) {
     const Verdict verdict = verdict_of(net);
     const std::string_view name = mark_name(verdict);
     if (verdict == Verdict::Faster)
-        return fmt::format("{} {:.2g}x ({:.2g} to {:.2g})", name, net.value, net.low, net.high);
+        return fmt::format("{} {}x ({} to {})", name, ratio_text(net.value), ratio_text(net.low),
+                           ratio_text(net.high));
     if (verdict == Verdict::Slower)
-        return fmt::format("{} {:.2g}x ({:.2g} to {:.2g})", name, 1.0 / net.value, 1.0 / net.high, 1.0 / net.low);
-    return fmt::format("{} ({:.2g} to {:.2g})", name, net.low, net.high);
+        return fmt::format("{} {}x ({} to {})", name, ratio_text(1.0 / net.value), ratio_text(1.0 / net.high),
+                           ratio_text(1.0 / net.low));
+    return fmt::format("{} ({} to {})", name, ratio_text(net.low), ratio_text(net.high));
 }
 
 std::uint32_t mark_color(Verdict verdict) {

@@ -1,7 +1,7 @@
 // Large models: the time to open, build and trace them, next to Embree in the same run.
 // Usage: scale_bench [THREADS [SCENE...]]. Without scenes: balls of ten thousand, a hundred thousand and a million
-// triangles. Passes of the three ways
-// to trace alternate, and ratios are those of neighbors, because other work on the machine comes and goes.
+// triangles. Passes of all ways to trace alternate, and ratios are those of neighbors, because other work on the machine
+// comes and goes.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +15,7 @@
 #include "core/scene/pack_scene.h"
 #include "core/session/session.h"
 #include "cpu/cpu_backend.h"
+#include "cpu/wide_intersector.h"
 #include "tests/bench/embree_loop.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
@@ -50,9 +51,12 @@ class Race {
 public:
     Race(const SceneDescription& description, std::shared_ptr<const HostScene> scene, EmbreeLoop& loop, int threads)
         : camera_(make_camera(description.camera, kSide, kSide)), scene_(std::move(scene)), loop_(loop) {
-        tracers_.push_back({"back end, Embree in batches", make_cpu_backend({.threads = threads})});
-        tracers_.push_back({"back end, own hierarchy",
-                            make_cpu_backend({.threads = threads, .intersector = IntersectorChoice::Bvh})});
+        const auto add = [&](const char* name, IntersectorChoice choice) {
+            tracers_.push_back({name, make_cpu_backend({.threads = threads, .intersector = choice})});
+        };
+        add("back end, wide hierarchy", IntersectorChoice::Wide);
+        add("back end, Embree with exact test", IntersectorChoice::Embree);
+        add("back end, two-wide hierarchy", IntersectorChoice::Bvh);
         tracers_.push_back({"loop over Embree's single rays", nullptr});
         for (const Tracer& tracer : tracers_) {
             if (!tracer.backend) continue;
@@ -114,17 +118,25 @@ void measure(const std::string& name, int threads) {
     const Bvh bvh = build_bvh(view_of(scene->positions), view_of(scene->triangles));
     const double build_seconds = watch.seconds();
     watch = Stopwatch();
+    const WideIntersector wide(scene->view());
+    const double wide_seconds = watch.seconds();
+    watch = Stopwatch();
     EmbreeLoop loop(*scene, kSide, kSide, threads);
     const double embree_seconds = watch.seconds();
 
     std::printf("%zu triangles, %d threads: first picture (1280x720, default) after %.2f s\n",
                 description.triangles.size(), threads, first_picture);
-    std::printf("  reading OBJ %.2f s, packing with own hierarchy %.2f s; own hierarchy %.2f s, Embree's %.2f s\n",
-                load_seconds, pack_seconds, build_seconds, embree_seconds);
-    std::printf("  memory %.1f bytes per triangle, of them %.1f hierarchy (without Embree's own)\n",
-                static_cast<double>(bytes_of(*scene)) / static_cast<double>(scene->triangles.size()),
-                static_cast<double>(bvh.nodes.size() * sizeof(BvhNode) + bvh.primitives.size() * sizeof(BvhTriangle)) /
-                    static_cast<double>(scene->triangles.size()));
+    std::printf(
+        "  reading OBJ %.2f s, packing with own hierarchy %.2f s; own hierarchy %.2f s, made wide %.2f s, Embree's "
+        "%.2f s\n",
+        load_seconds, pack_seconds, build_seconds, wide_seconds, embree_seconds);
+    const auto per_triangle = [&](std::size_t bytes) {
+        return static_cast<double>(bytes) / static_cast<double>(scene->triangles.size());
+    };
+    std::printf("  memory %.1f bytes per triangle, of them %.1f hierarchy; %.1f more for the wide one\n",
+                per_triangle(bytes_of(*scene)),
+                per_triangle(bvh.nodes.size() * sizeof(BvhNode) + bvh.primitives.size() * sizeof(BvhTriangle)),
+                per_triangle(wide.bytes()));
     Race race(description, scene, loop, threads);
     race.run();
     race.print();

@@ -1,6 +1,6 @@
 // The cost of a segment of a guided path, compared with one of default path tracing.
 // Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER [LIGHT]]]]]]; the scene "ball" has a million triangles, the
-// tracer is auto, dense, bvh or embree, LIGHT is off, on or both: without and with light samples. Processor time, of one
+// tracer is auto, dense, wide, bvh or embree, LIGHT is off, on or both: without and with light samples. Processor time, of one
 // thread unless told otherwise. The methods take turns, one pass each, so that other work on the machine meets all of them; a
 // ratio is to `default` with the same light samples. A checksum tells whether two builds make the same pictures.
 #include <algorithm>
@@ -96,9 +96,10 @@ SceneDescription open_scene(const std::string& name) {
 IntersectorChoice tracer_of(const std::string& name) {
     if (name == "auto") return IntersectorChoice::Auto;
     if (name == "dense") return IntersectorChoice::Dense;
+    if (name == "wide") return IntersectorChoice::Wide;
     if (name == "bvh") return IntersectorChoice::Bvh;
     if (name == "embree") return IntersectorChoice::Embree;
-    throw Error(ErrorKind::Usage, "tracer: expected auto, dense, bvh or embree, got " + name);
+    throw Error(ErrorKind::Usage, "tracer: expected auto, dense, wide, bvh or embree, got " + name);
 }
 
 /// Without and with light samples.

@@ -31,7 +31,7 @@ TEST_CASE("Batches of rays through holes have the bits of single rays, by every 
     const std::vector<Ray> rays = random_rays(scene, 20000, 1);
     const auto count = static_cast<std::uint32_t>(rays.size());
     for (const IntersectorChoice choice :
-         {IntersectorChoice::Bvh, IntersectorChoice::Dense, IntersectorChoice::Auto}) {
+         {IntersectorChoice::Bvh, IntersectorChoice::Dense, IntersectorChoice::Wide}) {
         const BatchTracer tracer(scene, choice, 1);
         INFO(tracer.name());
         SolidHits<kEveryFeature, BatchTracer> solid(scene, tracer, count);

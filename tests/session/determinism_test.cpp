@@ -45,7 +45,8 @@ TEST_CASE("Threads, batches, intersectors and stops do not change a bit of a sce
         const State one = render(scene, settings, {.threads = 1});
         CHECK(one.snapshot.counters.invalid_samples == 0);
         CHECK(same_state(one, render(scene, settings, {.threads = 3, .batch_paths = 37})));
-        CHECK(same_state(one, render(scene, settings, {.threads = 2, .intersector = IntersectorChoice::Bvh})));
+        for (const IntersectorChoice choice : {IntersectorChoice::Bvh, IntersectorChoice::Wide})
+            CHECK(same_state(one, render(scene, settings, {.threads = 2, .intersector = choice})));
         Session stopped = make_session(scene, settings, 2);
         StopFlag stop = true;
         CHECK(stopped.advance(slot_of(stopped), &stop) == Progress::Stopped);
@@ -72,6 +73,18 @@ TEST_CASE(
         CHECK(stopped.advance(slot_of(stopped), &stop) == Progress::Stopped);
         render_passes(stopped, expected.snapshot.passes);
         CHECK(same_state(expected, state_of(stopped)));
+    }
+}
+
+TEST_CASE("Every shipped scene has the same bits by the wide hierarchy and by the two-wide one") {
+    for (const std::string& name : list_scenes(PL_SOURCE_DIR "/assets")) {
+        const SceneDescription scene = shipped_scene(name);
+        for (const Estimator estimator : {kEstimators[1], kEstimators[4]}) {
+            INFO(name << ", " << estimator);
+            const RenderSettings settings = small_settings(scene, estimator);
+            CHECK(same_state(render(scene, settings, {.threads = 2, .intersector = IntersectorChoice::Wide}),
+                             render(scene, settings, {.threads = 2, .intersector = IntersectorChoice::Bvh})));
+        }
     }
 }
 

@@ -89,7 +89,7 @@ bool can_be_scored(const std::optional<CompareSide>& side, const HalfPicture& re
 void plan_error_map(ComparePlan& plan, const CompareSides& sides, const CompareState& state,
                     const ReferencePicture* reference, const Stage& stage) {
     if (reference == nullptr || !reference->pixels) {
-        plan.hint = "the error map needs a reference of this picture";
+        plan.hint = "the error map needs a reference: Ctrl+R renders one";
         return;
     }
     for (const auto* side : {&sides.a, &sides.b}) {

@@ -18,7 +18,9 @@ constexpr float kAccuracyShare = 0.66f;       ///< of the height at the right
 constexpr float kSmallAccuracyShare = 0.45f;  ///< beside a tab with discs
 constexpr float kSmallestTabsEm = 8.0f;
 constexpr float kSmallestAccuracyEm = 10.0f;
-constexpr float kBarEm = 1.75f;  ///< height of menu and status bar
+constexpr float kWholePlotEm = 22.0f;       ///< of the accuracy panel: the table of some runs above a whole plot
+constexpr float kMostForPlotShare = 0.56f;  ///< of the height at the right
+constexpr float kBarEm = 1.75f;             ///< height of menu and status bar
 constexpr float kBorderEm = 0.5f;
 /// A picture that fills more than this share of the view is not stretched: stretching blurs.
 constexpr float kNearlyFull = 0.95f;
@@ -60,11 +62,12 @@ Widths panel_widths(float room, float em, const PanelChoice& choice) {
 
 /// Height of the accuracy panel, if both parts of the right side are open.
 float accuracy_height(float height, float em, const PanelChoice& choice, bool detail) {
-    const float standard = detail ? kSmallAccuracyShare : kAccuracyShare;
-    const float share = choice.accuracy_share > 0.0f ? choice.accuracy_share : standard;
     const float least = std::min(kSmallestAccuracyEm * em, 0.5f * height);
     const float most = height - std::min(kSmallestTabsEm * em, 0.5f * height);
-    return std::round(std::clamp(share * height, least, std::max(most, least)));
+    const float standard = std::max((detail ? kSmallAccuracyShare : kAccuracyShare) * height,
+                                    std::min(kWholePlotEm * em, kMostForPlotShare * height));
+    const float wanted = choice.accuracy_share > 0.0f ? choice.accuracy_share * height : standard;
+    return std::round(std::clamp(wanted, least, std::max(most, least)));
 }
 
 /// Splits `side`, whose height is that of tabs, border and accuracy panel.

@@ -13,6 +13,7 @@ namespace pl {
 namespace {
 
 constexpr float kLabelEm = 6.4f;
+constexpr float kTabPaddingEm = 0.22f;  ///< beside a tab's title: all of them in one row of the standard width
 
 std::string hidden_label(const char* label) { return std::string("##") + label; }
 
@@ -279,17 +280,18 @@ TabRow::TabRow(const char* id)
 
 bool TabRow::add(const char* title) {
     const ImGuiID tab = ImGui::GetID(title);
-    const ImGuiStyle& style = ImGui::GetStyle();
     if (first_ == 0) {
         first_ = tab;
     } else {
-        const float width = ImGui::CalcTextSize(title).x + 2.0f * style.FramePadding.x;
+        const float width = ImGui::CalcTextSize(title).x + 2.0f * em(kTabPaddingEm);
         const float start = ImGui::GetItemRectMax().x + em(0.25f);
         if (start + width <= end_) ImGui::SameLine(0.0f, em(0.25f));
     }
     const bool was_front = tab == chosen_;
     ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(was_front ? ImGuiCol_ButtonActive : ImGuiCol_Button));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {em(kTabPaddingEm), ImGui::GetStyle().FramePadding.y});
     if (ImGui::Button(title)) chosen_ = tab;
+    ImGui::PopStyleVar();
     ImGui::PopStyleColor();
     note_place(title);
     is_found_ = is_found_ || tab == chosen_;

@@ -27,8 +27,11 @@ public:
     /// Takes finished pictures; once per frame of the window.
     void update();
 
-    /// Null before it is made, and for scenes that cannot be rendered.
+    /// A draft as long as the whole picture is not there. Null before it is made, and for scenes that cannot be rendered.
     std::shared_ptr<const ByteImage> picture(const std::string& scene) const;
+    /// Number of scenes with a picture, be it a draft.
+    std::size_t shown() const;
+    /// Number of whole pictures.
     std::size_t size() const { return pictures_.size(); }
     bool is_working() const { return job_ != nullptr; }
 
@@ -39,6 +42,7 @@ private:
     struct Incoming {
         std::mutex mutex;
         Pictures pictures;
+        Pictures drafts;
     };
     struct Outcome {
         std::string failure{};  ///< the newest one; empty without
@@ -48,14 +52,19 @@ private:
     void start();
     Outcome make_all(const std::vector<std::string>& names, const std::filesystem::path& folder,
                      const JobMonitor& monitor);
+    /// Kept pictures, and drafts of the others: a gallery without pictures helps nobody to choose.
+    void show_drafts(const std::vector<std::string>& names, const std::filesystem::path& folder,
+                     const JobMonitor& monitor);
     std::optional<ByteImage> make(const std::string& name, const std::filesystem::path& folder,
                                   const JobMonitor& monitor, Outcome& outcome) const;
+    void hand_over(Pictures Incoming::*kind, const std::string& name, ByteImage image);
 
     const ViewerOptions& options_;
     Messages& messages_;
     RenderLink& link_;
     std::filesystem::path folder_;
     Pictures pictures_;
+    Pictures drafts_;
     Incoming incoming_;
     bool is_shown_ = false;
     bool is_complete_ = false;                     ///< all scenes have had their turn

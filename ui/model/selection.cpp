@@ -7,7 +7,7 @@ namespace pl {
 void Selection::update() {
     light_.update(link_.frame(), inspection(), link_.worker().history());
     const std::optional<PickAnswer> answer = link_.worker().take_pick();
-    if (!answer) return;
+    if (!answer || !awaits_pick_) return;
     if (!answer->point) {
         messages_.say(MessageLevel::Info, "nothing to select: the ray leaves the scene");
         return;
@@ -37,6 +37,7 @@ void Selection::toggle_pin() {
 }
 
 void Selection::deselect() {
+    awaits_pick_ = false;
     picked_.reset();
     select(kNoVolume);
 }

@@ -18,7 +18,10 @@ public:
 
     /// Selects the surface point under a point of the image, in [0,1)^2 from the top left; the render thread answers
     /// later.
-    void pick(Vec2f image_point) { link_.worker().request_pick(image_point); }
+    void pick(Vec2f image_point) {
+        link_.worker().request_pick(image_point);
+        awaits_pick_ = true;
+    }
     /// Takes the render thread's answer; once per frame of the window.
     void update();
 
@@ -32,7 +35,7 @@ public:
     const LightTracing& light() const { return light_; }
     /// True once after a click has selected a volume.
     bool take_new_volume();
-    /// The point and the volume; the material stays.
+    /// The point and the volume, also of a click that is not answered yet; the material stays.
     void deselect();
     /// The volume and the pinned ones, because their numbers may be invalid.
     void drop_volume() {
@@ -65,6 +68,7 @@ private:
     std::int32_t volume_ = kNoVolume;
     int hovered_cell_ = -1;
     bool is_new_ = false;
+    bool awaits_pick_ = false;  ///< the newest click has not been taken back
     LightTracing light_;
     PinnedVolumes pins_{link_.worker()};
 };

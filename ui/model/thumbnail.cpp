@@ -14,6 +14,7 @@ namespace {
 /// Grows when the same scene gets another picture.
 constexpr std::uint64_t kThumbnailVersion = 1;
 constexpr std::uint32_t kThumbnailSamples = 64;
+constexpr std::uint32_t kDraftSamples = 4;
 /// The PNG decoder does not check the bytes of the picture.
 constexpr const char* kPixelsKey = "pixels";
 
@@ -55,16 +56,18 @@ void write_thumbnail(const std::filesystem::path& file, const ByteImage& image) 
 }
 
 std::optional<ByteImage> render_thumbnail(std::shared_ptr<const SceneDescription> scene,
-                                          const BackendFactory& make_backend, const StopFlag* stop) {
+                                          const BackendFactory& make_backend, ThumbnailQuality quality,
+                                          const StopFlag* stop) {
+    const bool is_draft = quality == ThumbnailQuality::Draft;
     RenderSettings settings;
-    settings.method = learning_method();
+    settings.method = is_draft ? MethodId::Default : learning_method();
     settings.next_event = true;
     settings.width = kThumbnailWidth;
     settings.height = kThumbnailHeight;
     settings.camera = scene->camera;
     const FilmSlot slot = slot_of(settings);
     Session session(make_backend("cpu"), std::move(scene), settings);
-    while (session.passes(slot) < kThumbnailSamples)
+    while (session.passes(slot) < (is_draft ? kDraftSamples : kThumbnailSamples))
         if (session.advance(slot, stop) == Progress::Stopped) return std::nullopt;
     return display_image(session.snapshot(slot), {});
 }

@@ -60,10 +60,11 @@ private:
 /// error of the picture, which even numbers lower for the baseline, too.
 void add_guiding_badge(BadgeRow& row, const GuidingStatus& guiding) {
     if (guiding.pays)
-        row.add(fmt::format("guiding pays: {:.2g}x by a path's variance and cost", *guiding.gain), colors::kGood);
+        row.add(fmt::format("guiding pays: {}x by a path's variance and cost", ratio_text(*guiding.gain)),
+                colors::kGood);
     else
-        row.add(fmt::format("guiding given up: {:.2g}x by a path's variance and cost, {} by Default", *guiding.gain,
-                            passes_text(guiding.unguided_passes)),
+        row.add(fmt::format("guiding given up: {}x by a path's variance and cost, {} by Default",
+                            ratio_text(*guiding.gain), passes_text(guiding.unguided_passes)),
                 colors::kWarning);
 }
 
@@ -96,7 +97,7 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
                 colors::kWarning);
     if (view == View::Depth) row.add(fmt::format("black 0, white {:.4g}", frame.range.high), colors::kText);
     if (is_heat_map(view)) row.add_heat_legend(legend(view, frame.range));
-    if (frame.divider > 1) row.add(fmt::format("1/{} res", frame.divider), colors::kWarning);
+    if (frame.divider > 1) row.add(fmt::format("1/{} of the resolution", frame.divider), colors::kWarning);
 }
 
 void draw_precompute_progress(ViewerModel& model, const Layout& layout, double share) {
@@ -203,7 +204,7 @@ void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     if (status.field->is_frozen)
         row.add(fmt::format("learning frozen after {}", passes_text(status.field->passes)), colors::kWarning);
     else if (status.state == WorkerState::Rendering)
-        row.add(fmt::format("learning  {}", status.field->passes), colors::kGood);
+        row.add("learning, " + passes_text(status.field->passes), colors::kGood);
 }
 
 }  // namespace

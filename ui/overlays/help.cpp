@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "ui/draw/style.h"
+#include "ui/draw/widgets.h"
 #include "ui/input/actions.h"
 #include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
@@ -21,7 +21,8 @@ void draw_line(const char* keys, const char* text) {
     ImGui::SetCursorScreenPos({corner.x + 0.5f * (width - ImGui::CalcTextSize(keys).x), corner.y});
     ImGui::TextColored(to_vec4(colors::kAccent), "%s", keys);
     ImGui::SameLine(em(kKeysEm));
-    ImGui::TextUnformatted(text);
+    ImGui::TextWrapped("%s", text);
+    note_place(text);
 }
 
 void draw_heading(const char* text) {

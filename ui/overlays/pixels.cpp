@@ -11,8 +11,9 @@
 namespace pl {
 namespace {
 
-constexpr float kTextShare = 0.75f;    ///< height of the numbers, of the font's
-constexpr float kLeastPixelEm = 3.4f;  ///< four lines of six characters fit
+constexpr float kSmallTextShare = 0.75f;  ///< height of the numbers in small pixels, of the font's
+constexpr float kLeastPixelEm = 3.4f;     ///< four small lines of six characters fit
+constexpr float kLargePixelEm = 5.0f;     ///< lines of the font's own height fit
 
 /// One line of a pixel's text, in the color of its channel.
 struct ValueLine {
@@ -30,8 +31,7 @@ std::array<ValueLine, 4> lines_of(Vec3f value) {
 bool is_valid(Vec3f value) { return std::isfinite(value.x + value.y + value.z); }
 
 /// With a shade below, so that it can be read on any color.
-void draw_line(ImDrawList& list, ImVec2 corner, const ValueLine& line) {
-    const float size = kTextShare * ImGui::GetFontSize();
+void draw_line(ImDrawList& list, ImVec2 corner, float size, const ValueLine& line) {
     for (const ImVec2 shift : {ImVec2{1.0f, 1.0f}, ImVec2{-1.0f, 1.0f}, ImVec2{1.0f, -1.0f}, ImVec2{-1.0f, -1.0f}})
         list.AddText(ImGui::GetFont(), size, {corner.x + shift.x, corner.y + shift.y}, IM_COL32(0, 0, 0, 200),
                      line.text.c_str());
@@ -39,16 +39,16 @@ void draw_line(ImDrawList& list, ImVec2 corner, const ValueLine& line) {
 }
 
 void draw_value(ImDrawList& list, const Rect& place, Vec3f value) {
-    const float height = kTextShare * ImGui::GetFontSize();
+    const float height = (place.width >= em(kLargePixelEm) ? 1.0f : kSmallTextShare) * ImGui::GetFontSize();
     const ImVec2 corner{place.x + 0.25f * height, place.y + 0.5f * (place.height - 4.0f * height)};
     if (!is_valid(value)) {
         list.AddRect({place.x + 1.0f, place.y + 1.0f}, {place.x + place.width - 1.0f, place.y + place.height - 1.0f},
                      colors::kError, 0.0f, 0, 2.0f);
-        return draw_line(list, corner, {"invalid", colors::kError});
+        return draw_line(list, corner, height, {"invalid", colors::kError});
     }
     float y = corner.y;
     for (const ValueLine& line : lines_of(value)) {
-        draw_line(list, {corner.x, y}, line);
+        draw_line(list, {corner.x, y}, height, line);
         y += height;
     }
 }

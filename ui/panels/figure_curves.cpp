@@ -86,25 +86,6 @@ void draw_plot(const std::vector<NamedCurve>& curves, double level, std::uint64_
     list.AddText({rect.x + rect.width - ImGui::CalcTextSize(right.c_str()).x, below}, colors::kFaint, right.c_str());
 }
 
-void draw_keeping(LearningTime& time) {
-    bool keeps = time.keeps();
-    if (ImGui::Checkbox("keep the past", &keeps)) time.set_keeps(keeps);
-    note_place("keep the past");
-    tooltip(
-        "Key frames of the whole field, after each of the first 16 passes, then whenever the passes have grown by a "
-        "quarter. Ctrl+Shift+R learns anew.");
-    if (!keeps) return;
-    ImGui::SameLine(0.0f, em(0.8f));
-    ImGui::SetNextItemWidth(-1.0f);
-    int megabytes = time.megabytes();
-    if (ImGui::SliderInt("##memory", &megabytes, 16, 4096, "at most %d MB",
-                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
-        time.set_megabytes(megabytes);
-    tooltip(
-        "When they are used up, the frame whose neighbors are nearest to each other, in proportion of their passes, "
-        "is given up; never the first or the last.");
-}
-
 void draw_scrubber(LearningTime& time) {
     const auto last = static_cast<int>(time.history()->frames.size());
     if (last == 0) return;
@@ -132,6 +113,27 @@ void draw_scrubber(LearningTime& time) {
 
 }  // namespace
 
+void draw_keeping(LearningTime& time) {
+    bool keeps = time.keeps();
+    if (ImGui::Checkbox("keep the past", &keeps)) time.set_keeps(keeps);
+    note_place("keep the past");
+    tooltip(
+        "Key frames of the whole field, after each of the first 16 passes, then whenever the passes have grown by a "
+        "quarter. Ctrl+Shift+R learns anew.");
+}
+
+void draw_memory(LearningTime& time) {
+    if (!time.keeps()) return;
+    ImGui::SetNextItemWidth(-1.0f);
+    int megabytes = time.megabytes();
+    if (ImGui::SliderInt("##memory", &megabytes, 16, 4096, "key frames: at most %d MB",
+                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+        time.set_megabytes(megabytes);
+    tooltip(
+        "When they are used up, the frame whose neighbors are nearest to each other, in proportion of their passes, "
+        "is given up; never the first or the last.");
+}
+
 void draw_figures(const std::vector<FigurePoint>& curve, std::uint64_t shown) {
     std::vector<NamedCurve> divergences{{"KL of table", kTableColor, {}}, {"KL of paths", kPathsColor, {}}};
     std::vector<NamedCurve> variance{{"variance over that of the BSDF", kVarianceColor, {}}};
@@ -153,7 +155,6 @@ void draw_figure_curves(const ViewerModel& model) {
 
 void draw_time(ViewerModel& model, const VolumeInspection& shown) {
     LearningTime& time = model.time();
-    draw_keeping(time);
     draw_scrubber(time);
     const VolumeInspection* now = model.selection().inspection();
     if (time.frame() == nullptr || now == nullptr) return;

@@ -12,7 +12,13 @@ void draw_figures(const std::vector<FigurePoint>& curve, std::uint64_t shown);
 /// Those of the selected volume, if there are several.
 void draw_figure_curves(const ViewerModel& model);
 
-/// Keeping the past, the slider through it, and the difference of the shown time to now.
+/// Whether key frames of the field are kept.
+void draw_keeping(LearningTime& time);
+
+/// Most memory of the key frames, if they are kept.
+void draw_memory(LearningTime& time);
+
+/// The slider through the past, and the difference of the shown time to now; nothing where none is kept.
 void draw_time(ViewerModel& model, const VolumeInspection& shown);
 
 }  // namespace pl

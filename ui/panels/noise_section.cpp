@@ -13,7 +13,7 @@ double spread(const Interval& value) { return 0.5 * (value.high - value.low); }
 /// "97 ± 2"; empty for a part without contributions.
 std::string share_text(const Interval& share) {
     if (share.value == 0.0 && spread(share) == 0.0) return "-";
-    return fmt::format("{:.0f} +- {:.0f} %", 100.0 * share.value, 100.0 * spread(share));
+    return fmt::format("{:.0f} \u00b1 {:.0f} %", 100.0 * share.value, 100.0 * spread(share));
 }
 
 bool has_part(const Interval& share) { return share.value != 0.0 || spread(share) != 0.0; }

@@ -42,8 +42,8 @@ void draw_method(ViewerModel& model) {
     if (toggle_row(
             "Light samples",
             "Key L: next-event estimation. Samples a point on a light at every path vertex and combines it with "
-            "the scattered directions by multiple importance sampling. Off by default: then paths reach light "
-            "only by scattering.",
+            "the scattered directions by multiple importance sampling. Without them paths reach light only by "
+            "scattering.",
             &next_event))
         model.render().set_next_event(next_event);
 }
@@ -70,7 +70,7 @@ void draw_back_end(ViewerModel& model) {
         faint_text(text.c_str());
         ImGui::Unindent(label_start);
     }
-    if (model.frame() != nullptr)
+    if (is_research(model) && model.frame() != nullptr)
         text_row("Rays", model.frame()->backend.intersector, "The intersector of this scene.");
 }
 
@@ -192,7 +192,7 @@ void draw_field_displays(ViewerModel& model) {
     if (toggle_row("Tint by radiance volume", "V: the Voronoi cells of the radiance volumes, over any view.", &cells))
         model.display().set_cells(cells);
     float opacity = model.display().cells_opacity();
-    if (slider_row("Opacity", "Of the tint.", &opacity, {0.0f, 1.0f, 0.4f, "%.2f"}))
+    if (slider_row("Tint opacity", "Keys ; and '.", &opacity, {0.0f, 1.0f, 0.4f, "%.2f"}))
         model.display().set_cells_opacity(opacity);
     toggle_row("Hemisphere in the picture",
                "H: the field of the selected volume, and of pinned ones, drawn at their positions.",
@@ -232,7 +232,7 @@ void draw_window_displays(ViewerModel& model) {
         model.display().set_preview(preview);
     ImGui::EndDisabled();
     int scale = static_cast<int>(std::lround((model.window().ui_scale - 0.75f) / 0.25f));
-    if (choice_row("UI scale", "Size of text and controls.", &scale,
+    if (choice_row("Text size", "Size of text and controls; also --ui-scale.", &scale,
                    "75 %\000100 %\000125 %\000150 %\000175 %\000200 %\000"))
         model.window().ui_scale = 0.75f + 0.25f * static_cast<float>(scale);
 }

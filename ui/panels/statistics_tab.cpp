@@ -28,6 +28,9 @@ void clock_row(const char* name, double seconds, double total, const char* tip) 
 void draw_clocks(const Clocks& clocks) {
     if (!section("Time", true)) return;
     if (!ImGui::BeginTable("clocks", 3, ImGuiTableFlags_SizingStretchProp)) return;
+    ImGui::TableSetupColumn("clock", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("seconds", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthStretch);
     const double total = clocks.total();
     clock_row("Load", clocks.load, total, "Reading and checking the scene's files.");
     clock_row("Build", clocks.build, total, "Packing the scene and building its hierarchy.");

@@ -92,10 +92,11 @@ void draw_summary(const VolumeInspection& volume) {
     text_row("Irradiance", fmt::format("{:.4g}", volume.mean_radiance * kPi), "Learned irradiance, as luminance.");
 }
 
-/// Freezing and stepping of the whole field, and forgetting of this volume.
+/// Freezing and stepping of the whole field, and forgetting of this volume, before the next control of the row.
 void draw_learning_buttons(ViewerModel& model) {
     if (!info_of(model.render().method()).learns) return;
     const bool is_frozen = model.status().field && model.status().field->is_frozen;
+    ImGui::AlignTextToFramePadding();
     if (ImGui::SmallButton(is_frozen ? "continue" : "freeze"))
         model.render().control_learning(is_frozen ? LearningControl::Continue : LearningControl::Freeze);
     note_place("freeze");
@@ -112,6 +113,7 @@ void draw_learning_buttons(ViewerModel& model) {
     if (ImGui::SmallButton("forget volume")) model.render().forget_volume(model.selection().volume());
     note_place("forget volume");
     tooltip("This volume begins anew, as if it had never been trained; all others keep what they learned.");
+    ImGui::SameLine();
 }
 
 }  // namespace
@@ -122,6 +124,7 @@ void draw_volume_tab(ViewerModel& model) {
         faint_text("Click a surface in the picture to see its learned incident radiance.");
         return;
     }
+    ImGui::AlignTextToFramePadding();  // of the check box at the end of the row
     ImGui::Text("Radiance volume %d", model.selection().volume());
     ImGui::SameLine();
     if (ImGui::SmallButton("deselect")) {
@@ -149,12 +152,14 @@ void draw_volume_tab(ViewerModel& model) {
     }
     CellDisplay& display = model.window().cell_display;
     draw_learning_buttons(model);
+    draw_keeping(model.time());
     draw_choices(display);
     if (display.truth) model.selection().light().show();
     const std::shared_ptr<const VolumeInspection> past = model.time().inspection(model.selection().volume());
     if (past != nullptr) volume = past.get();
     draw_time(model, *volume);
     draw_volume_discs(model, *volume);
+    draw_memory(model.time());
     if (display.truth) {
         const auto& guiding = model.frame()->snapshot.guiding;
         draw_truth(model.selection(), guiding ? &*guiding : nullptr);

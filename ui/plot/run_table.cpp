@@ -109,15 +109,14 @@ std::string gain_text(const RunRow& row) {
     }
     const Interval& net = row.gain->net;
     if (!std::isfinite(net.value)) return verdict_text(net);
-    if (row.gain->source == IntervalSource::None) return fmt::format("{:.2g}x, no interval", net.value);
+    if (row.gain->source == IntervalSource::None) return ratio_text(net.value) + "x, no interval";
     const Verdict verdict = verdict_of(net);
-    return verdict == Verdict::Faster || verdict == Verdict::Slower ? fmt::format("{:.2g}x", net.value)
-                                                                    : verdict_text(net);
+    return verdict == Verdict::Faster || verdict == Verdict::Slower ? ratio_text(net.value) + "x" : verdict_text(net);
 }
 
 std::string interval_text(const RunRow& row) {
     if (!row.gain || row.gain->source == IntervalSource::None || !std::isfinite(row.gain->net.value)) return "";
-    return fmt::format("{:.2g}-{:.2g}", row.gain->net.low, row.gain->net.high);
+    return fmt::format("{}-{}", ratio_text(row.gain->net.low), ratio_text(row.gain->net.high));
 }
 
 }  // namespace pl

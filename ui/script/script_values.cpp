@@ -243,7 +243,7 @@ constexpr std::array kValues{
     Value{"scene", [](const ViewerModel& m) { return m.scene().name(); }},
     Value{"tour", [](const ViewerModel& m) { return state_text(m.tour()); }},
     Value{"dialog", [](const ViewerModel& m) { return word(m.open_dialog().is_shown()); }},
-    Value{"thumbnails", [](const ViewerModel& m) { return fmt::format("{}", m.open_dialog().gallery().size()); }},
+    Value{"thumbnails", [](const ViewerModel& m) { return fmt::format("{}", m.open_dialog().gallery().shown()); }},
     Value{"folder", [](const ViewerModel& m) { return m.open_dialog().listing().folder.string(); }},
     Value{"knobs", [](const ViewerModel& m) { return knob_text(m.scene().knobs()); }},
     Value{"shown_knobs",

@@ -107,7 +107,7 @@ PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f n
     while (true) {
         while (range.low < range.high) {
             const std::uint32_t middle = range.low + (range.high - range.low) / 2;
-            const KdNode node = tree.nodes[middle];  // all of it: two loads of 16 bytes
+            const KdNode node = tree.nodes[middle];  // a copy: a device reads it by two loads of 16 bytes
             result.consider(node, position, normal);
             const Range below{range.low, middle};
             const Range above{middle + 1, range.high};

@@ -107,4 +107,13 @@ TEST_CASE("the range that all runs cover") {
     CHECK(spaced[2] == 100.0);
 }
 
+TEST_CASE("Gain: ratios have two digits, large ones no exponent") {
+    CHECK(ratio_text(0.531) == "0.53");
+    CHECK(ratio_text(1.449) == "1.4");
+    CHECK(ratio_text(99.4) == "99");
+    CHECK(ratio_text(99.6) == "100");
+    CHECK(ratio_text(143.2) == "143");
+    CHECK(ratio_text(2e7) == "2e+07");
+}
+
 }  // namespace pl::test

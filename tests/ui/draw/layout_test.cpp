@@ -1,6 +1,8 @@
 #include "tests/support/catch.hpp"
 #include "ui/draw/layout.h"
 
+#include <array>
+
 using namespace pl;
 
 namespace {
@@ -44,6 +46,20 @@ TEST_CASE("Layout: a tab with details gets more of the height than the accuracy 
         CHECK(low_end(layout.accuracy_border) == layout.accuracy.y);
         CHECK(low_end(layout.accuracy) == layout.status.y);
     }
+}
+
+TEST_CASE("Layout: a whole plot and the discs have room in every window from 1280 x 720 on") {
+    constexpr float kDesignEm = 16.0f;
+    for (const auto& [width, height, scale] :
+         {std::array{1280.0f, 720.0f, 1.0f}, std::array{1440.0f, 900.0f, 1.0f}, std::array{2560.0f, 1440.0f, 2.0f}})
+        for (const bool detail : {false, true}) {
+            const Layout layout = make_layout(width, height, kDesignEm * scale, {}, detail);
+            CHECK(layout.accuracy.height >= 345.0f * scale);
+            CHECK(layout.right.height >= (detail ? 280.0f : 200.0f) * scale);
+        }
+    // A chosen height is not touched.
+    const Layout chosen = make_layout(1280.0f, 720.0f, 16.0f, {.accuracy_share = 0.3f}, true);
+    CHECK(chosen.accuracy.height < 0.31f * 664.0f);
 }
 
 TEST_CASE("Layout: in a narrow window the panels shrink, then float over the picture") {

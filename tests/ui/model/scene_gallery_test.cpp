@@ -74,3 +74,20 @@ TEST_CASE("Gallery: the picture in the window rests while others are made, and g
     model.open_dialog().toggle();
     REQUIRE(bench.run_until(model, [&] { return model.open_dialog().gallery().size() == 2; }));
 }
+
+TEST_CASE("Gallery: drafts of all scenes come before the first whole picture, and are not kept") {
+    GalleryBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    SceneGallery& gallery = model.open_dialog().gallery();
+    gallery.set_folder(bench.cache);
+    bench.control->pass_microseconds = 4000;
+    model.open_dialog().toggle();
+    REQUIRE(bench.run_until(model, [&] { return gallery.picture("other") && gallery.picture("small"); }));
+    CHECK(gallery.size() == 0);
+    CHECK(gallery.shown() == 2);
+    CHECK_FALSE(std::filesystem::exists(bench.cache));
+    const auto draft = gallery.picture("small");
+    bench.control->pass_microseconds = 0;
+    REQUIRE(bench.run_until(model, [&] { return gallery.size() == 2; }));
+    CHECK(gallery.picture("small") != draft);
+}

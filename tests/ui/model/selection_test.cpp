@@ -29,3 +29,22 @@ TEST_CASE("Selection: a picked volume is selected, deselected, and forgotten wit
     REQUIRE(bench.run_until(model, [&] { return !model.messages().toasts().empty(); }));
     CHECK_THAT(model.messages().toasts().back().text, contains("nothing to select"));
 }
+
+TEST_CASE("Selection: Esc before the answer to a click takes the click back") {
+    FileBench bench;
+    bench.options.settings.method = MethodId::Reinforcement;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    bench.control->hold = true;
+    REQUIRE(bench.run_until(model, [&] { return bench.control->inside.load(); }));
+    model.selection().pick({0.5f, 0.65f});
+    model.cancel();
+    bench.control->hold = false;
+    const int passes = bench.control->passes;
+    REQUIRE(bench.run_until(model, [&] { return bench.control->passes > passes + 2; }));
+    CHECK(model.selection().volume() == kNoVolume);
+    CHECK_FALSE(model.selection().picked());
+
+    model.selection().pick({0.5f, 0.65f});
+    REQUIRE(bench.run_until(model, [&] { return model.selection().volume() != kNoVolume; }));
+}

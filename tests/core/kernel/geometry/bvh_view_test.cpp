@@ -1,135 +1,14 @@
 // The hierarchy gives the same bits as looking at every triangle, in scenes made to be hard for boxes.
-#include <functional>
-
 #include "core/kernel/geometry/postponed_traversal.h"
 #include "core/kernel/geometry/small_scene.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/rays/brute_force.h"
-#include "tests/support/scenes/shapes.h"
+#include "tests/support/rays/hard_rays.h"
 
 using namespace pl;
 using test::Uniforms;
 
 namespace {
-
-constexpr int kTriangles = 300;
-
-/// Triangles with their first corner at `anchor` and the others `size` around it.
-using Shape = std::function<void(SceneDescription&, Uniforms&)>;
-
-void add_around(SceneDescription& scene, Uniforms& random, Vec3f anchor, float size) {
-    const Vec3f b = anchor + size * random.cube(-1, 1);
-    const Vec3f c = anchor + size * random.cube(-1, 1);
-    test::add_triangle(scene, anchor, b, c);
-}
-
-/// A power of two between 2^-20 and 1.
-float any_scale(Uniforms& random) { return std::exp2(-static_cast<float>(random.below(21))); }
-
-void add_sliver(SceneDescription& scene, Uniforms& random, float width) {
-    const Vec3f a = random.cube(-1, 1);
-    const Vec3f along = random.cube(-1, 1);
-    test::add_triangle(scene, a, a + along, a + random.next() * along + width * random.cube(-1, 1));
-}
-
-/// In a plane of constant x, at one of eight places: boxes without thickness, many of them touching.
-void add_flat(SceneDescription& scene, Uniforms& random) {
-    const float x = static_cast<float>(random.below(8)) * 0.25f;
-    const auto in_plane = [&] { return Vec3f{x, random.between(-1, 1), random.between(-1, 1)}; };
-    const Vec3f a = in_plane();
-    const Vec3f b = in_plane();
-    test::add_triangle(scene, a, b, in_plane());
-}
-
-Shape repeated(std::function<void(SceneDescription&, Uniforms&)> add) {
-    return [add](SceneDescription& scene, Uniforms& random) {
-        for (int i = 0; i < kTriangles; ++i) add(scene, random);
-    };
-}
-
-struct NamedShape {
-    const char* name;
-    Shape build;
-};
-
-std::vector<NamedShape> hard_shapes() {
-    return {
-        {"uniform", repeated([](auto& s, auto& r) { add_around(s, r, r.cube(-1, 1), 0.2f); })},
-        {"clustered",
-         repeated([](auto& s, auto& r) { add_around(s, r, any_scale(r) * r.cube(-1, 1), any_scale(r)); })},
-        {"slivers", repeated([](auto& s, auto& r) { add_sliver(s, r, 1e-4f); })},
-        {"thin slivers", repeated([](auto& s, auto& r) { add_sliver(s, r, 1e-6f); })},
-        {"flat", repeated([](auto& s, auto& r) { add_flat(s, r); })},
-        {"far from the origin", repeated([](auto& s, auto& r) {
-             add_around(s, r, Vec3f{1e3f, 2e3f, -500} + r.cube(-1, 1), 0.2f);
-         })},
-        {"one huge, many tiny",
-         [](auto& s, auto& r) {
-             test::add_triangle(s, Vec3f{-1e3f, 0, -1e3f}, Vec3f{1e3f, 0.1f, -1e3f}, Vec3f{0, 0, 1e3f});
-             repeated([](auto& scene, auto& random) { add_around(scene, random, random.cube(-1, 1), 0.01f); })(s, r);
-         }},
-        {"closed mesh", [](auto& s, auto&) { test::add_spiky_sphere(s, 12, 12, 1.0f, 6.0f, 3); }},
-        {"room with a block",
-         [](auto& s, auto&) {
-             test::add_box(s, Vec3f{-1}, Vec3f{1}, true);
-             test::add_box(s, {-0.5f, -1, -0.5f}, {0.5f, 0, 0.5f}, false);
-         }},
-        {"room twice",
-         [](auto& s, auto&) {
-             test::add_box(s, Vec3f{-1}, Vec3f{1}, true);
-             test::add_box(s, Vec3f{-1}, Vec3f{1}, true);
-         }},
-        {"everything twice",
-         [](auto& s, auto&) {
-             test::add_spiky_sphere(s, 8, 8, 1.0f, 2.0f, 4);
-             test::add_spiky_sphere(s, 8, 8, 1.0f, 2.0f, 4);
-         }},
-    };
-}
-
-/// A point on a triangle, often on an edge or a corner.
-Vec3f point_on(const SceneView& scene, Uniforms& random) {
-    const Triangle& t = scene.triangles[random.below(scene.triangles.count)];
-    Vec3f b = random.cube(0.01f, 1);
-    if (random.below(2) == 0) b.x = 0.0f;
-    if (random.below(2) == 0) b.y = 0.0f;
-    b *= 1.0f / (b.x + b.y + b.z);
-    return b.x * scene.positions[t.v0] + b.y * scene.positions[t.v1] + b.z * scene.positions[t.v2];
-}
-
-/// Almost in the plane of a triangle.
-Vec3f along_triangle(const SceneView& scene, Uniforms& random) {
-    const Triangle& t = scene.triangles[random.below(scene.triangles.count)];
-    const Vec3f a = scene.positions[t.v0];
-    const Vec3f along =
-        random.between(-1, 1) * (scene.positions[t.v1] - a) + random.between(-1, 1) * (scene.positions[t.v2] - a);
-    return glm::normalize(along) + 1e-4f * random.next() * random.cube(-1, 1);
-}
-
-Ray hard_ray(const SceneView& scene, Uniforms& random) {
-    const Vec3f on_surface = point_on(scene, random);
-    Ray ray{.origin = on_surface + random.cube(-2, 2), .direction = random.direction()};
-    switch (random.below(4)) {
-    case 0: ray.direction = on_surface - ray.origin; break;  // to a point, an edge or a corner
-    case 1: break;
-    case 2:  // along an axis, with exact zeros; from a slab plane half of the time
-        ray.direction = Vec3f{0.0f};
-        ray.direction[static_cast<int>(random.below(3))] = random.below(2) == 0 ? 1.0f : -1.0f;
-        ray.origin = on_surface - static_cast<float>(random.below(2)) * 2.0f * ray.direction;
-        break;
-    case 3:  // along a triangle
-        ray.direction = along_triangle(scene, random);
-        ray.origin = on_surface - random.between(0, 3) * ray.direction;
-        break;
-    default:  // from one surface to another
-        ray.origin = on_surface;
-        ray.direction = point_on(scene, random) - on_surface;
-    }
-    if (random.below(4) == 0) ray.t_max = random.next();
-    if (random.below(4) == 0) ray.source = random.below(scene.triangles.count);
-    if (random.below(8) == 0) ray.target = random.below(scene.triangles.count);
-    return ray;
-}
 
 SmallScene small_scene(const SceneView& scene) {
     return {scene.bvh.nodes.data, scene.bvh.leaves.data, scene.bvh.triangles.data, scene.bvh.leaves.count};
@@ -152,7 +31,7 @@ SceneDescription first_triangles(SceneDescription scene, std::size_t count) {
 }
 
 void check_against_all(int rays, std::size_t most_triangles = 1000000) {
-    for (const NamedShape& shape : hard_shapes()) {
+    for (const test::NamedShape& shape : test::hard_shapes()) {
         Uniforms random(11);
         SceneDescription description;
         description.materials.push_back(test::gray());
@@ -163,7 +42,7 @@ void check_against_all(int rays, std::size_t most_triangles = 1000000) {
         int hits = 0;
         int differences = 0;
         for (int i = 0; i < rays; ++i) {
-            const Ray ray = hard_ray(scene, random);
+            const Ray ray = test::hard_ray(scene, random);
             const Hit expected = test::closest_hit_by_all(scene, ray);
             hits += expected.found() ? 1 : 0;
             differences += all_find(scene, ray, expected) ? 0 : 1;

@@ -1,0 +1,136 @@
+#include "cpu/wide_hierarchy.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace pl {
+namespace {
+
+/// Costs of visiting a node and a leaf, and of each triangle of a leaf.
+constexpr float kNodeCost = 1.0f;
+constexpr float kLeafCost = 0.6f;
+constexpr float kTriangleCost = 0.1f;
+
+float half_area(const BvhNode& node) {
+    const Vec3f d = node.high - node.low;
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+/// The least costs of a subtree of the two-wide hierarchy, as 1 to 7 children of a wide node.
+struct SubtreeCosts {
+    std::array<float, kWideChildren> as;  ///< [i]: as at most i children; [0] is unused
+    std::uint32_t first;                  ///< of its triangles
+    std::uint32_t count;
+    bool is_leaf;
+};
+
+class Widener {
+public:
+    explicit Widener(const BvhView& bvh) : bvh_(bvh), costs_(bvh.nodes.count) {}
+
+    std::vector<WideNode> make() {
+        if (bvh_.nodes.empty()) return {};
+        // Children have higher numbers than their parents.
+        for (std::uint32_t i = bvh_.nodes.count; i-- > 0;) find_costs(i);
+        nodes_.emplace_back();
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> tasks{{0u, 0u}};
+        while (!tasks.empty()) {
+            const auto [wide, narrow] = tasks.back();
+            tasks.pop_back();
+            children_.clear();
+            if (costs_[narrow].is_leaf)
+                children_.push_back(narrow);
+            else
+                split(narrow, kWideChildren);
+            fill(wide, tasks);
+        }
+        return std::move(nodes_);
+    }
+
+private:
+    /// The least cost of the two children of a node as `most` children, and how many of them the left one gets.
+    std::pair<float, std::uint32_t> cheapest_split(std::uint32_t node, std::uint32_t most) const {
+        const std::uint32_t left = bvh_.nodes[node].first;
+        std::pair<float, std::uint32_t> best{std::numeric_limits<float>::infinity(), 1};
+        for (std::uint32_t i = std::max(1u, most - std::min(most - 1, kWideChildren - 1)); i < most; ++i) {
+            if (i > kWideChildren - 1 || most - i > kWideChildren - 1) continue;
+            const float cost = costs_[left].as[i] + costs_[left + 1].as[most - i];
+            if (cost < best.first) best = {cost, i};
+        }
+        return best;
+    }
+
+    void find_costs(std::uint32_t index) {
+        const BvhNode& node = bvh_.nodes[index];
+        SubtreeCosts& costs = costs_[index];
+        const float area = half_area(node);
+        float inner = std::numeric_limits<float>::infinity();
+        if (node.count > 0) {
+            costs.first = node.first;
+            costs.count = node.count;
+        } else {
+            costs.first = costs_[node.first].first;
+            costs.count = costs_[node.first].count + costs_[node.first + 1].count;
+            inner = cheapest_split(index, kWideChildren).first + kNodeCost * area;
+        }
+        const float leaf = costs.count <= kWideChildren
+                               ? area * (kLeafCost + kTriangleCost * static_cast<float>(costs.count))
+                               : std::numeric_limits<float>::infinity();
+        costs.is_leaf = leaf <= inner;
+        costs.as[1] = std::min(leaf, inner);
+        for (std::uint32_t i = 2; i < kWideChildren; ++i)
+            costs.as[i] = node.count > 0 ? costs.as[1] : std::min(costs.as[i - 1], cheapest_split(index, i).first);
+    }
+
+    /// Appends the roots of the cheapest cut of a subtree into at most `most` children, from left to right.
+    void split(std::uint32_t node, std::uint32_t most) {
+        const auto [cost, left] = cheapest_split(node, most);
+        const std::uint32_t child = bvh_.nodes[node].first;
+        append(child, left);
+        append(child + 1, most - left);
+    }
+    void append(std::uint32_t node, std::uint32_t most) {
+        while (most > 1 && costs_[node].as[most] == costs_[node].as[most - 1]) --most;
+        if (most == 1)
+            children_.push_back(node);
+        else
+            split(node, most);
+    }
+
+    void fill(std::uint32_t wide, std::vector<std::pair<std::uint32_t, std::uint32_t>>& tasks) {
+        const auto count = static_cast<std::uint32_t>(children_.size());
+        WideNode node{};
+        node.child_bits = (1u << count) - 1u;
+        const std::size_t waiting = tasks.size();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const BvhNode& child = bvh_.nodes[children_[i]];
+            for (int axis = 0; axis < 3; ++axis) {
+                node.planes[axis][0][i] = child.low[axis];
+                node.planes[axis][1][i] = child.high[axis];
+            }
+            const SubtreeCosts& costs = costs_[children_[i]];
+            if (costs.is_leaf) {
+                node.children[i] = {(costs.first << WideReference::kCountBits) | costs.count};
+            } else {
+                const auto place = static_cast<std::uint32_t>(nodes_.size());
+                node.children[i] = {place << WideReference::kCountBits};
+                nodes_.emplace_back();
+                tasks.emplace_back(place, children_[i]);
+            }
+        }
+        std::reverse(tasks.begin() + static_cast<std::ptrdiff_t>(waiting), tasks.end());
+        nodes_[wide] = node;
+    }
+
+    const BvhView& bvh_;
+    std::vector<SubtreeCosts> costs_;
+    std::vector<WideNode> nodes_;
+    std::vector<std::uint32_t> children_;  ///< of the node that is being filled, in the two-wide hierarchy
+};
+
+}  // namespace
+
+std::vector<WideNode> make_wide_nodes(const BvhView& bvh) { return Widener(bvh).make(); }
+
+}  // namespace pl

@@ -1,0 +1,23 @@
+#include "cpu/wide_intersector.h"
+
+namespace pl {
+void WideIntersector::find_closest(RayBatch& batch, std::uint32_t count) const {
+    if (!nodes_.empty()) return kernels_.find_closest_wide(view(), batch.ray_groups(), batch.hit_groups(), count);
+    for (std::uint32_t i = 0; i < count; ++i) batch.set_hit(i, {.t = batch.ray(i).t_max});
+}
+
+void WideIntersector::find_occluded(RayBatch& batch, std::uint32_t count) const {
+    if (!nodes_.empty())
+        return kernels_.find_occluded_wide(view(), batch.ray_groups(), batch.occlusion_masks(), count);
+    for (std::uint32_t i = 0; i < count; ++i) batch.set_occluded(i, false);
+}
+
+WideView WideIntersector::view() const {
+    const std::size_t all = bytes() + bvh_.triangles.count * sizeof(BvhTriangle);
+    return {.root = bvh_.nodes[0],
+            .nodes = nodes_.data(),
+            .triangles = bvh_.triangles.data,
+            .exceeds_caches = all > cache_bytes_ ? 1u : 0u};
+}
+
+}  // namespace pl

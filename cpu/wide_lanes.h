@@ -1,0 +1,253 @@
+// Traversal of the wide hierarchy by one ray, whose tests of a node's children are in lanes, or by several in turn.
+// Included by one file per instruction set; see lanes.h.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+#include "cpu/leaf_lanes.h"
+
+namespace pl {
+namespace {
+
+/// A child to be visited and the distance at which the ray enters it, as one number: sorted by distance.
+using EnteredChild = std::uint64_t;
+constexpr EnteredChild kNoChild = ~EnteredChild{0};
+
+PL_INLINE EnteredChild entered_child(float entry, WideReference child) {
+    return (EnteredChild{std::bit_cast<std::uint32_t>(entry)} << 32) | child.bits;
+}
+PL_INLINE float entry_of(EnteredChild child) { return std::bit_cast<float>(static_cast<std::uint32_t>(child >> 32)); }
+PL_INLINE WideReference reference_of(EnteredChild child) { return {static_cast<std::uint32_t>(child)}; }
+
+/// One ray's way through the hierarchy, nearer children first; those beyond the closest hit are culled.
+template <bool kAny>
+class WideTraversal {
+public:
+    /// Starts at the root; `lane` is the ray's in its groups. `stack` has room for kWideStack children.
+    PL_INLINE void start(const RayGroup& rays, const PreparedGroup& group, std::uint32_t lane, EnteredChild* stack) {
+        group_ = &group;
+        lane_ = lane;
+        source_ = rays.source[lane];
+        target_ = rays.target[lane];
+        best_.t = rays.t_max[lane];
+        best_.primitive = kNoPrimitive;
+        best_.b1 = best_.b2 = 0.0f;
+        top_ = bottom_ = stack;
+        next_ = ((group.can_hit >> lane) & 1u) != 0 ? 0 : kNoChild;
+    }
+
+    PL_INLINE bool is_over() const { return next_ == kNoChild; }
+    PL_INLINE bool is_at_leaf() const { return reference_of(next_).count() > 0; }
+    PL_INLINE const Hit& best() const { return best_; }
+
+    /// Goes on from an inner node to the nearest child that the ray enters; the others wait.
+    PL_INLINE void descend(const WideView& scene) {
+        const WideNode& node = scene.nodes[reference_of(next_).first()];
+        alignas(32) float entries[kWideChildren];
+        std::uint32_t entered = test_boxes(node, entries) & node.child_bits;
+        const auto take = [&] {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(entered));
+            entered &= entered - 1;
+            return entered_child(entries[i], node.children[i]);
+        };
+        if (entered == 0) {
+            next_ = pop();
+            return;
+        }
+        next_ = take();
+        EnteredChild* const first = top_;
+        while (entered != 0) push(take(), first);
+    }
+
+    PL_INLINE void test_leaf(const WideView& scene) {
+        const LeafTest<kAny> test(*group_, lane_);
+        next_ = test.find(scene.triangles, reference_of(next_), source_, target_, best_) ? kNoChild : pop();
+    }
+
+    /// Asks for the memory that the next step reads.
+    PL_INLINE void prefetch(const WideView& scene) const {
+        if (is_over()) return;
+        const WideReference next = reference_of(next_);
+        const bool is_leaf = next.count() > 0;
+        const char* memory = is_leaf ? reinterpret_cast<const char*>(scene.triangles + next.first())
+                                     : reinterpret_cast<const char*>(scene.nodes + next.first());
+        const std::size_t bytes = is_leaf ? next.count() * sizeof(BvhTriangle) : sizeof(WideNode);
+        constexpr std::size_t kLine = 64;
+        for (std::size_t at = 0; at < bytes; at += kLine) __builtin_prefetch(memory + at);
+    }
+
+private:
+    /// intersect_box() of all children: a bit for each that the ray enters, and the distances at which it does.
+    PL_INLINE std::uint32_t test_boxes(const WideNode& node, float* entries) const {
+        std::uint32_t entered = 0;
+        for (std::uint32_t first = 0; first < kWideChildren; first += kTestWidth) {
+            TestFloat entry{};
+            TestFloat exit = broadcast_to<TestFloat>(best_.t);
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto inverse = broadcast_to<TestFloat>(group_->inverse_direction[axis][lane_]);
+                const std::uint32_t side = group_->near_side[axis][lane_];
+                const auto near = load_lanes<TestFloat>(node.planes[axis][side] + first);
+                const auto far = load_lanes<TestFloat>(node.planes[axis][side ^ 1] + first);
+                entry = larger(near * inverse + broadcast_to<TestFloat>(group_->at[axis][0][lane_]), entry);
+                exit = smaller(far * inverse + broadcast_to<TestFloat>(group_->at[axis][1][lane_]), exit);
+            }
+            store_lanes(entry, entries + first);
+            entered |= mask_bits(entry <= exit) << first;
+        }
+        return entered;
+    }
+
+    /// Keeps the nearest child as the next one, and those from `first` on sorted, the nearest on top.
+    PL_INLINE void push(EnteredChild child, const EnteredChild* first) {
+        const EnteredChild farther = max_of(child, next_);
+        next_ = min_of(child, next_);
+        EnteredChild* place = top_++;
+        for (; place != first && place[-1] < farther; --place) *place = place[-1];
+        *place = farther;
+    }
+    PL_INLINE EnteredChild pop() {
+        while (top_ != bottom_) {
+            const EnteredChild child = *--top_;
+            if (!(entry_of(child) > best_.t)) return child;
+        }
+        return kNoChild;
+    }
+
+    const PreparedGroup* group_;
+    std::uint32_t lane_;
+    std::uint32_t source_, target_;
+    Hit best_;
+    EnteredChild next_;
+    EnteredChild* top_;
+    EnteredChild* bottom_;
+};
+
+/// Traces rays one after the other: the fastest way as long as the hierarchy stays in the caches, because branches are
+/// predicted best. `finish(index, hit)` takes the results.
+template <bool kAny, class Finish>
+PL_INLINE void trace_one_by_one(const WideView& scene, const RayGroup* rays, std::uint32_t count, Finish&& finish) {
+    EnteredChild stack[kWideStack];
+    PreparedGroup prepared;
+    for (std::uint32_t first = 0; first < count; first += kGroupSize) {
+        const RayGroup& group = rays[first / kGroupSize];
+        prepare(scene.root, group, prepared);
+        const std::uint32_t end = min_of(kGroupSize, count - first);
+        for (std::uint32_t lane = 0; lane < end; ++lane) {
+            WideTraversal<kAny> way;
+            way.start(group, prepared, lane, stack);
+            while (!way.is_over()) {
+                if (way.is_at_leaf())
+                    way.test_leaf(scene);
+                else
+                    way.descend(scene);
+            }
+            finish(first + lane, way.best());
+        }
+    }
+}
+
+/// Traces several rays in turn, so that the memory of one arrives while the others are tested. In every round those at
+/// inner nodes go one step, then those at leaves.
+template <bool kAny, class Finish>
+class RaysInFlight {
+public:
+    PL_INLINE RaysInFlight(const WideView& scene, Finish& finish) : scene_(scene), finish_(finish) {}
+
+    PL_INLINE void trace(const RayGroup* rays, std::uint32_t first, std::uint32_t end) {
+        rays_ = rays;
+        first_ = next_ = first;
+        end_ = end;
+        for (std::uint32_t group = first; group < end; group += kGroupSize)
+            prepare(scene_.root, rays[group / kGroupSize], prepared_[(group - first) / kGroupSize]);
+        for (std::uint32_t slot = 0; slot < kSlots && next_ < end_; ++slot) start(slot);
+        while (nodes_.count + leaves_.count + over_.count > 0) {
+            for_each(nodes_, [&](std::uint32_t slot) {
+                ways_[slot].descend(scene_);
+                go_on(slot);
+            });
+            for_each(leaves_, [&](std::uint32_t slot) {
+                ways_[slot].test_leaf(scene_);
+                go_on(slot);
+            });
+            for_each(over_, [&](std::uint32_t slot) {
+                finish_(index_[slot], ways_[slot].best());
+                if (next_ < end_) start(slot);
+            });
+        }
+    }
+
+    /// Most rays of a call of trace(): those that memory for prepared ones is there for.
+    static constexpr std::uint32_t kMostRays = 16 * kGroupSize;
+
+private:
+    static constexpr std::uint32_t kSlots = 16;
+
+    struct Slots {
+        std::uint32_t entries[kSlots];
+        std::uint32_t count = 0;
+    };
+
+    template <class Step>
+    PL_INLINE void for_each(Slots& slots, Step&& step) {
+        const std::uint32_t count = slots.count;
+        slots.count = 0;
+        for (std::uint32_t i = 0; i < count; ++i) step(slots.entries[i]);
+    }
+    PL_INLINE void start(std::uint32_t slot) {
+        const std::uint32_t place = next_ - first_;
+        ways_[slot].start(rays_[next_ / kGroupSize], prepared_[place / kGroupSize], place % kGroupSize,
+                          stacks_[slot]);
+        index_[slot] = next_++;
+        go_on(slot);
+    }
+    PL_INLINE void go_on(std::uint32_t slot) {
+        const WideTraversal<kAny>& way = ways_[slot];
+        way.prefetch(scene_);
+        Slots& slots = way.is_over() ? over_ : way.is_at_leaf() ? leaves_ : nodes_;
+        slots.entries[slots.count++] = slot;
+    }
+
+    const WideView& scene_;
+    Finish& finish_;
+    const RayGroup* rays_;
+    std::uint32_t first_, next_, end_;
+    Slots nodes_, leaves_, over_;
+    std::uint32_t index_[kSlots];
+    WideTraversal<kAny> ways_[kSlots];
+    PreparedGroup prepared_[kMostRays / kGroupSize];
+    EnteredChild stacks_[kSlots][kWideStack];
+};
+
+template <bool kAny, class Finish>
+PL_INLINE void trace_all(const WideView& scene, const RayGroup* rays, std::uint32_t count, Finish&& finish) {
+    if (scene.exceeds_caches == 0) return trace_one_by_one<kAny>(scene, rays, count, finish);
+    using Flight = RaysInFlight<kAny, std::remove_reference_t<Finish>>;
+    Flight flight(scene, finish);
+    for (std::uint32_t first = 0; first < count; first += Flight::kMostRays)
+        flight.trace(rays, first, min_of(count, first + Flight::kMostRays));
+}
+
+PL_INLINE void closest_in_wide(const WideView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t count) {
+    trace_all<false>(scene, rays, count, [hits](std::uint32_t index, const Hit& hit) {
+        HitGroup& group = hits[index / kGroupSize];
+        const std::uint32_t lane = index % kGroupSize;
+        group.t[lane] = hit.t;
+        group.primitive[lane] = hit.primitive;
+        group.b1[lane] = hit.b1;
+        group.b2[lane] = hit.b2;
+    });
+}
+
+PL_INLINE void occlusion_in_wide(const WideView& scene, const RayGroup* rays, OcclusionMask* masks,
+                                 std::uint32_t count) {
+    for (std::uint32_t group = 0; group < group_count(count); ++group) masks[group] = 0;
+    trace_all<true>(scene, rays, count, [masks](std::uint32_t index, const Hit& hit) {
+        const std::uint32_t bit = hit.primitive != kNoPrimitive ? 1u << (index % kGroupSize) : 0u;
+        OcclusionMask& mask = masks[index / kGroupSize];
+        mask = static_cast<OcclusionMask>(mask | bit);
+    });
+}
+
+}  // namespace
+}  // namespace pl
