@@ -47,7 +47,8 @@ private:
 template <FeatureSet F, Method M>
 class LightCandidates {
 public:
-    explicit LightCandidates(const PathContext<M>& context) : context_(context), table_(context.scene) {}
+    explicit LightCandidates(const PathContext<M>& context, const LaneKernels& kernels = best_lane_kernels())
+        : context_(context), table_(context.scene), kernels_(kernels) {}
 
     std::uint32_t count() const { return count_; }
     void clear() { count_ = 0; }
@@ -78,11 +79,12 @@ public:
 
     std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
     const ScatterPoint<F, M>& point(std::uint32_t i) const { return points_[i]; }
+    bool is_near(std::uint32_t i) const { return samples_[i / kGroupSize].is_near[i % kGroupSize] != 0; }
     UnweightedLight light(std::uint32_t i) const {
         const LightSampleGroup& group = samples_[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
         const ScatterPoint<F, M>& from = points_[i];
-        if (group.is_near[lane] != 0) return sample_light(context_, from, numbers_[i], weights_[i]);
+        if (is_near(i)) return sample_light(context_, from, numbers_[i], weights_[i]);
         const std::uint32_t primitive =
             context_.scene.lights[static_cast<std::uint32_t>(group.light[lane])].primitive;
         if (!(group.pdf_sa[lane] > 0.0f) || primitive == from.surface.primitive) return {};
@@ -109,7 +111,7 @@ private:
 
     const PathContext<M>& context_;
     LightTable table_;
-    LaneKernels kernels_ = best_lane_kernels();
+    LaneKernels kernels_;
     std::uint32_t count_ = 0;
     std::uint32_t paths_[kGuidedBlock];
     ScatterPoint<F, M> points_[kGuidedBlock];

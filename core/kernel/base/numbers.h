@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstring>
+#include <limits>
 
 #include "core/kernel/base/math.h"
 
@@ -138,7 +139,8 @@ PL_INLINE typename N::Real step_real(const typename N::Real& x, const typename N
     const auto bits = N::bits_of(x);
     const auto sign = bits >> 31;  // 0 or -1
     const auto neighbor = N::from_bits(bits + ((step ^ sign) - sign));
-    const auto least = N::to_real(step) * std::bit_cast<float>(std::uint32_t{1});  // x is 0, of either sign
+    // The neighbor of 0, by its bits: a product with the least float would take an assist of the processor.
+    const auto least = N::from_bits((step & std::numeric_limits<std::int32_t>::min()) | 1);
     const auto stepped = select(static_cast<typename N::Mask>(x == 0.0f), select(step == 0, x, least), neighbor);
     return select(static_cast<typename N::Mask>(N::magnitude(x) < kInfinity), stepped, x);
 }
