@@ -105,7 +105,7 @@ TEST_CASE("Every instruction set samples the lights of the scalar code, bit for 
             INFO(kernels.isa << ", " << lights << " lights");
             const Comparison result = compare(context, kernels);
             CHECK(result.different == 0);
-            CHECK(result.lit > 500);
+            CHECK(result.lit > 150);
             CHECK(result.near > 50);
         }
     }
