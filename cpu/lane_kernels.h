@@ -9,6 +9,7 @@
 #include "core/kernel/base/math.h"
 #include "core/kernel/base/rng.h"
 #include "core/kernel/guiding/table_field.h"
+#include "core/kernel/shading/lights.h"
 #include "cpu/ray_batch.h"
 #include "cpu/wide_hierarchy.h"
 
@@ -107,6 +108,37 @@ struct alignas(64) DirectionGroup {
     }
 };
 
+/// Lights as plain pointers, a row of numbers per column.
+struct LightColumns {
+    /// The first of three columns, or the only one.
+    static constexpr int kCorner0 = 0, kCorner1 = 3, kCorner2 = 6, kNormal = 9, kPositionError = 12, kPdfArea = 13,
+                         kCumulative = 14, kCount = 15;
+
+    const float* numbers;  ///< [column][light]
+    std::uint32_t count;
+
+    PL_INLINE const float* row(int column) const { return numbers + static_cast<std::uint32_t>(column) * count; }
+};
+
+/// 16 Lambert reflectors that lights are sampled for, and the numbers for it.
+struct alignas(64) ReceiverGroup {
+    VectorGroup position, geometric_normal, shading_normal;
+    float position_error[kGroupSize] = {};
+    float u[3][kGroupSize] = {};
+};
+
+/// A light sample for each of a ReceiverGroup, without emission.
+struct alignas(64) LightSampleGroup {
+    std::int32_t light[kGroupSize] = {};      ///< its number
+    std::int32_t is_near[kGroupSize] = {};    ///< not 0: the light may be sampled by solid angle, this sample is none
+    std::int32_t is_behind[kGroupSize] = {};  ///< not 0: its back is seen
+    float cos_i[kGroupSize] = {};
+    float pdf_sa[kGroupSize] = {};  ///< 0: nothing can be reflected
+    VectorGroup weights;            ///< barycentric, on the light
+    VectorGroup wi;
+    VectorGroup origin, direction;  ///< of the shadow ray
+};
+
 struct LaneKernels {
     const char* isa;
     /// Closest hits of `groups` groups of rays, tested against all triangles.
@@ -129,6 +161,9 @@ struct LaneKernels {
     /// Guided::pdf_sa() of the directions in `sampled`, at Lambert reflectors.
     void (*weigh_guided)(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
                          DirectionGroup* directions, std::uint32_t groups);
+    /// Samples a light for every receiver.
+    void (*sample_lights)(const LightColumns& lights, const ReceiverGroup* receivers, LightSampleGroup* samples,
+                          std::uint32_t groups);
     /// Whether any cell of a volume has new training samples.
     bool (*has_samples)(const TableUpdateView& field, std::uint32_t volume);
     /// The update of one volume's table: update_volume() without the BSDF fraction and the reach. Returns false, and changes

@@ -151,6 +151,8 @@ struct Lanes {
     static PL_INLINE Real to_real(const Int& i) { return __builtin_convertvector(i, Real); }
     static PL_INLINE Real count_to_real(const Uint& i) { return __builtin_convertvector(i, Real); }
     static PL_INLINE Int to_int(const Uint& i) { return std::bit_cast<Int>(i); }
+    static PL_INLINE Int bits_of(const Real& x) { return std::bit_cast<Int>(x); }
+    static PL_INLINE Real from_bits(const Int& bits) { return std::bit_cast<Real>(bits); }
     static PL_INLINE Real power(const Real& x, float p) {
         Real powers = x;
         for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) powers[lane] = pl::power(x[lane], p);

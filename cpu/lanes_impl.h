@@ -4,6 +4,7 @@
 
 #include "cpu/dense_lanes.h"
 #include "cpu/guided_lanes.h"
+#include "cpu/light_lanes.h"
 #include "cpu/update_lanes.h"
 #include "cpu/wide_lanes.h"
 
@@ -48,13 +49,19 @@ void weigh_guided(const TableSampler& tables, const GuidedGroup* paths, SampledG
     weigh_guided_groups(tables, paths, sampled, directions, groups);
 }
 
+void sample_lights(const LightColumns& lights, const ReceiverGroup* receivers, LightSampleGroup* samples,
+                   std::uint32_t groups) {
+    sample_lights_of_groups(lights, receivers, samples, groups);
+}
+
 bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return any_sample_in_lanes(field, volume); }
 
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name,          find_closest, find_occluded, find_closest_wide, find_occluded_wide, draw,
-            draw_vertices, sample_rows,  sample_guided, weigh_guided,      has_samples,        update_table};
+    return {name,          find_closest,  find_occluded, find_closest_wide, find_occluded_wide,
+            draw,          draw_vertices, sample_rows,   sample_guided,     weigh_guided,
+            sample_lights, has_samples,   update_table};
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/kernel/integrator/steps.h"
 #include "core/session/backend.h"
 #include "cpu/guided_block.h"
+#include "cpu/light_candidates.h"
 #include "cpu/path_source.h"
 #include "cpu/ray_batch.h"
 #include "cpu/solid_hits.h"
@@ -77,6 +78,9 @@ public:
 
 private:
     static constexpr bool kSamplesLights = F.has(Feature::NextEventEstimation);
+    /// Whether light_sampled() may be called after the path is scattered, or is before it though lights are sampled by blocks.
+    static constexpr bool kSamplesLightsInLanes =
+        kSamplesLights && (TableGuided<M> || std::is_same_v<typename M::Light, MethodHooks::Light>);
 
     [[gnu::flatten, gnu::noinline]] void fill(PathSource& source) {
         while (active_ < setup_.batch_paths && start(source, active_)) ++active_;
@@ -106,7 +110,8 @@ private:
         if constexpr (TableGuided<M>)
             extend_blocks();
         else
-            extend_each();
+            for (std::uint32_t first = 0; first < active_; first += kGuidedBlock)
+                extend_each(first, std::min(first + kGuidedBlock, active_));
     }
 
     void extend_blocks() {
@@ -122,23 +127,25 @@ private:
         }
     }
 
-    /// Shades and scatters path by path: half of the run time of a small scene.
-    [[gnu::flatten, gnu::noinline]] void extend_each() {
-        for (std::uint32_t i = 0; i < active_; ++i) {
-            ShadowRequest<M> shadow;
-            statuses_[i] =
-                extend_path<F>(context_, rays_.hit(i), numbers_.numbers(i), states_[i], shadow, counters_.path);
-            push(shadow, i);
+    /// Shades and scatters paths [first, end) one by one: half of the run time of a small scene. Lights are sampled in SIMD lanes.
+    [[gnu::flatten, gnu::noinline]] void extend_each(std::uint32_t first, std::uint32_t end) {
+        if constexpr (kSamplesLightsInLanes) candidates_.clear();
+        for (std::uint32_t i = first; i < end; ++i) {
+            const VertexNumbers numbers = numbers_.numbers(i);
+            statuses_[i] = extend_path<F>(
+                context_, rays_.hit(i), numbers, states_[i],
+                [&](const ScatterPoint<F, M>& from) { request_light_later(i, from, numbers.light); }, counters_.path);
         }
+        if constexpr (kSamplesLightsInLanes) request_lights();
     }
 
     /// The same for paths [first, end) in two loops, so that directions are sampled in SIMD lanes.
     [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end,
                                                       const LookupsAhead& lookups) {
         block_.scattered.clear();
-        if constexpr (kSamplesLights) block_.lit.clear();
+        if constexpr (kSamplesLightsInLanes) candidates_.clear();
         for (std::uint32_t i = first; i < end; ++i) shade_ahead(i, lookups);
-        if constexpr (kSamplesLights) weigh_lights();
+        if constexpr (kSamplesLightsInLanes) request_lights();
         block_.scattered.sample_directions();
         for (std::uint32_t i = 0; i < block_.scattered.count(); ++i) {
             const std::uint32_t path = block_.scattered.path(i);
@@ -159,39 +166,52 @@ private:
         ScatterPoint<F, M>& from = block_.scattered.next();
         statuses_[i] = shade_hit<F, M>(context_, hit, surface_of, states_[i], {out, from});
         if (statuses_[i] == PathStatus::Continues) {
-            request_light_later(i, numbers.light);
+            request_light_later(i, from, numbers.light);
             statuses_[i] = continue_path(context_, hit, numbers.scatter.w, states_[i], from, out);
         }
         if (statuses_[i] == PathStatus::Continues) scatter_later(i, numbers.scatter, out);
         block_.training.push(sample);
     }
 
-    /// Samples a light for path i. At a Lambert reflector it is weighed with those of the other paths of the block.
-    void request_light_later(std::uint32_t i, Vec4f u) {
+    /// Samples a light for path i at the vertex `from`, with those of the other paths of the block if lanes can.
+    void request_light_later(std::uint32_t i, const ScatterPoint<F, M>& from, Vec4f u) {
         if constexpr (kSamplesLights) {
             if (setup_.path.next_event == 0) return;
-            const ScatterPoint<F, M>& from = block_.scattered.next();
-            if (is_lambert(from)) {
-                const UnweightedLight light = sample_light(context_, from, u, states_[i]);
-                if (light.pdf_sa > 0.0f) return block_.lit.add(i, from, light);
+            if constexpr (kSamplesLightsInLanes) {
+                if (candidates_.takes(from, u)) return candidates_.add(i, from, u, received_weights(states_[i]));
             }
             ShadowRequest<M> shadow;
-            if (is_lambert(from))
-                weigh_light<F>(method_, from.vertex, {}, 0.0f, states_[i], shadow);
-            else
-                request_light(context_, from, u, states_[i], shadow);
+            request_light(context_, from, u, states_[i], shadow);
             push(shadow, i);
         }
     }
+    /// Samples the lights of a block, and weighs them.
+    void request_lights() {
+        candidates_.sample();
+        if constexpr (TableGuided<M>) block_.lit.clear();
+        for (std::uint32_t k = 0; k < candidates_.count(); ++k) {
+            const UnweightedLight light = candidates_.light(k);
+            const ScatterPoint<F, M>& from = candidates_.point(k);
+            const std::uint32_t path = candidates_.path(k);
+            if (!(light.pdf_sa > 0.0f))
+                weigh(path, from.vertex, light, 0.0f);
+            else if constexpr (TableGuided<M>)
+                block_.lit.add(path, from, light);
+            else
+                weigh(path, from.vertex, light, scatter_pdf_sa(method_, from, light.wi));
+        }
+        if constexpr (TableGuided<M>) weigh_lights();
+    }
     void weigh_lights() {
         block_.lit.weigh_directions();
-        for (std::uint32_t k = 0; k < block_.lit.count(); ++k) {
-            const std::uint32_t path = block_.lit.path(k);
-            ShadowRequest<M> shadow;
-            weigh_light<F>(method_, block_.lit.vertex(k), block_.lit.light(k), block_.lit.pdf_sa(k), states_[path],
-                           shadow);
-            push(shadow, path);
-        }
+        for (std::uint32_t k = 0; k < block_.lit.count(); ++k)
+            weigh(block_.lit.path(k), block_.lit.vertex(k), block_.lit.light(k), block_.lit.pdf_sa(k));
+    }
+    void weigh(std::uint32_t path, const typename M::Vertex& vertex, const UnweightedLight& light,
+               float scatter_pdf) {
+        ShadowRequest<M> shadow;
+        weigh_light<F>(method_, vertex, light, scatter_pdf, states_[path], shadow);
+        push(shadow, path);
     }
     static bool is_lambert(const ScatterPoint<F, M>& from) {
         if constexpr (F.has_any(kLobeFeatures)) return from.bsdf.is_lambert();
@@ -282,6 +302,7 @@ private:
     std::vector<std::uint32_t> shadow_paths_;
     RayBatch shadow_rays_;
     SolidHits<F, I> solid_hits_;
+    [[no_unique_address]] LightCandidates<F, M> candidates_{context_};
     [[no_unique_address]] BlockMemory<F, M> block_;
     std::uint32_t active_ = 0;
     std::uint32_t shadow_count_ = 0;

@@ -153,7 +153,7 @@ private:
     }
 
     std::optional<LightRecord> light_sample(const Point& point, Vec4f u, const State& before) const {
-        const UnweightedLight light = sample_light(context_, point, u, before);
+        const UnweightedLight light = sample_light(context_, point, u, received_weights(before));
         if (!(light.pdf_sa > 0.0f)) return std::nullopt;
         LightRecord record{.wi = light.wi, .primitive = light.ray.target, .pdf_sa = light.pdf_sa};
         if (record.primitive != kNoPrimitive)

@@ -109,16 +109,4 @@ PL_HD inline float log2_normal(float x) {
     return exponent + kTwoOverLn2 * (s * series);
 }
 
-/// The neighboring float towards +infinity for a `step` of 1, towards -infinity for -1; x itself for 0 and if x is
-/// not finite. Branchless, because the sign of the step is unpredictable.
-PL_HD inline float step_float(float x, std::int32_t step) {
-    if (!(std::fabs(x) < kInfinity)) return x;
-    if (x == 0.0f) return step == 0 ? x : static_cast<float>(step) * std::bit_cast<float>(std::uint32_t{1});
-    const auto bits = std::bit_cast<std::int32_t>(x);
-    const std::int32_t sign = bits >> 31;  // 0 or -1
-    return std::bit_cast<float>(bits + ((step ^ sign) - sign));
-}
-PL_HD inline float next_float_up(float x) { return step_float(x, 1); }
-PL_HD inline float next_float_down(float x) { return step_float(x, -1); }
-
 }  // namespace pl

@@ -3,7 +3,9 @@
 // use select() instead of branches and the same operations in the same order, so their bits agree.
 #pragma once
 
+#include <bit>
 #include <cstring>
+#include <limits>
 
 #include "core/kernel/base/math.h"
 
@@ -43,6 +45,8 @@ struct One {
     static PL_INLINE Real to_real(Int i) { return static_cast<Real>(i); }
     static PL_INLINE Real count_to_real(Uint i) { return static_cast<Real>(i); }
     static PL_INLINE Int to_int(Uint i) { return static_cast<Int>(i); }
+    static PL_INLINE Int bits_of(Real x) { return std::bit_cast<Int>(x); }
+    static PL_INLINE Real from_bits(Int bits) { return std::bit_cast<Real>(bits); }
     static PL_INLINE Real power(Real x, float p) { return pl::power(x, p); }
     static PL_INLINE bool any(Mask mask) { return mask; }
     static PL_INLINE Real load(const float* values, Int index) { return values[index]; }
@@ -86,8 +90,28 @@ PL_INLINE Real3<N> select(Mask mask, const Real3<N>& yes, const Real3<N>& no) {
 }
 
 template <class N>
+PL_INLINE Real3<N> operator+(const Real3<N>& a, const Real3<N>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class N>
+PL_INLINE Real3<N> operator-(const Real3<N>& a, const Real3<N>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class N>
+PL_INLINE Real3<N> operator-(const Real3<N>& a) {
+    return {-a.x, -a.y, -a.z};
+}
+template <class N>
+PL_INLINE Real3<N> scaled(const Real3<N>& v, const typename N::Real& factor) {
+    return {v.x * factor, v.y * factor, v.z * factor};
+}
+template <class N>
 PL_INLINE typename N::Real dot(const Real3<N>& a, const Real3<N>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class N>
+PL_INLINE Real3<N> cross(const Real3<N>& a, const Real3<N>& b) {
+    return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
 }
 
 template <class N>
@@ -107,6 +131,22 @@ template <class N>
 PL_INLINE typename N::Real max_real(const typename N::Real& x, float least) {
     return select(static_cast<typename N::Mask>(x < least), N::constant(least), x);
 }
+
+/// The neighboring float towards +infinity for a `step` of 1, towards -infinity for -1; x itself for 0 and if x is
+/// not finite. Without branches, because the sign of the step is unpredictable.
+template <class N>
+PL_INLINE typename N::Real step_real(const typename N::Real& x, const typename N::Int& step) {
+    const auto bits = N::bits_of(x);
+    const auto sign = bits >> 31;  // 0 or -1
+    const auto neighbor = N::from_bits(bits + ((step ^ sign) - sign));
+    // The neighbor of 0, by its bits: a product with the least float would take an assist of the processor.
+    const auto least = N::from_bits((step & std::numeric_limits<std::int32_t>::min()) | 1);
+    const auto stepped = select(static_cast<typename N::Mask>(x == 0.0f), select(step == 0, x, least), neighbor);
+    return select(static_cast<typename N::Mask>(N::magnitude(x) < kInfinity), stepped, x);
+}
+PL_HD inline float step_float(float x, std::int32_t step) { return step_real<One>(x, step); }
+PL_HD inline float next_float_up(float x) { return step_float(x, 1); }
+PL_HD inline float next_float_down(float x) { return step_float(x, -1); }
 
 /// Largest integer not above x (floor), for |x| < 2^31.
 template <class N>

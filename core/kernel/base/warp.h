@@ -60,14 +60,13 @@ PL_HD inline float cosine_hemisphere_pdf_sa(float cos_theta) { return cosine_pdf
 
 /// Barycentric coordinates (b1, b2), uniform over a triangle's area.   [Heitz 2019, "A Low-Distortion Map Between
 /// Triangle and Square"]
-PL_HD inline Vec2f square_to_triangle(Vec2f u) {
-    if (u.y > u.x) {
-        const float b1 = 0.5f * u.x;
-        return {b1, u.y - b1};
-    }
-    const float b2 = 0.5f * u.y;
-    return {u.x - b2, b2};
+template <class N>
+PL_INLINE Real2<N> square_to_triangle(const Real2<N>& u) {
+    const typename N::Mask upper = u.y > u.x;
+    const auto half = 0.5f * select(upper, u.x, u.y);
+    return select(upper, Real2<N>{half, u.y - half}, Real2<N>{u.x - half, half});
 }
+PL_HD inline Vec2f square_to_triangle(Vec2f u) { return pack(square_to_triangle(unpack(u))); }
 
 /// Binary search: the first of `count` indices at which `holds` is true, `count` if there is none. `holds` must be
 /// monotone (false, then true).

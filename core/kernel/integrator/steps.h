@@ -104,24 +104,43 @@ struct UnweightedLight {
     std::uint32_t cluster = kNoCluster;  ///< LightEstimate::cluster
 };
 
-/// Samples a light at a vertex, by the numbers `u`.
-template <FeatureSet F, Method M>
-PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
-                                           const PathState<F, M>& state) {
-    const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, u,
-                                                      learned_lights<F>(context.method, from.vertex).learned());
-    if (!(sample.pdf_sa > 0.0f)) return {};
+/// Weights of the light that a path receives at a vertex, before the roulette there.
+struct ReceivedWeights {
+    Vec3f throughput{1.0f};
+    Vec3f chain{1.0f};  ///< of the specular chain that ends at the vertex; with lobes only
+};
+template <FeatureSet F, class M>
+PL_HD inline ReceivedWeights received_weights(const PathState<F, M>& state) {
+    ReceivedWeights weights{.throughput = state.throughput};
+    if constexpr (F.has_any(kLobeFeatures)) weights.chain = state.chain.weight;
+    return weights;
+}
+
+/// What a vertex reflects of a light sample that can contribute, through the shadow ray `ray`.
+template <FeatureSet F, class M>
+PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const DirectLight& sample, const Ray& ray,
+                                           const ReceivedWeights& weights) {
     const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
-    UnweightedLight light{.ray = shadow_ray_to<F>(from.surface, sample), .wi = sample.wi, .pdf_sa = sample.pdf_sa};
+    UnweightedLight light{.ray = ray, .wi = sample.wi, .pdf_sa = sample.pdf_sa};
     light.cluster = sample.cluster;
-    light.contribution = state.throughput * reflectance * sample.emitted;
+    light.contribution = weights.throughput * reflectance * sample.emitted;
     light.reflected = reflectance * sample.emitted;
     light.irradiance = luminance(sample.emitted) * (kInvPi * sample.cos_i);
     if constexpr (F.has_any(kLobeFeatures)) {
         // The radiance of a specular chain is that of its scattered directions.
-        light.reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : state.chain.weight * light.reflected;
+        light.reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : weights.chain * light.reflected;
     }
     return light;
+}
+
+/// Samples a light at a vertex, by the numbers `u`.
+template <FeatureSet F, Method M>
+PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
+                                           const ReceivedWeights& weights) {
+    const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, u,
+                                                      learned_lights<F>(context.method, from.vertex).learned());
+    if (!(sample.pdf_sa > 0.0f)) return {};
+    return reflect_light(from, sample, shadow_ray_to<F>(from.surface, sample), weights);
 }
 
 /// Weighs a light sample by multiple importance sampling. `scatter_pdf_sa`: of its direction, see scatter_pdf_sa(). `shadow` comes
@@ -146,7 +165,7 @@ PL_HD_INLINED void request_light(const PathContext<M>& context, const ScatterPoi
                                  PathState<F, M>& state, ShadowRequest<M>& shadow) {
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (context.settings.next_event == 0) return;
-        const UnweightedLight light = sample_light(context, from, u, state);
+        const UnweightedLight light = sample_light(context, from, u, received_weights(state));
         const float pdf_sa = light.pdf_sa > 0.0f ? scatter_pdf_sa(context.method, from, light.wi) : 0.0f;
         weigh_light<F>(context.method, from.vertex, light, pdf_sa, state, shadow);
     }
@@ -236,17 +255,19 @@ PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit
     return PathStatus::Continues;
 }
 
-/// Shades the end of a segment and scatters the path: its ray is then the next segment. `shadow` comes in cleared.
-template <FeatureSet F, Method M>
+/// Shades the end of a segment and scatters the path: its ray is then the next segment. `request_light(from)` is called at a vertex
+/// that reflects, before the roulette there.
+template <FeatureSet F, Method M, class RequestLight>
 PL_HD_INLINED PathStatus extend_path(const PathContext<M>& context, const Hit& hit, const VertexNumbers& numbers,
-                                     PathState<F, M>& state, ShadowRequest<M>& shadow, PathCounters& counters) {
+                                     PathState<F, M>& state, const RequestLight& request_light,
+                                     PathCounters& counters) {
     ScatterPoint<F, M> from;
     typename M::Sample sample{};
     const StepOutput<M> out{sample, counters};
     const auto surface_of = [&] { return make_surface_point<F>(context.scene, hit, -state.ray.direction); };
     PathStatus status = shade_hit<F, M>(context, hit, surface_of, state, {out, from});
     if (status == PathStatus::Continues) {
-        request_light(context, from, numbers.light, state, shadow);
+        request_light(from);
         status = continue_path(context, hit, numbers.scatter.w, state, from, out);
     }
     if (status == PathStatus::Continues)

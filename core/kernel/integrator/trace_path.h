@@ -7,6 +7,20 @@
 
 namespace pl {
 
+/// The light sample at a vertex of a single path, for extend_path(). A class, because its call has to be inlined in kernels: else
+/// the path's state is in memory there.
+template <FeatureSet F, Method M>
+struct LightAtOnce {
+    const PathContext<M>& context;
+    const Vec4f& u;
+    PathState<F, M>& state;
+    ShadowRequest<M>& shadow;
+
+    PL_HD_INLINED void operator()(const ScatterPoint<F, M>& from) const {
+        request_light(context, from, u, state, shadow);
+    }
+};
+
 /// Traces one segment of a path, and the shadow ray at its end. The next branch follows the end of one.
 template <FeatureSet F, Method M, Intersector I>
 PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
@@ -14,7 +28,8 @@ PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& i
     const Hit hit = closest_solid_hit<F>(context.scene, intersector, state.ray);
     const VertexNumbers numbers = draw_vertex_numbers<F>(context.settings, state);
     ShadowRequest<M> shadow;
-    PathStatus status = extend_path<F>(context, hit, numbers, state, shadow, counters);
+    const LightAtOnce<F, M> request{context, numbers.light, state, shadow};
+    PathStatus status = extend_path<F>(context, hit, numbers, state, request, counters);
     if constexpr (F.has(Feature::NextEventEstimation)) {
         bool is_visible = false;
         if (shadow.wanted) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/kernel/base/features.h"
+#include "core/kernel/base/numbers.h"
 #include "core/kernel/scene/scene_view.h"
 
 namespace pl {
@@ -26,8 +27,26 @@ PL_HD inline Vec3f inner_barycentrics(const Hit& hit, float margin) {
     return b * (1.0f / (b.x + b.y + b.z));
 }
 
+/// Corners of a triangle.
+template <class N>
+struct CornersOf {
+    Real3<N> p0, p1, p2;
+
+    /// The point at barycentric weights.
+    PL_INLINE Real3<N> at(const Real3<N>& b) const { return scaled(p0, b.x) + scaled(p1, b.y) + scaled(p2, b.z); }
+    PL_INLINE CornersOf relative_to(const Real3<N>& origin) const { return {p0 - origin, p1 - origin, p2 - origin}; }
+    /// Unnormalized normal; its length is twice the area.
+    PL_INLINE Real3<N> normal() const { return cross(p1 - p0, p2 - p0); }
+};
+PL_HD inline CornersOf<One> corners_of(const SceneView& scene, const Triangle& triangle) {
+    return {unpack(scene.positions[triangle.v0]), unpack(scene.positions[triangle.v1]),
+            unpack(scene.positions[triangle.v2])};
+}
+
 /// Unnormalized normal; its length is twice the area.
-PL_HD inline Vec3f triangle_cross(Vec3f p0, Vec3f p1, Vec3f p2) { return glm::cross(p1 - p0, p2 - p0); }
+PL_HD inline Vec3f triangle_cross(Vec3f p0, Vec3f p1, Vec3f p2) {
+    return pack(CornersOf<One>{unpack(p0), unpack(p1), unpack(p2)}.normal());
+}
 
 template <FeatureSet F>
 PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f fallback) {
@@ -61,8 +80,7 @@ PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, std::uint32_t 
     const Triangle triangle = scene.triangles[primitive];
     const TrianglePlane plane = scene.planes[primitive];
     SurfacePoint point;
-    point.position =
-        b.x * scene.positions[triangle.v0] + b.y * scene.positions[triangle.v1] + b.z * scene.positions[triangle.v2];
+    point.position = pack(corners_of(scene, triangle).at(unpack(b)));
     point.position_error = plane.position_error;
     point.primitive = primitive;
     point.material = triangle.material;
@@ -89,31 +107,63 @@ PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& 
     return with_shading_normal<F>(scene, make_flat_point(scene, hit, wo), hit_weights(hit));
 }
 
+/// A surface point without its surface: its normal is on any side. `error`: SurfacePoint::position_error.
+template <class N>
+struct SpawnPoint {
+    Real3<N> position, normal;
+    typename N::Real error;
+};
+PL_HD inline SpawnPoint<One> spawn_point(const SurfacePoint& point) {
+    return {unpack(point.position), unpack(point.geometric_normal), point.position_error};
+}
+
 /// coordinate + offset, rounded away from `coordinate` by one float.
-PL_HD inline float offset_outwards(float coordinate, float offset) {
-    return step_float(coordinate + offset, (offset > 0.0f ? 1 : 0) - (offset < 0.0f ? 1 : 0));
+template <class N>
+PL_INLINE typename N::Real offset_outwards(const typename N::Real& coordinate, const typename N::Real& offset) {
+    const auto up = select(static_cast<typename N::Mask>(offset > 0.0f), N::constant(1), N::constant(0));
+    const auto down = select(static_cast<typename N::Mask>(offset < 0.0f), N::constant(1), N::constant(0));
+    return step_real<N>(coordinate + offset, up - down);
 }
 
 /// Origin of a ray in `direction`, outside of the error bounds of the point, on the side of the direction.   [Pharr,
 /// Jakob, Humphreys, Physically Based Rendering, 4th ed., 6.8.6]
+template <class N>
+PL_INLINE Real3<N> spawn_origin(const SpawnPoint<N>& point, const Real3<N>& direction) {
+    const typename N::Mask above = dot(direction, point.normal) >= 0.0f;
+    const auto side = select(above, N::constant(1.0f), N::constant(-1.0f));
+    const Real3<N> offset = scaled(point.normal, side * point.error);
+    return {offset_outwards<N>(point.position.x, offset.x), offset_outwards<N>(point.position.y, offset.y),
+            offset_outwards<N>(point.position.z, offset.z)};
+}
 PL_HD inline Vec3f spawn_origin(const SurfacePoint& point, Vec3f direction) {
-    const float side = glm::dot(direction, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f;
-    const Vec3f offset = (side * point.position_error) * point.geometric_normal;
-    return {offset_outwards(point.position.x, offset.x), offset_outwards(point.position.y, offset.y),
-            offset_outwards(point.position.z, offset.z)};
+    return pack(spawn_origin(spawn_point(point), unpack(direction)));
 }
 
 PL_HD inline Ray spawn_ray(const SurfacePoint& point, Vec3f direction) {
     return {.origin = spawn_origin(point, direction), .direction = direction, .source = point.primitive};
 }
 
+/// The part of a ray with t in (0, 1).
+template <class N>
+struct RaySegment {
+    Real3<N> origin, direction;
+};
+/// Between two surface points, on the sides that they see each other on.
+template <class N>
+PL_INLINE RaySegment<N> spawn_segment(const SpawnPoint<N>& from, const SpawnPoint<N>& to) {
+    const Real3<N> direction = to.position - from.position;
+    const Real3<N> origin = spawn_origin(from, direction);
+    return {origin, spawn_origin(to, -direction) - origin};
+}
+
 /// Shadow ray between two surface points, t in (0, 1), that excludes both triangles.
 PL_HD inline Ray spawn_shadow_ray(const SurfacePoint& from, const SurfacePoint& to) {
-    const Vec3f direction = to.position - from.position;
-    const Vec3f origin = spawn_origin(from, direction);
-    const Vec3f end = spawn_origin(to, -direction);
-    return {
-        .origin = origin, .direction = end - origin, .t_max = 1.0f, .source = from.primitive, .target = to.primitive};
+    const RaySegment<One> segment = spawn_segment(spawn_point(from), spawn_point(to));
+    return {.origin = pack(segment.origin),
+            .direction = pack(segment.direction),
+            .t_max = 1.0f,
+            .source = from.primitive,
+            .target = to.primitive};
 }
 
 }  // namespace pl

@@ -8,9 +8,14 @@
 namespace pl {
 
 /// cos(theta_i) at the shading normal; 0 below the geometric or the shading horizon.
+template <class N>
+PL_INLINE typename N::Real reflection_cosine(const Real3<N>& geometric_normal, const Real3<N>& shading_normal,
+                                             const Real3<N>& wi) {
+    const typename N::Mask below = dot(wi, geometric_normal) <= 0.0f;
+    return select(below, N::constant(0.0f), max_real<N>(dot(wi, shading_normal), 0.0f));
+}
 PL_HD inline float reflection_cosine(const SurfacePoint& surface, Vec3f wi) {
-    if (glm::dot(wi, surface.geometric_normal) <= 0.0f) return 0.0f;
-    return max_of(glm::dot(wi, surface.shading_normal), 0.0f);
+    return reflection_cosine(unpack(surface.geometric_normal), unpack(surface.shading_normal), unpack(wi));
 }
 
 /// BSDF times cos(theta_i), 1/sr.

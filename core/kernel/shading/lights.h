@@ -15,11 +15,16 @@ PL_HD inline float light_pdf_area(const SceneView& scene, const Material& materi
 
 /// Converts a density per unit area at `on_light` to one per steradian at `from`, along the unit direction `wi`
 /// between them.
+template <class N>
+PL_INLINE typename N::Real per_steradian(const typename N::Real& pdf_area, const Real3<N>& from,
+                                         const SpawnPoint<N>& on_light, const Real3<N>& wi) {
+    const auto cos_light = N::magnitude(dot(wi, on_light.normal));
+    const Real3<N> segment = on_light.position - from;
+    const auto pdf_sa = pdf_area * dot(segment, segment) / cos_light;
+    return select(static_cast<typename N::Mask>(cos_light == 0.0f), N::constant(0.0f), pdf_sa);
+}
 PL_HD inline float per_steradian(float pdf_area, Vec3f from, const SurfacePoint& on_light, Vec3f wi) {
-    const float cos_light = std::fabs(glm::dot(wi, on_light.geometric_normal));
-    const Vec3f segment = on_light.position - from;
-    if (cos_light == 0.0f) return 0.0f;
-    return pdf_area * glm::dot(segment, segment) / cos_light;
+    return per_steradian<One>(pdf_area, unpack(from), spawn_point(on_light), unpack(wi));
 }
 
 /// Density per steradian at `from` of the samples on one light for the direction `wi` that hits it at `on_light`. `pdf_area` is
@@ -86,15 +91,23 @@ struct LightPoint {
 };
 
 /// Barycentric weights of a uniform point of a triangle; u in [0,1)^2.
-PL_HD inline Vec3f sample_weights(Vec2f u) {
-    const Vec2f b = square_to_triangle(u);
+template <class N>
+PL_INLINE Real3<N> sample_weights(const Real2<N>& u) {
+    const Real2<N> b = square_to_triangle(u);
     return {1.0f - b.x - b.y, b.x, b.y};
+}
+PL_HD inline Vec3f sample_weights(Vec2f u) { return pack(sample_weights(unpack(u))); }
+
+/// Whether a point lies on the side of a light that its normal does not show to.
+template <class N>
+PL_INLINE typename N::Mask is_behind(const SpawnPoint<N>& on_light, const Real3<N>& from) {
+    return dot(on_light.normal, from - on_light.position) < 0.0f;
 }
 
 /// The point of an emissive triangle at these barycentric weights, as seen from `from`.
 PL_HD inline SurfacePoint light_surface(const SceneView& scene, std::uint32_t primitive, Vec3f weights, Vec3f from) {
     SurfacePoint point = make_surface_point<FeatureSet{}>(scene, primitive, weights, Vec3f{0.0f});
-    if (glm::dot(point.geometric_normal, from - point.position) < 0.0f) {
+    if (is_behind(spawn_point(point), unpack(from))) {
         point.geometric_normal = -point.geometric_normal;
         point.front = false;
     }
@@ -110,7 +123,7 @@ PL_HD inline LightPoint sample_on_light(const SceneView& scene, std::uint32_t li
     const float solid_angle = near_solid_angle(seen);
     LightPoint point{.surface = {}, .weights = sample_weights(u), .from = receiver.position};
     if (solid_angle > 0.0f) {
-        point.weights = weights_towards(seen, square_to_spherical_triangle(seen.directions(), solid_angle, u));
+        point.weights = weights_towards(seen, square_to_spherical_triangle(directions_of(seen), solid_angle, u));
         point.from = receiver.origin;
         point.area_per_steradian = seen.area / solid_angle;
     }

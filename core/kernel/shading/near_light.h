@@ -15,39 +15,47 @@ inline constexpr float kLeastSolidAngle = 1e-2f;
 inline constexpr float kMostSolidAngle = 6.2f;
 
 /// A triangle seen from a point.
-struct SeenTriangle {
-    Vec3f p0, p1, p2;  ///< corners relative to the point
-    float area = 0.0f;
+template <class N>
+struct SeenTriangleOf {
+    CornersOf<N> corners;  ///< relative to the point
+    typename N::Real area;
 
-    PL_HD bool is_near() const {
-        const Vec3f centroid = (p0 + p1 + p2) * (1.0f / 3.0f);
-        return glm::dot(centroid, centroid) < kNearDistance * area;
-    }
-    PL_HD SphericalTriangle directions() const {
-        return {glm::normalize(p0), glm::normalize(p1), glm::normalize(p2)};
+    PL_INLINE typename N::Mask is_near() const {
+        const Real3<N> centroid = scaled(corners.p0 + corners.p1 + corners.p2, N::constant(1.0f / 3.0f));
+        return dot(centroid, centroid) < kNearDistance * area;
     }
 };
+template <class N>
+PL_INLINE SeenTriangleOf<N> see_triangle(const CornersOf<N>& triangle, const Real3<N>& from) {
+    const CornersOf<N> corners = triangle.relative_to(from);
+    const Real3<N> normal = corners.normal();
+    return {corners, 0.5f * N::sqrt(dot(normal, normal))};
+}
+
+using SeenTriangle = SeenTriangleOf<One>;
+
+PL_HD inline SphericalTriangle directions_of(const SeenTriangle& seen) {
+    return {glm::normalize(pack(seen.corners.p0)), glm::normalize(pack(seen.corners.p1)),
+            glm::normalize(pack(seen.corners.p2))};
+}
 
 PL_HD inline SeenTriangle see_triangle(const SceneView& scene, std::uint32_t primitive, Vec3f from) {
-    const Triangle& triangle = scene.triangles[primitive];
-    SeenTriangle seen{scene.positions[triangle.v0] - from, scene.positions[triangle.v1] - from,
-                      scene.positions[triangle.v2] - from};
-    seen.area = 0.5f * glm::length(triangle_cross(seen.p0, seen.p1, seen.p2));
-    return seen;
+    return see_triangle(corners_of(scene, scene.triangles[primitive]), unpack(from));
 }
 
 /// Solid angle of a triangle that is sampled by solid angle; 0 of others.
 PL_HD inline float near_solid_angle(const SeenTriangle& seen) {
     if (!seen.is_near()) return 0.0f;
-    const float solid_angle = seen.directions().solid_angle();
+    const float solid_angle = directions_of(seen).solid_angle();
     return solid_angle > kLeastSolidAngle && solid_angle < kMostSolidAngle ? solid_angle : 0.0f;
 }
 
 /// Barycentric weights of the triangle's point in a direction through it, kept inside against rounding.
 PL_HD inline Vec3f weights_towards(const SeenTriangle& seen, Vec3f direction) {
-    const float w0 = glm::dot(direction, glm::cross(seen.p1, seen.p2));
-    const float w1 = glm::dot(direction, glm::cross(seen.p2, seen.p0));
-    const float w2 = glm::dot(direction, glm::cross(seen.p0, seen.p1));
+    const CornersOf<One>& corners = seen.corners;
+    const float w0 = dot(unpack(direction), cross(corners.p1, corners.p2));
+    const float w1 = dot(unpack(direction), cross(corners.p2, corners.p0));
+    const float w2 = dot(unpack(direction), cross(corners.p0, corners.p1));
     const float sign = w0 + w1 + w2 < 0.0f ? -1.0f : 1.0f;
     const Vec3f weights{max_of(sign * w0, 0.0f), max_of(sign * w1, 0.0f), max_of(sign * w2, 0.0f)};
     return weights * (1.0f / (weights.x + weights.y + weights.z));
