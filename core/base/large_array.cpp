@@ -2,9 +2,7 @@
 
 #include <new>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
+#include "core/base/huge_pages.h"
 
 namespace pl {
 namespace {
@@ -20,10 +18,7 @@ std::align_val_t alignment_of(std::size_t bytes) {
 
 void* allocate_large(std::size_t bytes) {
     void* const memory = ::operator new(bytes, alignment_of(bytes));
-#ifdef __linux__
-    // A hint: without it memory is only slower. The rest after the last whole huge page is excluded.
-    if (bytes >= kLargePage) (void)madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
-#endif
+    prefer_huge_pages(memory, bytes);
     return memory;
 }
 

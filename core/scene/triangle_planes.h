@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include "core/base/huge_pages.h"
+#include "core/base/parallel_chunks.h"
 #include "core/kernel/scene/scene_view.h"
 
 namespace pl {
@@ -41,7 +44,8 @@ struct TriangleCorners {
     /// Unnormalized normal; its length is twice the area.
     Vec3d cross() const { return glm::cross(p[1] - p[0], p[2] - p[0]); }
     double longest_edge() const {
-        return std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
+        const auto square = [](const Vec3d& v) { return glm::dot(v, v); };
+        return std::sqrt(std::max({square(p[1] - p[0]), square(p[2] - p[1]), square(p[0] - p[2])}));
     }
     /// Largest magnitude of the corners per coordinate.
     Vec3d reach() const { return glm::max(glm::abs(p[0]), glm::max(glm::abs(p[1]), glm::abs(p[2]))); }
@@ -63,13 +67,23 @@ inline TrianglePlane make_triangle_plane(const TriangleCorners& corners, double 
             static_cast<float>(std::min(kEdgeMarginFactor * margin / smallest_height, kMaxEdgeMargin))};
 }
 
-inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions, Span<const Triangle> triangles) {
-    double scene_edge = 0.0;
-    for (const Triangle& t : triangles)
-        scene_edge = std::max(scene_edge, TriangleCorners(positions, t).longest_edge());
+inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions, Span<const Triangle> triangles,
+                                                       int threads = 1) {
+    constexpr std::uint32_t kChunk = 8192;
+    std::vector<double> edges((triangles.count + kChunk - 1) / kChunk, 0.0);
+    for_chunks(triangles.count, kChunk, threads, [&](IndexRange range) {
+        double& edge = edges[range.begin / kChunk];
+        for (std::uint32_t i = range.begin; i < range.end; ++i)
+            edge = std::max(edge, TriangleCorners(positions, triangles[i]).longest_edge());
+    });
+    const double scene_edge =
+        std::accumulate(edges.begin(), edges.end(), 0.0, [](double a, double b) { return std::max(a, b); });
     std::vector<TrianglePlane> planes;
-    planes.reserve(triangles.count);
-    for (const Triangle& t : triangles) planes.push_back(make_triangle_plane({positions, t}, scene_edge));
+    resize_huge(planes, triangles.count);
+    for_chunks(triangles.count, kChunk, threads, [&](IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i)
+            planes[i] = make_triangle_plane({positions, triangles[i]}, scene_edge);
+    });
     return planes;
 }
 
