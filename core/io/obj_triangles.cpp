@@ -14,12 +14,10 @@ namespace pl {
 
 namespace {
 
-constexpr std::uint32_t kNormalsAtOnce = 16384;
-
 static_assert(ObjCorner::kNone == TriangleDescription::kNoNormal && ObjCorner::kNone == TriangleDescription::kNoUv);
 
 void make_unit(std::vector<glm::vec3>& normals, int threads) {
-    for_chunks(static_cast<std::uint32_t>(normals.size()), kNormalsAtOnce, threads, [&](IndexRange range) {
+    for_chunks(static_cast<std::uint32_t>(normals.size()), kElementChunk, threads, [&](IndexRange range) {
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
             const glm::dvec3 normal(normals[i]);
             const double length = glm::length(normal);

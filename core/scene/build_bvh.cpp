@@ -50,9 +50,7 @@ public:
             const Vec3f p = positions[vertex];
             return BuildVector{p.x, p.y, p.z, 0.0f};
         };
-        std::vector<BuildSet> chunks((triangles.count + kSubtree - 1) / kSubtree);
-        for_chunks(triangles.count, kSubtree, threads, [&](IndexRange range) {
-            BuildSet& chunk = chunks[range.begin / kSubtree];
+        const auto fill = [&](BuildSet& chunk, IndexRange range) {
             for (std::uint32_t i = range.begin; i < range.end; ++i) {
                 const Triangle& t = triangles[i];
                 BuildBox box;
@@ -60,8 +58,8 @@ public:
                 buffers_[0][i] = {box, i};
                 chunk.add(buffers_[0][i]);
             }
-        });
-        for (const BuildSet& chunk : chunks) {
+        };
+        for (const BuildSet& chunk : sums_of_chunks(triangles.count, kElementChunk, threads, BuildSet{}, fill)) {
             root_.bounds.add(chunk.bounds);
             root_.centers.add(chunk.centers);
         }

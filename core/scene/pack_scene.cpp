@@ -19,8 +19,6 @@
 namespace pl {
 namespace {
 
-constexpr std::uint32_t kTrianglesAtOnce = 8192;
-
 bool has_normals(const TriangleDescription& t) {
     return t.normal.x != TriangleDescription::kNoNormal && t.normal.y != TriangleDescription::kNoNormal &&
            t.normal.z != TriangleDescription::kNoNormal;
@@ -35,7 +33,7 @@ Vec3f unit_or_zero(Vec3d v) {
 /// Calls body(i) for the numbers below `count`, by all threads.
 template <class Body>
 void for_numbers(std::uint32_t count, Body&& body) {
-    for_chunks(count, kTrianglesAtOnce, usable_threads(), [&](IndexRange range) {
+    for_chunks(count, kElementChunk, usable_threads(), [&](IndexRange range) {
         for (std::uint32_t i = range.begin; i < range.end; ++i) body(i);
     });
 }
@@ -201,11 +199,11 @@ std::vector<BvhNode> leaves_of(const Bvh& bvh) {
 /// Calls add(triangle, bounds) for all triangles.
 template <class T, class Add>
 Bounds bounds_of_triangles(const std::vector<T>& triangles, Add&& add) {
-    std::vector<Bounds> chunks((triangles.size() + kTrianglesAtOnce - 1) / kTrianglesAtOnce);
-    for_numbers(static_cast<std::uint32_t>(triangles.size()),
-                [&](std::uint32_t i) { add(triangles[i], chunks[i / kTrianglesAtOnce]); });
+    const auto add_all = [&](Bounds& bounds, IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i) add(triangles[i], bounds);
+    };
     Bounds bounds;
-    for (const Bounds& chunk : chunks) {
+    for (const Bounds& chunk : sums_of_chunks(triangles.size(), kElementChunk, usable_threads(), Bounds{}, add_all)) {
         bounds.add(chunk.low);
         bounds.add(chunk.high);
     }

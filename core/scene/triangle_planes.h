@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "core/base/huge_pages.h"
@@ -69,18 +68,16 @@ inline TrianglePlane make_triangle_plane(const TriangleCorners& corners, double 
 
 inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions, Span<const Triangle> triangles,
                                                        int threads = 1) {
-    constexpr std::uint32_t kChunk = 8192;
-    std::vector<double> edges((triangles.count + kChunk - 1) / kChunk, 0.0);
-    for_chunks(triangles.count, kChunk, threads, [&](IndexRange range) {
-        double& edge = edges[range.begin / kChunk];
+    const auto extend = [&](double& edge, IndexRange range) {
         for (std::uint32_t i = range.begin; i < range.end; ++i)
             edge = std::max(edge, TriangleCorners(positions, triangles[i]).longest_edge());
-    });
-    const double scene_edge =
-        std::accumulate(edges.begin(), edges.end(), 0.0, [](double a, double b) { return std::max(a, b); });
+    };
+    double scene_edge = 0.0;
+    for (const double edge : sums_of_chunks(triangles.count, kElementChunk, threads, 0.0, extend))
+        scene_edge = std::max(scene_edge, edge);
     std::vector<TrianglePlane> planes;
     resize_huge(planes, triangles.count);
-    for_chunks(triangles.count, kChunk, threads, [&](IndexRange range) {
+    for_chunks(triangles.count, kElementChunk, threads, [&](IndexRange range) {
         for (std::uint32_t i = range.begin; i < range.end; ++i)
             planes[i] = make_triangle_plane({positions, triangles[i]}, scene_edge);
     });
