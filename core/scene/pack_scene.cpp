@@ -30,7 +30,7 @@ Vec3f unit_or_zero(Vec3d v) {
     return length > 0.0 ? Vec3f{v / length} : Vec3f{0.0f};
 }
 
-/// Calls body(i) for the numbers below `count`, by all threads.
+/// Calls body(i) for the numbers below `count`, by all threads of the machine.
 template <class Body>
 void for_numbers(std::uint32_t count, Body&& body) {
     for_chunks(count, kElementChunk, usable_threads(), [&](IndexRange range) {

@@ -21,12 +21,11 @@ struct Bounds {
     float diagonal() const { return empty() ? 0.0f : glm::length(high - low); }
 };
 
-/// By all threads of the machine.
 Bounds bounds_of(const SceneDescription& scene);
 Bounds bounds_of(const HostScene& scene);
 
-/// Packs a valid description and builds the BVH and the light tree, by all threads of the machine. Smooth normals are
-/// packed only if a triangle has them; triangles without then have their geometric normal.
+/// Packs a valid description and builds the BVH and the light tree. Smooth normals are packed only if a triangle has
+/// them; triangles without then have their geometric normal.
 HostScene pack_scene(const SceneDescription& scene);
 
 /// Equal to pack_scene(scene) bit for bit, but copies everything that depends on triangles alone from `packed`, which
