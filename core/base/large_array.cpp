@@ -2,7 +2,9 @@
 
 #include <new>
 
-#include "core/base/huge_pages.h"
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 
 namespace pl {
 namespace {
@@ -18,7 +20,10 @@ std::align_val_t alignment_of(std::size_t bytes) {
 
 void* allocate_large(std::size_t bytes) {
     void* const memory = ::operator new(bytes, alignment_of(bytes));
-    prefer_huge_pages(memory, bytes);
+#ifdef __linux__
+    // A hint: without it memory is only slower. The rest after the last whole huge page is excluded.
+    if (bytes >= kLargePage) (void)madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
+#endif
     return memory;
 }
 

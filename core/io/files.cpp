@@ -14,7 +14,6 @@
 #include <sys/stat.h>
 
 #include "core/base/error.h"
-#include "core/base/huge_pages.h"
 #include "core/io/temporary_file.h"
 
 namespace pl {
@@ -71,8 +70,8 @@ std::string read_file(const fs::path& path) {
     }
     // fstat of the open file: another one may have replaced it under this name.
     struct ::stat opened {};
-    std::string bytes;
-    resize_huge(bytes, ::fstat(::fileno(file.get()), &opened) == 0 ? static_cast<std::size_t>(opened.st_size) : 0);
+    std::string bytes(::fstat(::fileno(file.get()), &opened) == 0 ? static_cast<std::size_t>(opened.st_size) : 0,
+                      '\0');
     bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
     if (std::ferror(file.get()) != 0) {
         fail_read(path, reason(errno));

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/huge_pages.h"
 #include "core/base/parallel_chunks.h"
 #include "core/io/tally.h"
 #include "core/io/triangulate.h"
@@ -153,7 +152,7 @@ void add_obj_triangles(SceneDescription& scene, ObjMesh mesh, const MaterialTabl
     for (const ObjFaces& part : mesh.parts) {
         first.push_back(first.back() + part.triangles());
     }
-    resize_huge(scene.triangles, first.back());
+    scene.triangles.resize(first.back());
     if (groups != nullptr) {
         groups->names = std::move(mesh.groups);
         groups->of_triangle.resize(first.back());

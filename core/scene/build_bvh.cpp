@@ -9,7 +9,6 @@
 
 #include "core/base/error.h"
 #include "core/base/host_array.h"
-#include "core/base/huge_pages.h"
 #include "core/base/parallel_chunks.h"
 #include "core/base/run_tasks.h"
 #include "core/scene/bvh_split.h"
@@ -45,7 +44,9 @@ struct BuildSet {
 class BuildTriangles {
 public:
     BuildTriangles(Span<const Vec3f> positions, Span<const Triangle> triangles, int threads)
-        : buffers_{make_buffer(triangles.count), make_buffer(triangles.count)}, root_{.count = triangles.count} {
+        : buffers_{std::make_unique_for_overwrite<BuildTriangle[]>(triangles.count),
+                   std::make_unique_for_overwrite<BuildTriangle[]>(triangles.count)},
+          root_{.count = triangles.count} {
         const auto corner = [&](std::uint32_t vertex) {
             const Vec3f p = positions[vertex];
             return BuildVector{p.x, p.y, p.z, 0.0f};
@@ -103,15 +104,6 @@ public:
     }
 
 private:
-    using Buffer = std::unique_ptr<BuildTriangle[]>;
-
-    /// Not initialized, so that threads do what fresh memory costs.
-    static Buffer make_buffer(std::uint32_t count) {
-        Buffer buffer = std::make_unique_for_overwrite<BuildTriangle[]>(count);
-        prefer_huge_pages(buffer.get(), count * sizeof(BuildTriangle));
-        return buffer;
-    }
-
     static std::pair<BuildSet, BuildSet> numbered(const BuildSet& set, std::uint32_t lower, int buffer,
                                                   BuildSet (&sides)[2]) {
         sides[0].first = set.first;
@@ -123,7 +115,7 @@ private:
         return {sides[0], sides[1]};
     }
 
-    Buffer buffers_[2];
+    std::unique_ptr<BuildTriangle[]> buffers_[2];  ///< not initialized: threads touch them first
     BuildSet root_;
 };
 
@@ -264,11 +256,11 @@ Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles, int t
     if (triangles.count == 0) return {};
     if (threads <= 0) threads = usable_threads();
     Bvh bvh;
-    resize_huge(bvh.primitives, triangles.count);
+    bvh.primitives.resize(triangles.count);
     Branch root;
     build_branches(BuildTriangles(positions, triangles, threads), view_of(bvh.primitives), root,
                    triangles.count <= kSubtree ? 1 : threads);
-    reserve_huge(bvh.nodes, 1 + count_nodes(root));
+    bvh.nodes.reserve(1 + count_nodes(root));
     bvh.nodes.emplace_back();
     append_branch(root, 0, bvh.nodes);
     return bvh;

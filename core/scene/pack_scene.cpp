@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "core/base/huge_pages.h"
 #include "core/base/parallel_chunks.h"
 #include "core/kernel/shading/bsdf.h"
 #include "core/scene/build_bvh.h"
@@ -40,7 +39,7 @@ void for_numbers(std::uint32_t count, Body&& body) {
 
 void pack_triangles(const SceneDescription& scene, HostScene& packed) {
     packed.positions = scene.positions;
-    resize_huge(packed.triangles, scene.triangles.size());
+    packed.triangles.resize(scene.triangles.size());
     for_numbers(static_cast<std::uint32_t>(scene.triangles.size()), [&](std::uint32_t i) {
         const TriangleDescription& t = scene.triangles[i];
         packed.triangles[i] = {t.vertex.x, t.vertex.y, t.vertex.z, t.material};
@@ -173,8 +172,7 @@ void pack_looks(const SceneDescription& scene, HostScene& packed) {
 
 /// The triangles of the leaves in their order.
 std::vector<BvhTriangle> leaf_triangles(const Bvh& bvh, const HostScene& packed) {
-    std::vector<BvhTriangle> triangles;
-    resize_huge(triangles, bvh.primitives.size());
+    std::vector<BvhTriangle> triangles(bvh.primitives.size());
     const auto pack = [&](std::uint32_t i) {
         const std::uint32_t primitive = bvh.primitives[i];
         const Triangle& t = packed.triangles[primitive];

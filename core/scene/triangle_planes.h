@@ -7,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/huge_pages.h"
 #include "core/base/parallel_chunks.h"
 #include "core/kernel/scene/scene_view.h"
 
@@ -75,8 +74,7 @@ inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positio
     double scene_edge = 0.0;
     for (const double edge : sums_of_chunks(triangles.count, kElementChunk, threads, 0.0, extend))
         scene_edge = std::max(scene_edge, edge);
-    std::vector<TrianglePlane> planes;
-    resize_huge(planes, triangles.count);
+    std::vector<TrianglePlane> planes(triangles.count);
     for_chunks(triangles.count, kElementChunk, threads, [&](IndexRange range) {
         for (std::uint32_t i = range.begin; i < range.end; ++i)
             planes[i] = make_triangle_plane({positions, triangles[i]}, scene_edge);
