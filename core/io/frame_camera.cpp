@@ -1,12 +1,14 @@
 #include "core/io/frame_camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include <glm/gtc/constants.hpp>
 
+#include "core/base/parallel_chunks.h"
 #include "core/io/open_side.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/up_axis.h"
@@ -27,25 +29,28 @@ PictureAxes axes_towards(const glm::dvec3& back, const glm::dvec3& vertical) {
     return {right, glm::cross(back, right), back};
 }
 
-template <class Visit>
-void for_each_corner(const SceneDescription& scene, Visit visit) {
-    for (const TriangleDescription& triangle : scene.triangles) {
-        for (int k = 0; k < 3; ++k) {
-            visit(glm::dvec3(scene.positions[triangle.vertex[k]]));
-        }
-    }
+/// Calls add(sums, corners) for all triangles; returns the sums of parts of the scene.
+template <class Sums, class Add>
+std::vector<Sums> sums_of_triangles(const SceneDescription& scene, const Sums& empty, Add add) {
+    return sums_of_chunks(
+        scene.triangles.size(), kElementChunk, usable_threads(), empty, [&](Sums& sums, IndexRange range) {
+            for (std::uint32_t i = range.begin; i < range.end; ++i) {
+                const glm::uvec3& vertex = scene.triangles[i].vertex;
+                add(sums, std::array{glm::dvec3(scene.positions[vertex.x]), glm::dvec3(scene.positions[vertex.y]),
+                                     glm::dvec3(scene.positions[vertex.z])});
+            }
+        });
 }
 
 /// The sign of the direction from which more front-facing area is visible: -1 for the opposite one. +1 if the two differ
 /// by less than a hundredth, because the two sides of a closed surface differ by rounding only.
 double better_sign(const SceneDescription& scene, const glm::dvec3& direction) {
-    double front[2] = {0.0, 0.0};  // projected area that faces the opposite, the direction
-    for (const TriangleDescription& triangle : scene.triangles) {
-        const glm::dvec3 a(scene.positions[triangle.vertex.x]);
-        const glm::dvec3 ab = glm::dvec3(scene.positions[triangle.vertex.y]) - a;
-        const glm::dvec3 ac = glm::dvec3(scene.positions[triangle.vertex.z]) - a;
-        const double area = 0.5 * glm::dot(glm::cross(ab, ac), direction);
-        front[area > 0.0 ? 1 : 0] += std::abs(area);
+    glm::dvec2 front(0.0);  // projected area that faces the opposite, the direction
+    for (const glm::dvec2& part : sums_of_triangles(scene, front, [&](glm::dvec2&sum, const auto&p) {
+             const double area = 0.5 * glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), direction);
+             sum[area > 0.0 ? 1 : 0] += std::abs(area);
+         })) {
+        front += part;
     }
     return front[0] > 1.01 * front[1] ? -1.0 : 1.0;
 }
@@ -74,19 +79,30 @@ glm::dvec3 good_side(const SceneDescription& scene) {
 /// The least distance from `center` at which all corners are within `tangent` of the middle of the picture.
 double fitting_distance(const SceneDescription& scene, const PictureAxes& axes, const glm::dvec3& center,
                         double tangent) {
-    double fitting = 0.0;
-    double nearest = 0.0;
-    double farthest = 0.0;
-    for_each_corner(scene, [&](const glm::dvec3& corner) {
-        const glm::dvec3 p = corner - center;
-        const double depth = glm::dot(p, axes.back);
-        const double off = std::max(std::abs(glm::dot(p, axes.right)), std::abs(glm::dot(p, axes.up)));
-        fitting = std::max(fitting, depth + off / tangent);
-        nearest = std::max(nearest, depth);
-        farthest = std::max(farthest, glm::length(p));
-    });
+    struct Extremes {
+        double fitting = 0.0;
+        double nearest = 0.0;
+        double farthest2 = 0.0;  ///< squared
+
+        void add(const Extremes& other) {
+            fitting = std::max(fitting, other.fitting);
+            nearest = std::max(nearest, other.nearest);
+            farthest2 = std::max(farthest2, other.farthest2);
+        }
+    };
+    Extremes all;
+    for (const Extremes& part : sums_of_triangles(scene, all, [&](Extremes&sum, const auto&corners) {
+             for (const glm::dvec3& corner : corners) {
+                 const glm::dvec3 p = corner - center;
+                 const double depth = glm::dot(p, axes.back);
+                 const double off = std::max(std::abs(glm::dot(p, axes.right)), std::abs(glm::dot(p, axes.up)));
+                 sum.add({depth + off / tangent, depth, glm::dot(p, p)});
+             }
+         })) {
+        all.add(part);
+    }
     // With a wide angle, the camera would touch the surface.
-    return std::max(fitting, nearest + 0.05 * farthest);
+    return std::max(all.fitting, all.nearest + 0.05 * std::sqrt(all.farthest2));
 }
 
 }  // namespace

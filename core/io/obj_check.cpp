@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -17,10 +16,7 @@ namespace pl {
 namespace {
 
 constexpr char kEncodedBlank = '\x1f';  // not in files: the reader refuses control characters
-constexpr double kLargestCoordinate = 1e18;
-constexpr std::size_t kMostCorners = 65536;
-constexpr std::int64_t kMostElements = std::numeric_limits<std::int32_t>::max();
-constexpr std::int64_t kNone = 0;  // OBJ indices start at 1
+constexpr std::int64_t kNone = 0;       // OBJ indices start at 1
 
 constexpr std::array<std::string_view, 5> kWithoutEffect = {"s", "l", "p", "vp", "mg"};
 
@@ -35,10 +31,9 @@ struct Elements {
     std::vector<Forward> forward{};
 };
 
-/// The word, or its value printed anew if it has so many digits that the library's parser would overflow.
+/// A number as a text that the library reads as its float.
 std::string plain_number(std::string_view word) {
-    constexpr std::size_t kManyDigits = 24;
-    return word.size() <= kManyDigits ? std::string(word) : fmt::format("{:.17g}", *parse_number(word));
+    return fmt::format("{:.9g}", static_cast<float>(*parse_number(word)));
 }
 
 class ObjChecker {
@@ -83,7 +78,7 @@ private:
             group(std::string(reader_.arguments()));
         } else if (keyword == "mtllib") {
             result_.libraries.push_back({std::string(reader_.arguments()), reader_.line()});
-        } else if (std::find(kWithoutEffect.begin(), kWithoutEffect.end(), keyword) == kWithoutEffect.end()) {
+        } else if (!is_without_effect(keyword)) {
             if (unknown_.count == 0) {
                 first_unknown_ = in_quotes(keyword);
             }
@@ -252,6 +247,10 @@ private:
 };
 
 }  // namespace
+
+bool is_without_effect(std::string_view keyword) {
+    return std::find(kWithoutEffect.begin(), kWithoutEffect.end(), keyword) != kWithoutEffect.end();
+}
 
 CheckedObj check_obj(std::string_view text, const std::filesystem::path& path) {
     return ObjChecker(text, path).run();

@@ -34,19 +34,19 @@ bool is_there(const fs::path& path) {
 }
 
 /// One name with blanks if such a file exists, else one name per word.
-std::vector<std::string> library_names(const fs::path& obj, const MaterialLibraries& library) {
-    if (!library.names.empty() && is_there(library_path(obj, library.names, library.line))) {
-        return {library.names};
+std::vector<std::string> library_names(const fs::path& obj, const ObjName& library) {
+    if (!library.name.empty() && is_there(library_path(obj, library.name, library.line))) {
+        return {library.name};
     }
-    const std::vector<std::string_view> words = split_words(library.names);
+    const std::vector<std::string_view> words = split_words(library.name);
     return {words.begin(), words.end()};
 }
 
 /// Loads all libraries into the scene. Returns the missing ones, for the warning about materials.
-std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path& obj, const CheckedObj& checked) {
+std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path& obj, const ObjMesh& mesh) {
     std::vector<std::string> missing;
     std::set<std::string> seen;
-    for (const MaterialLibraries& library : checked.libraries) {
+    for (const ObjName& library : mesh.libraries) {
         for (const std::string& name : library_names(obj, library)) {
             const fs::path path = library_path(obj, name, library.line);
             if (!seen.insert(name).second) {
@@ -77,26 +77,33 @@ std::string describe(const std::vector<std::string>& reasons, const fs::path& ob
     return shown == reasons.size() ? text : fmt::format("{}; and {} more", text, reasons.size() - shown);
 }
 
+std::size_t faces_of(const ObjMesh& mesh, const MaterialTable& table, std::uint32_t material) {
+    std::size_t faces = 0;
+    for (const ObjFaces& part : mesh.parts) {
+        for (std::size_t run = 0; run < part.runs.size(); ++run) {
+            faces += table.of(part.runs[run]) == material ? part.end_of(run) - part.runs[run].first : 0;
+        }
+    }
+    return faces;
+}
+
 }  // namespace
 
-MaterialTable load_materials(SceneDescription& scene, const fs::path& obj, const CheckedObj& checked,
-                             const std::vector<std::string>& names, const std::vector<std::size_t>& faces_of) {
-    std::vector<std::string> reasons = load_libraries(scene, obj, checked);
+MaterialTable load_materials(SceneDescription& scene, const fs::path& obj, const ObjMesh& mesh) {
+    std::vector<std::string> reasons = load_libraries(scene, obj, mesh);
     std::map<std::string, std::uint32_t> known;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
         known.try_emplace(scene.materials[i].name, i);
     }
     MaterialTable table{.of_name = {}, .fallback = static_cast<std::uint32_t>(scene.materials.size())};
-    std::size_t faces = faces_of.back();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const auto found = known.find(names[i]);
+    for (const ObjName& used : mesh.materials) {
+        const auto found = known.find(used.name);
         table.of_name.push_back(found == known.end() ? table.fallback : found->second);
         if (found == known.end()) {
-            faces += faces_of[i];
-            reasons.push_back(fmt::format("{}: no material {}", place(obj, checked.material_lines.at(names[i])),
-                                          in_quotes(names[i])));
+            reasons.push_back(fmt::format("{}: no material {}", place(obj, used.line), in_quotes(used.name)));
         }
     }
+    const std::size_t faces = faces_of(mesh, table, table.fallback);
     if (faces > 0) {
         scene.materials.push_back({.name = "default", .albedo = kDefaultAlbedo});
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/parallel_chunks.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/up_axis.h"
 
@@ -39,6 +40,13 @@ public:
             }
     }
 
+    void add(const DepthGrid& other) {
+        for (std::size_t i = 0; i < first_.size(); ++i) {
+            first_[i] = std::min(first_[i], other.first_[i]);
+            last_[i] = std::max(last_[i], other.last_[i]);
+        }
+    }
+
     /// Mean depth behind the side of the bounds that `sign` points to; 0 if too many rays meet nothing.
     double mean_depth(double sign) const {
         constexpr double kCovered = 0.9;
@@ -71,19 +79,35 @@ private:
     std::array<double, std::size_t{kOpenSideGrid} * kOpenSideGrid> last_;
 };
 
-DepthGrid depth_grid(const SceneDescription& scene, int axis) {
-    const Bounds bounds = bounds_of(scene);
+/// The grids of the two horizontal axes: that of front_of(scene.up) first.
+struct DepthGrids {
+    DepthGrid first;
+    DepthGrid second;
+};
+
+DepthGrids depth_grids(const SceneDescription& scene, const Bounds& bounds, const DepthGrids& empty) {
     const glm::dvec3 low(bounds.low);
     const glm::dvec3 extent = glm::max(glm::dvec3(bounds.high) - low, std::numeric_limits<double>::min());
-    DepthGrid grid(axis);
-    for (const TriangleDescription& triangle : scene.triangles) {
-        std::array<glm::dvec3, 3> corners;
-        for (int k = 0; k < 3; ++k)
-            corners[static_cast<std::size_t>(k)] = (glm::dvec3(scene.positions[triangle.vertex[k]]) - low) / extent;
-        grid.add(corners);
+    const auto add = [&](DepthGrids& grids, IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            std::array<glm::dvec3, 3> corners;
+            for (int k = 0; k < 3; ++k)
+                corners[static_cast<std::size_t>(k)] =
+                    (glm::dvec3(scene.positions[scene.triangles[i].vertex[k]]) - low) / extent;
+            grids.first.add(corners);
+            grids.second.add(corners);
+        }
+    };
+    DepthGrids grids = empty;
+    for (const DepthGrids& part :
+         sums_of_chunks(scene.triangles.size(), kElementChunk, usable_threads(), empty, add)) {
+        grids.first.add(part.first);
+        grids.second.add(part.second);
     }
-    return grid;
+    return grids;
 }
+
+int axis_of(const glm::vec3& direction) { return direction.x != 0.0f ? 0 : direction.y != 0.0f ? 1 : 2; }
 
 }  // namespace
 
@@ -92,12 +116,14 @@ std::optional<glm::vec3> open_side(const SceneDescription& scene) {
     const Bounds bounds = bounds_of(scene);
     const glm::vec3 extent = bounds.high - bounds.low;
     const glm::vec3 front = front_of(scene.up);
+    const glm::vec3 right = glm::cross(scene.up, front);
+    const DepthGrids grids = depth_grids(scene, bounds, {DepthGrid(axis_of(front)), DepthGrid(axis_of(right))});
     double deepest = 0.5;
     std::optional<glm::vec3> side;
-    for (const glm::vec3& toward : {front, glm::cross(scene.up, front)}) {
-        const int axis = toward.x != 0.0f ? 0 : toward.y != 0.0f ? 1 : 2;
+    for (const glm::vec3& toward : {front, right}) {
+        const int axis = axis_of(toward);
         if (extent[axis] < kLeastDepth * std::max({extent.x, extent.y, extent.z})) continue;
-        const DepthGrid grid = depth_grid(scene, axis);
+        const DepthGrid& grid = toward == front ? grids.first : grids.second;
         for (const glm::vec3& out : {toward, -toward}) {
             const double depth = grid.mean_depth(static_cast<double>(out[axis]));
             if (depth <= deepest) continue;

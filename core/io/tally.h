@@ -18,6 +18,12 @@ struct Tally {
         ++count;
     }
 
+    /// Adds what was counted in lines below those of this one.
+    void add(const Tally& later) {
+        first_line = count == 0 ? later.first_line : first_line;
+        count += later.count;
+    }
+
     /// Appends "file:line: what (3 in all)" if anything was counted.
     void tell(std::vector<std::string>& warnings, const std::filesystem::path& path, const std::string& what) const {
         if (count > 0) {

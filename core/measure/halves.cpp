@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/parallel_chunks.h"
 #include "core/measure/block_means.h"
-#include "core/measure/chunks.h"
 
 namespace pl {
 namespace {

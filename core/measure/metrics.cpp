@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/measure/chunks.h"
+#include "core/base/parallel_chunks.h"
 
 namespace pl {
 namespace {

@@ -1,7 +1,7 @@
 #include "core/measure/noise.h"
 
+#include "core/base/parallel_chunks.h"
 #include "core/measure/block_means.h"
-#include "core/measure/chunks.h"
 #include "core/measure/window_means.h"
 
 namespace pl {

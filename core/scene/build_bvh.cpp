@@ -2,212 +2,268 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/host_array.h"
+#include "core/base/parallel_chunks.h"
+#include "core/base/run_tasks.h"
+#include "core/scene/bvh_split.h"
 
 namespace pl {
 namespace {
 
-constexpr int kBinCount = 16;
 /// Cost of visiting an inner node, in triangle tests.
 constexpr double kNodeCost = 1.0;
 
-/// Bounds in double, so that areas of scenes of any valid size neither overflow nor underflow.
-struct Box {
-    Vec3f low{kInfinity};
-    Vec3f high{-kInfinity};
+/// Subtrees of at most so many triangles are built by one thread.
+constexpr std::uint32_t kSubtree = 8192;
 
-    void add(Vec3f point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    void add(const Box& other) {
-        low = glm::min(low, other.low);
-        high = glm::max(high, other.high);
-    }
-    double half_area() const {
-        const Vec3d d = Vec3d{high} - Vec3d{low};
-        return d.x * d.y + d.y * d.z + d.z * d.x;
-    }
-};
+Vec3f xyz(BuildVector v) { return {v[0], v[1], v[2]}; }
 
-struct Primitive {
-    Box box;
-    Vec3f center;
-    std::uint32_t id;
-};
-
-/// A node with primitives [first, first + count), not split yet.
-struct Task {
-    std::uint32_t node;
-    std::uint32_t first;
-    std::uint32_t count;
-    int depth;  ///< of the node; the root has 0
-};
-
-struct Split {
-    int axis = -1;  ///< -1: none found
-    int bin = 0;    ///< last bin of the lower side
-    double cost = std::numeric_limits<double>::infinity();
-};
-
-struct Bin {
-    Box box;
+/// A set of triangles, to become a node: [first, first + count) of all.
+struct BuildSet {
+    std::uint32_t first = 0;
     std::uint32_t count = 0;
-};
+    int depth = 0;   ///< of the node; the root has 0
+    int buffer = 0;  ///< of BuildTriangles that holds them
+    BuildBox bounds{};
+    BuildBox centers{};
 
-/// Maps centers along one axis to bins; monotone, so that equal centers share a bin.
-struct Binning {
-    float low;
-    float scale;
-
-    Binning(const Box& centers, int axis)
-        : low(centers.low[axis]), scale(static_cast<float>(kBinCount) / (centers.high[axis] - centers.low[axis])) {}
-
-    int bin_of(float center) const {
-        const float position = (center - low) * scale;
-        return position < static_cast<float>(kBinCount) ? static_cast<int>(position) : kBinCount - 1;
+    void add(const BuildTriangle& triangle) {
+        bounds.add(triangle.box());
+        centers.add(triangle.center());
     }
 };
 
-class BvhBuilder {
+/// All triangles, in an order in which those of each set are neighbors. Dividing a set moves it from one buffer to the
+/// other.
+class BuildTriangles {
 public:
-    BvhBuilder(Span<const Vec3f> positions, Span<const Triangle> triangles) {
-        primitives_.reserve(triangles.count);
-        for (std::uint32_t id = 0; id < triangles.count; ++id) {
-            const Triangle& t = triangles[id];
-            Primitive primitive{{}, {}, id};
-            for (const std::uint32_t corner : {t.v0, t.v1, t.v2}) primitive.box.add(positions[corner]);
-            primitive.center = 0.5f * primitive.box.low + 0.5f * primitive.box.high;
-            primitives_.push_back(primitive);
+    BuildTriangles(Span<const Vec3f> positions, Span<const Triangle> triangles, int threads)
+        : buffers_{std::make_unique_for_overwrite<BuildTriangle[]>(triangles.count),
+                   std::make_unique_for_overwrite<BuildTriangle[]>(triangles.count)},
+          root_{.count = triangles.count} {
+        const auto corner = [&](std::uint32_t vertex) {
+            const Vec3f p = positions[vertex];
+            return BuildVector{p.x, p.y, p.z, 0.0f};
+        };
+        const auto fill = [&](BuildSet& chunk, IndexRange range) {
+            for (std::uint32_t i = range.begin; i < range.end; ++i) {
+                const Triangle& t = triangles[i];
+                BuildBox box;
+                for (const std::uint32_t vertex : {t.v0, t.v1, t.v2}) box.add(corner(vertex));
+                buffers_[0][i] = {box, i};
+                chunk.add(buffers_[0][i]);
+            }
+        };
+        for (const BuildSet& chunk : sums_of_chunks(triangles.count, kElementChunk, threads, BuildSet{}, fill)) {
+            root_.bounds.add(chunk.bounds);
+            root_.centers.add(chunk.centers);
         }
     }
 
-    Bvh build() {
-        if (primitives_.empty()) return {};
-        bvh_.nodes.reserve(primitives_.size());
-        bvh_.nodes.emplace_back();
-        std::vector<Task> tasks{{0, 0, static_cast<std::uint32_t>(primitives_.size()), 0}};
-        while (!tasks.empty()) {
-            const Task task = tasks.back();
-            tasks.pop_back();
-            split(task, tasks);
+    const BuildSet& root() const { return root_; }
+    std::span<BuildTriangle> of(const BuildSet& set) const { return {&buffers_[set.buffer][set.first], set.count}; }
+
+    /// Splits a set between two bins, stably.
+    std::pair<BuildSet, BuildSet> divide(const BuildSet& set, const Binning& binning, const BuildSplit& split) const {
+        const int other = 1 - set.buffer;
+        BuildTriangle* const to = &buffers_[other][set.first];
+        BuildSet sides[2];
+        std::uint32_t lower = 0;
+        std::uint32_t upper = split.lower;
+        for (const BuildTriangle& triangle : of(set)) {
+            const int side = binning.bins_of(triangle.center())[split.axis] > split.bin ? 1 : 0;
+            to[side == 0 ? lower : upper] = triangle;
+            lower += static_cast<std::uint32_t>(1 - side);
+            upper += static_cast<std::uint32_t>(side);
+            sides[side].add(triangle);
         }
-        bvh_.primitives.reserve(primitives_.size());
-        for (const Primitive& primitive : primitives_) bvh_.primitives.push_back(primitive.id);
-        return std::move(bvh_);
+        return numbered(set, lower, other, sides);
+    }
+
+    /// Splits a set at the median along the longest axis; ties by number.
+    std::pair<BuildSet, BuildSet> halve(const BuildSet& set) const {
+        const Vec3f extent = xyz(set.centers.high - set.centers.low);
+        int axis = extent.y > extent.x ? 1 : 0;
+        if (extent.z > extent[axis]) axis = 2;
+        const std::span<BuildTriangle> all = of(set);
+        const std::uint32_t lower = set.count / 2;
+        const auto less = [axis](const BuildTriangle& a, const BuildTriangle& b) {
+            const float at = a.center()[axis], than = b.center()[axis];
+            return at != than ? at < than : a.number() < b.number();
+        };
+        std::nth_element(all.begin(), all.begin() + lower, all.end(), less);
+        BuildSet sides[2];
+        for (std::uint32_t i = 0; i < set.count; ++i) sides[i < lower ? 0 : 1].add(all[i]);
+        return numbered(set, lower, set.buffer, sides);
     }
 
 private:
-    void split(const Task& task, std::vector<Task>& tasks) {
-        const auto begin = primitives_.begin() + task.first;
-        const auto end = begin + task.count;
-        Box bounds, centers;
-        for (auto p = begin; p != end; ++p) {
-            bounds.add(p->box);
-            centers.add(p->center);
-        }
-        BvhNode& node = bvh_.nodes[task.node];
-        node.low = bounds.low;
-        node.high = bounds.high;
+    static std::pair<BuildSet, BuildSet> numbered(const BuildSet& set, std::uint32_t lower, int buffer,
+                                                  BuildSet (&sides)[2]) {
+        sides[0].first = set.first;
+        sides[0].count = lower;
+        sides[1].first = set.first + lower;
+        sides[1].count = set.count - lower;
+        sides[0].depth = sides[1].depth = set.depth + 1;
+        sides[0].buffer = sides[1].buffer = buffer;
+        return {sides[0], sides[1]};
+    }
 
-        const Split best = best_split(task, centers);
-        const double split_cost = kNodeCost + best.cost / bounds.half_area();
-        if (task.count <= kMaxLeafSize && !(split_cost < static_cast<double>(task.count))) {
-            node.first = task.first;
-            node.count = task.count;
+    std::unique_ptr<BuildTriangle[]> buffers_[2];  ///< not initialized: threads touch them first
+    BuildSet root_;
+};
+
+/// Turns sets into leaves or splits them. Not for two threads at once.
+class SetSplitter {
+public:
+    /// Leaves write the numbers of their triangles.
+    SetSplitter(const BuildTriangles& triangles, Span<std::uint32_t> numbers)
+        : triangles_(triangles), numbers_(numbers) {}
+
+    /// Fills the node, except for the children of an inner one; their sets are given to on_inner(lower, upper).
+    template <class OnInner>
+    void split(const BuildSet& set, BvhNode& node, OnInner&& on_inner) {
+        node.low = xyz(set.bounds.low);
+        node.high = xyz(set.bounds.high);
+        const Binning binning(set.centers);
+        const BuildSplit best = set.count < 2 ? BuildSplit{} : finder_.find(triangles_.of(set), binning);
+        const double split_cost = kNodeCost + best.cost / set.bounds.half_area();
+        if (set.count <= kMaxLeafSize && !(split_cost < static_cast<double>(set.count))) {
+            node.first = set.first;
+            node.count = set.count;
+            std::uint32_t at = set.first;
+            for (const BuildTriangle& triangle : triangles_.of(set)) numbers_[at++] = triangle.number();
             return;
         }
-        const std::uint32_t lower =
-            must_halve(task) || best.axis < 0 ? halve(task, centers) : divide(task, centers, best);
-        node.first = static_cast<std::uint32_t>(bvh_.nodes.size());
-        node.count = 0;
-        const std::uint32_t child = node.first;
-        bvh_.nodes.resize(bvh_.nodes.size() + 2);
-        tasks.push_back({child + 1, task.first + lower, task.count - lower, task.depth + 1});
-        tasks.push_back({child, task.first, lower, task.depth + 1});
+        const auto [lower, upper] =
+            must_halve(set) || best.axis < 0 ? triangles_.halve(set) : triangles_.divide(set, binning, best);
+        on_inner(lower, upper);
     }
 
-    /// True if only median splits, down to single primitives, keep the depth below kMaxBvhDepth.
-    static bool must_halve(const Task& task) {
-        const int halvings = static_cast<int>(std::bit_width(task.count - 1));
-        return task.depth + halvings + 1 >= kMaxBvhDepth - 1;
+private:
+    /// True if only median splits, down to single triangles, keep the depth below kMaxBvhDepth.
+    static bool must_halve(const BuildSet& set) {
+        const int halvings = static_cast<int>(std::bit_width(set.count - 1));
+        return set.depth + halvings + 1 >= kMaxBvhDepth - 1;
     }
 
-    Split best_split(const Task& task, const Box& centers) const {
-        Split best;
-        if (task.count < 2) return best;
-        for (int axis = 0; axis < 3; ++axis) {
-            const float extent = centers.high[axis] - centers.low[axis];
-            if (extent > 0.0f && extent < kInfinity) try_axis(task, centers, axis, best);
-        }
-        return best;
-    }
-
-    void try_axis(const Task& task, const Box& centers, int axis, Split& best) const {
-        const Binning binning(centers, axis);
-        if (!(binning.scale < kInfinity)) return;
-        Bin bins[kBinCount];
-        for (std::uint32_t i = task.first; i < task.first + task.count; ++i) {
-            Bin& bin = bins[binning.bin_of(primitives_[i].center[axis])];
-            bin.box.add(primitives_[i].box);
-            ++bin.count;
-        }
-        double upper_cost[kBinCount];
-        Bin upper;
-        for (int i = kBinCount - 1; i > 0; --i) {
-            upper.box.add(bins[i].box);
-            upper.count += bins[i].count;
-            upper_cost[i] = upper.count > 0 ? upper.box.half_area() * upper.count : -1.0;
-        }
-        Bin lower;
-        for (int i = 0; i + 1 < kBinCount; ++i) {
-            lower.box.add(bins[i].box);
-            lower.count += bins[i].count;
-            if (lower.count == 0 || upper_cost[i + 1] < 0.0) continue;
-            const double cost = lower.box.half_area() * lower.count + upper_cost[i + 1];
-            if (cost < best.cost) best = {axis, i, cost};
-        }
-    }
-
-    /// Splits between two bins, stably; returns the number of primitives of the lower side.
-    std::uint32_t divide(const Task& task, const Box& centers, const Split& best) {
-        const Binning binning(centers, best.axis);
-        const auto begin = primitives_.begin() + task.first;
-        const auto middle = std::stable_partition(begin, begin + task.count, [&](const Primitive& p) {
-            return binning.bin_of(p.center[best.axis]) <= best.bin;
-        });
-        return static_cast<std::uint32_t>(middle - begin);
-    }
-
-    /// Splits at the median along the longest axis; ties by primitive number.
-    std::uint32_t halve(const Task& task, const Box& centers) {
-        const Vec3f extent = centers.high - centers.low;
-        int axis = extent.y > extent.x ? 1 : 0;
-        if (extent.z > extent[axis]) axis = 2;
-        const auto begin = primitives_.begin() + task.first;
-        const std::uint32_t lower = task.count / 2;
-        std::nth_element(begin, begin + lower, begin + task.count, [axis](const Primitive& a, const Primitive& b) {
-            return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis] : a.id < b.id;
-        });
-        return lower;
-    }
-
-    std::vector<Primitive> primitives_;
-    Bvh bvh_;
+    const BuildTriangles& triangles_;
+    Span<std::uint32_t> numbers_;
+    SplitFinder finder_;
 };
+
+/// A node of the upper part of the tree with its two branches, or a whole subtree.
+struct Branch {
+    BvhNode node;
+    std::unique_ptr<Branch> lower, upper;
+    std::vector<BvhNode> below;  ///< nodes of a subtree without its root `node`; they count from 0
+};
+
+/// Nodes in the order of a tree built depth first: the pair of a node's children, all below the lower, all below the
+/// upper one.
+class BranchBuilder {
+public:
+    BranchBuilder(const BuildTriangles& triangles, Span<std::uint32_t> numbers) : splitter_(triangles, numbers) {}
+
+    void build_subtree(const BuildSet& root, Branch& branch) {
+        std::vector<BvhNode>& nodes = branch.below;
+        nodes.reserve(root.count + root.count / 8);
+        waiting_ = {{kRoot, root}};
+        while (!waiting_.empty()) {
+            const Waiting next = waiting_.back();
+            waiting_.pop_back();
+            BvhNode node;
+            splitter_.split(next.set, node, [&](const BuildSet& lower, const BuildSet& upper) {
+                node.first = static_cast<std::uint32_t>(nodes.size());
+                nodes.resize(nodes.size() + 2);
+                waiting_.push_back({node.first + 1, upper});
+                waiting_.push_back({node.first, lower});
+            });
+            (next.node == kRoot ? branch.node : nodes[next.node]) = node;
+        }
+    }
+
+    /// Calls on_inner(lower, upper) for the sets of the branches.
+    template <class OnInner>
+    void split(const BuildSet& set, Branch& branch, OnInner&& on_inner) {
+        splitter_.split(set, branch.node, [&](const BuildSet& lower, const BuildSet& upper) {
+            branch.lower = std::make_unique<Branch>();
+            branch.upper = std::make_unique<Branch>();
+            on_inner(lower, upper);
+        });
+    }
+
+private:
+    static constexpr std::uint32_t kRoot = 0xffffffffu;
+    struct Waiting {
+        std::uint32_t node;
+        BuildSet set;
+    };
+
+    SetSplitter splitter_;
+    std::vector<Waiting> waiting_;
+};
+
+/// Appends what is below a node, which is at `slot`.
+void append_branch(Branch& branch, std::uint32_t slot, std::vector<BvhNode>& nodes) {
+    const auto offset = static_cast<std::uint32_t>(nodes.size());
+    const auto shifted = [offset](BvhNode node) {
+        node.first += node.count == 0 ? offset : 0;
+        return node;
+    };
+    nodes[slot] = shifted(branch.node);
+    if (!branch.lower) {
+        for (const BvhNode& node : branch.below) nodes.push_back(shifted(node));
+        branch.below = {};
+        return;
+    }
+    nodes.resize(nodes.size() + 2);
+    append_branch(*branch.lower, offset, nodes);
+    append_branch(*branch.upper, offset + 1, nodes);
+}
+
+std::size_t count_nodes(const Branch& branch) {
+    return branch.lower ? 2 + count_nodes(*branch.lower) + count_nodes(*branch.upper) : branch.below.size();
+}
+
+void build_branches(const BuildTriangles& triangles, Span<std::uint32_t> numbers, Branch& root, int threads) {
+    struct Task {
+        BuildSet set;
+        Branch* branch;
+    };
+    run_tasks(Task{triangles.root(), &root}, threads, [&](const Task& task, auto&& push) {
+        BranchBuilder builder(triangles, numbers);
+        if (task.set.count <= kSubtree) return builder.build_subtree(task.set, *task.branch);
+        builder.split(task.set, *task.branch, [&](const BuildSet& lower, const BuildSet& upper) {
+            push(Task{upper, task.branch->upper.get()});
+            push(Task{lower, task.branch->lower.get()});
+        });
+    });
+}
 
 }  // namespace
 
-Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles) {
+Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles, int threads) {
     if (triangles.count > kMaxBvhTriangles)
         throw Error(ErrorKind::Input, fmt::format("bounding volume hierarchy: expected at most {} triangles, got {}",
                                                   kMaxBvhTriangles, triangles.count));
-    return BvhBuilder(positions, triangles).build();
+    if (triangles.count == 0) return {};
+    if (threads <= 0) threads = usable_threads();
+    Bvh bvh;
+    bvh.primitives.resize(triangles.count);
+    Branch root;
+    build_branches(BuildTriangles(positions, triangles, threads), view_of(bvh.primitives), root,
+                   triangles.count <= kSubtree ? 1 : threads);
+    bvh.nodes.reserve(1 + count_nodes(root));
+    bvh.nodes.emplace_back();
+    append_branch(root, 0, bvh.nodes);
+    return bvh;
 }
 
 }  // namespace pl

@@ -14,8 +14,8 @@ struct Bvh {
 };
 
 /// Binned surface-area heuristic, with median splits if it finds none or the tree gets too deep. The depth is below
-/// kMaxBvhDepth for any input. Deterministic. Throws Error(Input) for more than kMaxBvhTriangles.   [Wald 2007, "On fast
-/// Construction of SAH-based Bounding Volume Hierarchies"]
-Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles);
+/// kMaxBvhDepth for any input. The same to the bit for any number of threads; 0: all of the machine. Throws Error(Input) for
+/// more than kMaxBvhTriangles.   [Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies"]
+Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles, int threads = 0);
 
 }  // namespace pl

@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 
+#include "core/base/parallel_chunks.h"
 #include "core/kernel/shading/fresnel.h"
 #include "core/kernel/shading/microfacet.h"
 
@@ -64,20 +65,19 @@ float mean_of_row(const float* row) {
 /// smooth(cos) gives the row of roughness 0; `value`, as in mean_over_facets(), the others.
 template <class Smooth, class Value>
 std::vector<float> make_table(Smooth smooth, Value value) {
-    std::vector<float> table;
-    table.reserve(AlbedoTable::kSize);
-    for (int r = 0; r < AlbedoTable::kRoughnesses; ++r) {
-        const float roughness = static_cast<float>(r) / (AlbedoTable::kRoughnesses - 1);
+    std::vector<float> table(AlbedoTable::kSize);
+    for_chunks(AlbedoTable::kRoughnesses, 1, usable_threads(), [&](IndexRange row) {
+        const float roughness = static_cast<float>(row.begin) / (AlbedoTable::kRoughnesses - 1);
+        float* const values = table.data() + row.begin * AlbedoTable::kCosines;
         for (int c = 0; c < AlbedoTable::kCosines; ++c) {
             // At grazing incidence hardly a facet is visible: a direction slightly above is used instead.
             const float cos_theta = max_of(square(static_cast<float>(c) / (AlbedoTable::kCosines - 1)), 1e-4f);
             const float returned =
                 roughness < kSmooth ? smooth(cos_theta) : mean_over_facets(roughness, cos_theta, value);
-            table.push_back(std::min(returned, 1.0f));
+            values[c] = std::min(returned, 1.0f);
         }
-    }
-    for (int r = 0; r < AlbedoTable::kRoughnesses; ++r)
-        table.push_back(mean_of_row(table.data() + r * AlbedoTable::kCosines));
+        table[AlbedoTable::kRoughnesses * AlbedoTable::kCosines + row.begin] = mean_of_row(values);
+    });
     return table;
 }
 
@@ -85,7 +85,7 @@ float facet_reflectance(Vec3f wo, Vec3f m, float eta) {
     return fresnel_dielectric(clamp_to(glm::dot(wo, m), 0.0f, 1.0f), eta);
 }
 
-/// Cache of tables by eta. A table takes about 33 ms, and every edit of a material repacks all materials.
+/// Cache of tables by eta. A table takes about 33 ms of one thread, and every edit of a material repacks all materials.
 class TablesByEta {
 public:
     template <class Make>

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/base/parallel_chunks.h"
 #include "core/kernel/shading/bsdf.h"
 #include "core/scene/build_bvh.h"
 #include "core/scene/directional_albedo.h"
@@ -28,12 +29,23 @@ Vec3f unit_or_zero(Vec3d v) {
     return length > 0.0 ? Vec3f{v / length} : Vec3f{0.0f};
 }
 
+/// Calls body(i) for the numbers below `count`, by all threads of the machine.
+template <class Body>
+void for_numbers(std::uint32_t count, Body&& body) {
+    for_chunks(count, kElementChunk, usable_threads(), [&](IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i) body(i);
+    });
+}
+
 void pack_triangles(const SceneDescription& scene, HostScene& packed) {
     packed.positions = scene.positions;
-    packed.triangles.reserve(scene.triangles.size());
-    for (const TriangleDescription& t : scene.triangles)
-        packed.triangles.push_back({t.vertex.x, t.vertex.y, t.vertex.z, t.material});
-    packed.planes = make_triangle_planes(view_of(scene.positions), view_of(std::as_const(packed.triangles)));
+    packed.triangles.resize(scene.triangles.size());
+    for_numbers(static_cast<std::uint32_t>(scene.triangles.size()), [&](std::uint32_t i) {
+        const TriangleDescription& t = scene.triangles[i];
+        packed.triangles[i] = {t.vertex.x, t.vertex.y, t.vertex.z, t.material};
+    });
+    packed.planes =
+        make_triangle_planes(view_of(scene.positions), view_of(std::as_const(packed.triangles)), usable_threads());
 }
 
 void pack_normals(const SceneDescription& scene, HostScene& packed) {
@@ -133,9 +145,10 @@ void pack_lights(HostScene& packed) {
     for (std::uint32_t id = 0; id < packed.triangles.size(); ++id) {
         const Triangle& t = packed.triangles[id];
         const Material& material = packed.materials[t.material];
+        if (!material.emits()) continue;
         const double area = 0.5 * glm::length(TriangleCorners(view_of(std::as_const(packed.positions)), t).cross());
         const double power = area * static_cast<double>(luminance(material.emission));
-        if (!material.emits() || !(power > 0.0)) continue;
+        if (!(power > 0.0)) continue;
         total += power;
         running.push_back(total);
         packed.lights.push_back({id, 1.0f});
@@ -159,15 +172,16 @@ void pack_looks(const SceneDescription& scene, HostScene& packed) {
 
 /// The triangles of the leaves in their order.
 std::vector<BvhTriangle> leaf_triangles(const Bvh& bvh, const HostScene& packed) {
-    std::vector<BvhTriangle> triangles;
-    triangles.reserve(bvh.primitives.size());
-    for (const std::uint32_t primitive : bvh.primitives) {
+    std::vector<BvhTriangle> triangles(bvh.primitives.size());
+    const auto pack = [&](std::uint32_t i) {
+        const std::uint32_t primitive = bvh.primitives[i];
         const Triangle& t = packed.triangles[primitive];
-        triangles.push_back({.p0 = packed.positions[t.v0],
-                             .primitive = primitive,
-                             .p1 = packed.positions[t.v1],
-                             .p2 = packed.positions[t.v2]});
-    }
+        triangles[i] = {.p0 = packed.positions[t.v0],
+                        .primitive = primitive,
+                        .p1 = packed.positions[t.v1],
+                        .p2 = packed.positions[t.v2]};
+    };
+    for_numbers(static_cast<std::uint32_t>(triangles.size()), pack);
     return triangles;
 }
 
@@ -178,6 +192,20 @@ std::vector<BvhNode> leaves_of(const Bvh& bvh) {
         std::ranges::copy_if(bvh.nodes, std::back_inserter(leaves),
                              [](const BvhNode& node) { return node.count > 0; });
     return leaves;
+}
+
+/// Calls add(triangle, bounds) for all triangles.
+template <class T, class Add>
+Bounds bounds_of_triangles(const std::vector<T>& triangles, Add&& add) {
+    const auto add_all = [&](Bounds& bounds, IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i) add(triangles[i], bounds);
+    };
+    Bounds bounds;
+    for (const Bounds& chunk : sums_of_chunks(triangles.size(), kElementChunk, usable_threads(), Bounds{}, add_all)) {
+        bounds.add(chunk.low);
+        bounds.add(chunk.high);
+    }
+    return bounds;
 }
 
 /// The coordinate axis with the largest angle to a direction.
@@ -196,17 +224,15 @@ Vec3d safe_unit(Vec3d v) {
 }  // namespace
 
 Bounds bounds_of(const SceneDescription& scene) {
-    Bounds bounds;
-    for (const TriangleDescription& t : scene.triangles)
+    return bounds_of_triangles(scene.triangles, [&](const TriangleDescription& t, Bounds& bounds) {
         for (int corner = 0; corner < 3; ++corner) bounds.add(scene.positions[t.vertex[corner]]);
-    return bounds;
+    });
 }
 
 Bounds bounds_of(const HostScene& scene) {
-    Bounds bounds;
-    for (const Triangle& t : scene.triangles)
+    return bounds_of_triangles(scene.triangles, [&](const Triangle& t, Bounds& bounds) {
         for (const std::uint32_t corner : {t.v0, t.v1, t.v2}) bounds.add(scene.positions[corner]);
-    return bounds;
+    });
 }
 
 HostScene pack_scene(const SceneDescription& scene) {

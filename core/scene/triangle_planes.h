@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/parallel_chunks.h"
 #include "core/kernel/scene/scene_view.h"
 
 namespace pl {
@@ -41,7 +42,8 @@ struct TriangleCorners {
     /// Unnormalized normal; its length is twice the area.
     Vec3d cross() const { return glm::cross(p[1] - p[0], p[2] - p[0]); }
     double longest_edge() const {
-        return std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
+        const auto square = [](const Vec3d& v) { return glm::dot(v, v); };
+        return std::sqrt(std::max({square(p[1] - p[0]), square(p[2] - p[1]), square(p[0] - p[2])}));
     }
     /// Largest magnitude of the corners per coordinate.
     Vec3d reach() const { return glm::max(glm::abs(p[0]), glm::max(glm::abs(p[1]), glm::abs(p[2]))); }
@@ -63,13 +65,20 @@ inline TrianglePlane make_triangle_plane(const TriangleCorners& corners, double 
             static_cast<float>(std::min(kEdgeMarginFactor * margin / smallest_height, kMaxEdgeMargin))};
 }
 
-inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions, Span<const Triangle> triangles) {
+inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positions, Span<const Triangle> triangles,
+                                                       int threads = 1) {
+    const auto extend = [&](double& edge, IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i)
+            edge = std::max(edge, TriangleCorners(positions, triangles[i]).longest_edge());
+    };
     double scene_edge = 0.0;
-    for (const Triangle& t : triangles)
-        scene_edge = std::max(scene_edge, TriangleCorners(positions, t).longest_edge());
-    std::vector<TrianglePlane> planes;
-    planes.reserve(triangles.count);
-    for (const Triangle& t : triangles) planes.push_back(make_triangle_plane({positions, t}, scene_edge));
+    for (const double edge : sums_of_chunks(triangles.count, kElementChunk, threads, 0.0, extend))
+        scene_edge = std::max(scene_edge, edge);
+    std::vector<TrianglePlane> planes(triangles.count);
+    for_chunks(triangles.count, kElementChunk, threads, [&](IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i)
+            planes[i] = make_triangle_plane({positions, triangles[i]}, scene_edge);
+    });
     return planes;
 }
 

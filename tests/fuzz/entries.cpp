@@ -16,8 +16,11 @@
 #include "core/io/files.h"
 #include "core/io/image.h"
 #include "core/io/load_scene.h"
+#include "core/io/obj_library.h"
+#include "core/io/obj_simple.h"
 #include "core/io/texture_file.h"
 #include "core/scene/pack_scene.h"
+#include "tests/support/scenes/obj_difference.h"
 #if PL_FUZZ_SCRIPTS
 #include "tests/fuzz/play_script.h"
 #endif
@@ -93,12 +96,25 @@ void load_and_pack(const fs::path& path) {
 /// Behind this line of the input begins the material file.
 constexpr std::string_view kCut = "\n%%%\n";
 
+/// A text that is simple in chunks is so as a whole, and read as by the library.
+void compare_readers(std::string_view text) {
+    constexpr std::size_t kSmallChunk = 16;
+    const std::optional<ObjMesh> chunks = read_simple_obj(text, 1, kSmallChunk);
+    const std::optional<ObjMesh> whole = read_simple_obj(text, 1);
+    if (chunks.has_value() != whole.has_value()) fail("a text that is simple in one size of chunks only");
+    if (!chunks) return;
+    for (const ObjMesh& other : {*whole, read_any_obj(text, "s.obj")})
+        if (const std::string difference = obj_difference(*chunks, other); !difference.empty())
+            fail(("readers that differ in " + difference).c_str());
+}
+
 void run_obj(std::string_view bytes) {
     const std::size_t cut = bytes.find(kCut);
     const bool has_materials = cut != std::string_view::npos;
     folder().write("m.mtl", has_materials ? bytes.substr(cut + kCut.size()) : std::string_view{});
     const fs::path path = folder().write("s.obj", bytes.substr(0, cut));
     read_or_refuse([&] { load_and_pack(path); });
+    compare_readers(bytes.substr(0, cut));
 }
 
 void run_json(std::string_view bytes) {

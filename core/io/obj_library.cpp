@@ -1,0 +1,107 @@
+#include "core/io/obj_library.h"
+
+#include <map>
+#include <sstream>
+
+#include <tiny_obj_loader.h>
+
+#include "core/base/error.h"
+#include "core/io/obj_check.h"
+
+namespace pl {
+
+namespace {
+
+/// What the callbacks of the library collect.
+struct LibraryReading {
+    explicit LibraryReading(const CheckedObj& checked) : face_groups(checked.face_groups) {}
+
+    const std::vector<std::uint32_t>& face_groups;
+    std::vector<glm::vec3> positions{};
+    std::vector<glm::vec3> normals{};
+    std::vector<glm::vec2> uvs{};
+    ObjFaces faces{};
+    std::vector<std::string> material_names{};
+    std::map<std::string, std::uint32_t> name_index{};
+    std::uint32_t material = ObjFaces::kNoMaterial;
+};
+
+LibraryReading& reading(void* user_data) { return *static_cast<LibraryReading*>(user_data); }
+
+void on_vertex(void* user_data, float x, float y, float z, float) {
+    reading(user_data).positions.emplace_back(x, y, z);
+}
+
+void on_normal(void* user_data, float x, float y, float z) { reading(user_data).normals.emplace_back(x, y, z); }
+
+void on_texture_point(void* user_data, float u, float v, float) { reading(user_data).uvs.emplace_back(u, v); }
+
+void on_material(void* user_data, const char* word, int) {
+    LibraryReading& to = reading(user_data);
+    const std::string name = decode_name(word);
+    const auto next = static_cast<std::uint32_t>(to.material_names.size());
+    const auto [entry, is_new] = to.name_index.try_emplace(name, next);
+    if (is_new) {
+        to.material_names.push_back(name);
+    }
+    to.material = entry->second;
+}
+
+/// Indices as in the file: absolute, from 1, 0 for none. check_obj() has checked them.
+void on_face(void* user_data, tinyobj::index_t* indices, int count) {
+    LibraryReading& to = reading(user_data);
+    const std::size_t face = to.faces.size();
+    const std::uint32_t group = face < to.face_groups.size() ? to.face_groups[face] : 0;
+    if (to.faces.runs.empty() || to.faces.runs.back().material != to.material ||
+        to.faces.runs.back().group != group) {
+        to.faces.runs.push_back({face, to.material, group});
+    }
+    to.faces.corner_counts.push_back(static_cast<std::uint32_t>(count));
+    for (int i = 0; i < count; ++i) {
+        // 0 - 1 wraps around to kNone.
+        to.faces.corners.push_back({static_cast<std::uint32_t>(indices[i].vertex_index) - 1u,
+                                    static_cast<std::uint32_t>(indices[i].normal_index) - 1u,
+                                    static_cast<std::uint32_t>(indices[i].texcoord_index) - 1u});
+    }
+}
+
+LibraryReading parse(CheckedObj& checked) {
+    LibraryReading result(checked);
+    tinyobj::callback_t callbacks;
+    callbacks.vertex_cb = on_vertex;
+    callbacks.normal_cb = on_normal;
+    callbacks.texcoord_cb = on_texture_point;
+    callbacks.usemtl_cb = on_material;
+    callbacks.index_cb = on_face;
+    result.faces.corner_counts.reserve(checked.face_lines.size());
+    std::istringstream stream(std::move(checked.text));
+    std::string errors;
+    if (!tinyobj::LoadObjWithCallback(stream, callbacks, &result, nullptr, nullptr, &errors) ||
+        result.faces.size() != checked.face_lines.size()) {
+        throw Error(ErrorKind::Runtime, "the OBJ library did not read a checked text: " + errors);
+    }
+    return result;
+}
+
+}  // namespace
+
+ObjMesh read_any_obj(std::string_view text, const std::filesystem::path& path) {
+    CheckedObj checked = check_obj(text, path);
+    LibraryReading reading = parse(checked);
+    reading.faces.lines = std::move(checked.face_lines);
+    ObjMesh mesh{.positions = std::move(reading.positions),
+                 .normals = std::move(reading.normals),
+                 .uvs = std::move(reading.uvs),
+                 .parts = {},
+                 .materials = {},
+                 .groups = std::move(checked.group_names),
+                 .libraries = std::move(checked.libraries),
+                 .warnings = std::move(checked.warnings)};
+    mesh.parts.push_back(std::move(reading.faces));
+    for (const std::string& name : reading.material_names) {
+        mesh.materials.push_back({name, checked.material_lines.at(name)});
+    }
+    return mesh;
+}
+
+}  // namespace pl

@@ -1,0 +1,61 @@
+// What the readers of OBJ text hand to load_obj(): the elements of a file, with all indices resolved.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace pl {
+
+/// Indices from 0 into the arrays of an ObjMesh; kNone: not given.
+struct ObjCorner {
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    std::uint32_t vertex = 0;
+    std::uint32_t normal = kNone;
+    std::uint32_t uv = kNone;
+};
+
+/// Consecutive faces of a file.
+struct ObjFaces {
+    /// Faces from `first` on, up to the next run, with one material and group.
+    struct Run {
+        std::size_t first = 0;
+        std::uint32_t material = kNoMaterial;
+        std::uint32_t group = 0;
+    };
+    static constexpr std::uint32_t kNoMaterial = 0xffffffffu;
+
+    std::vector<ObjCorner> corners;            ///< of all faces, one after the other
+    std::vector<std::uint32_t> corner_counts;  ///< per face
+    std::vector<int> lines;                    ///< per face: its line in the file
+    std::vector<Run> runs;                     ///< of all faces; some may have none
+
+    std::size_t size() const { return corner_counts.size(); }
+    /// Faces of a run.
+    std::size_t end_of(std::size_t run) const { return run + 1 < runs.size() ? runs[run + 1].first : size(); }
+    /// Triangles if every face is cut without loss.
+    std::size_t triangles() const { return corners.size() - 2 * size(); }
+};
+
+/// A name as written, and the line of its first use.
+struct ObjName {
+    std::string name;
+    int line = 0;
+};
+
+struct ObjMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;  ///< of any length
+    std::vector<glm::vec2> uvs;
+    std::vector<ObjFaces> parts;        ///< in the order of the file
+    std::vector<ObjName> materials;     ///< of `usemtl`
+    std::vector<std::string> groups;    ///< arguments of `o` and `g` statements; the first is empty: faces before any
+    std::vector<ObjName> libraries;     ///< arguments of each `mtllib`
+    std::vector<std::string> warnings;  ///< about statements that were left out
+};
+
+}  // namespace pl

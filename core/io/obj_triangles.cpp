@@ -1,0 +1,174 @@
+#include "core/io/obj_triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel_chunks.h"
+#include "core/io/tally.h"
+#include "core/io/triangulate.h"
+
+namespace pl {
+
+namespace {
+
+static_assert(ObjCorner::kNone == TriangleDescription::kNoNormal && ObjCorner::kNone == TriangleDescription::kNoUv);
+
+void make_unit(std::vector<glm::vec3>& normals, int threads) {
+    for_chunks(static_cast<std::uint32_t>(normals.size()), kElementChunk, threads, [&](IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            const glm::dvec3 normal(normals[i]);
+            const double length = glm::length(normal);
+            normals[i] = length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f);
+        }
+    });
+}
+
+/// Makes the triangles of consecutive faces, in a part of the scene's arrays that is large enough for all of them.
+class PartBuilder {
+public:
+    PartBuilder(const SceneDescription& scene, const ObjFaces& faces, const MaterialTable& materials,
+                TriangleDescription* triangles, std::uint32_t* groups)
+        : scene_(scene), faces_(faces), materials_(materials), triangles_(triangles), groups_(groups) {}
+
+    void build() {
+        std::vector<glm::vec3> outline;
+        const ObjCorner* corners = faces_.corners.data();
+        for (std::size_t run = 0; run < faces_.runs.size(); ++run) {
+            material_ = materials_.of(faces_.runs[run]);
+            group_ = faces_.runs[run].group;
+            for (face_ = faces_.runs[run].first; face_ < faces_.end_of(run); ++face_) {
+                const std::uint32_t corner_count = faces_.corner_counts[face_];
+                if (corner_count == 3) {
+                    add_triangle(corners[0], corners[1], corners[2]);
+                } else {
+                    cut({corners, corner_count}, outline);
+                }
+                corners += corner_count;
+            }
+        }
+    }
+
+    std::size_t count = 0;  ///< of the triangles
+    Tally crossed;
+    Tally no_area;
+    Tally no_normal;
+
+private:
+    void cut(std::span<const ObjCorner> corners, std::vector<glm::vec3>& outline) {
+        outline.clear();
+        for (const ObjCorner& corner : corners) {
+            outline.push_back(scene_.positions[corner.vertex]);
+        }
+        const Triangulation result = triangulate(outline);
+        if (!result.exact) {
+            crossed.add(faces_.lines[face_]);
+        }
+        for (const auto& [a, b, c] : result.triangles) {
+            add_triangle(corners[a], corners[b], corners[c]);
+        }
+    }
+
+    void add_triangle(const ObjCorner& a, const ObjCorner& b, const ObjCorner& c) {
+        TriangleDescription triangle{.vertex = {a.vertex, b.vertex, c.vertex}, .material = material_};
+        if (!has_area(triangle)) {
+            no_area.add(faces_.lines[face_]);
+            return;
+        }
+        if (is_usable(a.normal) && is_usable(b.normal) && is_usable(c.normal)) {
+            triangle.normal = {a.normal, b.normal, c.normal};
+        } else if ((a.normal & b.normal & c.normal) != ObjCorner::kNone) {
+            no_normal.add(faces_.lines[face_]);
+        }
+        if (a.uv != ObjCorner::kNone && b.uv != ObjCorner::kNone && c.uv != ObjCorner::kNone) {
+            triangle.uv = {a.uv, b.uv, c.uv};
+        }
+        if (groups_ != nullptr) {
+            groups_[count] = group_;
+        }
+        triangles_[count++] = triangle;
+    }
+
+    bool is_usable(std::uint32_t normal) const {
+        return normal != ObjCorner::kNone && scene_.normals[normal] != glm::vec3(0.0f);
+    }
+
+    /// Whether a unit normal can be computed in floats: the squared length of the cross product is a normal float.
+    bool has_area(const TriangleDescription& t) const {
+        const glm::dvec3 a(scene_.positions[t.vertex.x]);
+        const glm::dvec3 n =
+            glm::cross(glm::dvec3(scene_.positions[t.vertex.y]) - a, glm::dvec3(scene_.positions[t.vertex.z]) - a);
+        return glm::dot(n, n) >= static_cast<double>(std::numeric_limits<float>::min());
+    }
+
+    const SceneDescription& scene_;
+    const ObjFaces& faces_;
+    const MaterialTable& materials_;
+    TriangleDescription* triangles_;
+    std::uint32_t* groups_;
+    std::size_t face_ = 0;
+    std::uint32_t material_ = 0;
+    std::uint32_t group_ = 0;
+};
+
+/// Closes the gaps that removed triangles have left behind the parts.
+template <class T>
+void close_gaps(std::vector<T>& values, const std::vector<std::size_t>& first,
+                const std::vector<PartBuilder>& parts) {
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (end != first[i]) {
+            const auto from = values.begin() + static_cast<std::ptrdiff_t>(first[i]);
+            std::copy_n(from, parts[i].count, values.begin() + static_cast<std::ptrdiff_t>(end));
+        }
+        end += parts[i].count;
+    }
+    values.resize(end);
+}
+
+void warn(SceneDescription& scene, const std::vector<PartBuilder>& parts) {
+    Tally crossed, no_area, no_normal;
+    for (const PartBuilder& part : parts) {
+        crossed.add(part.crossed);
+        no_area.add(part.no_area);
+        no_normal.add(part.no_normal);
+    }
+    std::vector<std::string>& to = scene.warnings;
+    crossed.tell(to, scene.source, "face whose outline crosses itself or has no area, cut as a fan");
+    no_area.tell(to, scene.source, "triangle without area removed");
+    no_normal.tell(to, scene.source, "normals ignored: not given, or of no length, at one of a triangle's corners");
+}
+
+}  // namespace
+
+void add_obj_triangles(SceneDescription& scene, ObjMesh mesh, const MaterialTable& materials, MeshGroups* groups,
+                       int threads) {
+    make_unit(mesh.normals, threads);
+    scene.positions = std::move(mesh.positions);
+    scene.normals = std::move(mesh.normals);
+    scene.uvs = std::move(mesh.uvs);
+    std::vector<std::size_t> first{0};
+    for (const ObjFaces& part : mesh.parts) {
+        first.push_back(first.back() + part.triangles());
+    }
+    scene.triangles.resize(first.back());
+    if (groups != nullptr) {
+        groups->names = std::move(mesh.groups);
+        groups->of_triangle.resize(first.back());
+    }
+    std::vector<PartBuilder> parts;
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+        parts.emplace_back(scene, mesh.parts[i], materials, scene.triangles.data() + first[i],
+                           groups != nullptr ? groups->of_triangle.data() + first[i] : nullptr);
+    }
+    for_chunks(static_cast<std::uint32_t>(parts.size()), 1, threads,
+               [&](IndexRange range) { parts[range.begin].build(); });
+    close_gaps(scene.triangles, first, parts);
+    if (groups != nullptr) {
+        close_gaps(groups->of_triangle, first, parts);
+    }
+    warn(scene, parts);
+}
+
+}  // namespace pl

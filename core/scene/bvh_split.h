@@ -1,0 +1,162 @@
+// One step of building a hierarchy: boxes of triangles, and where to split a set of them.   [Wald 2007, "On fast
+// Construction of SAH-based Bounding Volume Hierarchies"]
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/kernel/base/math.h"
+
+namespace pl {
+
+/// x, y, z and a number without meaning, in one vector register.
+using BuildVector = float __attribute__((vector_size(16)));
+
+/// The first of several equal corners counts, so that a box of boxes is that of their points in order, to the sign of a
+/// zero.
+struct BuildBox {
+    BuildVector low{kInfinity, kInfinity, kInfinity, kInfinity};
+    BuildVector high{-kInfinity, -kInfinity, -kInfinity, -kInfinity};
+
+    void add(BuildVector point) { add({point, point}); }
+    void add(const BuildBox& other) {
+        low = other.low < low ? other.low : low;
+        high = other.high > high ? other.high : high;
+    }
+    /// In double, so that areas of scenes of any valid size neither overflow nor underflow.
+    double half_area() const {
+        const Vec3d d = Vec3d{high[0], high[1], high[2]} - Vec3d{low[0], low[1], low[2]};
+        return d.x * d.y + d.y * d.z + d.z * d.x;
+    }
+};
+
+/// The box of a triangle, and its number in the place without meaning.
+class BuildTriangle {
+public:
+    BuildTriangle() = default;
+    BuildTriangle(const BuildBox& box, std::uint32_t number) : low_(box.low), high_(box.high) {
+        low_[3] = std::bit_cast<float>(kNormalFloat | number);
+        high_[3] = 0.0f;
+    }
+
+    BuildBox box() const { return {low_, high_}; }
+    BuildVector center() const { return 0.5f * low_ + 0.5f * high_; }
+    std::uint32_t number() const { return std::bit_cast<std::uint32_t>(low_[3]) & ~kNormalFloat; }
+
+private:
+    /// Sets the exponent of numbers below kMaxBvhTriangles: arithmetic on subnormal floats is slow.
+    static constexpr std::uint32_t kNormalFloat = 0x40000000u;
+
+    BuildVector low_;
+    BuildVector high_;
+};
+
+/// Maps centers to bins, along all axes at once; monotone, so that equal centers share a bin.
+class Binning {
+public:
+    static constexpr int kBins = 16;
+    using Bins = std::int32_t __attribute__((vector_size(16)));
+
+    /// Axes along which the centers do not differ, or too little for a float, have one bin.
+    explicit Binning(const BuildBox& centers) : low_(centers.low) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const float extent = centers.high[axis] - centers.low[axis];
+            const float scale = static_cast<float>(kBins) / extent;
+            if (extent > 0.0f && extent < kInfinity && scale < kInfinity) scale_[axis] = scale;
+        }
+    }
+
+    bool divides(int axis) const { return scale_[axis] > 0.0f; }
+
+    Bins bins_of(BuildVector center) const {
+        constexpr BuildVector kEnd{kBins, kBins, kBins, kBins};
+        const BuildVector position = (center - low_) * scale_;
+        return __builtin_convertvector(position < kEnd ? position : kEnd - 1.0f, Bins);
+    }
+
+private:
+    BuildVector low_;
+    BuildVector scale_{0.0f, 0.0f, 0.0f, 0.0f};
+};
+
+struct BuildSplit {
+    int axis = -1;                                          ///< -1: none found
+    int bin = 0;                                            ///< last bin of the lower side
+    std::uint32_t lower = 0;                                ///< triangles of the lower side
+    double cost = std::numeric_limits<double>::infinity();  ///< sum of half areas times triangles
+};
+
+/// Finds the split of least cost. Keeps its bins from one call to the next.
+class SplitFinder {
+public:
+    BuildSplit find(std::span<const BuildTriangle> triangles, const Binning& binning) {
+        fill(triangles, binning);
+        BuildSplit best;
+        for (int axis = 0; axis < 3; ++axis) {
+            Axis& along = axes_[axis];
+            if (binning.divides(axis)) along.improve(axis, best);
+            along.clear();
+        }
+        return best;
+    }
+
+private:
+    struct Bin {
+        BuildBox box;
+        std::uint32_t count = 0;
+
+        void add(const Bin& other) {
+            box.add(other.box);
+            count += other.count;
+        }
+        double cost() const { return box.half_area() * count; }
+    };
+
+    struct Axis {
+        Bin bins[Binning::kBins];
+        std::uint32_t used = 0;  ///< a bit per bin with triangles; most sets are small
+
+        /// Splits behind each bin that has triangles, the last one excepted: those between would be the same.
+        void improve(int axis, BuildSplit& best) const {
+            double upper_cost[Binning::kBins];
+            Bin upper;
+            for (std::uint32_t rest = used; rest != 0;) {
+                const int i = std::bit_width(rest) - 1;
+                upper_cost[i] = upper.count > 0 ? upper.cost() : 0.0;
+                upper.add(bins[i]);
+                rest ^= 1u << i;
+            }
+            Bin lower;
+            for (std::uint32_t rest = used; (rest & (rest - 1)) != 0; rest &= rest - 1) {
+                const int i = std::countr_zero(rest);
+                lower.add(bins[i]);
+                const double cost = lower.cost() + upper_cost[i];
+                if (cost < best.cost) best = {axis, i, lower.count, cost};
+            }
+        }
+
+        void clear() {
+            for (; used != 0; used &= used - 1) bins[std::countr_zero(used)] = {};
+        }
+    };
+
+    void fill(std::span<const BuildTriangle> triangles, const Binning& binning) {
+        std::uint32_t used[3] = {0, 0, 0};
+        for (const BuildTriangle& triangle : triangles) {
+            const Binning::Bins bins = binning.bins_of(triangle.center());
+            for (int axis = 0; axis < 3; ++axis) {
+                Bin& bin = axes_[axis].bins[bins[axis]];
+                bin.box.add(triangle.box());
+                ++bin.count;
+                used[axis] |= 1u << bins[axis];
+            }
+        }
+        for (int axis = 0; axis < 3; ++axis) axes_[axis].used = used[axis];
+    }
+
+    Axis axes_[3];
+};
+
+}  // namespace pl
