@@ -39,6 +39,9 @@ constexpr std::array kRoulettes{Named<RouletteRule>{RouletteRule::Spare, "spare"
                                 Named<RouletteRule>{RouletteRule::Field, "field"}};
 constexpr std::array kGuidings{Named<GuidingRule>{GuidingRule::Paying, "paying"},
                                Named<GuidingRule>{GuidingRule::Always, "always"}};
+constexpr std::array kImageKinds{Named<ImageKind>{ImageKind::Png, name_of(ImageKind::Png)},
+                                 Named<ImageKind>{ImageKind::Exr, name_of(ImageKind::Exr)},
+                                 Named<ImageKind>{ImageKind::Pfm, name_of(ImageKind::Pfm)}};
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
 
 /// "a, b or c"
@@ -283,6 +286,10 @@ void parse_at(Options& options, const std::string& text) {
         point.normal = normal / length;
     }
     options.at = point;
+}
+
+void parse_frame_kind(Options& options, const std::string& text) {
+    parse_named(options.frame_kind, kImageKinds, text);
 }
 
 void parse_pixel(Options& options, const std::string& text) {
