@@ -62,7 +62,7 @@ TEST_CASE("replay makes the frames that the window writes of its bookmarks, to t
         "1 wait shown_spp == 2\n2 tap F8\n3 key W\n9 keyup W\n10 wait moving == no\n11 wait shown_divider == 1\n"
         "12 tap F8\n13 expect bookmarks == 2\n14 aim_at 0.5 0.5 Bookmarks\n15 down left\n16 up left\n"
         "20 aim_at 0.5 0.5 write path\n21 down left\n22 up left\n23 wait writing == yes\n24 wait written >= 3\n"
-        "25 tap Escape\n25 expect message ~ frames are in\n26 wait busy == no\n27 quit\n",
+        "25 tap Escape\n27 expect message ~ frames are in\n28 wait busy == no\n29 quit\n",
         {"--window", "1280x1500"});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
