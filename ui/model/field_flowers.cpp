@@ -52,7 +52,7 @@ void FieldFlowers::update() {
         job_.reset();
         flowers_ = result->value->key.flowers;
         mesh_ = *result->value;
-        ++times_made_;
+        if (mesh_.key.scene != nullptr) ++times_made_;
     }
     const std::shared_ptr<const FieldKeyFrame> next = wanted();
     if (next == nullptr) flowers_.reset();
