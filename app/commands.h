@@ -8,6 +8,7 @@ namespace pl {
 
 int run_view(const CommandLine& line, Console& console);
 int run_render(const CommandLine& line, Console& console);
+int run_replay(const CommandLine& line, Console& console);
 int run_info(const CommandLine& line, Console& console);
 int run_devices(const CommandLine& line, Console& console);
 int run_inspect(const CommandLine& line, Console& console);

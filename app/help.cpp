@@ -18,6 +18,11 @@ constexpr std::array kCommands{
     CommandInfo{Command::View, "view", "[SCENE]",
                 "Opens the viewer (default scene: cornell). The word 'view' may be left out."},
     CommandInfo{Command::Render, "render", "SCENE -o IMAGE", "Makes a picture without a display."},
+    CommandInfo{
+        Command::Replay, "replay", "SCENE --path FILE -o DIR",
+        "Makes the pictures of a moving camera, frame by frame, without a display.\n"
+        "FILE holds the cameras of the path, such as the viewer's bookmarks. Every frame gets the same time, or the\n"
+        "same samples; what is learned stays from one to the next. An interrupted replay keeps its whole frames."},
     CommandInfo{Command::Info, "info", "SCENE",
                 "Prints the contents of a scene, the effects that it needs and the kernel that serves it."},
     CommandInfo{Command::Devices, "devices", "", "Lists the back ends, and why one is unavailable.", Inputs::Nothing},

@@ -45,6 +45,7 @@ void parse_forced_effects(Options& options, const std::string& text);
 void parse_knobs(Options& options, const std::string& text);
 void parse_up_axis(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
+void parse_frame_kind(Options& options, const std::string& text);
 void parse_pixel(Options& options, const std::string& text);
 void parse_samples(Options& options, const std::string& text);
 

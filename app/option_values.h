@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "core/io/camera_file.h"
+#include "core/io/image.h"
 #include "core/io/load_settings.h"
 #include "core/scene/description.h"
 #include "core/session/settings.h"
@@ -19,6 +20,7 @@ namespace pl {
 enum class Command : std::uint32_t {
     View,
     Render,
+    Replay,
     Info,
     Devices,
     Inspect,
@@ -54,12 +56,13 @@ struct Options {
     int threads = 0;  ///< 0: all
     std::optional<std::uint32_t> spp;
     std::optional<double> time_limit_seconds;
-    std::optional<double> target_error;  ///< of Metrics::relmse
-    int width = 0;                       ///< 0: not given
-    int height = 0;                      ///< 0: not given
-    CameraChoice camera;                 ///< given parts; the others are the scene's
-    std::string camera_path;             ///< render: file of cameras for a sequence of pictures
-    int frames = 0;                      ///< of that; 0: 24 from each camera to the next
+    std::optional<double> target_error;     ///< of Metrics::relmse
+    int width = 0;                          ///< 0: not given
+    int height = 0;                         ///< 0: not given
+    CameraChoice camera;                    ///< given parts; the others are the scene's
+    std::string camera_path;                ///< replay: file of its cameras
+    int frames = 0;                         ///< replay: 0: 24 from each camera to the next
+    ImageKind frame_kind = ImageKind::Png;  ///< replay
 
     std::vector<MethodId> methods;       ///< bench: all to compare; empty: every one
     std::vector<std::string> backends;   ///< bench: empty: all that are available

@@ -134,7 +134,8 @@ std::optional<std::string> answer_to(Command command, const Found& found) {
 
 void require_complete(Command command, const Options& options) {
     const bool needs_file = command == Command::Render || command == Command::Inspect;
-    const bool needs_folder = command == Command::Reference || command == Command::Bench;
+    const bool needs_folder =
+        command == Command::Replay || command == Command::Reference || command == Command::Bench;
     if (options.scene.empty() && options.inputs.empty() &&
         (needs_file || needs_folder || command == Command::Info || command == Command::Trace))
         fail(fmt::format("'{}' needs a SCENE: a name ({}), an .obj file or a scene .json file", command_name(command),
@@ -143,6 +144,7 @@ void require_complete(Command command, const Options& options) {
         fail(fmt::format("'{}' needs a file to write: -o FILE", command_name(command)));
     if (options.output.empty() && needs_folder)
         fail(fmt::format("'{}' needs a folder to write to: -o DIR", command_name(command)));
+    if (command == Command::Replay && options.camera_path.empty()) fail("'replay' needs a camera path: --path FILE");
     if (command == Command::Inspect && options.at.has_value() == options.pixel.has_value())
         fail("'inspect' needs a place: either --at X,Y,Z[,NX,NY,NZ] or --pixel X,Y");
     if (command == Command::Trace && !(options.pixel && options.samples.has_value() != options.why))

@@ -39,9 +39,9 @@ void require_pixel_inside(const Options& options);
 /// resolve_options() of a scene opened without options.
 Options scene_defaults(const std::string& scene_name, const SceneDescription& scene);
 
-/// The shell command that renders with these options: "pathlight render ...". Leaves out options that equal
+/// The shell command that renders with these options: "pathlight render ..." or replay. Leaves out options that equal
 /// `defaults`, which are scene_defaults() of the same scene.
-std::string command_text(const Options& options, const Options& defaults);
+std::string command_text(Command command, const Options& options, const Options& defaults);
 
 /// A word as a shell reads it back, in quotes if it needs them.
 std::string shell_word(const std::string& text);

@@ -10,7 +10,6 @@
 #include "app/open_scene.h"
 #include "app/picture_metadata.h"
 #include "app/progress.h"
-#include "app/render_sequence.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
@@ -25,10 +24,7 @@ namespace {
 
 void require_outputs(const Options& options) {
     image_kind(options.output);
-    if (options.camera_path.empty())
-        require_writable(options.output);
-    else
-        require_sequence(options);
+    require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
     if (options.diagnostics_file.empty()) return;
@@ -52,21 +48,6 @@ std::optional<ErrorTarget> make_target(const Session& session, const Options& op
         reference = std::make_shared<const Reference>(
             ReferenceStore(options.reference_folder).require(content_of(session.scene(), session.settings())));
     return ErrorTarget(*options.target_error, std::move(reference));
-}
-
-void announce(const Session& session, Console& console) {
-    const BackendInfo backend = session.backend();
-    const FilmSlot slot = slot_of(session.settings());
-    console.log().detail(fmt::format("{} on {} ({} threads, rays by {})", backend.name, backend.device,
-                                     backend.threads, backend.intersector));
-    console.log().detail(fmt::format("kernel {}", session.served_kernel(slot).name));
-    console.event("start", {{"scene", session.scene().source.string()},
-                            {"method", info_of(slot.method).name},
-                            {"view", info_of(slot.view).name},
-                            {"backend", backend.name},
-                            {"width", session.settings().width},
-                            {"height", session.settings().height},
-                            {"kernel", session.served_kernel(slot).name}});
 }
 
 /// ", noise 0.0098 (target 0.01)"; empty without a target.
@@ -138,8 +119,7 @@ int run_render(const CommandLine& line, Console& console) {
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
     announce(session, console);
-    const std::string command = command_text(options, scene_defaults(options.scene, *loaded.scene));
-    if (!options.camera_path.empty()) return render_sequence(session, options, command, fields, interrupt, console);
+    const std::string command = command_text(Command::Render, options, scene_defaults(options.scene, *loaded.scene));
     const FilmSlot slot = slot_of(options.render);
 
     std::optional<ErrorTarget> target = make_target(session, options);

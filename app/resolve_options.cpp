@@ -94,28 +94,17 @@ void require_learning(const Options& options) {
                                 view.name, info_of(View::Beauty).name, info_of(View::RadianceMap).name));
 }
 
-/// Throws Error(Usage) for options that need --camera-path, and for those of a single picture with it.
-void check_sequence(const Options& options) {
-    if (options.camera_path.empty()) {
-        if (options.frames > 0) throw Error(ErrorKind::Usage, "--frames: expected --camera-path FILE with it");
-        return;
-    }
-    if (!options.diagnostics_file.empty())
-        throw Error(ErrorKind::Usage, "--diagnostics: expected a single picture, got --camera-path with it");
-    if (!options.reference_folder.empty())
-        throw Error(ErrorKind::Usage, "--reference: expected a single picture, got --camera-path with it");
-}
+bool makes_pictures(Command command) { return command == Command::Render || command == Command::Replay; }
 
 void check_combinations(Command command, const Options& options) {
     const MethodInfo& method = info_of(options.render.method);
-    const bool needs_field = command == Command::Render && info_of(options.render.view).needs_tables;
+    const bool needs_field = makes_pictures(command) && info_of(options.render.view).needs_tables;
     if (needs_field && !method.uses_field)
         throw Error(
             ErrorKind::Usage,
             fmt::format("--view {}: shows the learned field, and --method {} learns nothing: expected --method {}",
                         info_of(options.render.view).name, method.name, field_method_choices()));
     if (!options.save_field.empty()) require_learning(options);
-    check_sequence(options);
 }
 
 bool is_given(const CommandLine& line, std::string_view name) {
@@ -135,7 +124,7 @@ void settle_inspection(const CommandLine& line, Options& options) {
 
 /// A target error of the scene's settings applies to renderings of radiance only.
 void settle_target(const CommandLine& line, Options& options) {
-    const bool renders = line.command == Command::Render;
+    const bool renders = makes_pictures(line.command);
     const bool has_error = options.render.view == View::Beauty;
     if (!is_given(line, "target-error")) {
         if (!renders || !has_error) options.target_error.reset();
@@ -208,10 +197,10 @@ Options scene_defaults(const std::string& scene_name, const SceneDescription& sc
     return options;
 }
 
-std::string command_text(const Options& options, const Options& defaults) {
-    std::string text = "pathlight render " + shell_word(options.scene);
+std::string command_text(Command command, const Options& options, const Options& defaults) {
+    std::string text = fmt::format("pathlight {} {}", command_name(command), shell_word(options.scene));
     for (const OptionSpec& spec : option_table()) {
-        if (spec.print == nullptr || !spec.commands.has(Command::Render)) continue;
+        if (spec.print == nullptr || !spec.commands.has(command)) continue;
         const std::string value = spec.print(options);
         if (value.empty() || value == spec.print(defaults)) continue;
         const std::string name = spec.name == "output" ? "-o" : "--" + std::string(spec.name);

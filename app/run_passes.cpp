@@ -107,6 +107,21 @@ std::string_view name_of(EndedBy end) {
     return "nothing";
 }
 
+void announce(const Session& session, Console& console) {
+    const BackendInfo backend = session.backend();
+    const FilmSlot slot = slot_of(session.settings());
+    console.log().detail(fmt::format("{} on {} ({} threads, rays by {})", backend.name, backend.device,
+                                     backend.threads, backend.intersector));
+    console.log().detail(fmt::format("kernel {}", session.served_kernel(slot).name));
+    console.event("start", {{"scene", session.scene().source.string()},
+                            {"method", info_of(slot.method).name},
+                            {"view", info_of(slot.view).name},
+                            {"backend", backend.name},
+                            {"width", session.settings().width},
+                            {"height", session.settings().height},
+                            {"kernel", session.served_kernel(slot).name}});
+}
+
 RunOutcome run_passes(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
                       Until until, ErrorTarget* target) {
     ProgressDisplay progress(console, !options.no_progress && !options.quiet);

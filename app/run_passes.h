@@ -26,6 +26,9 @@ struct RunOutcome {
     bool interrupted() const { return ended_by == EndedBy::Interruption; }
 };
 
+/// What a run is about to render, and how.
+void announce(const Session& session, Console& console);
+
 /// Makes at least one sample per pixel unless interrupted. `target` may be null.
 RunOutcome run_passes(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
                       Until until = Until::Rendered, ErrorTarget* target = nullptr);

@@ -34,6 +34,17 @@ LoadSettings load_settings_of(const SceneRequest& scene, const Options& opened) 
     return settings;
 }
 
+void show_sequence(const ViewerSequence& sequence, Options& shown) {
+    shown.camera_path = sequence.cameras.string();
+    shown.output = sequence.folder.string();
+    shown.frames = sequence.frames;
+    shown.frame_kind = sequence.kind;
+    shown.spp.reset();
+    shown.time_limit_seconds.reset();
+    if (sequence.limits.spp > 0) shown.spp = sequence.limits.spp;
+    if (sequence.limits.seconds > 0.0) shown.time_limit_seconds = sequence.limits.seconds;
+}
+
 /// `first_backend` is the back end that the options' choice selected.
 std::string command_of(const ViewerPicture& picture, const Options& opened, const std::string& first_backend) {
     const Options defaults = scene_defaults(picture.scene.name, *picture.description);
@@ -47,10 +58,9 @@ std::string command_of(const ViewerPicture& picture, const Options& opened, cons
     shown.threads = opened.threads;
     if (picture.spp > 0) shown.spp = picture.spp;
     shown.load_field = picture.field;
-    shown.camera_path = picture.camera_path;
-    shown.frames = picture.frames;
-    if (!picture.output.empty()) shown.output = picture.output;
-    return command_text(shown, defaults);
+    if (!picture.sequence) return command_text(Command::Render, shown, defaults);
+    show_sequence(*picture.sequence, shown);
+    return command_text(Command::Replay, shown, defaults);
 }
 
 bool has_size(const CommandLine& line) {

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Makes the pictures of README.md and of tour.md with the program, as PNGs of 256 colors.
+"""Makes the pictures of the documents with the program, as PNGs of 256 colors.
 
-Usage: make_pictures.py PROGRAM [NAME...]   NAME is window or tour; default: both
+Usage: make_pictures.py PROGRAM [NAME...]   NAME is window, tour, error-map, door or effects; default: all
 
-The viewer plays pictures/NAME.script on SDL's dummy driver, so no display is needed. Every `shot` of a script becomes a picture.
+For the first three the viewer plays pictures/NAME.script on SDL's dummy driver, so no display is needed; every `shot` of a script becomes
+a picture. The others are renderings, side by side where they are several.
 """
 import os
 import re
@@ -19,7 +20,13 @@ DOCS = Path(__file__).resolve().parent
 # Arguments of the viewer, and the folder of its pictures.
 PICTURES = {
     "window": (["cornell", "--nee", "off", "--size", "384x384", "--window", "1440x900"], DOCS / "images"),
-    "tour": (["cornell", "--nee", "off", "--size", "128x128", "--window", "1120x700"], DOCS / "images" / "tour"),
+    "tour": (["cornell", "--nee", "off", "--size", "128x128", "--window", "1280x720"], DOCS / "images" / "tour"),
+    "error-map": (["cornell", "--nee", "off", "--size", "384x384", "--window", "1280x720"], DOCS / "images"),
+}
+# Scenes, and the options of each.
+RENDERINGS = {
+    "door": (["door"], ["--method", "reinforcement", "--spp", "64", "--size", "300x300"]),
+    "effects": (["spheres", "coats", "plates"], ["--method", "reinforcement", "--spp", "128", "--size", "300x300"]),
 }
 COLORS = 256
 
@@ -90,9 +97,16 @@ def chunk(kind, body):
     return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
 
-def shrink(source, target):
-    """Writes a PNG as one of a palette: colors that differ in the last bit only count as equal."""
-    width, height, pixels = read_png(source)
+def side_by_side(pictures):
+    """One picture of several of the same height."""
+    width, height = sum(p[0] for p in pictures), pictures[0][1]
+    rows = [p[2][y * p[0]:(y + 1) * p[0]] for y in range(height) for p in pictures]
+    return width, height, [pixel for row in rows for pixel in row]
+
+
+def shrink(sources, target):
+    """Writes PNGs as one of a palette: colors that differ in the last bit only count as equal."""
+    width, height, pixels = side_by_side([read_png(source) for source in sources])
     pixels = [(r & 254, g & 254, b & 254) for r, g, b in pixels]
     colors, index = palette_of(Counter(pixels))
     numbers = bytes(index[p] for p in pixels)
@@ -100,9 +114,19 @@ def shrink(source, target):
     target.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)) +
                        chunk(b"PLTE", b"".join(map(bytes, colors))) + chunk(b"IDAT", zlib.compress(rows, 9)) +
                        chunk(b"IEND", b""))
+    print(f"{target}: {target.stat().st_size} bytes")
 
 
-def make(program, name):
+def render(program, name):
+    scenes, options = RENDERINGS[name]
+    with tempfile.TemporaryDirectory() as work:
+        files = [Path(work) / f"{scene}.png" for scene in scenes]
+        for scene, file in zip(scenes, files):
+            subprocess.run([program, "render", scene, "-o", file, *options, "--backend", "cpu", "--quiet"], check=True)
+        shrink(files, DOCS / "images" / f"{name}.png")
+
+
+def play(program, name):
     arguments, folder = PICTURES[name]
     script = DOCS / "pictures" / f"{name}.script"
     folder.mkdir(parents=True, exist_ok=True)
@@ -110,15 +134,16 @@ def make(program, name):
         subprocess.run([program, "view", *arguments, "--backend", "cpu", "--script", str(script)], check=True, cwd=work,
                        env=os.environ | {"SDL_VIDEODRIVER": "dummy"})
         for shot in re.findall(r"^\d+ shot (\S+)$", script.read_text(), re.MULTILINE):
-            shrink(Path(work) / shot, folder / shot)
-            print(f"{folder / shot}: {(folder / shot).stat().st_size} bytes")
+            shrink([Path(work) / shot], folder / shot)
 
 
 def main():
-    if len(sys.argv) < 2 or set(sys.argv[2:]) - set(PICTURES):
+    names = [*PICTURES, *RENDERINGS]
+    if len(sys.argv) < 2 or set(sys.argv[2:]) - set(names):
         sys.exit(__doc__)
-    for name in sys.argv[2:] or PICTURES:
-        make(str(Path(sys.argv[1]).resolve()), name)
+    program = str(Path(sys.argv[1]).resolve())
+    for name in sys.argv[2:] or names:
+        (play if name in PICTURES else render)(program, name)
 
 
 if __name__ == "__main__":

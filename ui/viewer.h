@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/image.h"
 #include "core/measure/live_runs.h"
 #include "core/scene/description.h"
 #include "core/session/backend_factory.h"
@@ -50,6 +51,15 @@ struct SceneRequest {
     friend bool operator==(const SceneRequest&, const SceneRequest&) = default;
 };
 
+/// The pictures of a camera path.
+struct ViewerSequence {
+    std::filesystem::path folder;   ///< of the pictures
+    std::filesystem::path cameras;  ///< file of the path
+    int frames = 0;
+    ImageKind kind = ImageKind::Png;
+    SampleLimits limits;  ///< of each
+};
+
 /// The settings of the viewer that a saved file or a command line repeats.
 struct ViewerPicture {
     SceneRequest scene;                                   ///< with the knobs that are not at their defaults
@@ -62,9 +72,7 @@ struct ViewerPicture {
     std::string field{};  ///< file with the learned field that a picture like this one continues from; empty for none
     std::string materials{};  ///< file with the materials of the window; empty if they are those of the scene's files
     std::vector<std::string> edited_materials{};  ///< names of those that are not as in the scene's files
-    std::string camera_path{};                    ///< file of cameras of a sequence; empty for a single picture
-    int frames = 0;                               ///< of the sequence
-    std::string output{};                         ///< file, or pattern of files; empty: by the scene's name
+    std::optional<ViewerSequence> sequence{};     ///< in place of a single picture
 };
 
 /// The scene that is open, with the materials that were changed in the window.

@@ -16,15 +16,14 @@ constexpr auto kCameraOptions = std::to_array<OptionSpec>({
              "\"aperture_radius\": r, \"focus_distance\": d}; overrides the scene's camera, and the options "
              "below override both",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
-    {.name = "camera-path", .flags = "--camera-path", .value = "FILE", .group = kCamera,
-     .help = "JSON file {\"schema\": \"pathlight.cameras/1\", \"cameras\": [{\"eye\": ...}, ...]}, such as the "
-             "viewer's bookmarks: renders a sequence of pictures along a path through them, to an output such as "
-             "frame_%04d.exr. Limits apply to each picture; what is learned is kept from one to the next",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::camera_path>,
+    {.name = "path", .flags = "--path", .value = "FILE", .group = kCamera,
+     .help = "JSON file {\"schema\": \"pathlight.cameras/1\", \"cameras\": [{\"eye\": ...}, ...]}, such as the viewer's "
+             "bookmarks: the camera moves through them, in equal times from each to the next",
+     .commands = CommandSet(Command::Replay), .parse = parse_text<&Options::camera_path>,
      .print = [](const Options& o) { return o.camera_path; }},
     {.name = "frames", .flags = "--frames", .value = "N", .group = kCamera,
-     .help = "Pictures of --camera-path, evenly spaced (default: 24 from each camera to the next)",
-     .commands = CommandSet(Command::Render), .parse = parse_frames,
+     .help = "Pictures along the path, evenly spaced (default: 24 from each camera to the next)",
+     .commands = CommandSet(Command::Replay), .parse = parse_frames,
      .print = [](const Options& o) { return o.frames > 0 ? std::to_string(o.frames) : ""; }},
     {.name = "up-axis", .flags = "--up-axis", .value = "NAME", .group = kCamera,
      .help = "Vertical axis of scenes without a camera, and of the default light: auto (default; y or z, guessed from "

@@ -29,25 +29,28 @@ std::span<const OptionSpec> program_options();
 using Text = const std::string&;
 
 /// Subcommands that options have in common.
-inline constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Info, Command::Devices,
-                                        Command::Inspect, Command::Trace, Command::Compare, Command::Reference,
-                                        Command::Bench, Command::Report, Command::SelfTest);
-inline constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Info, Command::Inspect,
-                                       Command::Trace, Command::Reference, Command::Bench);
-inline constexpr CommandSet kThreaded(Command::View, Command::Render, Command::Info, Command::Inspect, Command::Trace,
-                                      Command::Reference, Command::Bench, Command::SelfTest);
-inline constexpr CommandSet kOneMethod(Command::View, Command::Render, Command::Info, Command::Inspect,
-                                       Command::Trace, Command::Reference);
-inline constexpr CommandSet kPaths(Command::View, Command::Render, Command::Inspect, Command::Trace,
+inline constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Replay, Command::Info,
+                                        Command::Devices, Command::Inspect, Command::Trace, Command::Compare,
+                                        Command::Reference, Command::Bench, Command::Report, Command::SelfTest);
+inline constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Replay, Command::Info,
+                                       Command::Inspect, Command::Trace, Command::Reference, Command::Bench);
+inline constexpr CommandSet kThreaded(Command::View, Command::Render, Command::Replay, Command::Info,
+                                      Command::Inspect, Command::Trace, Command::Reference, Command::Bench,
+                                      Command::SelfTest);
+inline constexpr CommandSet kOneMethod(Command::View, Command::Render, Command::Replay, Command::Info,
+                                       Command::Inspect, Command::Trace, Command::Reference);
+inline constexpr CommandSet kPaths(Command::View, Command::Render, Command::Replay, Command::Inspect, Command::Trace,
                                    Command::Reference, Command::Bench);
-inline constexpr CommandSet kSampling(Command::View, Command::Render, Command::Inspect, Command::Trace);
-inline constexpr CommandSet kPictures(Command::View, Command::Render);
-inline constexpr CommandSet kHeadless(Command::Render, Command::Info, Command::Devices, Command::Inspect,
-                                      Command::Trace, Command::Compare, Command::Reference, Command::Bench,
-                                      Command::Report, Command::SelfTest);
+inline constexpr CommandSet kSampling(Command::View, Command::Render, Command::Replay, Command::Inspect,
+                                      Command::Trace);
+inline constexpr CommandSet kPictures(Command::View, Command::Render, Command::Replay);
+inline constexpr CommandSet kHeadless(Command::Render, Command::Replay, Command::Info, Command::Devices,
+                                      Command::Inspect, Command::Trace, Command::Compare, Command::Reference,
+                                      Command::Bench, Command::Report, Command::SelfTest);
 inline constexpr CommandSet kFiles(Command::Render, Command::Inspect);
-inline constexpr CommandSet kWorking(Command::Render, Command::Inspect, Command::Trace, Command::Reference,
-                                     Command::Bench);
+inline constexpr CommandSet kWithStats(Command::Render, Command::Replay, Command::Inspect);
+inline constexpr CommandSet kWorking(Command::Render, Command::Replay, Command::Inspect, Command::Trace,
+                                     Command::Reference, Command::Bench);
 
 /// Headings of the help.
 inline constexpr std::string_view kOutput = "Output";

@@ -19,9 +19,17 @@ constexpr auto kOutputOptions = std::to_array<OptionSpec>({
     {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
      .help = "Folder of this bench; an interrupted bench continues",
      .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::output>},
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "DIR", .group = kOutput,
+     .help = "Folder of the pictures, made if it is missing: frame_0001.png and so on. Files of these names are replaced",
+     .commands = CommandSet(Command::Replay), .parse = parse_text<&Options::output>,
+     .print = [](const Options& o) { return o.output; }},
+    {.name = "format", .flags = "--format", .value = "NAME", .group = kOutput,
+     .help = "Kind of the pictures: png (default), tone mapped; exr or pfm, linear",
+     .commands = CommandSet(Command::Replay), .parse = parse_frame_kind,
+     .print = [](const Options& o) { return std::string(name_of(o.frame_kind)); }},
     {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
      .help = "Write counts and timings as JSON",
-     .commands = kFiles, .parse = parse_text<&Options::stats_file>},
+     .commands = kWithStats, .parse = parse_text<&Options::stats_file>},
     {.name = "diagnostics", .flags = "--diagnostics", .value = "FILE", .group = kOutput,
      .help = "Locate invalid samples, escaped paths, lookup misses and clamped training samples by tracing the "
              "paths again: .png marks their pixels in the picture, .exr and .pfm hold their counts per pixel; "

@@ -64,7 +64,8 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
     {.name = "guiding", .flags = "--guiding", .value = "NAME", .group = kPicture,
      .help = "Guided methods with light samples: paying (default): where guiding does not pay, most passes are those "
              "of default; always: every pass is guided",
-     .commands = CommandSet(Command::View, Command::Render, Command::Trace), .in_scene_files = true, .parse = parse_guiding,
+     .commands = CommandSet(Command::View, Command::Render, Command::Replay, Command::Trace), .in_scene_files = true,
+     .parse = parse_guiding,
      .print = [](const Options& o) { return std::string(name_of(o.render.guiding)); }},
     {.name = "force-effects", .flags = "--force-effects", .value = "NAME,..", .group = kPicture,
      .help = "Use a kernel compiled for these effects, too, although the scene lacks them: it is slower, and "

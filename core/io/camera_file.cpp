@@ -27,6 +27,24 @@ CameraChoice read_camera(const JsonDocument& file, const std::string& pointer) {
     return camera;
 }
 
+/// All cameras of a file; missing members are those of `standard`. Throws Error(Input).
+std::vector<CameraDescription> read_cameras(const JsonDocument& file, const CameraDescription& standard) {
+    file.object("", {"schema", "cameras"});
+    const std::string schema = file.text("/schema").value_or("none");
+    if (schema != kCamerasSchema)
+        file.fail("/schema", fmt::format("expected \"{}\", got \"{}\"", kCamerasSchema, schema));
+    std::vector<CameraDescription> cameras;
+    for (std::size_t i = 0; i < file.array_size("/cameras"); ++i) {
+        const std::string pointer = fmt::format("/cameras/{}", i);
+        const CameraDescription camera = replaced(standard, read_camera(file, pointer));
+        if (camera.eye == camera.target)
+            file.fail(pointer + "/eye", "expected an eye away from the target, got the same point for both");
+        if (camera.up == glm::vec3(0.0f)) file.fail(pointer + "/up", "expected a direction, got [0, 0, 0]");
+        cameras.push_back(camera);
+    }
+    return cameras;
+}
+
 }  // namespace
 
 CameraDescription replaced(CameraDescription camera, const CameraChoice& choice) {
@@ -53,21 +71,16 @@ CameraChoice load_camera_file(const std::filesystem::path& path) {
 }
 
 std::vector<CameraDescription> load_cameras(const std::filesystem::path& path, const CameraDescription& standard) {
+    return read_cameras(JsonDocument(read_text_file(path), path), standard);
+}
+
+CameraPath load_camera_path(const std::filesystem::path& path, const CameraDescription& standard) {
     const JsonDocument file(read_text_file(path), path);
-    file.object("", {"schema", "cameras"});
-    const std::string schema = file.text("/schema").value_or("none");
-    if (schema != kCamerasSchema)
-        file.fail("/schema", fmt::format("expected \"{}\", got \"{}\"", kCamerasSchema, schema));
-    std::vector<CameraDescription> cameras;
-    for (std::size_t i = 0; i < file.array_size("/cameras"); ++i) {
-        const std::string pointer = fmt::format("/cameras/{}", i);
-        const CameraDescription camera = replaced(standard, read_camera(file, pointer));
-        if (camera.eye == camera.target)
-            file.fail(pointer + "/eye", "expected an eye away from the target, got the same point for both");
-        if (camera.up == glm::vec3(0.0f)) file.fail(pointer + "/up", "expected a direction, got [0, 0, 0]");
-        cameras.push_back(camera);
-    }
-    return cameras;
+    std::vector<CameraDescription> cameras = read_cameras(file, standard);
+    if (cameras.size() < CameraPath::kFewest)
+        file.fail("/cameras",
+                  fmt::format("expected at least {} cameras, got {}", CameraPath::kFewest, cameras.size()));
+    return CameraPath(std::move(cameras));
 }
 
 void save_cameras(const std::filesystem::path& path, std::span<const CameraDescription> cameras) {

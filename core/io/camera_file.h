@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/io/json_file.h"
+#include "core/scene/camera_path.h"
 #include "core/scene/description.h"
 
 namespace pl {
@@ -35,6 +36,9 @@ inline constexpr const char* kCamerasSchema = "pathlight.cameras/1";
 /// Reads {"schema": kCamerasSchema, "cameras": [camera_json(), ...]}; missing members of a camera are those of `standard`.
 /// Throws Error(Input) with file and line.
 std::vector<CameraDescription> load_cameras(const std::filesystem::path& path, const CameraDescription& standard);
+
+/// The path through the cameras of a file. Throws Error(Input) with file and line, also for fewer than CameraPath::kFewest.
+CameraPath load_camera_path(const std::filesystem::path& path, const CameraDescription& standard);
 
 /// Writes a file for load_cameras(), which reads the same bits. Throws Error(Runtime).
 void save_cameras(const std::filesystem::path& path, std::span<const CameraDescription> cameras);

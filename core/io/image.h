@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,16 @@ struct ByteImage {
 using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 
 enum class ImageKind { Exr, Pfm, Png };
+
+/// "exr", "pfm" or "png": also the extension.
+constexpr std::string_view name_of(ImageKind kind) {
+    switch (kind) {
+    case ImageKind::Exr: return "exr";
+    case ImageKind::Pfm: return "pfm";
+    case ImageKind::Png: return "png";
+    }
+    return "";
+}
 
 /// Kind by file name extension, case-insensitive. Throws Error(Usage) that lists the known ones.
 ImageKind image_kind(const std::filesystem::path& path);

@@ -109,7 +109,7 @@ TEST_CASE("a copied command gives back the options it was made from") {
     const SceneDescription scene = plain_scene();
     for (int i = 0; i < 300; ++i) {
         const Options options = any_options(random);
-        const std::string command = command_text(options, scene_defaults(options.scene, scene));
+        const std::string command = command_text(Command::Render, options, scene_defaults(options.scene, scene));
         std::vector<std::string> words = shell_words(command);
         REQUIRE(words.front() == "pathlight");
         words.erase(words.begin());
@@ -122,17 +122,18 @@ TEST_CASE("a copied command leaves out the settings of the scene") {
     SceneDescription scene = plain_scene();
     scene.settings = {{"method", "precomputed"}, {"size", "640x360"}, {"nee", "on"}};
     Options options = scene_defaults("plain.json", scene);
-    CHECK(command_text(options, scene_defaults("plain.json", scene)) == "pathlight render plain.json");
+    CHECK(command_text(Command::Render, options, scene_defaults("plain.json", scene)) ==
+          "pathlight render plain.json");
 
     // Settings that differ from the scene's are part of the command, also if they are the program's defaults.
     options.render.method = MethodId::Default;
     options.render.next_event = false;
-    CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
+    CHECK(command_text(Command::Render, options, scene_defaults("plain.json", scene)) ==
           "pathlight render plain.json --method default --nee off");
 
     // Options shared with other subcommands are listed once.
     options.spp = 7;
-    CHECK(command_text(options, scene_defaults("plain.json", scene)) ==
+    CHECK(command_text(Command::Render, options, scene_defaults("plain.json", scene)) ==
           "pathlight render plain.json --method default --nee off --spp 7");
 }
 

@@ -179,7 +179,7 @@ TEST_CASE("a loaded field brings its method and settings") {
     CHECK(parse_with_field({"inspect", "s", "--pixel", "1,2", "-o", "x.csv", "--load-field", "f"}, field)
               .render.method == MethodId::Precomputed);
     // The command in the picture loads the field again, without options that contradict it.
-    const std::string command = command_text(options, scene_defaults("s", scene));
+    const std::string command = command_text(Command::Render, options, scene_defaults("s", scene));
     CHECK_THAT(command, contains("--load-field my.field") && contains("--bins 64") && contains("--volumes 70"));
 }
 

@@ -54,6 +54,30 @@ TEST_CASE("the command of a saved picture makes that picture") {
     CHECK((read_exr(folder / "again.exr").pixels == read_exr(linear).pixels));
 }
 
+// 48 frames of 64 samples are what the window writes unless told otherwise; the first three are enough.
+TEST_CASE("replay makes the frames that the window writes of its bookmarks, to the bit") {
+    const TempDir folder;
+    const ProgramResult result = run_script(
+        folder,
+        "1 wait shown_spp == 2\n2 tap F8\n3 key W\n9 keyup W\n10 wait moving == no\n11 wait shown_divider == 1\n"
+        "12 tap F8\n13 expect bookmarks == 2\n14 aim_at 0.5 0.5 Bookmarks\n15 down left\n16 up left\n"
+        "20 aim_at 0.5 0.5 write path\n21 down left\n22 up left\n23 wait writing == yes\n24 wait written >= 3\n"
+        "25 tap Escape\n27 expect message ~ frames are in\n28 wait busy == no\n29 quit\n",
+        {"--window", "1280x1500"});
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    REQUIRE(run_shell("pathlight replay cornell --path cornell-sequence-0001/cameras.json -o again --frames 48 "
+                      "--spp 64 --size 32x24",
+                      {.folder = folder.path()})
+                .code == 0);
+    for (const std::string name : {"frame_0001.png", "frame_0002.png", "frame_0003.png"}) {
+        CAPTURE(name);
+        CHECK(
+            (read_png8(folder / ("again/" + name)).rgb == read_png8(folder / ("cornell-sequence-0001/" + name)).rgb));
+    }
+    CHECK(read_png8(folder / "again/frame_0001.png").rgb != read_png8(folder / "again/frame_0048.png").rgb);
+}
+
 TEST_CASE("the command of a picture that is not finished makes it with its samples") {
     const TempDir folder;
     const ProgramResult result =

@@ -102,9 +102,11 @@ void write_displays(const std::filesystem::path& path, bool shown) {
     if (shown) {
         for (const char* place : {"aim 0.5 0.92", "aim 0.3 0.5", "aim 0.7 0.5", "aim 0.5 0.45"}) {
             click(place);
+            frame += kRestFrames;  // until the answer to the click is there, on a busy machine too
             script << fmt::format("{} wait inspected == yes\n{} tap K\n", frame, frame);
             frame += 4;
         }
+        script << fmt::format("{} wait inspected == yes\n", frame);
         click("aim_at 0.1 0.5 keep the past");
         script << fmt::format("{} wait key_frames >= 3\n{} tap U\n{} wait flowers >= 1900\n{} tap J\n", frame, frame,
                               frame + 2, frame + 3);

@@ -14,7 +14,7 @@ class PictureTextures;
 struct GuiMemory {
     PictureTextures* textures = nullptr;  ///< of the window's renderer
     float pointer_rest_seconds = 0.0f;    ///< since the pointer moved: tooltips wait for rest
-    float card_bottom = 0.0f;             ///< lower edge of the tour's card in the last frame
+    float card_top = 0.0f;                ///< upper edge of the tour's card in the last frame
     /// Rectangles of the controls in the last frame by their labels: scripts point at them.
     std::map<std::string, Rect, std::less<>> places;
 };

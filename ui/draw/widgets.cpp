@@ -13,7 +13,6 @@ namespace pl {
 namespace {
 
 constexpr float kLabelEm = 6.4f;
-constexpr float kTabPaddingEm = 0.22f;  ///< beside a tab's title: all of them in one row of the standard width
 
 std::string hidden_label(const char* label) { return std::string("##") + label; }
 
@@ -274,36 +273,6 @@ bool section(const char* title, bool open_at_first) {
     return open;
 }
 
-TabRow::TabRow(const char* id)
-    : key_(ImGui::GetID(id)), chosen_(static_cast<ImGuiID>(ImGui::GetStateStorage()->GetInt(key_))),
-      end_(ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x) {}
-
-bool TabRow::add(const char* title) {
-    const ImGuiID tab = ImGui::GetID(title);
-    if (first_ == 0) {
-        first_ = tab;
-    } else {
-        const float width = ImGui::CalcTextSize(title).x + 2.0f * em(kTabPaddingEm);
-        const float start = ImGui::GetItemRectMax().x + em(0.25f);
-        if (start + width <= end_) ImGui::SameLine(0.0f, em(0.25f));
-    }
-    const bool was_front = tab == chosen_;
-    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(was_front ? ImGuiCol_ButtonActive : ImGuiCol_Button));
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {em(kTabPaddingEm), ImGui::GetStyle().FramePadding.y});
-    if (ImGui::Button(title)) chosen_ = tab;
-    ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
-    note_place(title);
-    is_found_ = is_found_ || tab == chosen_;
-    return was_front;
-}
-
-void TabRow::end() {
-    if (!is_found_) chosen_ = first_;
-    ImGui::GetStateStorage()->SetInt(key_, static_cast<int>(chosen_));
-    ImGui::Separator();
-}
-
 void text_line(const char* text, ImU32 color) {
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::TextWrapped("%s", text);
@@ -311,30 +280,5 @@ void text_line(const char* text, ImU32 color) {
 }
 
 void faint_text(const char* text) { text_line(text, colors::kFaint); }
-
-std::string short_number(double value) {
-    constexpr const char* kUnits[] = {"", " k", " M", " G", " T"};
-    int unit = 0;
-    while (std::fabs(value) >= 999.5 && unit < 4) {
-        value /= 1000.0;
-        ++unit;
-    }
-    return unit == 0 && value == std::floor(value) ? fmt::format("{:.0f}", value)
-                                                   : fmt::format("{:.3g}{}", value, kUnits[unit]);
-}
-
-std::string short_value(double value) {
-    if (!std::isfinite(value)) return fmt::format("{}", value);
-    const double magnitude = std::fabs(value);
-    if (magnitude == 0.0 || (magnitude >= 0.01 && magnitude < 10000.0)) return fmt::format("{:.3g}", value);
-    const int exponent = static_cast<int>(std::floor(std::log10(magnitude)));
-    return fmt::format("{:.1f}e{}", value / std::pow(10.0, exponent), exponent);
-}
-
-std::string short_seconds(double seconds) {
-    if (seconds < 1.0) return fmt::format("{:.3g} ms", 1000.0 * seconds);
-    if (seconds < 100.0) return fmt::format("{:.2f} s", seconds);
-    return fmt::format("{:.0f} s", seconds);
-}
 
 }  // namespace pl

@@ -70,35 +70,9 @@ bool wide_button(const char* label, const char* tip);
 /// A section of the panel that can be folded.
 bool section(const char* title, bool open_at_first);
 
-/// Tabs in as many rows as their whole titles need. The one in front is remembered by the window that they are in; where it is not
-/// added any more, the first is.
-class TabRow {
-public:
-    explicit TabRow(const char* id);
-    /// Brings a tab to the front.
-    void choose(const char* title) { chosen_ = ImGui::GetID(title); }
-    /// The next tab; true if it is in front: then draw its content after end().
-    bool add(const char* title);
-    void end();
-
-private:
-    ImGuiID key_;
-    ImGuiID chosen_;
-    float end_;  ///< of a row, in the window
-    ImGuiID first_ = 0;
-    bool is_found_ = false;
-};
-
 /// Text that breaks lines.
 void text_line(const char* text, ImU32 color);
 /// The same in the faint color.
 void faint_text(const char* text);
-
-/// "12.3 M": three digits and a power of a thousand.
-std::string short_number(double value);
-/// At most six characters and a sign: "0.25", "2.7e-4"; "nan", "inf".
-std::string short_value(double value);
-/// "1.25 s", "85 ms".
-std::string short_seconds(double seconds);
 
 }  // namespace pl

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/io/camera_file.h"
+#include "core/io/frame_file.h"
 #include "ui/model/numbered_names.h"
 
 namespace pl {
@@ -41,14 +42,14 @@ void SequenceWriter::begin() {
     folder_ = names_.next(viewer_.screenshot_dir, file_name_part(stem) + "-sequence", {""});
     try {
         make_folder(folder_);
-        save_cameras(folder_ / "cameras.json", bookmarks_.cameras());
+        save_cameras(path_file(), bookmarks_.cameras());
     } catch (const Error& error) {
         return messages_.say(MessageLevel::Error, error.what());
     }
     path_ = std::move(path);
     now_ = wanted_;
     limits_before_ = render_.limits();
-    render_.set_limits({.spp = static_cast<std::uint32_t>(now_.spp), .seconds = static_cast<double>(now_.seconds)});
+    render_.set_limits(limits_of_frame());
     written_ = 0;
     show_frame();
 }
@@ -59,8 +60,12 @@ void SequenceWriter::show_frame() {
     generation_ = camera_.generation();
 }
 
-std::filesystem::path SequenceWriter::file() const {
-    return folder_ / fmt::format("frame_{:04}.{}", written_ + 1, now_.is_linear ? "exr" : "png");
+std::filesystem::path SequenceWriter::file() const { return frame_file(folder_, written_, now_.kind); }
+
+std::filesystem::path SequenceWriter::path_file() const { return folder_ / "cameras.json"; }
+
+SampleLimits SequenceWriter::limits_of_frame() const {
+    return {.spp = static_cast<std::uint32_t>(now_.spp), .seconds = static_cast<double>(now_.seconds)};
 }
 
 /// The whole picture of the camera, with all of its samples.
@@ -98,10 +103,11 @@ void SequenceWriter::stop() {
 std::string SequenceWriter::command() const {
     if (!viewer_.command_line) return "";
     ViewerPicture picture = pictures_.picture();
-    picture.camera_path = (folder_ / "cameras.json").string();
-    picture.frames = now_.frames;
-    picture.spp = static_cast<std::uint32_t>(now_.spp);
-    picture.output = (folder_ / (now_.is_linear ? "frame_%04d.exr" : "frame_%04d.png")).string();
+    picture.sequence = {.folder = folder_,
+                        .cameras = path_file(),
+                        .frames = now_.frames,
+                        .kind = now_.kind,
+                        .limits = limits_of_frame()};
     return viewer_.command_line(picture);
 }
 

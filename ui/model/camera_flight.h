@@ -39,9 +39,9 @@ class SequenceWriter {
 public:
     struct Options {
         int frames = 48;
-        int spp = 64;            ///< of each frame; 0: no limit
-        float seconds = 0.0f;    ///< of work for each frame; 0: no limit. The first limit that is met ends a frame
-        bool is_linear = false;  ///< EXR, else PNG
+        int spp = 64;          ///< of each frame; 0: no limit
+        float seconds = 0.0f;  ///< of work for each frame; 0: no limit. The first limit that is met ends a frame
+        ImageKind kind = ImageKind::Png;
     };
     struct Written {
         int written = 0;
@@ -67,6 +67,8 @@ private:
     void show_frame();
     bool is_frame_done() const;
     std::filesystem::path file() const;
+    std::filesystem::path path_file() const;
+    SampleLimits limits_of_frame() const;
     void finish();
     std::string command() const;
 

@@ -34,7 +34,6 @@ void FieldFlowers::set_shown(bool shown) {
     job_.reset();
     begun_.reset();
     flowers_.reset();
-    key_ = {};
     mesh_ = {};
 }
 
@@ -51,17 +50,37 @@ void FieldFlowers::update() {
         auto result = job_->take_result();
         if (!result) return;
         job_.reset();
-        flowers_ = result->value;
+        flowers_ = result->value->key.flowers;
+        mesh_ = *result->value;
+        if (mesh_.key.scene != nullptr) ++times_made_;
     }
     const std::shared_ptr<const FieldKeyFrame> next = wanted();
     if (next == nullptr) flowers_.reset();
     if (next == nullptr || link_.frame() == nullptr || (next == begun_ && step_ == begun_step_)) return;
     begun_ = next;
     begun_step_ = step_;
-    job_ = std::make_unique<BackgroundJob<Made>>(
-        [next, step = step_, diagonal = link_.frame()->facts.diagonal](const JobMonitor& monitor) {
-            return std::make_shared<const FlowerField>(make_flowers(*next, step, diagonal, monitor.stop));
-        });
+    job_ = std::make_unique<BackgroundJob<Made>>([next, step = step_, diagonal = link_.frame()->facts.diagonal,
+                                                  seen_from = mesh_.key](const JobMonitor& monitor) {
+        MeshKey key = seen_from;
+        key.flowers = std::make_shared<const FlowerField>(make_flowers(*next, step, diagonal, monitor.stop));
+        return std::make_shared<const Mesh>(make_mesh(std::move(key)));
+    });
+}
+
+Projection FieldFlowers::MeshKey::projection() const {
+    CameraDescription description;
+    description.eye = camera[0];
+    description.target = camera[1];
+    description.up = camera[2];
+    description.fov_deg = view[0];
+    return {description, static_cast<int>(view[1]), static_cast<int>(view[2]), {view[3], view[4], view[5], view[6]}};
+}
+
+FieldFlowers::Mesh FieldFlowers::make_mesh(MeshKey key) {
+    Mesh mesh{.key = std::move(key)};
+    if (mesh.key.flowers != nullptr && mesh.key.scene != nullptr)
+        mesh.triangles = flower_mesh(*mesh.key.flowers, mesh.key.scene->view(), mesh.key.projection(), mesh.counts);
+    return mesh;
 }
 
 const ScreenMesh& FieldFlowers::mesh(const PublishedFrame& frame, const Rect& image) {
@@ -72,15 +91,10 @@ const ScreenMesh& FieldFlowers::mesh(const PublishedFrame& frame, const Rect& im
                 .scene = frame.scene,
                 .camera = {camera.eye, camera.target, camera.up},
                 .view = {camera.fov_deg, width, height, image.x, image.y, image.width, image.height}};
-    if (key == key_) return mesh_;
-    key_ = std::move(key);
-    mesh_ = {};
-    counts_ = {};
-    if (flowers_ == nullptr) return mesh_;
-    ++times_made_;
-    const Projection projection(camera, frame.snapshot.width, frame.snapshot.height, image);
-    mesh_ = flower_mesh(*flowers_, frame.scene->view(), projection, counts_);
-    return mesh_;
+    if (key == mesh_.key) return mesh_.triangles;
+    if (flowers_ != nullptr) ++times_made_;
+    mesh_ = make_mesh(std::move(key));
+    return mesh_.triangles;
 }
 
 }  // namespace pl

@@ -24,23 +24,33 @@ public:
 
     /// Null before they are made.
     const FlowerField* flowers() const { return flowers_.get(); }
-    /// The triangles for a picture in `image`; made again only when field, scene, camera or window have changed.
+    /// The triangles for a picture in `image`; made again only when field, scene, camera or window have changed: those of another
+    /// field in the background, with the field.
     const ScreenMesh& mesh(const PublishedFrame& frame, const Rect& image);
-    const FlowerCounts& counts() const { return counts_; }
+    const FlowerCounts& counts() const { return mesh_.counts; }
     /// Number of times that the triangles were made.
     std::uint64_t times_made() const { return times_made_; }
 
 private:
-    using Made = std::shared_ptr<const FlowerField>;
-
+    /// What triangles depend on.
     struct MeshKey {
-        Made flowers{};
+        std::shared_ptr<const FlowerField> flowers{};
         std::shared_ptr<const HostScene> scene{};
         std::array<Vec3f, 3> camera{};
         std::array<float, 7> view{};  ///< field of view, size of the picture, its place in the window
 
+        Projection projection() const;
         friend bool operator==(const MeshKey&, const MeshKey&) = default;
     };
+    struct Mesh {
+        MeshKey key{};
+        ScreenMesh triangles{};
+        FlowerCounts counts{};
+    };
+    /// Null without flowers or scene.
+    using Made = std::shared_ptr<const Mesh>;
+
+    static Mesh make_mesh(MeshKey key);
 
     std::shared_ptr<const FieldKeyFrame> wanted() const;
 
@@ -50,10 +60,8 @@ private:
     int step_ = 1;
     std::shared_ptr<const FieldKeyFrame> begun_;
     int begun_step_ = 0;
-    Made flowers_;
-    MeshKey key_;
-    ScreenMesh mesh_;
-    FlowerCounts counts_;
+    std::shared_ptr<const FlowerField> flowers_;
+    Mesh mesh_;
     std::uint64_t times_made_ = 0;
     std::unique_ptr<BackgroundJob<Made>> job_;
 };

@@ -4,6 +4,7 @@
 
 #include "core/kernel/film/heat_color.h"
 #include "ui/compare/half_image.h"
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/draw/words.h"
 #include "ui/overlays/overlays.h"
@@ -27,6 +28,8 @@ public:
         list_.AddText({corner_.x + pad.x, corner_.y + pad.y}, color, text.c_str());
         corner_.x += width + em(0.35f);
     }
+
+    float bottom() const { return corner_.y + ImGui::GetTextLineHeight() + 2.0f * em(0.2f); }
 
     /// The colors of a heat map from its lowest to its highest value, and their meaning.
     void add_heat_legend(const std::string& text) {
@@ -226,6 +229,7 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.display().cells_opacity()), colors::kText);
     if (model.busy() && !model.references().progress() && !model.diagnostics().share())
         row.add("working", colors::kFaint);
+    note_place("badges", {view.x, view.y, view.width, row.bottom() - view.y});
     if (status.state == WorkerState::Precomputing && status.field)
         draw_precompute_progress(model, layout, status.field->precomputed_share);
 }

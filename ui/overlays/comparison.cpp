@@ -1,6 +1,7 @@
 // Labels over the pictures of a comparison, and the handle of their dividing line.
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "ui/compare/half_image.h"
 #include "ui/draw/widgets.h"
@@ -17,10 +18,30 @@ float label_wrap(const CompareTile& tile) {
     return std::max(tile.clip.width - em(1.2f) - 2.0f * label_padding().x, em(4.0f));
 }
 
+/// The label in lines that fit. They break between its parts, which two spaces divide: a number is never cut at its point.
+std::string label_lines(const CompareTile& tile) {
+    const float most = label_wrap(tile);
+    std::string lines;
+    std::string line;
+    for (std::size_t start = 0; start < tile.label.size();) {
+        const std::size_t end = std::min(tile.label.find("  ", start), tile.label.size());
+        const std::string part = tile.label.substr(start, end - start);
+        const std::string longer = line.empty() ? part : line + "  " + part;
+        if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > most) {
+            lines += line + "\n";
+            line = part;
+        } else {
+            line = longer;
+        }
+        start = std::min(tile.label.find_first_not_of(' ', end), tile.label.size());
+    }
+    return lines + line;
+}
+
 /// In the lower left or right corner of the visible part of a tile.
 Rect label_place(const CompareTile& tile) {
     const ImVec2 pad = label_padding();
-    const ImVec2 size = ImGui::CalcTextSize(tile.label.c_str(), nullptr, false, label_wrap(tile));
+    const ImVec2 size = ImGui::CalcTextSize(label_lines(tile).c_str(), nullptr, false, label_wrap(tile));
     const Rect& part = tile.clip;
     const float width = size.x + 2.0f * pad.x;
     const float height = size.y + 2.0f * pad.y;
@@ -35,7 +56,7 @@ void draw_label(ImDrawList& list, const CompareTile& tile) {
     list.PushClipRect({part.x, part.y}, {part.x + part.width, part.y + part.height}, true);
     list.AddRectFilled({place.x, place.y}, {place.x + place.width, place.y + place.height}, colors::kBadge, em(0.2f));
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {place.x + pad.x, place.y + pad.y},
-                 to_imgui_color(tile.color), tile.label.c_str(), nullptr, label_wrap(tile));
+                 to_imgui_color(tile.color), label_lines(tile).c_str(), nullptr, label_wrap(tile));
     list.PopClipRect();
 }
 
@@ -72,8 +93,6 @@ float top_of_names(const ComparePlan& plan) {
     for (const CompareTile& tile : plan.tiles) top = std::min(top, label_place(tile).y);
     return top;
 }
-
-float names_height() { return 2.0f * (ImGui::GetTextLineHeight() + label_padding().y) + em(0.6f); }
 
 void draw_comparison(ViewerModel& model, const ComparePlan& plan) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();

@@ -27,8 +27,6 @@ void draw_pixels(ViewerModel& model, const Layout& layout, const Rect& image, co
 void draw_comparison(ViewerModel& model, const ComparePlan& plan);
 /// Upper edge of the labels; infinite without a comparison.
 float top_of_names(const ComparePlan& plan);
-/// Of labels of two lines, from the lower edge of the picture: room for them whether they are there or not.
-float names_height();
 
 /// Badges of the picture: method, samples, and everything that could be misread.
 void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& plan);
@@ -37,7 +35,7 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
 void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePlan& plan);
 
 /// The card of the guided tour, and a frame around the part of the window that its step is about.
-void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan);
+void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image);
 
 /// The dialog of the self test: a button, and the checks as they finish.
 void draw_self_test(ViewerModel& model, const Layout& layout);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "ui/draw/widgets.h"
@@ -23,12 +25,23 @@ void draw_numbers(ImDrawList& out, const PathRecord& path, const Projection& pro
     }
 }
 
+/// In short pieces: without a graphics card a line costs every pixel of the rectangle that it crosses.
+void draw_stroke(ImDrawList& out, const Stroke& stroke) {
+    constexpr float kPiecePixels = 24.0f;
+    const Vec2f along = stroke.to - stroke.from;
+    const int pieces = std::max(1, static_cast<int>(glm::length(along) / kPiecePixels));
+    const auto at = [&](int piece) {
+        const float share = static_cast<float>(piece) / static_cast<float>(pieces);
+        return ImVec2{stroke.from.x + share * along.x, stroke.from.y + share * along.y};
+    };
+    for (int piece = 0; piece < pieces; ++piece) out.AddLine(at(piece), at(piece + 1), stroke.color, stroke.width_px);
+}
+
 }  // namespace
 
 void draw_strokes(ImDrawList& out, std::span<const PathPiece> pieces, const Projection& projection,
                   const PathRecord* numbered) {
-    for (const Stroke& stroke : strokes_of(pieces, projection, em(1.0f) / kFontPixels))
-        out.AddLine({stroke.from.x, stroke.from.y}, {stroke.to.x, stroke.to.y}, stroke.color, stroke.width_px);
+    for (const Stroke& stroke : strokes_of(pieces, projection, em(1.0f) / kFontPixels)) draw_stroke(out, stroke);
     if (numbered != nullptr) draw_numbers(out, *numbered, projection);
 }
 

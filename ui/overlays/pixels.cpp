@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/kernel/film/tonemap.h"
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "ui/draw/gui_memory.h"
 #include "ui/draw/style.h"
 #include "ui/overlays/overlays.h"
 
@@ -40,9 +39,6 @@ void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePl
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImVec2 corner{view.x + em(0.6f), view.y + view.height - em(0.6f)};
     corner.y = std::min(corner.y, top_of_names(plan) - em(0.6f));
-    const auto& places = gui_memory().places;
-    if (const auto tour = places.find("tour"); tour != places.end())
-        corner.y = std::min(corner.y, tour->second.y - em(0.6f));
     const float width = std::min(view.width - em(1.2f), em(34.0f));
     for (auto toast = model.messages().toasts().rbegin(); toast != model.messages().toasts().rend(); ++toast)
         corner.y -= draw_toast(list, corner, width, toast->level, toast->text) + em(0.35f);

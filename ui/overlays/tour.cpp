@@ -75,20 +75,21 @@ void draw_card(ViewerModel& model, Phase phase) {
     if (phase == Phase::Finished) draw_end(model);
 }
 
-/// Above the names of the pictures. These come, go and wrap while pictures render: during a click the card stays, so that its
-/// buttons are still under the pointer when it ends.
-float bottom_of_card(const Rect& view, const Rect& image, const ComparePlan& plan) {
-    float& bottom = gui_memory().card_bottom;
+/// Below the badges, where it leaves the floor of the scene free. Badges come, go and wrap while pictures render: during a click the
+/// card stays, so that its buttons are still under the pointer when it ends.
+float top_of_card(const Rect& view) {
+    float& top = gui_memory().card_top;
     const bool is_click = ImGui::IsAnyMouseDown() || ImGui::IsMouseReleased(ImGuiMouseButton_Left);
-    if (is_click && bottom > 0.0f) return bottom;
-    const float names = std::min(top_of_names(plan), image.y + image.height - names_height());
-    bottom = std::min(view.y + view.height, names) - em(0.6f);
-    return bottom;
+    if (is_click && top > 0.0f) return top;
+    const auto& places = gui_memory().places;
+    const auto badges = places.find("badges");
+    top = (badges != places.end() ? badges->second.y + badges->second.height : view.y) + em(0.6f);
+    return top;
 }
 
 }  // namespace
 
-void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan) {
+void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image) {
     const Phase phase = model.tour().phase();
     if (phase == Phase::Off) return;
     const bool is_covered = model.open_dialog().is_shown() || model.window().help || model.self_test().is_shown();
@@ -97,9 +98,8 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, cons
         draw_frame(place);
     }
     const Rect& view = layout.clear;
-    const float bottom = bottom_of_card(view, image, plan);
     const float width = std::min(view.width - em(1.2f), em(34.0f));
-    ImGui::SetNextWindowPos({view.x + 0.5f * view.width, bottom}, ImGuiCond_Always, {0.5f, 1.0f});
+    ImGui::SetNextWindowPos({view.x + 0.5f * view.width, top_of_card(view)}, ImGuiCond_Always, {0.5f, 0.0f});
     ImGui::SetNextWindowSize({width, 0.0f});
     ImGui::SetNextWindowBgAlpha(0.94f);
     ImGui::Begin("tour", nullptr,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 #include "ui/plot/draw_run_table.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/kernel/guiding/direction_cells.h"
+#include "ui/draw/value_text.h"
 
 namespace pl {
 namespace {

@@ -1,6 +1,7 @@
 // The tab of effects: which the scene needs and why, the kernel that serves them, and the cost of each.
 #include <fmt/format.h>
 
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/session/shown_range.h"
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 

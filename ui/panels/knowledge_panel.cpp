@@ -6,6 +6,7 @@
 #include "core/kernel/film/tonemap.h"
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/scene/surface_point.h"
+#include "ui/draw/tab_row.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 

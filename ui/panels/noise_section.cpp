@@ -1,6 +1,7 @@
 // The noise of the clicked pixel: shares by technique, bounces and light, of default and of the guided method, and the gain of guidance.
 #include <fmt/format.h>
 
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/disc_widget.h"
 #include "ui/panels/panels.h"

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/needed_effects.h"
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "ui/draw/method_keys.h"
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/figure_curves.h"
 #include "ui/panels/panels.h"

@@ -41,7 +41,8 @@ void draw_y_axis(ImDrawList& list, const PlotView& view, const Rect& frame) {
         list.AddLine({frame.x, y}, {frame.x + frame.width, y}, tick.label.empty() ? kMinorGrid : kGrid);
         if (tick.label.empty()) continue;
         const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
-        list.AddText({frame.x - width - em(0.35f), y - 0.5f * ImGui::GetFontSize()}, colors::kFaint,
+        const float lowest = frame.y + frame.height + em(0.1f) - ImGui::GetFontSize();  // above the first number of x
+        list.AddText({frame.x - width - em(0.35f), std::min(y - 0.5f * ImGui::GetFontSize(), lowest)}, colors::kFaint,
                      tick.label.c_str());
     }
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/plot/draw_plot.h"
 

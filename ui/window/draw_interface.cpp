@@ -19,7 +19,7 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
     draw_pixels(model, layout, image, plan, magnifier);
     draw_comparison(model, plan);
     if (layout.panels) draw_badges(model, layout, plan);
-    draw_tour(model, layout, common_part(image, layout.view), plan);
+    draw_tour(model, layout, common_part(image, layout.view));
     if (!layout.panels) draw_show_panels(model);
     draw_toasts(model, layout, plan);
     draw_self_test(model, layout);

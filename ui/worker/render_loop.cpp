@@ -216,7 +216,8 @@ bool RenderLoop::wants_pass() const {
 }
 
 bool RenderLoop::limit_reached() const {
-    if (is_coarse()) return false;
+    // A coarser picture, or a preview, is replaced at rest; one that is neither goes on, with all samples of the motion.
+    if (is_coarse() && !(size_.is_whole() && preview_.now() == Preview::None)) return false;
     if (turns_) return turns_->limit_reached(now_);
     return now_.is_enough(passes(), work_seconds(session_->clocks(slot())));
 }

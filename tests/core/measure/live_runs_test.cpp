@@ -4,72 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/error.h"
-#include "core/measure/picture_identity.h"
+#include "tests/core/measure/recording.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/scenes/closed_scenes.h"
-#include "tests/support/session/sessions.h"
 
 namespace pl::test {
 namespace {
-
-constexpr int kSide = 16;
-constexpr std::size_t kPictureBytes = kSide * kSide * 6;
-constexpr std::size_t kPlenty = 1u << 24;
-constexpr double kAlways = std::numeric_limits<double>::infinity();  ///< share
-constexpr float kEmission = 0.5f;
-constexpr float kAlbedo = 0.5f;
-
-/// A session and the runs that follow it.
-struct Recording {
-    SceneDescription scene = furnace_scene(kEmission, kAlbedo);
-    Session session;
-    LiveRuns runs;
-    FilmSlot slot;
-
-    explicit Recording(std::size_t cap = kPlenty, double share = kAlways, MethodId method = MethodId::Default,
-                       LiveRuns::Clock clock = {})
-        : session(make_session(scene, quick_learner(scene, {method, false}, kSide, 1))),
-          runs(cap, {}, share, std::move(clock)), slot{method, View::Beauty} {}
-
-    /// Renders so many more samples per pixel, observed one by one; the number of changes of the set.
-    int render(std::uint32_t passes) {
-        int changes = 0;
-        const std::uint32_t target = session.passes(slot) + passes;
-        while (session.passes(slot) < target) {
-            session.advance(slot);
-            changes += runs.observe(session, slot) ? 1 : 0;
-        }
-        return changes;
-    }
-    /// Renders until the picture has so many more points, however busy the machine.
-    void record(std::size_t points) {
-        for (std::size_t added = 0; added < points;) {
-            const std::size_t before = points_in_progress();
-            render(1);
-            added += points_in_progress() > before ? 1 : 0;
-        }
-    }
-    std::size_t points_in_progress() const {
-        for (const auto& run : runs.current()->runs)
-            if (run->in_progress) return run->points.size();
-        return 0;
-    }
-    std::size_t count() const { return runs.current()->runs.size(); }
-    const LiveRun& run(std::size_t i) const { return *runs.current()->runs.at(i); }
-    const LiveRun& last() const { return *runs.current()->runs.back(); }
-
-    std::shared_ptr<LiveReference> truth() const {
-        const std::vector<Vec3f> exact(kSide * kSide, Vec3f(kEmission / (1.0f - kAlbedo)));
-        return std::make_shared<LiveReference>(LiveReference{.picture = picture_key(scene, session.settings()),
-                                                             .width = kSide,
-                                                             .height = kSide,
-                                                             .first = exact,
-                                                             .second = exact});
-    }
-};
 
 /// The time that spaces the points.
 double seconds_of(const LivePoint& point) { return point.clocks.learn + point.clocks.render; }
@@ -264,82 +205,6 @@ TEST_CASE("other views are not measured, and interrupt no run") {
     CHECK(recording.count() == 1);
     CHECK(recording.run(0).in_progress);
     CHECK(recording.run(0).points.size() > points);
-}
-
-// The rule itself is tested with made-up seconds in measure_budget_test.cpp.
-TEST_CASE("the share of measuring is one of all runs together") {
-    Recording never(kPlenty, 0.0);
-    never.render(500);
-    REQUIRE(never.count() == 1);
-    CHECK(never.run(0).points.size() == 10);
-    never.slot.method = MethodId::Reinforcement;
-    never.render(50);
-    REQUIRE(never.count() == 2);
-    CHECK(never.run(1).points.size() == 10);
-    CHECK_FALSE(never.run(0).in_progress);
-}
-
-namespace {
-
-/// A clock that is read twice per measurement, which takes `cost` seconds by it.
-struct MadeUpClock {
-    std::shared_ptr<double> now = std::make_shared<double>(0.0);
-    std::shared_ptr<double> cost = std::make_shared<double>(0.0);
-    std::shared_ptr<int> readings = std::make_shared<int>(0);
-
-    double operator()() const {
-        if ((*readings)++ % 2 == 1) *now += *cost;
-        return *now;
-    }
-};
-
-constexpr std::size_t kInAnyCase = 10;   ///< first points of a run
-constexpr double kNeverEnough = 1.0e12;  ///< seconds: of more than any test lasts, this is more than any share
-
-}  // namespace
-
-TEST_CASE("the first points of a run come whatever they cost, and charge no budget") {
-    const MadeUpClock clock;
-    *clock.cost = kNeverEnough;
-    Recording recording(kPlenty, LiveRuns::kShare, MethodId::Default, clock);
-    recording.render(200);
-    CHECK(recording.run(0).points.size() == kInAnyCase);  // another one would take as long
-    CHECK(recording.runs.current()->measure_seconds == kInAnyCase * kNeverEnough);
-}
-
-TEST_CASE("later points come as long as they are free, and end with the first one that uses up the budget") {
-    const MadeUpClock clock;
-    Recording recording(kPlenty, LiveRuns::kShare, MethodId::Default, clock);
-    recording.record(kInAnyCase + 2);
-    CHECK(recording.runs.current()->measure_seconds == 0.0);
-    *clock.cost = kNeverEnough;
-    recording.record(1);
-    *clock.cost = 0.0;
-    recording.render(200);
-    CHECK(recording.run(0).points.size() == kInAnyCase + 3);
-    CHECK(recording.runs.current()->measure_seconds == kNeverEnough);
-}
-
-TEST_CASE("measuring after the first points keeps within its share of the charged time") {
-    const MadeUpClock clock;
-    Recording recording(kPlenty, LiveRuns::kShare, MethodId::Default, clock);
-    recording.record(kInAnyCase);
-    // Each takes as much as the budget holds then: by the spacing of the points alone, the third one would exceed it.
-    double spent = 0.0;
-    double last = 0.0;
-    for (int points = 0; points < 6;) {
-        recording.session.advance(recording.slot);
-        const double charged = charged_seconds(recording.session.clocks(recording.slot));
-        *clock.cost = 0.5 * LiveRuns::kShare * charged;
-        const std::size_t before = recording.points_in_progress();
-        recording.runs.observe(recording.session, recording.slot);
-        if (recording.points_in_progress() == before) continue;
-        CHECK(spent + last <= LiveRuns::kShare * charged);
-        last = *clock.cost;
-        spent += last;
-        ++points;
-        CHECK(recording.runs.current()->measure_seconds == Approx(spent));
-    }
 }
 
 TEST_CASE("errors are measured against the reference of the same picture, in the past too, and against no other") {

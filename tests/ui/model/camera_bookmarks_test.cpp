@@ -64,7 +64,7 @@ TEST_CASE("Bookmarks: stay from one start to the next, with their pictures, for 
         for (const float x : {4.0f, 5.0f}) add_at(bench, model, x);
         file = model.bookmarks().file();
     }
-    CHECK(load_cameras(file, {}).size() == 2);  // also a file of --camera-path
+    CHECK(load_cameras(file, {}).size() == 2);  // also a file of `replay --path`
     {
         ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
         model.bookmarks().set_folder(folder);

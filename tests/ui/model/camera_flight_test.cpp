@@ -66,7 +66,7 @@ TEST_CASE("Sequence: writes every frame with its camera and its samples, and the
     CHECK_FALSE(model.sequence().progress());
     add_two(model);
     model.render().set_limits({.spp = 9});
-    model.sequence().options() = {.frames = 3, .spp = 4, .seconds = 0.0f, .is_linear = true};
+    model.sequence().options() = {.frames = 3, .spp = 4, .seconds = 0.0f, .kind = ImageKind::Exr};
     model.sequence().begin();
     CHECK(model.busy());
     const std::filesystem::path folder = model.sequence().folder();

@@ -188,6 +188,21 @@ TEST_CASE("Render worker: limits are met exactly and can be raised") {
     CHECK(eventually([&] { return worker.status().state == WorkerState::Done && worker.status().seconds >= 0.05; }));
 }
 
+TEST_CASE("Render worker: limits hold in a motion that is fast enough for the whole picture") {
+    Bench bench;
+    RenderWorker worker(bench.setup(MethodId::Default, {.spp = 5, .seconds = 0.0}));
+    REQUIRE(frame_of(worker, 0));
+    worker.set_moving(true);
+    const std::uint64_t moved = worker.submit(EditCamera{camera_at(1.0f)});
+    REQUIRE(frame_of(worker, moved));
+    CHECK(eventually([&] { return worker.status().passes >= 5; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    worker.set_moving(false);
+    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Done; }));
+    CHECK(worker.status().passes == 5);
+    CHECK(eventually([&] { return worker.latest()->snapshot.passes == 5 && worker.latest()->generation >= moved; }));
+}
+
 TEST_CASE("Render worker: switching methods resumes the parked picture") {
     Bench bench;
     bench.control->pass_microseconds = 1000;

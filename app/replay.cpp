@@ -1,38 +1,41 @@
-#include "app/render_sequence.h"
-
+// `pathlight replay`: the pictures of a camera path without a display, as the viewer plays and writes it.
 #include <fmt/format.h>
 
-#include "app/frame_names.h"
+#include "app/commands.h"
+#include "app/field_files.h"
+#include "app/interrupt.h"
+#include "app/make_backend.h"
+#include "app/open_scene.h"
 #include "app/picture_metadata.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
 #include "core/io/camera_file.h"
 #include "core/io/files.h"
+#include "core/io/frame_file.h"
+#include "core/io/json_file.h"
 #include "core/io/picture_file.h"
-#include "core/scene/camera_path.h"
 
 namespace pl {
 namespace {
 
-constexpr int kFirstNumber = 1;
 constexpr int kFramesPerCamera = 24;
 
-/// Throws Error(Input) that names the file of a path with too few cameras.
-CameraPath load_path(const Options& options) {
-    std::vector<CameraDescription> cameras = load_cameras(options.camera_path, options.render.camera);
-    if (cameras.size() < CameraPath::kFewest)
-        throw Error(ErrorKind::Input, fmt::format("{}: 'cameras': expected at least {} cameras, got {}",
-                                                  options.camera_path, CameraPath::kFewest, cameras.size()));
-    return CameraPath(std::move(cameras));
+/// Names the first fault of the files before anything is rendered; makes the folder. Throws Error(Runtime).
+void prepare_outputs(const Options& options) {
+    make_folder(options.output);
+    require_writable(frame_file(options.output, 0, options.frame_kind));
+    if (!options.stats_file.empty()) require_writable(options.stats_file);
+    if (!options.save_field.empty()) require_writable(options.save_field);
 }
 
+/// Volumes and learned tables stay when the camera moves, as in the viewer.
 class Sequence {
 public:
-    Sequence(Session& session, const Options& options, const std::string& command, const InterruptGuard& interrupt,
-             Console& console)
-        : session_(session), options_(options), command_(command), interrupt_(interrupt), console_(console),
-          path_(load_path(options)), names_(options.output),
+    Sequence(Session& session, const Options& options, std::string command, CameraPath path,
+             const InterruptGuard& interrupt, Console& console)
+        : session_(session), options_(options), command_(std::move(command)), interrupt_(interrupt),
+          console_(console), path_(std::move(path)),
           frames_(options.frames > 0 ? options.frames : kFramesPerCamera * static_cast<int>(path_.size() - 1) + 1) {}
 
     /// Until all frames are written, or the run is interrupted.
@@ -41,6 +44,7 @@ public:
     }
     bool is_complete() const { return written_ == frames_; }
 
+    /// Throws Error(Threshold) if frames missed --target-error.
     void report() {
         if (!options_.stats_file.empty()) {
             stats_["frames"] = rows_;
@@ -71,7 +75,7 @@ private:
         if (aim != nullptr) aim->measure_last(session_, slot);
         if (aim != nullptr && !aim->is_low_enough()) ++missed_;
         const Snapshot snapshot = session_.snapshot(slot);
-        const std::string name = names_.name(kFirstNumber + index);
+        const std::string name = frame_file(options_.output, index, options_.frame_kind).string();
         stats_ = stats_json(session_, snapshot, options_, outcome, aim);
         save_picture(name, snapshot, options_.display, metadata_of(session_, snapshot, stats_, command_, false));
         note(name, camera, snapshot, outcome);
@@ -93,11 +97,10 @@ private:
 
     Session& session_;
     const Options& options_;
-    const std::string& command_;
+    std::string command_;
     const InterruptGuard& interrupt_;
     Console& console_;
     CameraPath path_;
-    FrameNames names_;
     int frames_;
     int written_ = 0;
     int missed_ = 0;               ///< frames that missed --target-error
@@ -107,15 +110,21 @@ private:
 
 }  // namespace
 
-void require_sequence(const Options& options) {
-    const FrameNames names(options.output);
-    require_writable(names.name(kFirstNumber));
-    (void)read_text_file(options.camera_path);  // a missing file is told before the scene is read
-}
-
-int render_sequence(Session& session, const Options& options, const std::string& command, const FieldFiles& fields,
-                    const InterruptGuard& interrupt, Console& console) {
-    Sequence sequence(session, options, command, interrupt, console);
+int run_replay(const CommandLine& line, Console& console) {
+    const InterruptGuard interrupt;
+    (void)read_text_file(line.options.camera_path);  // a missing file is told before the scene is read
+    const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
+    FieldFiles fields(line.options);
+    const Options options = resolve_options(line, *loaded.scene, fields.loaded());
+    CameraPath path = load_camera_path(options.camera_path, options.render.camera);
+    prepare_outputs(options);
+    Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
+                    loaded.load_seconds + fields.load_seconds());
+    fields.hand_over(session, options, console);
+    announce(session, console);
+    Sequence sequence(session, options,
+                      command_text(Command::Replay, options, scene_defaults(options.scene, *loaded.scene)),
+                      std::move(path), interrupt, console);
     sequence.render();
     fields.save(session, options, console);
     sequence.report();

@@ -1,0 +1,22 @@
+// Option values that are one of several words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pl {
+
+/// "a, b or c"
+std::string one_of(const std::vector<std::string>& names);
+
+/// Throws Error(Usage) with all words, and the nearest one.
+[[noreturn]] void fail_choice(const std::vector<std::string>& names, const std::string& got);
+
+template <class Range, class Name>
+std::vector<std::string> names_in(const Range& range, Name name) {
+    std::vector<std::string> names;
+    for (const auto& item : range) names.emplace_back(name(item));
+    return names;
+}
+
+}  // namespace pl

@@ -1,0 +1,100 @@
+// Options whose values are names of an enumeration: their words, in one table each.
+#include <algorithm>
+#include <array>
+
+#include "app/choices.h"
+#include "app/option_parsers.h"
+
+namespace pl {
+namespace {
+
+constexpr std::array<std::string_view, 3> kLookups{"kdtree", "linear", "grid"};  // by number
+
+/// A value and its name.
+template <class Value>
+struct Named {
+    Value value;
+    std::string_view name;
+};
+constexpr std::array kCurves{Named<ToneCurve>{ToneCurve::Clamp, "clamp"},
+                             Named<ToneCurve>{ToneCurve::Reinhard, "reinhard"},
+                             Named<ToneCurve>{ToneCurve::Aces, "aces"}};
+constexpr std::array kRates{
+    Named<LearningRate>{LearningRate::SampleMean, "mean"}, Named<LearningRate>{LearningRate::Forgetful, "forgetful"},
+    Named<LearningRate>{LearningRate::Power, "power"}, Named<LearningRate>{LearningRate::Floor, "floor"}};
+constexpr std::array kTargets{Named<LearningTarget>{LearningTarget::ExpectedSarsa, "expected-sarsa"},
+                              Named<LearningTarget>{LearningTarget::Sarsa, "sarsa"},
+                              Named<LearningTarget>{LearningTarget::MonteCarlo, "monte-carlo"}};
+constexpr std::array kLights{Named<LearnedLight>{LearnedLight::All, "all"},
+                             Named<LearnedLight>{LearnedLight::Indirect, "indirect"}};
+constexpr std::array kRoulettes{Named<RouletteRule>{RouletteRule::Spare, "spare"},
+                                Named<RouletteRule>{RouletteRule::Albedo, "albedo"},
+                                Named<RouletteRule>{RouletteRule::Field, "field"}};
+constexpr std::array kGuidings{Named<GuidingRule>{GuidingRule::Paying, "paying"},
+                               Named<GuidingRule>{GuidingRule::Always, "always"}};
+constexpr std::array kImageKinds{Named<ImageKind>{ImageKind::Png, name_of(ImageKind::Png)},
+                                 Named<ImageKind>{ImageKind::Exr, name_of(ImageKind::Exr)},
+                                 Named<ImageKind>{ImageKind::Pfm, name_of(ImageKind::Pfm)}};
+
+template <class Value, std::size_t kCount>
+void parse_named(Value& value, const std::array<Named<Value>, kCount>& names, const std::string& text) {
+    for (const Named<Value>& known : names) {
+        if (known.name == text) {
+            value = known.value;
+            return;
+        }
+    }
+    fail_choice(names_in(names, [](const Named<Value>& known) { return known.name; }), text);
+}
+
+template <class Value, std::size_t kCount>
+std::string_view name_in(const std::array<Named<Value>, kCount>& names, Value value) {
+    for (const Named<Value>& known : names)
+        if (known.value == value) return known.name;
+    return "";
+}
+
+}  // namespace
+
+void parse_tone_curve(Options& options, const std::string& text) {
+    parse_named(options.display.curve, kCurves, text);
+}
+
+void parse_lookup(Options& options, const std::string& text) {
+    const auto found = std::find(kLookups.begin(), kLookups.end(), std::string_view(text));
+    if (found == kLookups.end()) fail_choice(names_in(kLookups, [](std::string_view name) { return name; }), text);
+    options.render.field.lookup = static_cast<Lookup>(found - kLookups.begin());
+}
+
+void parse_learning_rate(Options& options, const std::string& text) {
+    parse_named(options.render.field.rate, kRates, text);
+}
+void parse_learn_target(Options& options, const std::string& text) {
+    parse_named(options.render.field.learning.target, kTargets, text);
+}
+void parse_learn_from(Options& options, const std::string& text) {
+    parse_named(options.render.field.learning.light, kLights, text);
+}
+void parse_roulette(Options& options, const std::string& text) {
+    parse_named(options.render.roulette, kRoulettes, text);
+}
+
+void parse_guiding(Options& options, const std::string& text) {
+    parse_named(options.render.guiding, kGuidings, text);
+}
+
+void parse_frame_kind(Options& options, const std::string& text) {
+    parse_named(options.frame_kind, kImageKinds, text);
+}
+
+std::string_view tone_curve_name(ToneCurve curve) { return name_in(kCurves, curve); }
+
+std::string_view name_of(LearningRate rate) { return name_in(kRates, rate); }
+std::string_view name_of(LearningTarget target) { return name_in(kTargets, target); }
+std::string_view name_of(LearnedLight light) { return name_in(kLights, light); }
+std::string_view name_of(RouletteRule rule) { return name_in(kRoulettes, rule); }
+std::string_view name_of(GuidingRule rule) { return name_in(kGuidings, rule); }
+
+std::string_view lookup_name(Lookup lookup) { return kLookups[static_cast<std::size_t>(lookup)]; }
+
+}  // namespace pl

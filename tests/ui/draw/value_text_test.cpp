@@ -1,0 +1,32 @@
+// Numbers as short texts.
+#include "ui/draw/value_text.h"
+
+#include <limits>
+
+#include "tests/support/catch.hpp"
+
+using namespace pl;
+
+TEST_CASE("Short values: three digits, or two and an exponent, also where rounding changes the power of ten") {
+    CHECK(short_value(0.0) == "0");
+    CHECK(short_value(0.25) == "0.25");
+    CHECK(short_value(-0.012345) == "-0.0123");
+    CHECK(short_value(0.0099999) == "0.01");
+    CHECK(short_value(-0.00996) == "-0.01");
+    CHECK(short_value(0.00994) == "9.9e-3");
+    CHECK(short_value(9.996e-5) == "1.0e-4");
+    CHECK(short_value(2.7e-40) == "2.7e-40");
+    CHECK(short_value(999.4) == "999");
+    CHECK(short_value(1234.0) == "1234");
+    CHECK(short_value(9999.7) == "1.0e4");
+    CHECK(short_value(99999.0) == "1.0e5");
+    CHECK(short_value(std::numeric_limits<double>::infinity()) == "inf");
+}
+
+TEST_CASE("Short numbers and seconds have a unit") {
+    CHECK(short_number(7.0) == "7");
+    CHECK(short_number(12345678.0) == "12.3 M");
+    CHECK(short_seconds(0.085) == "85 ms");
+    CHECK(short_seconds(1.25) == "1.25 s");
+    CHECK(short_seconds(140.0) == "140 s");
+}

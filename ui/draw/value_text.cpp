@@ -1,0 +1,37 @@
+#include "ui/draw/value_text.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace pl {
+
+std::string short_number(double value) {
+    constexpr const char* kUnits[] = {"", " k", " M", " G", " T"};
+    int unit = 0;
+    while (std::fabs(value) >= 999.5 && unit < 4) {
+        value /= 1000.0;
+        ++unit;
+    }
+    return unit == 0 && value == std::floor(value) ? fmt::format("{:.0f}", value)
+                                                   : fmt::format("{:.3g}{}", value, kUnits[unit]);
+}
+
+std::string short_value(double value) {
+    if (!std::isfinite(value)) return fmt::format("{}", value);
+    const double magnitude = std::fabs(value);
+    if (magnitude >= 999.5 && magnitude < 9999.5) return fmt::format("{:.0f}", value);
+    if (magnitude == 0.0 || (magnitude >= 0.01 && magnitude < 999.5)) return fmt::format("{:.3g}", value);
+    if (magnitude >= 0.00995 && magnitude < 0.01) return fmt::format("{:.1g}", value);  // not 10.0e-3
+    const std::string text = fmt::format("{:.1e}", value);                              // rounded: "9.9e-05"
+    const std::size_t mark = text.find('e');
+    return fmt::format("{}e{}", text.substr(0, mark), std::stoi(text.substr(mark + 1)));
+}
+
+std::string short_seconds(double seconds) {
+    if (seconds < 1.0) return fmt::format("{:.3g} ms", 1000.0 * seconds);
+    if (seconds < 100.0) return fmt::format("{:.2f} s", seconds);
+    return fmt::format("{:.0f} s", seconds);
+}
+
+}  // namespace pl
