@@ -26,7 +26,7 @@ struct RunOutcome {
     bool interrupted() const { return ended_by == EndedBy::Interruption; }
 };
 
-/// What a run is about to render, and how.
+/// Tells the back end, the kernel and the size of the picture, to the log and as an event.
 void announce(const Session& session, Console& console);
 
 /// Makes at least one sample per pixel unless interrupted. `target` may be null.
