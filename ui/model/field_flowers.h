@@ -32,7 +32,7 @@ public:
     std::uint64_t times_made() const { return times_made_; }
 
 private:
-    /// What triangles depend on.
+    /// The inputs of the triangles.
     struct MeshKey {
         std::shared_ptr<const FlowerField> flowers{};
         std::shared_ptr<const HostScene> scene{};

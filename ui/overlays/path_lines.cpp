@@ -28,8 +28,9 @@ void draw_numbers(ImDrawList& out, const PathRecord& path, const Projection& pro
 /// In short pieces: without a graphics card a line costs every pixel of the rectangle that it crosses.
 void draw_stroke(ImDrawList& out, const Stroke& stroke) {
     constexpr float kPiecePixels = 24.0f;
+    constexpr float kMostPieces = 256.0f;  // of a stroke that reaches far out of the window
     const Vec2f along = stroke.to - stroke.from;
-    const int pieces = std::max(1, static_cast<int>(glm::length(along) / kPiecePixels));
+    const int pieces = static_cast<int>(std::clamp(glm::length(along) / kPiecePixels, 1.0f, kMostPieces));
     const auto at = [&](int piece) {
         const float share = static_cast<float>(piece) / static_cast<float>(pieces);
         return ImVec2{stroke.from.x + share * along.x, stroke.from.y + share * along.y};
