@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/kernel/base/numbers.h"
+
 namespace pl {
 namespace {
 
