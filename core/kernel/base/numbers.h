@@ -133,12 +133,14 @@ PL_INLINE typename N::Real max_real(const typename N::Real& x, float least) {
 }
 
 /// The neighboring float towards +infinity for a `step` of 1, towards -infinity for -1; x itself for 0 and if x is
-/// not finite. Without branches, because the sign of the step is unpredictable.
+/// not finite. No branch depends on the step, whose sign is unpredictable; zeros and numbers that are not finite are rare.
 template <class N>
 PL_INLINE typename N::Real step_real(const typename N::Real& x, const typename N::Int& step) {
     const auto bits = N::bits_of(x);
     const auto sign = bits >> 31;  // 0 or -1
     const auto neighbor = N::from_bits(bits + ((step ^ sign) - sign));
+    const auto is_special = static_cast<typename N::Mask>((x == 0.0f) | (N::magnitude(x) >= kInfinity) | (x != x));
+    if (!N::any(is_special)) return neighbor;
     // The neighbor of 0, by its bits: a product with the least float would take an assist of the processor.
     const auto least = N::from_bits((step & std::numeric_limits<std::int32_t>::min()) | 1);
     const auto stepped = select(static_cast<typename N::Mask>(x == 0.0f), select(step == 0, x, least), neighbor);
