@@ -5,13 +5,13 @@
 #if PL_VIEWER
 
 #include <algorithm>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "app/field_files.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
+#include "core/base/work_queue.h"
 #include "core/io/load_scene.h"
 #include "cuda/availability.h"
 #include "ui/viewer.h"
@@ -20,9 +20,7 @@ namespace pl {
 namespace {
 
 /// Leaves one core to the window where there are several.
-int viewer_threads(int asked) {
-    return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
-}
+int viewer_threads(int asked) { return asked > 0 ? asked : std::max(1, usable_threads() - 1); }
 
 /// Vertical axis and materials of the command line belong to the scene that it names, not to scenes opened later.
 LoadSettings load_settings_of(const SceneRequest& scene, const Options& opened) {

@@ -9,8 +9,6 @@
 
 namespace pl {
 
-inline constexpr std::uint32_t kGuidedGroups = group_count(kGuidedBlock);
-
 /// Dummy table, loaded by lanes without a volume if the field is empty.
 inline constexpr float kOneCell[] = {1.0f};
 inline constexpr TableSampler kNoTables{.cells = {1}, .row_cdf = kOneCell, .column_cdf = kOneCell};
@@ -46,24 +44,22 @@ void set_lane(const M& method, const ScatterPoint<F, M>& from, GuidedGroup& grou
 /// At most kGuidedBlock light samples at Lambert reflectors, whose densities by the method are evaluated at once: bit-identical to
 /// M::pdf_sa(). Empty if lights are not sampled.
 template <FeatureSet F, TableGuided M>
-class LightBlock {
+class LightBlock : public BlockPaths {
 public:
     explicit LightBlock(const M& method) : method_(method) {}
 
-    std::uint32_t count() const { return count_; }
-    void clear() { count_ = 0; }
     void add(std::uint32_t path, const ScatterPoint<F, M>& from, const UnweightedLight& light) {
-        set_lane(method_, from, groups_[count_ / kGroupSize], count_ % kGroupSize);
-        sampled_[count_ / kGroupSize].direction.set(count_ % kGroupSize, light.wi);
-        vertices_[count_] = from.vertex;
-        lights_[count_] = light;
-        paths_[count_++] = path;
+        const std::uint32_t i = count();
+        set_lane(method_, from, groups_[i / kGroupSize], i % kGroupSize);
+        sampled_[i / kGroupSize].direction.set(i % kGroupSize, light.wi);
+        vertices_[i] = from.vertex;
+        lights_[i] = light;
+        append(path);
     }
     void weigh_directions() {
-        kernels_.weigh_guided(sampler_of(method_.field), groups_, sampled_, directions_, group_count(count_));
+        kernels_.weigh_guided(sampler_of(method_.field), groups_, sampled_, directions_, group_count(count()));
     }
 
-    std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
     const typename M::Vertex& vertex(std::uint32_t i) const { return vertices_[i]; }
     const UnweightedLight& light(std::uint32_t i) const { return lights_[i]; }
     float pdf_sa(std::uint32_t i) const { return directions_[i / kGroupSize].pdf_sa[i % kGroupSize]; }
@@ -71,8 +67,6 @@ public:
 private:
     const M& method_;
     LaneKernels kernels_ = best_lane_kernels();
-    std::uint32_t count_ = 0;
-    std::uint32_t paths_[kGuidedBlock];
     typename M::Vertex vertices_[kGuidedBlock];
     UnweightedLight lights_[kGuidedBlock];
     GuidedGroup groups_[kGuidedGroups];
@@ -87,46 +81,40 @@ public:
 
 /// At most kGuidedBlock paths at Lambert reflectors. Their directions are bit-identical to M::sample_direction().
 template <FeatureSet F, TableGuided M>
-class ScatterBlock {
+class ScatterBlock : public BlockPaths {
 public:
     explicit ScatterBlock(const M& method) : method_(method) {}
 
-    std::uint32_t count() const { return count_; }
-    void clear() { count_ = 0; }
-
     /// Storage for the vertex of the next path; add() appends it.
-    ScatterPoint<F, M>& next() { return points_[count_]; }
+    ScatterPoint<F, M>& next() { return points_[count()]; }
     void add(std::uint32_t path, Vec4f u) {
-        const ScatterPoint<F, M>& from = points_[count_];
-        GuidedGroup& group = groups_[count_ / kGroupSize];
-        const std::uint32_t lane = count_ % kGroupSize;
+        const ScatterPoint<F, M>& from = points_[count()];
+        GuidedGroup& group = groups_[count() / kGroupSize];
+        const std::uint32_t lane = count() % kGroupSize;
         set_lane(method_, from, group, lane);
         group.choice[lane] = u.x;
         group.u_x[lane] = u.y;
         group.u_y[lane] = u.z;
-        paths_[count_++] = path;
+        append(path);
         if (lane + 1 == kGroupSize) sample_rows();
     }
 
     void sample_directions() {
-        if (count_ % kGroupSize != 0) sample_rows();
-        kernels_.sample_guided(sampler_of(method_.field), groups_, sampled_, directions_, group_count(count_));
+        if (count() % kGroupSize != 0) sample_rows();
+        kernels_.sample_guided(sampler_of(method_.field), groups_, sampled_, directions_, group_count(count()));
     }
 
-    std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
     const ScatterPoint<F, M>& point(std::uint32_t i) const { return points_[i]; }
     DirectionSample direction(std::uint32_t i) const { return directions_[i / kGroupSize].get(i % kGroupSize); }
 
 private:
     /// Samples the table rows of the last group.
     void sample_rows() {
-        const std::uint32_t group = (count_ - 1) / kGroupSize;
+        const std::uint32_t group = (count() - 1) / kGroupSize;
         kernels_.sample_rows(sampler_of(method_.field), groups_[group], sampled_[group]);
     }
     const M& method_;
     LaneKernels kernels_ = best_lane_kernels();
-    std::uint32_t count_ = 0;
-    std::uint32_t paths_[kGuidedBlock];
     ScatterPoint<F, M> points_[kGuidedBlock];
     GuidedGroup groups_[kGuidedGroups];
     SampledGroup sampled_[kGuidedGroups];

@@ -55,8 +55,8 @@ template <class Vector, class T>
 PL_INLINE Vector broadcast_to(T x) {
     return x - Vector{};
 }
-PL_INLINE LaneFloat broadcast(float x) { return x - LaneFloat{}; }
-PL_INLINE LaneUint broadcast(std::uint32_t x) { return x - LaneUint{}; }
+PL_INLINE LaneFloat broadcast(float x) { return broadcast_to<LaneFloat>(x); }
+PL_INLINE LaneUint broadcast(std::uint32_t x) { return broadcast_to<LaneUint>(x); }
 
 template <class Vector>
 PL_INLINE Vector larger(Vector a, Vector b) {

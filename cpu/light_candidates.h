@@ -45,13 +45,10 @@ private:
 
 /// At most kGuidedBlock vertices at Lambert reflectors, whose lights are sampled at once: bit-identical to sample_light().
 template <FeatureSet F, Method M>
-class LightCandidates {
+class LightCandidates : public BlockPaths {
 public:
     explicit LightCandidates(const PathContext<M>& context, const LaneKernels& kernels = best_lane_kernels())
         : context_(context), table_(context.scene), kernels_(kernels) {}
-
-    std::uint32_t count() const { return count_; }
-    void clear() { count_ = 0; }
 
     /// Whether lanes can sample a light by these numbers.
     bool takes(const ScatterPoint<F, M>& from, [[maybe_unused]] Vec4f u) const {
@@ -59,25 +56,24 @@ public:
         if constexpr (F.has(Feature::EnvironmentMap)) {
             if (u.w < context_.scene.far_probability) return false;
         }
-        if constexpr (F.has_any(kLobeFeatures)) return from.bsdf.is_lambert();
-        return true;
+        return from.bsdf.is_lambert();
     }
     void add(std::uint32_t path, const ScatterPoint<F, M>& from, Vec4f u, const ReceivedWeights& weights) {
-        ReceiverGroup& group = receivers_[count_ / kGroupSize];
-        const std::uint32_t lane = count_ % kGroupSize;
+        const std::uint32_t i = count();
+        ReceiverGroup& group = receivers_[i / kGroupSize];
+        const std::uint32_t lane = i % kGroupSize;
         group.position.set(lane, from.surface.position);
         group.geometric_normal.set(lane, from.surface.geometric_normal);
         group.shading_normal.set(lane, from.surface.shading_normal);
         group.position_error[lane] = from.surface.position_error;
-        for (int i = 0; i < 3; ++i) group.u[i][lane] = u[i];
-        points_[count_] = from;
-        numbers_[count_] = u;
-        weights_[count_] = weights;
-        paths_[count_++] = path;
+        for (int number = 0; number < 3; ++number) group.u[number][lane] = u[number];
+        points_[i] = from;
+        numbers_[i] = u;
+        weights_[i] = weights;
+        append(path);
     }
-    void sample() { kernels_.sample_lights(table_.columns(), receivers_, samples_, group_count(count_)); }
+    void sample() { kernels_.sample_lights(table_.columns(), receivers_, samples_, group_count(count())); }
 
-    std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
     const ScatterPoint<F, M>& point(std::uint32_t i) const { return points_[i]; }
     bool is_near(std::uint32_t i) const { return samples_[i / kGroupSize].is_near[i % kGroupSize] != 0; }
     UnweightedLight light(std::uint32_t i) const {
@@ -107,18 +103,14 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kGroups = group_count(kGuidedBlock);
-
     const PathContext<M>& context_;
     LightTable table_;
     LaneKernels kernels_;
-    std::uint32_t count_ = 0;
-    std::uint32_t paths_[kGuidedBlock];
     ScatterPoint<F, M> points_[kGuidedBlock];
     Vec4f numbers_[kGuidedBlock];
     ReceivedWeights weights_[kGuidedBlock];
-    ReceiverGroup receivers_[kGroups];
-    LightSampleGroup samples_[kGroups];
+    ReceiverGroup receivers_[kGuidedGroups];
+    LightSampleGroup samples_[kGuidedGroups];
 };
 template <FeatureSet F, Method M>
 requires(!F.has(Feature::NextEventEstimation)) class LightCandidates<F, M> {

@@ -12,6 +12,22 @@ namespace pl {
 
 /// Paths per block: their state fits into the L1 cache.
 inline constexpr std::uint32_t kGuidedBlock = 64;
+inline constexpr std::uint32_t kGuidedGroups = group_count(kGuidedBlock);
+
+/// The numbers of at most kGuidedBlock paths that are treated at once.
+class BlockPaths {
+public:
+    std::uint32_t count() const { return count_; }
+    void clear() { count_ = 0; }
+    std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
+
+protected:
+    void append(std::uint32_t path) { paths_[count_++] = path; }
+
+private:
+    std::uint32_t count_ = 0;
+    std::uint32_t paths_[kGuidedBlock];
+};
 
 /// A method guided by tables. `found` is the volume of the next surface point; if nullptr, locate() looks it up.
 template <class M>

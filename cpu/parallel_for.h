@@ -27,7 +27,7 @@ void run_on_threads(int threads, Body&& body) {
 /// Number of hardware threads.
 inline int hardware_threads() {
 #ifdef PL_TSAN
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return usable_threads();
 #else
     return omp_get_num_procs();
 #endif

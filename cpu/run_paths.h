@@ -78,7 +78,8 @@ public:
 
 private:
     static constexpr bool kSamplesLights = F.has(Feature::NextEventEstimation);
-    /// Whether light_sampled() may be called after the path is scattered, or is before it though lights are sampled by blocks.
+    /// Whether lights are sampled by blocks. Methods whose light_sampled() has to come before a path is scattered sample them path by
+    /// path, unless a block is scattered after its lights.
     static constexpr bool kSamplesLightsInLanes =
         kSamplesLights && (TableGuided<M> || std::is_same_v<typename M::Light, MethodHooks::Light>);
 
@@ -127,7 +128,7 @@ private:
         }
     }
 
-    /// Shades and scatters paths [first, end) one by one: half of the run time of a small scene. Lights are sampled in SIMD lanes.
+    /// Shades and scatters paths [first, end) one by one: most of the run time of a small scene. Their lights may be sampled after that.
     [[gnu::flatten, gnu::noinline]] void extend_each(std::uint32_t first, std::uint32_t end) {
         if constexpr (kSamplesLightsInLanes) candidates_.clear();
         for (std::uint32_t i = first; i < end; ++i) {
@@ -213,16 +214,12 @@ private:
         weigh_light<F>(method_, vertex, light, scatter_pdf, states_[path], shadow);
         push(shadow, path);
     }
-    static bool is_lambert(const ScatterPoint<F, M>& from) {
-        if constexpr (F.has_any(kLobeFeatures)) return from.bsdf.is_lambert();
-        return true;
-    }
 
     /// Queues path i for the sampling of its direction at a Lambert reflector; scatters it at once at other surfaces.
     void scatter_later(std::uint32_t i, Vec4f u, const StepOutput<M>& out) {
         if constexpr (F.has_any(kLobeFeatures)) {
             const ScatterPoint<F, M>& from = block_.scattered.next();
-            if (!is_lambert(from)) {
+            if (!from.bsdf.is_lambert()) {
                 statuses_[i] =
                     scatter_layered(method_, from, scatter_numbers(setup_.path, states_[i], u), states_[i], out);
                 return;

@@ -49,12 +49,12 @@ public:
     }
 
 private:
-    /// The least cost of the two children of a node as `most` children, and how many of them the left one gets.
+    /// The least cost of the two children of a node as `most` children, at most kWideChildren, and how many of them the
+    /// left one gets.
     std::pair<float, std::uint32_t> cheapest_split(std::uint32_t node, std::uint32_t most) const {
         const std::uint32_t left = bvh_.nodes[node].first;
         std::pair<float, std::uint32_t> best{std::numeric_limits<float>::infinity(), 1};
-        for (std::uint32_t i = std::max(1u, most - std::min(most - 1, kWideChildren - 1)); i < most; ++i) {
-            if (i > kWideChildren - 1 || most - i > kWideChildren - 1) continue;
+        for (std::uint32_t i = 1; i < most; ++i) {
             const float cost = costs_[left].as[i] + costs_[left + 1].as[most - i];
             if (cost < best.first) best = {cost, i};
         }

@@ -18,7 +18,7 @@ struct alignas(64) PreparedGroup {
     std::uint32_t can_hit;                 ///< bit i: can_hit() of ray i
 };
 
-/// Part of make_box_ray(): magnitudes that bound the roundoff of a ray's tests.
+/// As in make_box_ray(): magnitudes that bound the roundoff of a ray's tests.
 struct RayBounds {
     LaneFloat reach{}, distance{}, longest{}, sum{};
 
@@ -31,10 +31,9 @@ struct RayBounds {
             sum += magnitude(origin[axis]) + magnitude(direction[axis]);
         }
     }
-    PL_INLINE LaneFloat slack() const { return kRoundoff * (32.0f * reach + 4.0f * distance); }  ///< box_slack()
 };
 
-/// make_box_ray() in lanes, with planes in the order in which a ray meets them.
+/// The planes of make_box_axis(), in the order in which a ray meets them.
 PL_INLINE void prepare_for_boxes(const BvhNode& root, const RayGroup& rays, std::uint32_t first,
                                  PreparedGroup& prepared) {
     const LaneFloat origin[3] = {load_lanes<LaneFloat>(rays.origin_x + first),
@@ -44,19 +43,14 @@ PL_INLINE void prepare_for_boxes(const BvhNode& root, const RayGroup& rays, std:
                                     load_lanes<LaneFloat>(rays.direction_y + first),
                                     load_lanes<LaneFloat>(rays.direction_z + first)};
     const RayBounds bounds(root, origin, direction);
-    const LaneFloat slack = bounds.slack();
-    const LaneFloat size = 4.0f * (bounds.reach + bounds.distance);
-    const LaneFloat least = 0x1p-40f * bounds.longest;
+    const LaneFloat size = bounds.reach + bounds.distance;
+    const LaneFloat slack = box_slack(bounds.reach, bounds.distance);
     for (int axis = 0; axis < 3; ++axis) {
-        const LaneFloat component = Lanes::copy_sign(larger(magnitude(direction[axis]), least), direction[axis]);
-        const LaneFloat inverse = 1.0f / component;
-        const LaneInt is_bounded = size * magnitude(inverse) < kInfinity;
-        const LaneInt is_backward = is_bounded & (inverse < 0.0f);
-        const LaneFloat at_low = is_bounded ? -(origin[axis] + slack) * inverse : broadcast(-kInfinity);
-        const LaneFloat at_high = is_bounded ? -(origin[axis] - slack) * inverse : broadcast(kInfinity);
-        store_lanes(is_bounded ? inverse : LaneFloat{}, prepared.inverse_direction[axis] + first);
-        store_lanes(is_backward ? at_high : at_low, prepared.at[axis][0] + first);
-        store_lanes(is_backward ? at_low : at_high, prepared.at[axis][1] + first);
+        const auto box = make_box_axis<Lanes>(origin[axis], direction[axis], bounds.longest, size, slack);
+        const LaneInt is_backward = box.inverse_direction < 0.0f;
+        store_lanes(box.inverse_direction, prepared.inverse_direction[axis] + first);
+        store_lanes(is_backward ? box.at_high : box.at_low, prepared.at[axis][0] + first);
+        store_lanes(is_backward ? box.at_low : box.at_high, prepared.at[axis][1] + first);
         store_lanes(is_backward & 1, prepared.near_side[axis] + first);
     }
     prepared.can_hit |= mask_bits((bounds.sum < kInfinity) & (bounds.longest > 0.0f)) << first;

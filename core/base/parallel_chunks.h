@@ -5,9 +5,6 @@
 
 namespace pl {
 
-/// Number of threads that run at once here.
-inline int usable_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
-
 /// Triangles or vertices that make a chunk worth a claim.
 inline constexpr std::uint32_t kElementChunk = 8192;
 
@@ -21,6 +18,14 @@ void for_chunks(std::uint32_t count, std::uint32_t chunk, int threads, Body&& bo
                              for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
                                  body(range);
                          });
+}
+
+/// Calls body(i) for the indices below `count`, by chunks of kElementChunk.
+template <class Body>
+void for_indices(std::uint32_t count, int threads, Body&& body) {
+    for_chunks(count, kElementChunk, threads, [&](IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i) body(i);
+    });
 }
 
 /// Calls body(sums, range) for consecutive ranges of `chunk` numbers below `count`, each with Sums of its own, copied

@@ -32,6 +32,9 @@ private:
     std::exception_ptr first_;
 };
 
+/// Number of threads that run at once here.
+inline int usable_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
 /// Calls body(thread) for thread = 0 .. threads - 1 concurrently, waits for all, and rethrows the first exception.
 template <class Body>
 void run_on_plain_threads(int threads, Body&& body) {

@@ -1,7 +1,6 @@
 #include "core/diagnose/find_diagnostics.h"
 
 #include <algorithm>
-#include <thread>
 
 #include "core/base/work_queue.h"
 #include "core/diagnose/record_path.h"
@@ -96,7 +95,7 @@ DiagnosticsInput diagnostics_input(const Session& session, FilmSlot slot) {
 
 DiagnosticsMap find_diagnostics(DiagnosticsInput source, int threads, const StopFlag* stop,
                                 const std::function<void(double)>& told) {
-    if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    if (threads <= 0) threads = usable_threads();
     return Search(std::move(source), threads, stop).run(told);
 }
 

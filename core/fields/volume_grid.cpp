@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <utility>
 
 #include "core/base/work_queue.h"
@@ -244,7 +243,7 @@ std::vector<std::uint32_t> count_on_sides(const HostScene& scene, const HostVolu
 
 HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volumes, int threads) {
     if (!in_range(volumes)) return {};
-    if (threads <= 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    if (threads <= 0) threads = usable_threads();
     const std::vector<std::uint32_t> own = count_on_sides(scene, volumes);
     const auto sides = static_cast<std::uint32_t>(own.size());
     const std::uint32_t chunk = std::clamp(sides / 1024u, 1u, 1024u);

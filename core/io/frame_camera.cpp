@@ -1,15 +1,14 @@
 #include "core/io/frame_camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include <glm/gtc/constants.hpp>
 
-#include "core/base/parallel_chunks.h"
 #include "core/io/open_side.h"
+#include "core/io/triangle_sums.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/up_axis.h"
 
@@ -27,19 +26,6 @@ struct PictureAxes {
 PictureAxes axes_towards(const glm::dvec3& back, const glm::dvec3& vertical) {
     const glm::dvec3 right = glm::normalize(glm::cross(vertical, back));
     return {right, glm::cross(back, right), back};
-}
-
-/// Calls add(sums, corners) for all triangles; returns the sums of parts of the scene.
-template <class Sums, class Add>
-std::vector<Sums> sums_of_triangles(const SceneDescription& scene, const Sums& empty, Add add) {
-    return sums_of_chunks(
-        scene.triangles.size(), kElementChunk, usable_threads(), empty, [&](Sums& sums, IndexRange range) {
-            for (std::uint32_t i = range.begin; i < range.end; ++i) {
-                const glm::uvec3& vertex = scene.triangles[i].vertex;
-                add(sums, std::array{glm::dvec3(scene.positions[vertex.x]), glm::dvec3(scene.positions[vertex.y]),
-                                     glm::dvec3(scene.positions[vertex.z])});
-            }
-        });
 }
 
 /// The sign of the direction from which more front-facing area is visible: -1 for the opposite one. +1 if the two differ

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/io/line_reader.h"
+#include "core/io/name_index.h"
 #include "core/io/tally.h"
 
 namespace pl {
@@ -40,6 +41,7 @@ class ObjChecker {
 public:
     ObjChecker(std::string_view text, const std::filesystem::path& path) : path_(path), reader_(text, path) {
         result_.text.reserve(text.size() + text.size() / 8);
+        group("");
     }
 
     CheckedObj run() {
@@ -87,12 +89,7 @@ private:
     }
 
     void group(const std::string& name) {
-        const auto next = static_cast<std::uint32_t>(result_.group_names.size());
-        const auto [entry, is_new] = group_index_.try_emplace(name, next);
-        if (is_new) {
-            result_.group_names.push_back(name);
-        }
-        group_ = entry->second;
+        group_ = group_index_.find_or(name, [&] { result_.group_names.push_back(name); });
     }
 
     void vertex() {
@@ -234,7 +231,7 @@ private:
     const std::filesystem::path& path_;
     LineReader reader_;
     CheckedObj result_;
-    std::map<std::string, std::uint32_t> group_index_{{"", 0u}};
+    NameIndex group_index_;
     std::uint32_t group_ = 0;
     Elements vertices_{.name = "vertex"};
     Elements normals_{.name = "normal"};

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/io/name_index.h"
 #include "core/io/obj_mesh.h"
 
 namespace pl {
@@ -31,22 +31,6 @@ struct ObjCounts {
 };
 
 ObjCounts count_elements(std::string_view text);
-
-/// The number of a name in a list, to which it is added if it is new.
-class NameIndex {
-public:
-    template <class Add>
-    std::uint32_t find_or(const std::string& name, Add&& add) {
-        const auto [entry, is_new] = index_.try_emplace(name, static_cast<std::uint32_t>(index_.size()));
-        if (is_new) {
-            add();
-        }
-        return entry->second;
-    }
-
-private:
-    std::map<std::string, std::uint32_t> index_;
-};
 
 /// Reads one chunk, into arrays of the mesh that have their size already, and into lists of its own.
 class ObjChunkReader {

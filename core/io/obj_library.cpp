@@ -1,18 +1,18 @@
 #include "core/io/obj_library.h"
 
-#include <map>
 #include <sstream>
 
 #include <tiny_obj_loader.h>
 
 #include "core/base/error.h"
+#include "core/io/name_index.h"
 #include "core/io/obj_check.h"
 
 namespace pl {
 
 namespace {
 
-/// What the callbacks of the library collect.
+/// Collected by the callbacks of the library.
 struct LibraryReading {
     explicit LibraryReading(const CheckedObj& checked) : face_groups(checked.face_groups) {}
 
@@ -22,7 +22,7 @@ struct LibraryReading {
     std::vector<glm::vec2> uvs{};
     ObjFaces faces{};
     std::vector<std::string> material_names{};
-    std::map<std::string, std::uint32_t> name_index{};
+    NameIndex name_index{};
     std::uint32_t material = ObjFaces::kNoMaterial;
 };
 
@@ -39,12 +39,7 @@ void on_texture_point(void* user_data, float u, float v, float) { reading(user_d
 void on_material(void* user_data, const char* word, int) {
     LibraryReading& to = reading(user_data);
     const std::string name = decode_name(word);
-    const auto next = static_cast<std::uint32_t>(to.material_names.size());
-    const auto [entry, is_new] = to.name_index.try_emplace(name, next);
-    if (is_new) {
-        to.material_names.push_back(name);
-    }
-    to.material = entry->second;
+    to.material = to.name_index.find_or(name, [&] { to.material_names.push_back(name); });
 }
 
 /// Indices as in the file: absolute, from 1, 0 for none. check_obj() has checked them.

@@ -8,7 +8,7 @@
 
 namespace pl {
 
-/// Checks the text, and has the library read what check_obj() makes of it. Throws Error(Input) as check_obj() does.
+/// Checks the text, and has the library read the text that check_obj() writes. Throws Error(Input) as check_obj() does.
 ObjMesh read_any_obj(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace pl

@@ -1,4 +1,4 @@
-// What the readers of OBJ text hand to load_obj(): the elements of a file, with all indices resolved.
+// The elements of an OBJ file with all indices resolved: the result of the readers of OBJ text.
 #pragma once
 
 #include <cstddef>

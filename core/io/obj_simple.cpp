@@ -11,7 +11,7 @@ namespace pl {
 
 namespace {
 
-/// Joins what the chunks have found, in the order of the file.
+/// Joins the faces and names of the chunks, in the order of the file.
 class ObjChunkJoiner {
 public:
     explicit ObjChunkJoiner(ObjMesh& mesh) : mesh_(mesh) {

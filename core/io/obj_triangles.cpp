@@ -16,12 +16,10 @@ namespace {
 static_assert(ObjCorner::kNone == TriangleDescription::kNoNormal && ObjCorner::kNone == TriangleDescription::kNoUv);
 
 void make_unit(std::vector<glm::vec3>& normals, int threads) {
-    for_chunks(static_cast<std::uint32_t>(normals.size()), kElementChunk, threads, [&](IndexRange range) {
-        for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            const glm::dvec3 normal(normals[i]);
-            const double length = glm::length(normal);
-            normals[i] = length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f);
-        }
+    for_indices(static_cast<std::uint32_t>(normals.size()), threads, [&](std::uint32_t i) {
+        const glm::dvec3 normal(normals[i]);
+        const double length = glm::length(normal);
+        normals[i] = length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f);
     });
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/parallel_chunks.h"
+#include "core/io/triangle_sums.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/up_axis.h"
 
@@ -88,19 +88,12 @@ struct DepthGrids {
 DepthGrids depth_grids(const SceneDescription& scene, const Bounds& bounds, const DepthGrids& empty) {
     const glm::dvec3 low(bounds.low);
     const glm::dvec3 extent = glm::max(glm::dvec3(bounds.high) - low, std::numeric_limits<double>::min());
-    const auto add = [&](DepthGrids& grids, IndexRange range) {
-        for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            std::array<glm::dvec3, 3> corners;
-            for (int k = 0; k < 3; ++k)
-                corners[static_cast<std::size_t>(k)] =
-                    (glm::dvec3(scene.positions[scene.triangles[i].vertex[k]]) - low) / extent;
-            grids.first.add(corners);
-            grids.second.add(corners);
-        }
-    };
     DepthGrids grids = empty;
-    for (const DepthGrids& part :
-         sums_of_chunks(scene.triangles.size(), kElementChunk, usable_threads(), empty, add)) {
+    for (const DepthGrids& part : sums_of_triangles(scene, empty, [&](DepthGrids&sums, auto corners) {
+             for (glm::dvec3& corner : corners) corner = (corner - low) / extent;
+             sums.first.add(corners);
+             sums.second.add(corners);
+         })) {
         grids.first.add(part.first);
         grids.second.add(part.second);
     }

@@ -18,7 +18,7 @@ struct Tally {
         ++count;
     }
 
-    /// Adds what was counted in lines below those of this one.
+    /// Adds the statements of lines below those of this one.
     void add(const Tally& later) {
         first_line = count == 0 ? later.first_line : first_line;
         count += later.count;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
+#include "core/base/work_queue.h"
 #include "core/measure/picture_identity.h"
 #include "core/measure/picture_memory.h"
 
@@ -51,7 +51,7 @@ void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
     }
     reference_ = std::move(reference);
     const double start = clock_();
-    const int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const int threads = usable_threads();
     int caught_up = 0;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
         if (!has_reference(runs_[i]->label.picture)) continue;

@@ -1,9 +1,9 @@
 #include "core/measure/run_recorder.h"
 
 #include <algorithm>
-#include <thread>
 
 #include "core/base/timer.h"
+#include "core/base/work_queue.h"
 
 namespace pl {
 namespace {
@@ -76,7 +76,7 @@ double charged_seconds(const Clocks& clocks) {
 
 int measuring_threads(const Session& session) {
     const int threads = session.backend().threads;
-    return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    return threads > 0 ? threads : usable_threads();
 }
 
 Curve RunSeries::error_over_time() const {

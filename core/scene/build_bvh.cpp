@@ -210,7 +210,7 @@ private:
     std::vector<Waiting> waiting_;
 };
 
-/// Appends what is below a node, which is at `slot`.
+/// Writes the root of a branch to `slot`, and appends the nodes below it.
 void append_branch(Branch& branch, std::uint32_t slot, std::vector<BvhNode>& nodes) {
     const auto offset = static_cast<std::uint32_t>(nodes.size());
     const auto shifted = [offset](BvhNode node) {

@@ -29,18 +29,10 @@ Vec3f unit_or_zero(Vec3d v) {
     return length > 0.0 ? Vec3f{v / length} : Vec3f{0.0f};
 }
 
-/// Calls body(i) for the numbers below `count`, by all threads of the machine.
-template <class Body>
-void for_numbers(std::uint32_t count, Body&& body) {
-    for_chunks(count, kElementChunk, usable_threads(), [&](IndexRange range) {
-        for (std::uint32_t i = range.begin; i < range.end; ++i) body(i);
-    });
-}
-
 void pack_triangles(const SceneDescription& scene, HostScene& packed) {
     packed.positions = scene.positions;
     packed.triangles.resize(scene.triangles.size());
-    for_numbers(static_cast<std::uint32_t>(scene.triangles.size()), [&](std::uint32_t i) {
+    for_indices(static_cast<std::uint32_t>(scene.triangles.size()), usable_threads(), [&](std::uint32_t i) {
         const TriangleDescription& t = scene.triangles[i];
         packed.triangles[i] = {t.vertex.x, t.vertex.y, t.vertex.z, t.material};
     });
@@ -181,7 +173,7 @@ std::vector<BvhTriangle> leaf_triangles(const Bvh& bvh, const HostScene& packed)
                         .p1 = packed.positions[t.v1],
                         .p2 = packed.positions[t.v2]};
     };
-    for_numbers(static_cast<std::uint32_t>(triangles.size()), pack);
+    for_indices(static_cast<std::uint32_t>(triangles.size()), usable_threads(), pack);
     return triangles;
 }
 

@@ -75,9 +75,8 @@ inline std::vector<TrianglePlane> make_triangle_planes(Span<const Vec3f> positio
     for (const double edge : sums_of_chunks(triangles.count, kElementChunk, threads, 0.0, extend))
         scene_edge = std::max(scene_edge, edge);
     std::vector<TrianglePlane> planes(triangles.count);
-    for_chunks(triangles.count, kElementChunk, threads, [&](IndexRange range) {
-        for (std::uint32_t i = range.begin; i < range.end; ++i)
-            planes[i] = make_triangle_plane({positions, triangles[i]}, scene_edge);
+    for_indices(triangles.count, threads, [&](std::uint32_t i) {
+        planes[i] = make_triangle_plane({positions, triangles[i]}, scene_edge);
     });
     return planes;
 }

@@ -54,7 +54,7 @@ TEST_CASE("the command of a saved picture makes that picture") {
     CHECK((read_exr(folder / "again.exr").pixels == read_exr(linear).pixels));
 }
 
-// 48 frames of 64 samples are what the window writes unless told otherwise; the first three are enough.
+// The window writes 48 frames of 64 samples unless told otherwise; the first three are enough.
 TEST_CASE("replay makes the frames that the window writes of its bookmarks, to the bit") {
     const TempDir folder;
     const ProgramResult result = run_script(

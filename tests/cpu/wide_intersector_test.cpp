@@ -91,7 +91,7 @@ void check_against_all(int batches) {
     }
 }
 
-/// Checks what hangs on a child; `seen` counts the triangles that it finds.
+/// Checks the boxes and triangles of a child; `seen` counts the triangles that it finds.
 void check_child(const SceneView& scene, const std::vector<WideNode>& nodes, const WideNode& parent, std::uint32_t i,
                  std::vector<int>& seen) {
     const WideReference child = parent.children[i];

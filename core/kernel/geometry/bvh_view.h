@@ -77,21 +77,41 @@ struct BoxRay {
 ///     than 2^-40 (R + 18 u R).
 /// The test then passes if s >= u (22 R + 3 A) (1 + 8 u) + 2^-39 R. The rest of 32 R + 4 A is for the rounding of s and R.
 /// (The bound does not cover triangles without area, which loaders remove: of rays aimed at them about one in 1e6 differs.)
-PL_HD inline float box_slack(float reach, float origin) { return kRoundoff * (32.0f * reach + 4.0f * origin); }
+template <class Real>
+PL_INLINE Real box_slack(const Real& reach, const Real& origin) {
+    return kRoundoff * (32.0f * reach + 4.0f * origin);
+}
 
-/// `size`: a bound on the coordinates.
-PL_HD inline BoxRay make_box_ray(const Ray& ray, float size, float slack) {
+/// A BoxRay along one axis.
+template <class N>
+struct BoxAxis {
+    typename N::Real inverse_direction, at_low, at_high;
+};
+
+/// `longest`: the largest component of the direction; `size`: a bound on the coordinates.
+template <class N>
+PL_INLINE BoxAxis<N> make_box_axis(const typename N::Real& origin, const typename N::Real& direction,
+                                   const typename N::Real& longest, const typename N::Real& size,
+                                   const typename N::Real& slack) {
     constexpr float kLeastComponent = 0x1p-40f;
-    const Vec3f components = absolute(ray.direction);
-    const float least = kLeastComponent * max_component(components);
+    const typename N::Real component = N::magnitude(direction);
+    const typename N::Real least = kLeastComponent * longest;
+    const auto inverse =
+        1.0f / N::copy_sign(select(static_cast<typename N::Mask>(component < least), least, component), direction);
+    // Distances beyond the range of float: every box passes.
+    const typename N::Mask is_bounded = 4.0f * size * N::magnitude(inverse) < kInfinity;
+    return {select(is_bounded, inverse, N::constant(0.0f)),
+            select(is_bounded, -(origin + slack) * inverse, N::constant(-kInfinity)),
+            select(is_bounded, -(origin - slack) * inverse, N::constant(kInfinity))};
+}
+PL_HD inline BoxRay make_box_ray(const Ray& ray, float size, float slack) {
+    const float longest = max_component(absolute(ray.direction));
     BoxRay box;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float inverse = 1.0f / std::copysign(max_of(components[axis], least), ray.direction[axis]);
-        // Distances beyond the range of float: every box passes.
-        const bool is_bounded = 4.0f * size * std::fabs(inverse) < kInfinity;
-        box.inverse_direction[axis] = is_bounded ? inverse : 0.0f;
-        box.at_low[axis] = is_bounded ? -(ray.origin[axis] + slack) * inverse : -kInfinity;
-        box.at_high[axis] = is_bounded ? -(ray.origin[axis] - slack) * inverse : kInfinity;
+    for (int i = 0; i < 3; ++i) {
+        const auto axis = make_box_axis<One>(ray.origin[i], ray.direction[i], longest, size, slack);
+        box.inverse_direction[i] = axis.inverse_direction;
+        box.at_low[i] = axis.at_low;
+        box.at_high[i] = axis.at_high;
     }
     return box;
 }

@@ -116,7 +116,7 @@ PL_HD inline ReceivedWeights received_weights(const PathState<F, M>& state) {
     return weights;
 }
 
-/// What a vertex reflects of a light sample that can contribute, through the shadow ray `ray`.
+/// The reflection at a vertex of a light sample that can contribute, through the shadow ray `ray`.
 template <FeatureSet F, class M>
 PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const DirectLight& sample, const Ray& ray,
                                            const ReceivedWeights& weights) {

@@ -1,4 +1,4 @@
-// Comparison of what two readers make of an OBJ text.
+// Comparison of the meshes that two readers make of an OBJ text.
 #pragma once
 
 #include <cstring>
@@ -38,7 +38,7 @@ inline bool same_names(const std::vector<ObjName>& a, const std::vector<ObjName>
     return same;
 }
 
-/// What differs first between two readings, in bits and order; nothing if they are the same.
+/// The first difference between two readings, in bits and order; nothing if they are the same.
 inline std::string obj_difference(const ObjMesh& a, const ObjMesh& b) {
     const FlatFaces faces(a);
     const FlatFaces others(b);
