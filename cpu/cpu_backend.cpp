@@ -22,7 +22,7 @@ namespace {
 
 const PassKernels<PicturePass>& kernels_for(const PassRequest& request) {
     const PassKernels<PicturePass>* kernels = nullptr;
-    with_method_kernel(request.method(), request.learning, request.path.next_event != 0,
+    with_method_kernel(request.kernel_method(), request.learning, request.path.next_event != 0,
                        [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); });
     if (kernels == nullptr) throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
     return *kernels;

@@ -129,7 +129,7 @@ private:
 void CudaBackend::launch_picture(const PassRequest& request, const PixelPaths& pixels) {
     const MethodId id = request.method();
     const AnyFieldView field = info_of(id).uses_field ? learned_field(id) : AnyFieldView{};
-    with_method_kernel(id, request.learning, request.path.next_event != 0, [&]<int kEntry>() {
+    with_method_kernel(request.kernel_method(), request.learning, request.path.next_event != 0, [&]<int kEntry>() {
         IntegratorAt<kEntry> method;
         configure_method(method, field, request.mixture, request.learning);
         launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, method, pixels);

@@ -8,7 +8,4 @@ namespace pl {
 /// One volume as make_field() makes it: it has learned nothing. `volume` is below volume_count().
 void forget_volume(const FieldShape& shape, HostField& field, std::size_t volume);
 
-/// Clears the pending sums: the training samples since the last update are lost.
-void drop_pending(HostField& field);
-
 }  // namespace pl

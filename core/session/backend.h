@@ -51,6 +51,7 @@ inline constexpr std::uint32_t kToTheLast = 0xffffffffu;
 struct PassRequest {
     FilmSlot slot;
     bool is_guided = true;  ///< false: directions by the BSDF alone, by the kernel of the baseline method
+    bool trains = true;     ///< false: the paths of a method that learns make no training samples
     FeatureSet features;    ///< needed; the back end runs the smallest compiled superset
     PathSettings path;
     Camera camera;
@@ -67,8 +68,13 @@ struct PassRequest {
     PixelSubset subset{};  ///< with a step above 1, `first_pixel` and `end_pixel` number its pixels
     const StopFlag* stop = nullptr;
 
-    /// The method whose kernel runs.
+    /// The method whose field guides the paths, if it has one.
     MethodId method() const { return is_guided ? slot.method : baseline_method(); }
+    /// The method whose kernel runs.
+    MethodId kernel_method() const {
+        const bool is_constant = is_guided && !trains && info_of(slot.method).learns;
+        return is_constant ? frozen_method() : method();
+    }
 };
 
 /// One stratified probe for every cell of every volume from `first_probe` on, recorded into a method's field.

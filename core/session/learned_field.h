@@ -15,16 +15,14 @@ namespace pl {
 struct FieldProgress {
     std::uint64_t passes = 0;  ///< of the method, unguided ones included: each has random numbers of its own
     std::uint64_t untrained_passes =
-        0;  ///< of these, since the field was made or loaded: unguided ones, and those of a frozen field
+        0;  ///< of these, since the field was made or loaded: unguided ones, and those without training samples
     std::uint64_t records = 0;          ///< training samples
     std::uint64_t clamped_records = 0;  ///< of them
     std::uint64_t lookup_misses = 0;
     std::uint32_t precomputed_slices = 0;  ///< complete ones
     std::uint32_t next_probe = 0;          ///< of the running slice
     double precompute_seconds = 0.0;
-    bool has_part = false;  ///< the field was updated within a pass that is incomplete
-    std::uint64_t idle_paths =
-        0;  ///< since the field was frozen: their training samples wait in the pending sums to be dropped
+    bool has_part = false;                  ///< the field was updated within a pass that is incomplete
     std::vector<std::int32_t> forgotten{};  ///< volumes that forget what they learned before the next pass
     bool was_edited =
         false;  ///< was stepped, continued after a freeze, or has forgotten volumes: no command line repeats it

@@ -149,8 +149,8 @@ private:
     bool is_frozen(MethodId method) const { return trained_passes(method) >= settings_.learn_passes; }
     void control_learning(const EditLearning& edit);
     void prepare_training(FilmSlot slot);
-    void drop_idle_samples(MethodId method);
-    std::uint32_t idle_passes_left(MethodId method) const;
+    bool has_enough_samples(MethodId method) const;
+    bool is_trained_by_pass(FilmSlot slot, std::uint32_t pass) const;
     void forget_volume(const EditForgetVolume& edit);
     void forget_due_volumes(MethodId method);
     std::uint32_t end_of_part(FilmSlot slot) const;

@@ -53,18 +53,14 @@ VolumeInspection Session::inspect_volume(MethodId method, std::int32_t volume) c
 LearnedField Session::export_field(MethodId method) const {
     if (!placement_.is_placed() || !backend_->has_field(method))
         throw Error(ErrorKind::Usage, "method '" + std::string(info_of(method).name) + "' has learned nothing yet");
-    HostField arrays = backend_->download_field(method);
-    FieldProgress progress = field(method).without_part();
-    if (progress.idle_paths > 0) drop_pending(arrays);
-    progress.idle_paths = 0;
     return {.method = method,
             .scene_hash = scene_hash(scene()),
             .settings = settings_.field,
             .shape = placement_.shape(),
             .volumes = placement_.volumes(),
             .refinement = placement_.refinement(),
-            .field = std::move(arrays),
-            .progress = std::move(progress)};
+            .field = backend_->download_field(method),
+            .progress = field(method).without_part()};
 }
 
 void Session::import_field(LearnedField learned) {

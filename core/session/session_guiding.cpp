@@ -88,12 +88,8 @@ bool Session::run_trial_paths(FilmSlot slot, bool is_guided, const StopFlag* sto
     done += counters;
     state.trial_paths += counters.paths;
     FieldProgress& learned = field(slot.method);
-    if (state.trains) {
-        learned.records += counters.path.method.records;
-        learned.clamped_records += counters.path.method.clamped_records;
-    } else {
-        learned.idle_paths += counters.paths;
-    }
+    learned.records += counters.path.method.records;
+    learned.clamped_records += counters.path.method.clamped_records;
     learned.lookup_misses += counters.path.method.lookup_misses;
     state.learn_seconds += watch.seconds();
     return done.paths >= end;
@@ -106,6 +102,7 @@ PassRequest Session::trial_request(FilmSlot slot, bool is_guided, const StopFlag
     PassRequest request = pass_request(slot, is_guided ? slot.method : baseline_method(), stop);
     request.path.stream = is_warm_up ? Stream::WarmUp : Stream::Trial;
     request.use = is_warm_up && is_guided ? SampleUse::Measured : SampleUse::Trial;
+    request.trains = !is_frozen(slot.method);
     // A small picture has few paths to spare beside its passes.
     request.subset.step = trial_step() * (is_guided || warms_up(slot) ? 1 : 2);
     if (is_warm_up) {
@@ -121,7 +118,7 @@ PassRequest Session::trial_request(FilmSlot slot, bool is_guided, const StopFlag
 void Session::finish_trial(FilmSlot slot) {
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
-    const bool has_trained = state.trial.guided.paths > 0 && state.trains && info_of(slot.method).learns;
+    const bool has_trained = state.trial.guided.paths > 0 && !is_frozen(slot.method) && info_of(slot.method).learns;
     if (has_trained) backend_->update_field(slot.method);
     state.trial = {};
     state.learn_seconds += watch.seconds();

@@ -31,29 +31,21 @@ void Session::control_learning(const EditLearning& edit) {
     field(edit.method).was_edited = true;
 }
 
-/// The paths of a frozen field leave training samples in its pending sums, which could overflow, and which later updates must not
-/// absorb.
-void Session::drop_idle_samples(MethodId method) {
-    if (field(method).idle_paths == 0) return;
-    HostField learned = backend_->download_field(method);
-    drop_pending(learned);
-    backend_->upload_field(method, std::move(learned));
-    field(method).idle_paths = 0;
-}
-
-/// Passes of a frozen field until drop_idle_samples() is due.
-std::uint32_t Session::idle_passes_left(MethodId method) const {
-    const std::uint64_t most = std::uint64_t{kMostPassesWithoutUpdate} * pixel_count();
-    const std::uint64_t idle = field(method).idle_paths;
-    return idle < most ? static_cast<std::uint32_t>((most - idle) / pixel_count()) : 0;
-}
-
 /// Decides whether the pass that begins trains the field.
 void Session::prepare_training(FilmSlot slot) {
-    FilmProgress& state = films_[slot];
-    state.trains = !is_frozen(slot.method);
-    if (state.trains || idle_passes_left(slot.method) == 0) drop_idle_samples(slot.method);
+    films_[slot].trains = is_trained_by_pass(slot, films_[slot].passes);
     forget_due_volumes(slot.method);
+}
+
+/// A field that was edited learns by every pass, so that a forgotten volume learns soon.
+bool Session::has_enough_samples(MethodId method) const {
+    const FieldProgress& learned = field(method);
+    return learned.records >= kEnoughSamplesPerVolume * placement_.count() && !learned.was_edited;
+}
+
+/// Whether the pass of this number would train the field as it is now.
+bool Session::is_trained_by_pass(FilmSlot slot, std::uint32_t pass) const {
+    return !is_frozen(slot.method) && is_trained_by(pass, has_enough_samples(slot.method));
 }
 
 void Session::forget_volume(const EditForgetVolume& edit) {

@@ -134,10 +134,13 @@ std::uint32_t Session::equal_passes(FilmSlot slot, std::uint32_t most) const {
     if (slot.view != View::Beauty || state.next_pixel > 0 || chooses_guiding(slot)) return 1;
     if (!learns_from(slot)) return most;
     if (has_early_settings(field(slot.method).passes)) return 1;
-    if (!state.trains) return std::clamp(idle_passes_left(slot.method), 1u, most);
+    if (is_frozen(slot.method)) return most;
+    if (!has_enough_samples(slot.method)) return 1;  // it may have them after any pass
     std::uint32_t passes = 1;
     const std::uint64_t left = settings_.learn_passes - trained_passes(slot.method);
-    while (passes < most && passes < left && !is_updated_after(state.passes + passes)) ++passes;
+    while (passes < most && passes < left && !is_updated_after(state.passes + passes) &&
+           is_trained_by_pass(slot, state.passes + passes) == state.trains)
+        ++passes;
     return passes;
 }
 
@@ -173,6 +176,7 @@ PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag
     const PathSettings path = path_settings(settings_, method);
     return {.slot = slot,
             .is_guided = method == slot.method,
+            .trains = state.trains,
             .features = needed_features(slot).with(settings_.forced_effects),
             .path = learns_from(slot) ? at_pass(path, sample) : path,
             .camera = view_camera(),
@@ -200,13 +204,11 @@ void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop
     state.measured += counters;
     note_escapes(slot, counters);
     state.next_pixel += static_cast<std::uint32_t>(counters.paths);
-    if (!state.trains) {
-        learned.idle_paths += counters.paths;
-    } else if (slot.view == View::Beauty) {
+    if (slot.view == View::Beauty) {
         learned.records += counters.path.method.records;
         learned.clamped_records += counters.path.method.clamped_records;
+        learned.lookup_misses += counters.path.method.lookup_misses;
     }
-    if (slot.view == View::Beauty) learned.lookup_misses += counters.path.method.lookup_misses;
 }
 
 void Session::finish_learning_part(FilmSlot slot) {

@@ -31,4 +31,16 @@ constexpr bool is_updated_after(std::uint32_t passes) {
     return passes % interval == 0;
 }
 
+/// Training samples per volume, on the mean, from which on a field gains little by further ones: 64 per cell of the default
+/// (docs/notebook/2026-11-25-rare-training.md).
+inline constexpr std::uint64_t kEnoughSamplesPerVolume = 16384;
+/// One in as many passes trains a field that has enough of them: paths that make none take an eighth less time.
+inline constexpr std::uint32_t kTrainingInterval = 4;
+
+/// Whether a pass trains the field; `pass` is its number since the film was last cleared. From the 32nd on each update follows
+/// a pass that trains.
+constexpr bool is_trained_by(std::uint32_t pass, bool has_enough_samples) {
+    return !has_enough_samples || pass < kMostPassesWithoutUpdate || (pass + 1) % kTrainingInterval == 0;
+}
+
 }  // namespace pl

@@ -75,6 +75,25 @@ TEST_CASE("a field that learns from five passes keeps their bits for all that fo
     CHECK_FALSE(same_film(state_of(frozen), state_of(endless)));
 }
 
+TEST_CASE("a pass that does not train traces the paths of one that does") {
+    for (const std::string name : {"door", "boxed-lights", "plates"}) {
+        const SceneDescription scene = shipped_scene(name);
+        for (const LearningTarget target : {LearningTarget::ExpectedSarsa, LearningTarget::MonteCarlo}) {
+            RenderSettings settings = small_settings(scene, {kLearner, true});
+            settings.guiding = GuidingRule::Always;
+            settings.field.learning.target = target;
+            Session trained = make_session(scene, settings);
+            settings.learn_passes = 5;
+            Session frozen = make_session(scene, settings);
+            render_passes(trained, 6);
+            render_passes(frozen, 6);
+            INFO(name);
+            CHECK(trained.field_status(kLearner)->records > frozen.field_status(kLearner)->records);
+            CHECK(same_bits(trained.snapshot(slot_of(trained)).pixels, frozen.snapshot(slot_of(frozen)).pixels));
+        }
+    }
+}
+
 TEST_CASE("a field frozen by hand is that of a run with as many passes of learning") {
     Session by_hand = learner();
     render_passes(by_hand, 7);

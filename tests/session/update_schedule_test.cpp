@@ -65,6 +65,48 @@ TEST_CASE(
     CHECK(is_updated_after(0xfffffff0u));
 }
 
+TEST_CASE("With enough samples every fourth pass trains, and each update follows one that does") {
+    for (std::uint32_t pass = 0; pass < 4096; ++pass) {
+        INFO("pass " << pass);
+        CHECK(is_trained_by(pass, false));
+        CHECK(is_trained_by(pass, true) == (pass < 16 || pass % 4 == 3));
+        if (pass >= 31 && is_updated_after(pass + 1)) CHECK(is_trained_by(pass, true));
+    }
+}
+
+TEST_CASE("A field with enough samples makes training samples in one pass of four, whatever the threads and "
+          "interruptions") {
+    const SceneDescription scene = shipped_scene("door");
+    const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true}, 150, 120);
+    Session session = make_session(scene, settings, 2);
+    const auto records = [&] { return session.field_status(MethodId::Reinforcement)->records; };
+    while (records() < kEnoughSamplesPerVolume * 60) {
+        const std::uint64_t before = records();
+        render_passes(session, 1);
+        REQUIRE(records() > before);
+    }
+    const std::uint32_t enough = std::max(session.passes(slot_of(session)), 16u);
+    REQUIRE(enough < 40);
+    render_passes(session, enough - session.passes(slot_of(session)));
+    for (std::uint32_t pass = enough; pass < enough + 9; ++pass) {
+        const std::uint64_t before = records();
+        render_passes(session, 1);
+        INFO("pass " << pass);
+        CHECK((records() > before) == (pass % 4 == 3));
+    }
+    Session interrupted = make_session(scene, settings, 1);
+    Uniforms random(2);
+    while (interrupted.passes(slot_of(interrupted)) < enough + 9) advance_interrupted(interrupted, random.next());
+    CHECK(same_state(state_of(interrupted), state_of(session)));
+
+    session.apply(EditForgetVolume{MethodId::Reinforcement, 0});
+    for (int pass = 0; pass < 3; ++pass) {
+        const std::uint64_t before = records();
+        render_passes(session, 1);
+        CHECK(records() > before);  // the volume learns again
+    }
+}
+
 TEST_CASE("The first pass is parted after as many paths as there are volumes, then wherever they have doubled") {
     CHECK(end_of_first_part(0, 16384, 1000) == 1024);
     CHECK(end_of_first_part(1023, 16384, 1000) == 1024);

@@ -6,6 +6,8 @@
 namespace pl {
 
 template <GuidingField F>
-struct FrozenField : FieldTrainer<F> {};
+struct FrozenField : FieldTrainer<F> {
+    static constexpr bool kLearnsLights = true;  ///< the field may have learned them before
+};
 
 }  // namespace pl
