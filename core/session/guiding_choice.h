@@ -42,12 +42,16 @@ public:
     double samples() const { return samples_; }
     double variance() const { return variance_ / samples_; }  ///< of a path's sample; NaN before the first
     double cost() const { return cost_ / paths_; }            ///< of a path; NaN before the first
+    double lit_share() const {
+        return lit_ / paths_;
+    }  ///< of the paths: those that bring light; NaN before the first
 
 private:
     double variance_ = 0.0;
     double samples_ = 0.0;  ///< measured ones
     double cost_ = 0.0;
     double paths_ = 0.0;
+    double lit_ = 0.0;
 };
 
 /// The costs of paths, the picture and the field that a choice is about.
@@ -104,6 +108,8 @@ private:
     void learn(const PassCounters& guided, const GuidingTerms& terms);
     void predict();
     void spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
+    /// Whether guided paths bring light far more often, so that the baseline's variance is only that of the light it has found.
+    bool finds_hidden_light() const;
     double least_gain() const;
     /// Whether a warm-up measures a reliable loss that has hardly shrunk since its first measurement.
     bool is_flat() const;

@@ -132,6 +132,48 @@ TEST_CASE("Guiding choice: a loss ends a warm-up, unless the variance of guided 
     CHECK(*falling.gain() < 0.6);
 }
 
+// The baseline finds its light too rarely for its variance to be known, as on labyrinth.
+TEST_CASE("Guiding choice: a young field that finds light where the baseline does not is never given up") {
+    const auto outcome = [](std::uint32_t lit_of_guided, const GuidingTerms& terms) {
+        GuidingChoice choice;
+        while (choice.is_warming_up()) {
+            PassCounters guided = counters_of(0.8, true);  // a gain of 0.83 that does not rise
+            guided.zero_contribution_paths = 100 - lit_of_guided;
+            PassCounters baseline = counters_of(1.0, false);
+            baseline.zero_contribution_paths = 90;
+            choice.measure_round(guided, choice.warm_up_round().is_baseline ? baseline : PassCounters{}, terms);
+        }
+        return std::pair(choice.rounds(), choice.pays());
+    };
+    const GuidingTerms learning = terms_of(4000.0);  // with 12 rounds of 100 paths
+    CHECK(outcome(14, learning) == std::pair(7u, false));
+    CHECK(outcome(16, learning) == std::pair(12u, true));
+    CHECK(outcome(100, learning) == std::pair(12u, true));
+    const GuidingTerms mature = terms_of(1000.0);
+    CHECK(outcome(100, mature) == std::pair(12u, false));  // its gain is known
+}
+
+TEST_CASE("Guiding choice: a field that finds hidden light in a trial is used again") {
+    GuidingChoice choice = beginning();
+    const GuidingTerms learning = terms_of(4000.0);
+    run(
+        choice, 12, [](std::uint32_t) { return 20.0; }, learning);
+    REQUIRE_FALSE(choice.pays());
+    std::uint32_t pass = 12;
+    for (; pass < 400 && !choice.pays(); ++pass) {
+        PassCounters guided;
+        if (choice.trial_before(pass).is_guided) {
+            guided = counters_of(3.0, true);  // a gain of 0.22
+            guided.zero_contribution_paths = 20;
+            choice.measure_trial(pass, guided, {}, learning);
+        }
+        PassCounters baseline = counters_of(1.0, false);
+        baseline.zero_contribution_paths = 95;
+        if (!choice.pays()) choice.measure_pass(pass, baseline, learning);
+    }
+    CHECK(choice.pays());
+}
+
 TEST_CASE("Guiding choice: the more a field has learned, the more is asked of it") {
     const auto pays_with = [](double variance, const GuidingTerms& terms) {
         GuidingChoice choice;
