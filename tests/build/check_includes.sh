@@ -49,14 +49,14 @@ core/fields:  core/scene core/base core/kernel/
 core/session: $below_session
 core/measure: core/session $below_session
 core/plot:    core/base
-core/io:      core/session/learned_field.h core/session/settings.h core/session/snapshot.h core/session/shown_range.h core/scene core/fields core/base core/kernel/
+core/io:      core/session/learned_field.h core/session/session_state.h core/session/settings.h core/session/snapshot.h core/session/shown_range.h core/scene core/fields core/base core/kernel/
 core/diagnose: core/measure core/session $below_session
 core/inspect: core/measure core/session $below_session
 core/selftest: core/session $below_session
 core/bench:   core/measure core/io core/session $below_session
 
-cpu:          cpu/ $backend
-cuda:         cuda/ $backend
+cpu:          cpu/ core/session/exact_backend.h $backend
+cuda:         cuda/ core/session/exact_backend.h $backend
 
 ui/viewer.h:  $tools
 ui/worker:    $below_ui
