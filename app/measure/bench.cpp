@@ -100,7 +100,7 @@ int run_effects(const CommandLine& line, Console& console) {
     const BenchPlan plan = make_bench_plan(line, console);
     const InterruptGuard interrupt;
     const auto costs = measure_effect_costs(
-        plan, [&](const std::string& name) { return make_backend(name, line.options.threads); },
+        plan, [&](const std::string& name) { return make_own_backend(name, line.options.threads); },
         {.stop = interrupt.flag(), .on_cost = [&](const EffectCost& cost) { tell_cost(cost, console); }});
     if (!costs) {
         console.log().warning("interrupted: nothing was written");
