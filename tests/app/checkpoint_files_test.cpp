@@ -10,6 +10,7 @@ namespace pl::test {
 namespace {
 
 using nlohmann::json;
+namespace fs = std::filesystem;
 
 Arguments joined(Arguments arguments, const Arguments& more) {
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -39,36 +40,41 @@ json counts_of(const std::string& stats_file) {
 }  // namespace
 
 TEST_CASE("a run that is interrupted leaves a checkpoint, and one that resumes from it has the bits of one run") {
-    for (const int signal : {SIGINT, SIGTERM})
-        for (const std::string method : {"default", "precomputed", "reinforcement"}) {
-            const TempDir folder;
-            CAPTURE(method, signal);
-            const Arguments same{"--method", method, "--nee", signal == SIGINT ? "off" : "on"};
-            RunningProgram running(program(render(
-                folder / "a.pfm", 1000000000,
-                joined(same, {"--checkpoint", folder / "c", "--stats", folder / "a.json", "--json", "-t", "2"}))));
-            REQUIRE(running.wait_for_output("\"event\":\"progress\""));
-            running.send(signal);
-            const ProgramResult result = running.wait();
-            CAPTURE(result.err);
-            REQUIRE(result.code == 130);
-            CHECK_THAT(result.err, contains("--resume"));
-            CHECK((folder.names() == std::vector<std::string>{"a.json", "a.pfm", "c"}));
-            const std::uint32_t spp = json::parse(read_all(folder / "a.json"))["spp"].get<std::uint32_t>() + 2;
-            run_well(render(folder / "b.pfm", spp,
-                            joined(same, {"--resume", folder / "c", "--stats", folder / "b.json", "-t", "1"})));
-            run_well(render(folder / "w.pfm", spp, joined(same, {"--stats", folder / "w.json", "-t", "2"})));
-            CHECK(read_all(folder / "b.pfm") == read_all(folder / "w.pfm"));
-            CHECK(counts_of(folder / "b.json") == counts_of(folder / "w.json"));
-        }
+    struct Run {
+        const char* method;
+        const char* nee;
+        int signal;
+    };
+    for (const Run& run : {Run{"default", "on", SIGINT}, Run{"precomputed", "off", SIGTERM},
+                           Run{"reinforcement", "off", SIGINT}, Run{"reinforcement", "on", SIGTERM}}) {
+        const TempDir folder;
+        CAPTURE(run.method, run.signal);
+        const Arguments same{"--method", run.method, "--nee", run.nee};
+        RunningProgram running(program(render(folder / "a.pfm", 1000000000,
+                                              joined(same, {"--checkpoint", folder / "c", "--checkpoint-every", "0",
+                                                            "--stats", folder / "a.json", "-t", "2"}))));
+        REQUIRE(running.wait_until([&] { return fs::exists(folder / "c"); }));
+        running.send(run.signal);
+        const ProgramResult result = running.wait();
+        CAPTURE(result.err);
+        REQUIRE(result.code == 130);
+        CHECK_THAT(result.err, contains("--resume"));
+        CHECK((folder.names() == std::vector<std::string>{"a.json", "a.pfm", "c"}));
+        const std::uint32_t spp = json::parse(read_all(folder / "a.json"))["spp"].get<std::uint32_t>() + 2;
+        run_well(render(folder / "b.pfm", spp,
+                        joined(same, {"--resume", folder / "c", "--stats", folder / "b.json", "-t", "1"})));
+        run_well(render(folder / "w.pfm", spp, joined(same, {"--stats", folder / "w.json", "-t", "2"})));
+        CHECK((read_all(folder / "b.pfm") == read_all(folder / "w.pfm")));
+        CHECK(counts_of(folder / "b.json") == counts_of(folder / "w.json"));
+    }
 }
 
 TEST_CASE("checkpoints are written along the way, and a killed program leaves the last one whole") {
     const TempDir folder;
-    RunningProgram running(program(
-        render(folder / "a.pfm", 1000000000,
-               {"--method", "reinforcement", "--checkpoint", folder / "c", "--checkpoint-every", "0", "--json"})));
-    REQUIRE(running.wait_for_output("\"event\":\"progress\""));
+    RunningProgram running(
+        program(render(folder / "a.pfm", 1000000000,
+                       {"--method", "reinforcement", "--checkpoint", folder / "c", "--checkpoint-every", "0"})));
+    REQUIRE(running.wait_until([&] { return fs::exists(folder / "c"); }));
     running.send(SIGKILL);
     CHECK(running.wait().code == 128 + SIGKILL);
     run_well(render(folder / "b.pfm", 1, {"--method", "reinforcement", "--resume", folder / "c"}));
@@ -78,7 +84,7 @@ TEST_CASE("seconds of work go on where a run is resumed") {
     const TempDir folder;
     run_well(render(folder / "a.pfm", 4, {"--checkpoint", folder / "c", "--stats", folder / "a.json"}));
     run_well(render(folder / "b.pfm", 4, {"--resume", folder / "c", "--stats", folder / "b.json"}));
-    CHECK(read_all(folder / "a.pfm") == read_all(folder / "b.pfm"));
+    CHECK((read_all(folder / "a.pfm") == read_all(folder / "b.pfm")));
     const json first = json::parse(read_all(folder / "a.json"));
     const json second = json::parse(read_all(folder / "b.json"));
     CHECK(second["seconds"]["render"] == first["seconds"]["render"]);
