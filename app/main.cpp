@@ -1,4 +1,5 @@
 // The program: parses the command line, runs a subcommand, turns errors into messages and exit codes.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -7,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "app/build_info.h"
 #include "app/commands.h"
+#include "app/help.h"
 #include "app/make_backend.h"
 #include "core/base/error.h"
 #include "mpi/job.h"
@@ -66,7 +67,9 @@ int guarded(Console& console, Body&& body) {
 /// alone tells.
 std::unique_ptr<Communicator> join(Console& console, int& code) {
     try {
-        return join_job("pathlight " PL_VERSION " " + std::string(commit_id()));
+        std::string version = version_text(true);
+        std::ranges::replace(version, '\n', ' ');
+        return join_job(version);
     } catch (const Error& error) {
         code = is_first_rank() ? tell(error.what(), error.kind(), console) : static_cast<int>(error.kind());
         return nullptr;
@@ -74,10 +77,10 @@ std::unique_ptr<Communicator> join(Console& console, int& code) {
 }
 
 /// A rank other than 0 prints nothing, unless its own failure ends the job. Rank 0 alone takes requests to stop.
-int follow(Communicator& job, Console& console) {
+int follow(Communicator& job, const std::vector<std::string>& arguments, Console& console) {
     for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
     try {
-        follow_rank_0(job, make_own_backend);
+        follow_rank_0(job, make_own_backend, [&] { serve_bench(job, arguments); });
         return 0;
     } catch (const std::exception& error) {
         const std::string message = job.name_of(job.rank()) + ": " + error.what();
@@ -111,7 +114,7 @@ int main(int argc, char** argv) {
     int code = 0;
     const std::unique_ptr<Communicator> job = join(console, code);
     if (code != 0) return code;
-    if (job) return job->rank() == 0 ? lead(*job, arguments, console) : follow(*job, console);
+    if (job) return job->rank() == 0 ? lead(*job, arguments, console) : follow(*job, arguments, console);
     return guarded(console, [&] {
         const int result = run(arguments, console);
         console.finish();

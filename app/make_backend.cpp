@@ -40,7 +40,7 @@ std::string backend_name(const std::string& name) {
 }
 
 void share_over(Communicator* ranks) { job = ranks; }
-const Communicator* shared_ranks() { return job; }
+Communicator* shared_ranks() { return job; }
 
 std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads) {
     if (job != nullptr) return make_mpi_backend(*job, make_own_backend, name, threads);

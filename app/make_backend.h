@@ -23,7 +23,7 @@ std::unique_ptr<RenderBackend> make_own_backend(const std::string& name, int thr
 /// The ranks that make_backend() shares the work of later back ends over; null: none. They outlive the back ends.
 void share_over(Communicator* ranks);
 /// Null without a job of mpirun.
-const Communicator* shared_ranks();
+Communicator* shared_ranks();
 
 /// Reason why CUDA does not work, empty if it does. Creates a context.
 std::string why_no_cuda();

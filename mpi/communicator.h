@@ -30,6 +30,7 @@ public:
     virtual bool is_broken() const { return false; }
     /// "rank 2 (host)", for messages.
     virtual std::string name_of(int rank) const = 0;
+    virtual std::string host() const = 0;  ///< of this rank
 
     /// Rank 0's bytes to all.
     virtual void broadcast(std::span<std::byte> bytes) = 0;
@@ -44,6 +45,8 @@ public:
     /// From one rank to another, in the order of sending. send() may return before the bytes are received; they are copied.
     virtual void send(int to, std::span<const std::byte> bytes) = 0;
     virtual void receive(int from, std::span<std::byte> bytes) = 0;
+    /// Whether receive() from this rank would not have to wait.
+    virtual bool has_message(int from) = 0;
 
     const Traffic& traffic() const { return traffic_; }
 
@@ -70,6 +73,20 @@ void broadcast_array(Communicator& ranks, std::vector<T, Allocator>& values) {
     ranks.broadcast(bytes_of_value(count));
     values.resize(count);
     if (count > 0) ranks.broadcast(std::as_writable_bytes(std::span(values)));
+}
+
+/// send() of a text, whose length goes before it.
+inline void send_text(Communicator& ranks, int to, const std::string& text) {
+    const std::uint64_t length = text.size();
+    ranks.send(to, bytes_of_value(length));
+    ranks.send(to, std::as_bytes(std::span(text)));
+}
+inline std::string receive_text(Communicator& ranks, int from) {
+    std::uint64_t length = 0;
+    ranks.receive(from, bytes_of_value(length));
+    std::string text(length, '\0');
+    ranks.receive(from, std::as_writable_bytes(std::span(text)));
+    return text;
 }
 
 }  // namespace pl

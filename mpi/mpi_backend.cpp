@@ -38,7 +38,7 @@ public:
         : ranks_(ranks), work_(ranks, std::move(local)), number_(number) {}
     ~MpiBackend() override {
         try {
-            Command command{.order = Order::Close, .backend_number = number_};
+            RankCommand command{.order = Order::Close, .backend_number = number_};
             ranks_.broadcast(bytes_of_value(command));
         } catch (const Error&) {
             // A rank has died: the others notice it themselves.
@@ -97,7 +97,7 @@ public:
     PassCounters run_pass(const PassRequest& request) override {
         if (request.stop != nullptr && *request.stop) return {};
         Payload payload{.stop = request.stop};
-        Command command{.order = Order::Pass, .slot = request.slot, .pass = request};
+        RankCommand command{.order = Order::Pass, .slot = request.slot, .pass = request};
         command.pass.stop = nullptr;
         return lead(command, payload);
     }
@@ -107,7 +107,7 @@ public:
     PassCounters precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) override {
         if (request.stop != nullptr && *request.stop) return {};
         Payload payload{.stop = request.stop};
-        Command command{
+        RankCommand command{
             .order = Order::Precompute, .method = request.method, .probes = request, .end_probe = end_probe};
         command.probes.stop = nullptr;
         return lead(command, payload);
@@ -116,11 +116,11 @@ public:
 
 private:
     ExactBackend& local() const { return work_.backend(); }
-    PassCounters lead(Command command, Payload& payload) const {
+    PassCounters lead(RankCommand command, Payload& payload) const {
         command.backend_number = number_;
         return work_.lead(command, payload);
     }
-    void lead(const Command& command) const {
+    void lead(const RankCommand& command) const {
         Payload payload;
         lead(command, payload);
     }
@@ -140,19 +140,21 @@ private:
 std::unique_ptr<RenderBackend> make_mpi_backend(Communicator& ranks, const RankBackendFactory& make,
                                                 const std::string& name, int threads) {
     static std::atomic<std::int32_t> opened{0};
-    Command command{.order = Order::Open, .backend_number = ++opened, .threads = threads};
+    RankCommand command{.order = Order::Open, .backend_number = ++opened, .threads = threads};
     name.copy(command.backend_name.data(), command.backend_name.size() - 1);
     ranks.broadcast(bytes_of_value(command));
     return std::make_unique<MpiBackend>(ranks, open_backend(ranks, make, name, threads), command.backend_number);
 }
 
-void follow_rank_0(Communicator& ranks, const RankBackendFactory& make) {
+void follow_rank_0(Communicator& ranks, const RankBackendFactory& make, const std::function<void()>& called) {
     std::map<std::int32_t, RankWork> works;
     for (;;) {
-        Command command;
+        RankCommand command;
         ranks.broadcast(bytes_of_value(command));
         if (command.order == Order::End) return;
-        if (command.order == Order::Close) {
+        if (command.order == Order::Call) {
+            called();
+        } else if (command.order == Order::Close) {
             works.erase(command.backend_number);
         } else if (command.order != Order::Open) {
             works.at(command.backend_number).follow(command);
@@ -162,8 +164,13 @@ void follow_rank_0(Communicator& ranks, const RankBackendFactory& make) {
     }
 }
 
+void call_ranks(Communicator& ranks) {
+    RankCommand command{.order = Order::Call};
+    ranks.broadcast(bytes_of_value(command));
+}
+
 void end_ranks(Communicator& ranks) {
-    Command command;
+    RankCommand command;
     ranks.broadcast(bytes_of_value(command));
 }
 

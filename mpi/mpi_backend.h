@@ -18,8 +18,11 @@ using RankBackendFactory = std::function<std::unique_ptr<RenderBackend>(const st
 std::unique_ptr<RenderBackend> make_mpi_backend(Communicator& ranks, const RankBackendFactory& make,
                                                 const std::string& name, int threads);
 
-/// The whole work of a rank other than 0: takes part in commands until rank 0 ends the job.
-void follow_rank_0(Communicator& ranks, const RankBackendFactory& make);
+/// The whole work of a rank other than 0: takes part in commands until rank 0 ends the job. `called` is the answer to call_ranks().
+void follow_rank_0(Communicator& ranks, const RankBackendFactory& make, const std::function<void()>& called = {});
+
+/// On rank 0: lets the other ranks do work of their own, which exchanges its messages itself.
+void call_ranks(Communicator& ranks);
 
 /// On rank 0: lets the other ranks return from follow_rank_0().
 void end_ranks(Communicator& ranks);

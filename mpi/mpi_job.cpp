@@ -55,6 +55,8 @@ public:
         return "rank " + std::to_string(rank) + " (" + processes_[static_cast<std::size_t>(rank)].host.data() + ")";
     }
 
+    std::string host() const override { return processes_[static_cast<std::size_t>(rank_)].host.data(); }
+
     void broadcast(std::span<std::byte> bytes) override {
         const Call call(*this, rank_ == 0 ? bytes.size() : 0);
         for_pieces(bytes, [&](std::byte* data, int count, MPI_Request& request) {
@@ -79,13 +81,23 @@ public:
         MPI_Request request;
         require(MPI_Iallgather(&length, 1, MPI_UINT64_T, lengths.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD, &request));
         wait(request);
+        std::vector<int> counts;
+        std::vector<int> places;
+        std::size_t total = 0;
+        for (const std::uint64_t bytes : lengths) {
+            counts.push_back(static_cast<int>(bytes));
+            places.push_back(static_cast<int>(total));
+            total += bytes;
+            if (total > kMostBytes) fail("more bytes to exchange than one message of MPI holds");
+        }
+        Bytes joined(total);
+        require(MPI_Iallgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, joined.data(), counts.data(),
+                                places.data(), MPI_BYTE, MPI_COMM_WORLD, &request));
+        wait(request);
         std::vector<Bytes> all;
-        for (int rank = 0; rank < size_; ++rank) {
-            Bytes& bytes = all.emplace_back(lengths[static_cast<std::size_t>(rank)]);
-            if (rank == rank_) std::ranges::copy(own, bytes.begin());
-            for_pieces(bytes, [&](std::byte* data, int count, MPI_Request& piece) {
-                return MPI_Ibcast(data, count, MPI_BYTE, rank, MPI_COMM_WORLD, &piece);
-            });
+        for (std::size_t rank = 0; rank < counts.size(); ++rank) {
+            const auto begin = joined.begin() + places[rank];
+            all.emplace_back(begin, begin + counts[rank]);
         }
         return all;
     }
@@ -109,6 +121,14 @@ public:
         for_pieces(bytes, [&](std::byte* data, int count, MPI_Request& request) {
             return MPI_Irecv(data, count, MPI_BYTE, from, 0, MPI_COMM_WORLD, &request);
         });
+    }
+
+    bool has_message(int from) override {
+        if (is_broken_) fail("another rank has ended");
+        require_alive();
+        int found = 0;
+        require(MPI_Iprobe(from, 0, MPI_COMM_WORLD, &found, MPI_STATUS_IGNORE));
+        return found != 0;
     }
 
 private:

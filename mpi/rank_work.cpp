@@ -71,12 +71,12 @@ PassCounters report(Communicator& ranks, const std::optional<Error>& failure, co
     return total;
 }
 
-PassCounters RankWork::lead(Command command, Payload& payload) {
+PassCounters RankWork::lead(RankCommand command, Payload& payload) {
     ranks_.broadcast(bytes_of_value(command));
     return run(command, payload);
 }
 
-void RankWork::follow(const Command& command) {
+void RankWork::follow(const RankCommand& command) {
     Payload payload;
     run(command, payload);
 }
@@ -96,7 +96,7 @@ void RankWork::locally(Fn&& fn) {
     }
 }
 
-PassCounters RankWork::run(const Command& command, Payload& payload) {
+PassCounters RankWork::run(const RankCommand& command, Payload& payload) {
     failure_.reset();
     switch (command.order) {
     case Order::Scene: take_scene(payload); break;
@@ -116,6 +116,7 @@ PassCounters RankWork::run(const Command& command, Payload& payload) {
         if (ranks_.rank() != 0) clear_pending(*backend_, command.method);
         break;
     case Order::End:
+    case Order::Call:
     case Order::Open:
     case Order::Close: break;  // of whole back ends: follow_rank_0()
     }
@@ -161,14 +162,14 @@ void RankWork::take_field(MethodId method, Payload& payload) {
     });
 }
 
-void RankWork::reset_film(const Command& command) {
+void RankWork::reset_film(const RankCommand& command) {
     films_[static_cast<std::size_t>(command.slot.index())] = {
         .pixels = static_cast<std::uint32_t>(command.width * command.height), .shares = Shares(ranks_.size())};
     locally([&] { backend_->reset_film(command.slot, command.width, command.height); });
 }
 
 /// Every rank gets the whole film, which has been gathered, so that any may render on from it.
-void RankWork::write_pixels(const Command& command, Payload& payload) {
+void RankWork::write_pixels(const RankCommand& command, Payload& payload) {
     Film& film = films_[static_cast<std::size_t>(command.slot.index())];
     std::vector<FilmPixel> pixels(film.pixels);
     if (ranks_.rank() == 0)

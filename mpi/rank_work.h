@@ -15,6 +15,7 @@ namespace pl {
 
 enum class Order : std::uint32_t {
     End,
+    Call,
     Open,
     Close,
     Scene,
@@ -30,7 +31,7 @@ enum class Order : std::uint32_t {
 };
 
 /// From rank 0 to all. Members beyond `order` count as far as it needs them.
-struct Command {
+struct RankCommand {
     Order order = Order::End;
     std::int32_t backend_number = 0;  ///< counted by Open; a session may keep several
     MethodId method{};
@@ -63,9 +64,9 @@ public:
 
     /// On rank 0: sends a command and takes part in it. Returns the sum of the counters of all ranks. Throws the error of the first
     /// rank that failed, see report().
-    PassCounters lead(Command command, Payload& payload);
+    PassCounters lead(RankCommand command, Payload& payload);
     /// On the other ranks: takes part in a command.
-    void follow(const Command& command);
+    void follow(const RankCommand& command);
 
     ExactBackend& backend() { return *backend_; }
 
@@ -77,15 +78,15 @@ private:
         bool is_gathered = true;        ///< rank 0 has the newest pixels of all
     };
 
-    PassCounters run(const Command& command, Payload& payload);
+    PassCounters run(const RankCommand& command, Payload& payload);
     template <class Fn>
     void locally(Fn&& fn);
 
     void take_scene(Payload& payload);
     void take_volumes(Payload& payload);
     void take_field(MethodId method, Payload& payload);
-    void reset_film(const Command& command);
-    void write_pixels(const Command& command, Payload& payload);
+    void reset_film(const RankCommand& command);
+    void write_pixels(const RankCommand& command, Payload& payload);
     void gather_film(FilmSlot slot);
     void run_pass(const PassRequest& request, Payload& payload);
     void run_block(const PassRequest& request, Film& film, std::size_t block, PixelRange numbers, Payload& payload);

@@ -175,6 +175,75 @@ TEST_CASE("scenes are read by rank 0 alone and sent to the others") {
     CHECK(elsewhere.names().empty());
 }
 
+namespace {
+
+Arguments bench(const std::string& folder, const std::string& scene) {
+    return {"bench",           scene,   "-o",    folder, "--backend",       "cpu",
+            "--size",          "16x16", "--spp", "8",    "--seeds",         "2",
+            "--reference-spp", "32",    "-t",    "1",    "--measure-share", "100"};
+}
+
+/// All of a bench's runs but times and hosts.
+json runs_of(const std::string& folder) {
+    json runs = json::parse(read_all(folder + "/results.json")).at("runs");
+    for (json& run : runs) {
+        for (const char* member : {"host", "measure_seconds"}) run.erase(member);
+        for (json& point : run.at("points")) point.erase("seconds");
+    }
+    return runs;
+}
+
+}  // namespace
+
+TEST_CASE("a bench over ranks has the numbers of one process, and names the hosts") {
+    const TempDir folder;
+    run_well(program(bench(folder / "one", "cornell")));
+    run_well(on_ranks(3, bench(folder / "many", "cornell")));
+    CHECK(runs_of(folder / "one") == runs_of(folder / "many"));
+    const json results = json::parse(read_all(folder / "many/results.json"));
+    CHECK(results.at("complete") == true);
+    for (const json& run : results.at("runs")) CHECK_FALSE(run.at("host").get<std::string>().empty());
+    const auto pictures = [&](const std::string& name) {
+        return std::distance(fs::directory_iterator(folder / (name + "/pictures")), fs::directory_iterator{});
+    };
+    CHECK(pictures("one") == pictures("many"));
+    CHECK((read_all(folder / "one/pictures/cornell-reinforcement-cpu-8.exr").size() ==
+           read_all(folder / "many/pictures/cornell-reinforcement-cpu-8.exr").size()));
+}
+
+TEST_CASE("a rank that cannot open the scene of a bench ends it with one message and code 3") {
+    const TempDir folder;
+    const TempDir elsewhere;
+    fs::copy(PL_SOURCE_DIR "/assets/scenes/cornell", folder.path(), fs::copy_options::recursive);
+    const Arguments arguments = bench("b", "./cornell.json");
+    const ProgramResult result =
+        RunningProgram(
+            joined(joined(kLauncher, joined({"-wdir", folder.path().string(), "-n", "1"}, program(arguments))),
+                   joined({":", "-wdir", elsewhere.path().string(), "-n", "1"}, program(arguments))),
+            kSetup)
+            .wait();
+    CAPTURE(result.err);
+    CHECK(result.code == 3);
+    CHECK(errors_in(result.err) == 1);
+    CHECK_THAT(result.err, contains("rank 1 (") && contains("cornell.json"));
+}
+
+TEST_CASE("a bench over ranks that is interrupted keeps its finished runs and goes on") {
+    const TempDir folder;
+    const Arguments arguments = bench(folder / "b", "cornell");
+    RunningProgram running(
+        joined(joined(kLauncher, told_rank(folder / "pid", arguments)), joined({":", "-n", "1"}, program(arguments))),
+        kSetup);
+    REQUIRE(running.wait_until([&] { return fs::exists(folder / "b/runs") && !fs::is_empty(folder / "b/runs"); }));
+    kill(number_in(folder / "pid"), SIGTERM);
+    const ProgramResult result = running.wait();
+    CAPTURE(result.err);
+    CHECK((result.code == 130 || result.code == 0));  // 0: it had ended before the signal
+    run_well(on_ranks(2, arguments));
+    run_well(program(bench(folder / "one", "cornell")));
+    CHECK(runs_of(folder / "b") == runs_of(folder / "one"));
+}
+
 TEST_CASE("ranks of another version are refused with one message and code 4") {
     const TempDir folder;
     const ProgramResult result =

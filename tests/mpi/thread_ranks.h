@@ -36,6 +36,8 @@ public:
     int size() const override { return static_cast<int>(job_->slots.size()); }
     std::string name_of(int rank) const override { return "rank " + std::to_string(rank) + " (thread)"; }
 
+    std::string host() const override { return "thread"; }
+
     void broadcast(std::span<std::byte> bytes) override {
         const std::vector<Bytes> all =
             exchange(rank_ == 0 ? std::span<const std::byte>(bytes) : std::span<const std::byte>());
@@ -69,6 +71,11 @@ public:
         job_->arrived.wait(lock, [&] { return !queue.empty(); });
         std::ranges::copy(queue.front(), bytes.begin());
         queue.pop_front();
+    }
+
+    bool has_message(int from) override {
+        const std::lock_guard lock(job_->mutex);
+        return !job_->mail[{from, rank_}].empty();
     }
 
 private:

@@ -34,7 +34,11 @@ Checkpoint small_checkpoint() {
                                      .volumes = learned.volumes};
     state.fields.push_back({.method = learned.method, .progress = learned.progress, .arrays = learned.field});
     state.fields[0].progress.forgotten = {0};
-    SavedFilm film{.slot = {learned.method, View::Beauty}, .progress = {}, .pixels = std::vector<FilmPixel>(6)};
+    state.films.resize(2);
+    state.films[1].slot = {MethodId::Default, View::Beauty};
+    SavedFilm& film = state.films[0];
+    film.slot = {learned.method, View::Beauty};
+    film.pixels.resize(6);
     film.progress.is_allocated = true;
     film.progress.passes = 3;
     film.progress.next_pixel = 2;
@@ -44,8 +48,6 @@ Checkpoint small_checkpoint() {
     film.progress.guiding.begin_guided();
     film.pixels[4].second_sum = Vec3d{0.1, 0.2, 1.0e300};
     film.pixels[5].emission = {.value = 9, .varies = 3, .at_border = 1};
-    state.films.push_back(film);
-    state.films.push_back({.slot = {MethodId::Default, View::Beauty}, .progress = {}, .pixels = {}});
     return {.seconds = 12.5, .state = std::move(state)};
 }
 
