@@ -18,7 +18,4 @@ int ranks_on_this_machine();
 /// Whether this is rank 0, which alone prints, or no rank of a job.
 bool is_first_rank();
 
-/// Reason why this program has no MPI; empty if it has.
-std::string mpi_missing_reason();
-
 }  // namespace pl

@@ -263,6 +263,4 @@ std::unique_ptr<Communicator> join_job(const std::string& version) {
     return std::make_unique<MpiJob>(version);
 }
 
-std::string mpi_missing_reason() { return ""; }
-
 }  // namespace pl
