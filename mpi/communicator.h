@@ -14,7 +14,7 @@ using Bytes = std::vector<std::byte>;
 /// What a rank has sent, and the time that it spent in communication, waiting included.
 struct Traffic {
     std::uint64_t messages = 0;    ///< calls
-    std::uint64_t bytes_sent = 0;  ///< by this rank, as if every collective were sent along a ring or a tree
+    std::uint64_t bytes_sent = 0;  ///< that this rank has handed over, however often the network carries them
     double seconds = 0.0;
 };
 
@@ -73,6 +73,18 @@ void broadcast_array(Communicator& ranks, std::vector<T, Allocator>& values) {
     ranks.broadcast(bytes_of_value(count));
     values.resize(count);
     if (count > 0) ranks.broadcast(std::as_writable_bytes(std::span(values)));
+}
+
+/// The same of an array that stays as it is on rank 0, into `received` on the others.
+template <class T, class Allocator>
+void broadcast_array(Communicator& ranks, const std::vector<T, Allocator>& sent,
+                     std::vector<T, Allocator>& received) {
+    if (ranks.rank() != 0) return broadcast_array(ranks, received);
+    std::uint64_t count = sent.size();
+    ranks.broadcast(bytes_of_value(count));
+    // Rank 0's bytes are only read.
+    const auto bytes = std::as_bytes(std::span(sent));
+    if (count > 0) ranks.broadcast({const_cast<std::byte*>(bytes.data()), bytes.size()});
 }
 
 /// send() of a text, whose length goes before it.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -79,6 +81,7 @@ private:
     };
 
     PassCounters run(const RankCommand& command, Payload& payload);
+    /// Calls of this rank's back end. A failure is kept for report(), so that all ranks come to the end of the command.
     template <class Fn>
     void locally(Fn&& fn);
 
@@ -110,5 +113,19 @@ private:
 /// The end of every command: counters and failures go to rank 0. Returns the sum of the counters there; throws Error, on rank 0 alone,
 /// with the kind and message of the first rank that failed.
 PassCounters report(Communicator& ranks, const std::optional<Error>& failure, const PassCounters& own);
+
+template <class Fn>
+void RankWork::locally(Fn&& fn) {
+    if (failure_) return;
+    try {
+        fn();
+    } catch (const Error& error) {
+        failure_ = error;
+    } catch (const std::bad_alloc&) {
+        failure_ = Error(ErrorKind::Runtime, "out of memory");
+    } catch (const std::exception& error) {
+        failure_ = Error(ErrorKind::Runtime, error.what());
+    }
+}
 
 }  // namespace pl
