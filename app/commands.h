@@ -3,6 +3,7 @@
 
 #include "app/console.h"
 #include "app/options.h"
+#include "mpi/communicator.h"
 
 namespace pl {
 
@@ -18,5 +19,9 @@ int run_bench(const CommandLine& line, Console& console);
 int run_report(const CommandLine& line, Console& console);
 int run_reference(const CommandLine& line, Console& console);
 int run_selftest(const CommandLine& line, Console& console);
+
+/// The part of `bench` of a rank other than 0, when rank 0 deals out runs: makes the plan from the same command line, then runs until
+/// there are no more. Rank 0 tells its errors.
+void serve_bench(Communicator& ranks, const std::vector<std::string>& arguments);
 
 }  // namespace pl

@@ -32,7 +32,7 @@ void tell(const DeviceLine& line, Console& console) {
 }
 
 DeviceLine cpu_line() {
-    const BackendInfo cpu = make_backend("cpu", 0)->info();
+    const BackendInfo cpu = make_own_backend("cpu", 0)->info();
     return {.backend = cpu.name,
             .device = cpu.device,
             .extent = fmt::format("{} {}", cpu.threads, cpu.threads == 1 ? "thread" : "threads"),

@@ -1,12 +1,19 @@
 // The program: parses the command line, runs a subcommand, turns errors into messages and exit codes.
+#include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/help.h"
+#include "app/make_backend.h"
 #include "core/base/error.h"
+#include "mpi/job.h"
+#include "mpi/mpi_backend.h"
 
 namespace {
 
@@ -42,14 +49,11 @@ int tell(const std::string& message, ErrorKind kind, Console& console) {
     return static_cast<int>(kind);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    Console console;
+/// Runs `body` and turns errors into messages and exit codes.
+template <class Body>
+int guarded(Console& console, Body&& body) {
     try {
-        const int code = run({argv + 1, argv + argc}, console);
-        console.finish();
-        return code;
+        return body();
     } catch (const Error& error) {
         return tell(error.what(), error.kind(), console);
     } catch (const std::bad_alloc&) {
@@ -57,4 +61,63 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         return tell(error.what(), ErrorKind::Runtime, console);
     }
+}
+
+/// The job of mpirun; empty without one, or if this program cannot take part in it: then `code` is that of the error, which rank 0
+/// alone tells.
+std::unique_ptr<Communicator> join(Console& console, int& code) {
+    try {
+        std::string version = version_text(true);
+        std::ranges::replace(version, '\n', ' ');
+        return join_job(version);
+    } catch (const Error& error) {
+        code = is_first_rank() ? tell(error.what(), error.kind(), console) : static_cast<int>(error.kind());
+        return nullptr;
+    }
+}
+
+/// A rank other than 0 prints nothing, unless its own failure ends the job. Rank 0 alone takes requests to stop.
+int follow(Communicator& job, const std::vector<std::string>& arguments, Console& console) {
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+    try {
+        follow_rank_0(job, make_own_backend, [&] { serve_bench(job, arguments); });
+        return 0;
+    } catch (const std::exception& error) {
+        const std::string message = job.name_of(job.rank()) + ": " + error.what();
+        return job.is_broken() ? static_cast<int>(ErrorKind::Unavailable)
+                               : tell(message, ErrorKind::Unavailable, console);
+    }
+}
+
+/// Rank 0 of a job: the other ranks end with it.
+int lead(Communicator& job, const std::vector<std::string>& arguments, Console& console) {
+    share_over(&job);
+    const int code = guarded(console, [&] {
+        const int result = run(arguments, console);
+        console.finish();
+        return result;
+    });
+    share_over(nullptr);
+    try {
+        end_ranks(job);
+    } catch (const Error&) {
+        // A rank has died, which has been told.
+    }
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Console console;
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    int code = 0;
+    const std::unique_ptr<Communicator> job = join(console, code);
+    if (code != 0) return code;
+    if (job) return job->rank() == 0 ? lead(*job, arguments, console) : follow(*job, arguments, console);
+    return guarded(console, [&] {
+        const int result = run(arguments, console);
+        console.finish();
+        return result;
+    });
 }

@@ -1,12 +1,20 @@
 #include "app/make_backend.h"
 
+#include <algorithm>
+
 #include "core/base/error.h"
+#include "core/base/work_queue.h"
 #include "cpu/cpu_backend.h"
 #include "cuda/availability.h"
 #include "cuda/cuda_backend.h"
+#include "mpi/job.h"
+#include "mpi/mpi_backend.h"
 
 namespace pl {
 namespace {
+
+// The job is a fact of the whole process.
+Communicator* job = nullptr;
 
 /// Null if CUDA is absent, or present but not working.
 std::unique_ptr<RenderBackend> cuda_if_possible() {
@@ -31,7 +39,17 @@ std::string backend_name(const std::string& name) {
     return name;
 }
 
+void share_over(Communicator* ranks) { job = ranks; }
+Communicator* shared_ranks() { return job; }
+
 std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads) {
+    if (job != nullptr) return make_mpi_backend(*job, make_own_backend, name, threads);
+    return make_own_backend(name, threads);
+}
+
+std::unique_ptr<RenderBackend> make_own_backend(const std::string& name, int threads) {
+    if (threads == 0 && ranks_on_this_machine() > 1)
+        threads = std::max(1, usable_threads() / ranks_on_this_machine());
     if (backend_name(name) == "cuda") {
         if (name == "cuda") return make_cuda_backend();
         if (auto cuda = cuda_if_possible()) return cuda;

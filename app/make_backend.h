@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/session/backend.h"
+#include "mpi/communicator.h"
 
 namespace pl {
 
@@ -13,9 +14,16 @@ namespace pl {
 /// device, not by whether it works. Throws as make_backend().
 std::string backend_name(const std::string& name);
 
-/// "auto" takes CUDA if it is available, else the CPU; "cpu" and "cuda" insist. `threads` 0: all. Throws
-/// Error(Unavailable) with the reason.
+/// "auto" takes CUDA if it is available, else the CPU; "cpu" and "cuda" insist. `threads` 0: all. In a job of mpirun all ranks share
+/// its work. Throws Error(Unavailable) with the reason.
 std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads);
+/// The same for this process alone. `threads` 0: all, shared with the other ranks of this machine.
+std::unique_ptr<RenderBackend> make_own_backend(const std::string& name, int threads);
+
+/// The ranks that make_backend() shares the work of later back ends over; null: none. They outlive the back ends.
+void share_over(Communicator* ranks);
+/// Null without a job of mpirun.
+Communicator* shared_ranks();
 
 /// Reason why CUDA does not work, empty if it does. Creates a context.
 std::string why_no_cuda();

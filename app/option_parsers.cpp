@@ -134,6 +134,10 @@ void parse_time_limit(Options& options, const std::string& text) {
     options.time_limit_seconds = seconds;
 }
 
+void parse_checkpoint_interval(Options& options, const std::string& text) {
+    options.checkpoint_seconds = parse_real(text, 0.0, 1.0e9);
+}
+
 void parse_target_error(Options& options, const std::string& text) {
     const double error = parse_real(text, 0.0, 1.0e30);
     if (!(error > 0.0)) fail_value("an error above 0", text);

@@ -28,6 +28,7 @@ void parse_field_budget(Options& options, const std::string& text);
 void parse_refine(Options& options, const std::string& text);
 std::string print_refine(float share);
 void parse_time_limit(Options& options, const std::string& text);
+void parse_checkpoint_interval(Options& options, const std::string& text);
 void parse_target_error(Options& options, const std::string& text);
 void parse_window(Options& options, const std::string& text);
 void parse_ui_scale(Options& options, const std::string& text);

@@ -80,6 +80,10 @@ struct Options {
     std::string load_field;  ///< file of a learned field to continue with
     std::string save_field;  ///< file for the learned field
 
+    std::string checkpoint_file;               ///< render: file for its state
+    std::optional<double> checkpoint_seconds;  ///< between two of them
+    std::string resume_file;                   ///< file of a state to go on from
+
     std::optional<ScenePoint> at;
     std::optional<glm::ivec2> pixel;
     std::optional<SampleNumbers> samples;  ///< trace: numbers of the pixel's samples

@@ -1,6 +1,7 @@
 // `pathlight render`: a picture without a display.
 #include <fmt/format.h>
 
+#include "app/checkpoint_files.h"
 #include "app/commands.h"
 #include "app/diagnostics_file.h"
 #include "app/field_files.h"
@@ -27,6 +28,7 @@ void require_outputs(const Options& options) {
     require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
+    if (!options.checkpoint_file.empty()) require_writable(options.checkpoint_file);
     if (options.diagnostics_file.empty()) return;
     image_kind(options.diagnostics_file);
     require_writable(options.diagnostics_file);
@@ -97,12 +99,30 @@ void report(const Snapshot& snapshot, const Options& options, const Json& stats,
         console.log().warning(image_kind(options.output) == ImageKind::Pfm
                                   ? "interrupted: the picture is partial, and a .pfm file cannot be marked so"
                                   : "interrupted: the picture is partial and marked so");
+    if (interrupted && !options.checkpoint_file.empty())
+        console.log().notice(
+            fmt::format("the same command with --resume {} goes on from here", shell_word(options.checkpoint_file)));
     if (snapshot.counters.invalid_samples > 0)
         console.log().warning(
             fmt::format("{} samples were NaN, infinite or negative and left out", snapshot.counters.invalid_samples));
     if (snapshot.is_closed && snapshot.counters.path.escaped > 0)
         console.log().warning(fmt::format("{} paths escaped although closed surfaces surround the camera",
                                           snapshot.counters.path.escaped));
+}
+
+/// run_passes() with a last checkpoint. An error on the way, such as a rank that has died, names the checkpoint to go on from.
+RunOutcome run_saved(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
+                     const RunAids& aids) {
+    try {
+        const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Rendered, aids);
+        aids.checkpoints->save(session, outcome.seconds);
+        return outcome;
+    } catch (const Error& error) {
+        if (!aids.checkpoints->has_written()) throw;
+        throw Error(error.kind(),
+                    fmt::format("{}; the same command with --resume {} goes on from the last checkpoint",
+                                error.what(), shell_word(options.checkpoint_file)));
+    }
 }
 
 }  // namespace
@@ -112,19 +132,21 @@ int run_render(const CommandLine& line, Console& console) {
     require_outputs(line.options);
     const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
+    CheckpointFiles checkpoints(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_paths(options);
     require_gain(options);
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
+    checkpoints.hand_over(session, console);
     announce(session, console);
     const std::string command = command_text(Command::Render, options, scene_defaults(options.scene, *loaded.scene));
     const FilmSlot slot = slot_of(options.render);
 
     std::optional<ErrorTarget> target = make_target(session, options);
     ErrorTarget* const aim = target ? &*target : nullptr;
-    const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Rendered, aim);
+    const RunOutcome outcome = run_saved(session, options, interrupt, console, {aim, &checkpoints});
     if (aim != nullptr) aim->measure_last(session, slot);
     const Snapshot snapshot = session.snapshot(slot);
     Json stats = stats_json(session, snapshot, options, outcome, aim);

@@ -14,23 +14,28 @@ namespace {
 class Passes {
 public:
     Passes(Session& session, const Options& options, const InterruptGuard& interrupt, Until until,
-           ErrorTarget* target)
+           const RunAids& aids)
         : session_(session), slot_(slot_of(options.render)), options_(options), interrupt_(interrupt), until_(until),
-          target_(target) {}
+          target_(aids.target), checkpoints_(aids.checkpoints) {}
 
     RunOutcome run(ProgressDisplay& progress) {
         EndedBy end = limit_met(false);
         while (end == EndedBy::Nothing) {
             const Progress done = session_.advance(slot_, interrupt_.flag(), most_passes());
-            if (done == Progress::Stopped) return {EndedBy::Interruption, watch_.seconds()};
+            if (done == Progress::Stopped) return {EndedBy::Interruption, seconds()};
             end = limit_met(done == Progress::Rendered);
             if (end == EndedBy::Nothing && interrupt_.raised()) end = EndedBy::Interruption;
+            if (end == EndedBy::Nothing && checkpoints_ != nullptr) checkpoints_->save_if_due(session_, seconds());
             progress.show(state());
         }
-        return {end, watch_.seconds()};
+        return {end, seconds()};
     }
 
 private:
+    double seconds() const {
+        return watch_.seconds() + (checkpoints_ != nullptr ? checkpoints_->earlier_seconds() : 0.0);
+    }
+
     EndedBy limit_met(bool has_new_sample) const {
         if (until_ == Until::Learned && info_of(slot_.method).precomputes)
             return precomputed_share().value_or(0.0) >= 1.0 ? EndedBy::Learned : EndedBy::Nothing;
@@ -38,7 +43,7 @@ private:
         if (has_new_sample && target_ != nullptr && target_->is_met(session_, slot_)) return EndedBy::TargetError;
         if (session_.passes(slot_) >= options_.spp_limit()) return EndedBy::Spp;
         const auto limit = options_.time_limit_seconds;
-        return limit && watch_.seconds() >= *limit ? EndedBy::TimeLimit : EndedBy::Nothing;
+        return limit && seconds() >= *limit ? EndedBy::TimeLimit : EndedBy::Nothing;
     }
 
     /// Passes until the next one after which a limit is looked at; times are, whenever the back end has rendered as many as it
@@ -58,7 +63,7 @@ private:
     /// Share of the limit that is nearest.
     double share_done() const {
         double share = static_cast<double>(session_.passes(slot_)) / options_.spp_limit();
-        if (options_.time_limit_seconds) share = std::max(share, watch_.seconds() / *options_.time_limit_seconds);
+        if (options_.time_limit_seconds) share = std::max(share, seconds() / *options_.time_limit_seconds);
         if (target_ != nullptr) share = std::max(share, target_->share_done());
         return std::min(share, 1.0);
     }
@@ -67,7 +72,7 @@ private:
         const bool has_limit = options_.spp || !(options_.time_limit_seconds || options_.target_error);
         std::string text = has_limit ? fmt::format("{}/{} spp", session_.passes(slot_), options_.spp_limit())
                                      : fmt::format("{} spp", session_.passes(slot_));
-        text += fmt::format(", {}", duration_text(watch_.seconds()));
+        text += fmt::format(", {}", duration_text(seconds()));
         if (target_ != nullptr && target_->measured())
             text += fmt::format(", {} {:.2g} of {:.2g}", target_->word(), *target_->measured(), target_->target());
         return text;
@@ -79,7 +84,7 @@ private:
             return {.activity = "precomputing",
                     .share = precomputed,
                     .spp = 0,
-                    .detail = fmt::format("{}", duration_text(watch_.seconds()))};
+                    .detail = fmt::format("{}", duration_text(seconds()))};
         return {
             .activity = "rendering", .share = share_done(), .spp = session_.passes(slot_), .detail = limit_text()};
     }
@@ -90,6 +95,7 @@ private:
     const InterruptGuard& interrupt_;
     Until until_;
     ErrorTarget* target_;
+    CheckpointFiles* checkpoints_;
     Stopwatch watch_;
 };
 
@@ -123,9 +129,9 @@ void announce(const Session& session, Console& console) {
 }
 
 RunOutcome run_passes(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
-                      Until until, ErrorTarget* target) {
+                      Until until, const RunAids& aids) {
     ProgressDisplay progress(console, !options.no_progress && !options.quiet);
-    return Passes(session, options, interrupt, until, target).run(progress);
+    return Passes(session, options, interrupt, until, aids).run(progress);
 }
 
 }  // namespace pl

@@ -1,6 +1,7 @@
 // The loop of every subcommand without a window: passes until a limit is reached or the run is interrupted.
 #pragma once
 
+#include "app/checkpoint_files.h"
 #include "app/console.h"
 #include "app/interrupt.h"
 #include "core/bench/error_target.h"
@@ -21,7 +22,7 @@ std::string_view name_of(EndedBy end);
 
 struct RunOutcome {
     EndedBy ended_by = EndedBy::Nothing;
-    double seconds = 0.0;  ///< wall clock of the loop
+    double seconds = 0.0;  ///< wall clock of the loop, with that of the run that it resumes
 
     bool interrupted() const { return ended_by == EndedBy::Interruption; }
 };
@@ -29,8 +30,14 @@ struct RunOutcome {
 /// Tells the back end, the kernel and the size of the picture, to the log and as an event.
 void announce(const Session& session, Console& console);
 
-/// Makes at least one sample per pixel unless interrupted. `target` may be null.
+/// Observers of a run; each may be null.
+struct RunAids {
+    ErrorTarget* target = nullptr;           ///< may end it
+    CheckpointFiles* checkpoints = nullptr;  ///< written along the way
+};
+
+/// Makes at least one sample per pixel unless interrupted.
 RunOutcome run_passes(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
-                      Until until = Until::Rendered, ErrorTarget* target = nullptr);
+                      Until until = Until::Rendered, const RunAids& aids = {});
 
 }  // namespace pl

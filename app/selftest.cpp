@@ -40,7 +40,7 @@ int run_selftest(const CommandLine& line, Console& console) {
     console.result(
         fmt::format("{:<5} {:<6} {:<58} {:>12} {:>12}  {}\n", "", "", "check", "expected", "measured", "margin"));
     const std::vector<SelfCheck> checks = run_self_test(
-        backends, [&](const std::string& name) { return make_backend(name, line.options.threads); },
+        backends, [&](const std::string& name) { return make_own_backend(name, line.options.threads); },
         [&](const SelfCheck& check) { tell(check, console); }, interrupt.flag());
     const std::size_t run = checks.size();
     const auto failed = static_cast<std::size_t>(

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/diagnostics_file.h"
+#include "app/make_backend.h"
 #include "core/bench/clocks_json.h"
 #include "core/scene/default_light.h"
 #include "core/scene/needed_effects.h"
@@ -62,6 +63,14 @@ void add_counters(Json& stats, const PassCounters& counters) {
     stats["escaped_paths"] = counters.path.escaped;
 }
 
+/// Of rank 0.
+void add_traffic(Json& stats, const Communicator& ranks) {
+    stats["ranks"] = ranks.size();
+    stats["messages"] = ranks.traffic().messages;
+    stats["bytes_sent"] = ranks.traffic().bytes_sent;
+    stats["seconds"]["communicate"] = ranks.traffic().seconds;
+}
+
 }  // namespace
 
 Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options, const RunOutcome& outcome,
@@ -89,6 +98,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
                {"ended_by", name_of(outcome.ended_by)},
                {"target_error", target_json(target)}};
     add_counters(stats, snapshot.counters);
+    if (const Communicator* const ranks = shared_ranks()) add_traffic(stats, *ranks);
     stats["diagnostics"] = diagnostics_json(snapshot, nullptr);
     stats["mean_radiance"] = mean_radiance(snapshot);
     stats["field"] = field_json(snapshot.field);

@@ -98,11 +98,11 @@ public:
         : threads_(viewer_threads(options.threads)), first_name_(backend_name(options.backend)) {}
 
     const std::string& first_name() const { return first_name_; }
-    std::unique_ptr<RenderBackend> make(const std::string& name) const { return make_backend(name, threads_); }
+    std::unique_ptr<RenderBackend> make(const std::string& name) const { return make_own_backend(name, threads_); }
     BackendChoices choices() const {
         BackendChoice cuda{.name = "cuda", .device = "", .unavailable = cuda_unavailable_reason()};
         if (cuda.unavailable.empty()) cuda.device = cuda_devices().front().name;
-        return {{.name = "cpu", .device = make_backend("cpu", threads_)->info().device, .unavailable = ""}, cuda};
+        return {{.name = "cpu", .device = make_own_backend("cpu", threads_)->info().device, .unavailable = ""}, cuda};
     }
 
 private:

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/scene/pack_scene.h"
+#include "core/session/exact_backend.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/device_name.h"
 #include "cpu/emission_pass.h"
@@ -34,7 +35,7 @@ struct StoredField {
     bool is_updated = false;  ///< all volumes, since the arrays were made, split or loaded
 };
 
-class CpuBackend final : public RenderBackend {
+class CpuBackend final : public ExactBackend {
 public:
     explicit CpuBackend(const CpuSettings& settings) : settings_(settings) {}
 
@@ -82,6 +83,12 @@ public:
         return films_.show(slot, style, settings_.threads);
     }
     float largest_value(FilmSlot slot) override { return films_.largest_value(slot, settings_.threads); }
+    void read_pixels(FilmSlot slot, std::uint32_t first, std::span<FilmPixel> pixels) const override {
+        films_.read_pixels(slot, first, pixels);
+    }
+    void write_pixels(FilmSlot slot, std::uint32_t first, std::span<const FilmPixel> pixels) override {
+        films_.write_pixels(slot, first, pixels);
+    }
 
     PassCounters run_pass(const PassRequest& request) override {
         const PassSetup setup = make_setup(request.path, {request.first_pixel, request.end_pixel}, request.stop);
@@ -105,11 +112,22 @@ public:
     }
 
     PassCounters precompute(const PrecomputeRequest& request) override {
+        return precompute_part(request, kToTheLast);
+    }
+    PassCounters precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) override {
         return launch(kProbeKernels, request.features,
-                      ProbePass{.setup = make_setup(request.path, {request.first_probe, kToTheLast}, request.stop),
+                      ProbePass{.setup = make_setup(request.path, {request.first_probe, end_probe}, request.stop),
                                 .tracer = *tracer_,
                                 .field = std::get<TableField>(learned_field(request.method)),
                                 .stratum = {request.sample, request.strata_side}});
+    }
+
+    void change_pending(MethodId method, const std::function<void(PendingSums)>& change) override {
+        std::visit(
+            [&](auto& arrays) {
+                for_each_pending_array([&](const auto& spec) { change(std::span(spec.get(arrays))); });
+            },
+            existing_field(method).arrays);
     }
 
     void update_field(MethodId method) override {

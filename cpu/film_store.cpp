@@ -34,6 +34,14 @@ std::vector<std::uint32_t> FilmStore::invalid_samples(FilmSlot slot) const {
     return counts;
 }
 
+void FilmStore::read_pixels(FilmSlot slot, std::uint32_t first, std::span<FilmPixel> pixels) const {
+    std::copy_n(films_.existing(slot).pixels.begin() + first, pixels.size(), pixels.begin());
+}
+
+void FilmStore::write_pixels(FilmSlot slot, std::uint32_t first, std::span<const FilmPixel> pixels) {
+    std::ranges::copy(pixels, films_.existing(slot).pixels.begin() + first);
+}
+
 /// Computes all pictures in one traversal of the film, which exceeds the cache.
 template <bool kHalves>
 FilmReading FilmStore::read(FilmSlot slot, int threads) const {

@@ -1,6 +1,8 @@
 // The films of the CPU back end.
 #pragma once
 
+#include <span>
+
 #include "core/session/film_slots.h"
 
 namespace pl {
@@ -15,6 +17,8 @@ public:
     FilmReading read(FilmSlot slot, int threads) const;
     FilmReading read_halves(FilmSlot slot, int threads) const;
     std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const;
+    void read_pixels(FilmSlot slot, std::uint32_t first, std::span<FilmPixel> pixels) const;
+    void write_pixels(FilmSlot slot, std::uint32_t first, std::span<const FilmPixel> pixels);
     DisplayFrame show(FilmSlot slot, const FrameStyle& style, int threads);
     float largest_value(FilmSlot slot, int threads);
 

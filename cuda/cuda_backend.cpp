@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/session/exact_backend.h"
 #include "cuda/availability.h"
 #include "cuda/device_films.h"
 #include "cuda/path_launcher.h"
@@ -16,7 +17,7 @@ using DeviceScene = SceneStorage<DeviceArray>;
 using DeviceVolumes = VolumeStorage<DeviceArray>;
 using DeviceField = FieldArrays<DeviceArray>;
 
-class CudaBackend final : public RenderBackend {
+class CudaBackend final : public ExactBackend {
 public:
     explicit CudaBackend(const CudaOptions& options)
         : device_(cuda_devices().at(0)), launcher_(stream_, options.most_segments) {}
@@ -76,9 +77,21 @@ public:
         return films_.show(slot, style, stream_);
     }
     float largest_value(FilmSlot slot) override { return films_.largest_value(slot, stream_); }
+    void read_pixels(FilmSlot slot, std::uint32_t first, std::span<FilmPixel> pixels) const override {
+        films_.read_pixels(slot, first, pixels, stream_);
+    }
+    void write_pixels(FilmSlot slot, std::uint32_t first, std::span<const FilmPixel> pixels) override {
+        launcher_.forget();
+        films_.write_pixels(slot, first, pixels, stream_);
+    }
 
     PassCounters run_pass(const PassRequest& request) override;
-    PassCounters precompute(const PrecomputeRequest& request) override;
+    PassCounters precompute(const PrecomputeRequest& request) override {
+        return precompute_part(request, kToTheLast);
+    }
+    PassCounters precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) override;
+    void change_pending(MethodId method, const std::function<void(PendingSums)>& change) override;
+    void settle_when_stopped() override { launcher_.settle_when_stopped(); }
     void update_field(MethodId method) override;
 
 private:
@@ -221,14 +234,27 @@ void CudaBackend::refine_launch(const PassRequest& request, PathRange range, con
     launch(kEmissionKernels[features], blocks_for(range.end - range.first), stream_, "refine_film", setup);
 }
 
-PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
+PassCounters CudaBackend::precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) {
     const ProbePaths paths{.field = std::get<TableField>(learned_field(request.method)),
                            .stratum = {request.sample, request.strata_side}};
     const auto kernel = kProbeKernels[covering_set(request.features)];
     return launcher_.run(
         {.sample = request.sample, .stream = request.path.stream}, probe_size_,
-        {request.first_probe, probe_count(paths.field)}, request.stop, request.path,
+        {request.first_probe, std::min(end_probe, probe_count(paths.field))}, request.stop, request.path,
         [&](PathRange) { launch_paths(kernel, request.path, ProbeMethod{}, paths); }, [](PathRange) {});
+}
+
+void CudaBackend::change_pending(MethodId method, const std::function<void(PendingSums)>& change) {
+    auto& arrays = std::get<TableStorage<DeviceArray>>(existing_field(method));
+    for_each_pending_array([&](const auto& spec) {
+        auto& array = spec.get(arrays);
+        std::vector<std::remove_cvref_t<decltype(*array.data())>> values;
+        array.download(values, stream_);
+        stream_.wait("reading pending sums");
+        change(std::span(values));
+        array.upload(values, stream_);
+        stream_.wait("writing pending sums");
+    });
 }
 
 void CudaBackend::update_field(MethodId method) {

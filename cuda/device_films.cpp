@@ -18,6 +18,18 @@ void DeviceFilms::reset(FilmSlot slot, int width, int height, const Stream& stre
     film.pixels.clear(stream);
 }
 
+void DeviceFilms::read_pixels(FilmSlot slot, std::uint32_t first, std::span<FilmPixel> pixels,
+                              const Stream& stream) const {
+    copy_to_host(pixels.data(), films_.existing(slot).pixels.data() + first, pixels.size_bytes(), stream);
+    stream.wait("reading the pixels of a film");
+}
+
+void DeviceFilms::write_pixels(FilmSlot slot, std::uint32_t first, std::span<const FilmPixel> pixels,
+                               const Stream& stream) {
+    copy_to_device(films_.existing(slot).pixels.data() + first, pixels.data(), pixels.size_bytes(), stream);
+    stream.wait("writing the pixels of a film");
+}
+
 FilmReading DeviceFilms::read(FilmSlot slot, const Stream& stream) const { return read(slot, 0, stream); }
 
 FilmReading DeviceFilms::read_halves(FilmSlot slot, const Stream& stream) const { return read(slot, 2, stream); }

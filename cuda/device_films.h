@@ -1,6 +1,8 @@
 // The films of the CUDA back end.
 #pragma once
 
+#include <span>
+
 #include "core/session/film_slots.h"
 #include "cuda/frame_copies.h"
 #include "cuda/kernels/kernels.h"
@@ -17,6 +19,8 @@ public:
     FilmReading read(FilmSlot slot, const Stream& stream) const;
     FilmReading read_halves(FilmSlot slot, const Stream& stream) const;
     std::vector<std::uint32_t> invalid_samples(FilmSlot slot, const Stream& stream) const;
+    void read_pixels(FilmSlot slot, std::uint32_t first, std::span<FilmPixel> pixels, const Stream& stream) const;
+    void write_pixels(FilmSlot slot, std::uint32_t first, std::span<const FilmPixel> pixels, const Stream& stream);
     /// The frame is computed in `stream` and copied in a second stream.
     DisplayFrame show(FilmSlot slot, const FrameStyle& style, const Stream& stream);
     float largest_value(FilmSlot slot, const Stream& stream);

@@ -41,6 +41,9 @@ public:
     template <class M, class Paths>
     void launch_paths(void (*kernel)(TraceSetup, M, Paths), TraceSetup setup, const M& method, const Paths& paths);
 
+    /// From now on run() ends no launch before its last path, even if it is stopped.
+    void settle_when_stopped() { settles_ = true; }
+
     /// Drops the paths that wait, if there are any: what they were traced in is about to change.
     void forget() { launch_.reset(); }
 
@@ -67,6 +70,7 @@ private:
     Event finished_;
     int processors_ = processors_of_device();
     std::uint32_t most_segments_;
+    bool settles_ = false;
     DeviceArray<std::uint32_t> claimed_{1};
     DeviceArray<PassCounters> counters_{1};
     PinnedMemory read_counters_{sizeof(PassCounters)};
@@ -80,8 +84,9 @@ template <class Trace, class Finish>
 PassCounters PathLauncher::run(const LaunchKey& key, LaunchSize& size, PathRange paths, const StopFlag* stop,
                                const PathSettings& path, Trace&& trace, Finish&& finish) {
     PassCounters total;
-    while (paths.first < paths.end && !(stop != nullptr && *stop)) {
+    while (paths.first < paths.end) {
         const bool is_waiting = launch_ && launch_->key == key && launch_->range.first == paths.first;
+        if (stop != nullptr && *stop && !(is_waiting && settles_)) break;
         if (!is_waiting)
             launch_ = Launch{.key = key, .range = {paths.first, paths.first + size.next(paths.end - paths.first)}};
         Launch& current = *launch_;

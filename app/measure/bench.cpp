@@ -10,6 +10,7 @@
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/measure/bench_options.h"
+#include "app/measure/bench_ranks.h"
 #include "app/progress.h"
 #include "core/bench/effect_costs.h"
 #include "core/bench/gate.h"
@@ -80,9 +81,14 @@ int run_methods(const CommandLine& line, Console& console) {
         share = state.share;
         progress->show(state);
     };
-    Bench bench(
-        bench_settings(line, console),
-        {.stop = interrupt.flag(), .show = show, .on_run = [&](const BenchRun& run) { tell_run(run, console); }});
+    BenchObserver observer{
+        .stop = interrupt.flag(), .show = show, .on_run = [&](const BenchRun& run) { tell_run(run, console); }};
+    if (Communicator* const ranks = shared_ranks())
+        observer.deal = [&, ranks](const BenchPlan& plan, const std::vector<PlannedRun>& runs,
+                                   const OnFinishedRun& on_finished) {
+            return deal_runs(*ranks, plan, runs, interrupt.flag(), on_finished);
+        };
+    Bench bench(bench_settings(line, console), std::move(observer));
     std::optional<BenchResults> earlier;
     if (!options.gate.empty()) earlier = read_results(options.gate);
     const BenchResults results = bench.run();
@@ -100,7 +106,7 @@ int run_effects(const CommandLine& line, Console& console) {
     const BenchPlan plan = make_bench_plan(line, console);
     const InterruptGuard interrupt;
     const auto costs = measure_effect_costs(
-        plan, [&](const std::string& name) { return make_backend(name, line.options.threads); },
+        plan, [&](const std::string& name) { return make_own_backend(name, line.options.threads); },
         {.stop = interrupt.flag(), .on_cost = [&](const EffectCost& cost) { tell_cost(cost, console); }});
     if (!costs) {
         console.log().warning("interrupted: nothing was written");

@@ -63,7 +63,8 @@ BenchPlan make_bench_plan(const CommandLine& line, Console& console) {
     if (plan.methods.empty())
         for (const MethodInfo& info : all_methods()) plan.methods.push_back(info.id);
     if (plan.backend_names.empty()) plan.backend_names = available_backends();
-    for (const std::string& name : plan.backend_names) plan.backends[name] = make_backend(name, line.options.threads);
+    for (const std::string& name : plan.backend_names)
+        plan.backends[name] = make_own_backend(name, line.options.threads);
     return plan;
 }
 

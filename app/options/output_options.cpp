@@ -30,6 +30,16 @@ constexpr auto kOutputOptions = std::to_array<OptionSpec>({
     {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
      .help = "Write counts and timings as JSON",
      .commands = kWithStats, .parse = parse_text<&Options::stats_file>},
+    {.name = "checkpoint", .flags = "--checkpoint", .value = "FILE", .group = kOutput,
+     .help = "Write the state of the rendering now and then, when it is interrupted, and at its end. The same command with "
+             "--resume FILE goes on from there, to the same bits",
+     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::checkpoint_file>},
+    {.name = "checkpoint-every", .flags = "--checkpoint-every", .value = "SECONDS", .group = kOutput,
+     .help = "Least time between two checkpoints of a rendering (default 600)",
+     .commands = CommandSet(Command::Render), .parse = parse_checkpoint_interval},
+    {.name = "resume", .flags = "--resume", .value = "FILE", .group = kOutput,
+     .help = "Go on from a checkpoint of the same scene, settings and back end; threads, processes and limits may differ",
+     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::resume_file>},
     {.name = "diagnostics", .flags = "--diagnostics", .value = "FILE", .group = kOutput,
      .help = "Locate invalid samples, escaped paths, lookup misses and clamped training samples by tracing the "
              "paths again: .png marks their pixels in the picture, .exr and .pfm hold their counts per pixel; "

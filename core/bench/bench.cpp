@@ -125,6 +125,23 @@ std::vector<PlannedRun> Bench::remaining_runs() const {
 bool Bench::make_runs() {
     save_reference_pictures();
     const std::vector<PlannedRun> runs = remaining_runs();
+    if (!observer_.deal) return make_runs_here(runs);
+    std::size_t finished = 0;
+    return observer_.deal(settings_.plan, runs, [&](FinishedRun run) {
+        const std::string title = run.run.cell.title();
+        const std::uint64_t seed = run.run.seed;
+        keep(std::move(run));
+        ++finished;
+        if (observer_.show)
+            observer_.show({.activity = "bench",
+                            .share = static_cast<double>(finished) / static_cast<double>(runs.size()),
+                            .spp = 0,
+                            .detail = fmt::format("{} of {} runs, the last one {}, seed {}", finished, runs.size(),
+                                                  title, seed)});
+    });
+}
+
+bool Bench::make_runs_here(const std::vector<PlannedRun>& runs) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto show = [&](const Session& session, FilmSlot slot) {
             if (!observer_.show) return;
@@ -136,42 +153,22 @@ bool Bench::make_runs() {
                                                   settings_.plan.cell_of(runs[i]).title(), runs[i].seed,
                                                   runs[i].warm_up ? " (warm-up)" : "")});
         };
-        if (is_stopped() || !make_run(runs[i], show)) return false;
+        if (is_stopped()) return false;
+        std::optional<FinishedRun> finished = make_run(settings_.plan, runs[i], observer_.stop, show);
+        if (!finished) return false;
+        keep(*std::move(finished));
     }
     return true;
 }
 
-/// Renders and measures; empty if stopped. Pictures are kept of the first seed.
-std::optional<RunSeries> Bench::record(const BenchRun& run, const PlannedRun& planned, const OnWork& on_work) const {
-    const BenchScene& scene = settings_.plan.scenes[planned.scene];
-    RenderSettings settings = scene.settings;
-    settings.method = planned.method;
-    settings.seed = planned.seed;
-    Session session(settings_.plan.backends.at(planned.backend), scene.description, settings, scene.load_seconds);
-    RunObserver observer{.on_point = {}, .on_work = on_work};
-    if (!planned.warm_up && planned.seed == settings_.plan.first_seed)
-        observer.on_point = [&](const RunPoint& point, const Snapshot& snapshot) {
-            folder_.save_picture(run.cell, point,
-                                 {.width = snapshot.width, .height = snapshot.height, .pixels = snapshot.pixels});
-        };
-    return record_run(session, slot_of(settings), scene.limits, scene.reference->pixels(), observer_.stop, observer);
-}
-
-bool Bench::make_run(const PlannedRun& planned, const OnWork& on_work) {
-    const BackendInfo backend = settings_.plan.backends.at(planned.backend)->info();
-    BenchRun run{.cell = settings_.plan.cell_of(planned),
-                 .seed = planned.seed,
-                 .warm_up = planned.warm_up,
-                 .device = backend.device,
-                 .threads = backend.threads,
-                 .commit = settings_.commit,
-                 .series = {}};
-    auto series = record(run, planned, on_work);
-    if (!series) return false;
-    run.series = *std::move(series);
+/// Pictures are kept of the first seed.
+void Bench::keep(FinishedRun finished) const {
+    BenchRun& run = finished.run;
+    run.commit = settings_.commit;
+    for (std::size_t i = 0; i < finished.pictures.size(); ++i)
+        folder_.save_picture(run.cell, run.series.points[i], finished.pictures[i]);
     folder_.save_run(run);
     if (observer_.on_run) observer_.on_run(run);
-    return true;
 }
 
 }  // namespace pl

@@ -10,6 +10,7 @@
 #include "core/bench/bench_folder.h"
 #include "core/bench/bench_plan.h"
 #include "core/bench/bench_results.h"
+#include "core/bench/make_run.h"
 
 namespace pl {
 
@@ -23,11 +24,16 @@ struct BenchSettings {
     std::string commit;                  ///< of this program
 };
 
+/// Takes each finished run, in any order.
+using OnFinishedRun = std::function<void(FinishedRun)>;
+
 /// Watches a bench; all members may be empty.
 struct BenchObserver {
     const StopFlag* stop = nullptr;
     std::function<void(const ProgressState&)> show{};  ///< after each piece of work
     std::function<void(const BenchRun&)> on_run{};     ///< after each finished run
+    /// Makes runs elsewhere, several at a time; empty: one after the other, here. Returns false if it was stopped.
+    std::function<bool(const BenchPlan&, const std::vector<PlannedRun>&, const OnFinishedRun&)> deal{};
 };
 
 class Bench {
@@ -46,9 +52,8 @@ private:
     void save_reference_pictures() const;
     std::vector<PlannedRun> remaining_runs() const;
     bool make_runs();
-    using OnWork = std::function<void(const Session&, FilmSlot)>;
-    std::optional<RunSeries> record(const BenchRun& run, const PlannedRun& planned, const OnWork& on_work) const;
-    bool make_run(const PlannedRun& planned, const OnWork& on_work);
+    bool make_runs_here(const std::vector<PlannedRun>& runs);
+    void keep(FinishedRun finished) const;
     bool is_stopped() const { return observer_.stop != nullptr && *observer_.stop; }
 
     BenchSettings settings_;

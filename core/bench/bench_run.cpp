@@ -67,7 +67,8 @@ RunPoint point_from(const Json& json) {
     point.counters.paths = json.at("paths");
     point.counters.path.segments = json.at("segments");
     point.counters.path.shadow_rays = json.at("shadow_rays");
-    point.counters.path.emission_rays = json.value("emission_rays", std::uint64_t{0});  // absent in results of earlier versions
+    point.counters.path.emission_rays =
+        json.value("emission_rays", std::uint64_t{0});  // absent in results of earlier versions
     point.counters.zero_contribution_paths = json.at("zero_contribution_paths");
     point.counters.invalid_samples = json.at("invalid_samples");
     return point;
@@ -78,18 +79,20 @@ RunPoint point_from(const Json& json) {
 Json run_json(const BenchRun& run) {
     Json points = Json::array();
     for (const RunPoint& point : run.series.points) points.push_back(point_json(point));
-    return {{"schema", kRunSchema},
-            {"scene", run.cell.scene},
-            {"method", run.cell.method},
-            {"backend", run.cell.backend},
-            {"seed", run.seed},
-            {"learned_before", "nothing"},
-            {"warm_up", run.warm_up},
-            {"device", run.device},
-            {"threads", run.threads},
-            {"commit", run.commit},
-            {"measure_seconds", run.series.measure_seconds},
-            {"points", points}};
+    Json json{{"schema", kRunSchema},
+              {"scene", run.cell.scene},
+              {"method", run.cell.method},
+              {"backend", run.cell.backend},
+              {"seed", run.seed},
+              {"learned_before", "nothing"},
+              {"warm_up", run.warm_up},
+              {"device", run.device},
+              {"threads", run.threads},
+              {"commit", run.commit},
+              {"measure_seconds", run.series.measure_seconds},
+              {"points", points}};
+    if (!run.host.empty()) json["host"] = run.host;
+    return json;
 }
 
 BenchRun run_from_json(const Json& json) {
@@ -99,6 +102,7 @@ BenchRun run_from_json(const Json& json) {
                  .device = json.at("device"),
                  .threads = json.at("threads"),
                  .commit = json.value("commit", "unknown"),
+                 .host = json.value("host", ""),
                  .series = {}};
     run.series.measure_seconds = json.at("measure_seconds");
     for (const Json& point : json.at("points")) run.series.points.push_back(point_from(point));

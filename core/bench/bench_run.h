@@ -30,6 +30,7 @@ struct BenchRun {
     std::string device;
     int threads = 0;
     std::string commit = "unknown";  ///< of the program that made it
+    std::string host{};              ///< that made it, in a job of several processes; else empty
     RunSeries series;
 
     const RunPoint& end() const { return series.points.back(); }

@@ -46,6 +46,15 @@ public:
         return lit_ / paths_;
     }  ///< of the paths: those that bring light; NaN before the first
 
+    /// As GuidingChoice::each_value().
+    template <class Efficiency, class Fn>
+    static void each_value(Efficiency& efficiency, Fn&& fn) {
+        fn(efficiency.variance_);
+        fn(efficiency.samples_);
+        fn(efficiency.cost_);
+        fn(efficiency.paths_);
+    }
+
 private:
     double variance_ = 0.0;
     double samples_ = 0.0;  ///< measured ones
@@ -96,6 +105,17 @@ public:
     void begin_guided() { belief_ = belief_.value_or(true); }
     /// Guides from the first pass on, by a field that has learned before.
     void trust_field();
+
+    /// Calls fn(value) for every value of its state, for checkpoints. `choice` may be const.
+    template <class Choice, class Fn>
+    static void each_value(Choice& choice, Fn&& fn) {
+        const auto all = [&](auto&... values) { (fn(values), ...); };
+        PathEfficiency::each_value(choice.guided_, fn);
+        PathEfficiency::each_value(choice.baseline_, fn);
+        all(choice.first_variance_, choice.guided_measurements_, choice.learned_, choice.rounds_,
+            choice.baseline_trials_, choice.last_trial_, choice.spent_, choice.trial_cost_, choice.gain_,
+            choice.first_gain_, choice.belief_);
+    }
 
     /// Predicted equal-time factor of guiding over the baseline. Empty before the first decision of this film.
     std::optional<double> gain() const { return belief_ ? gain_ : std::nullopt; }

@@ -29,6 +29,8 @@ public:
                const Refinement& refinement);
     /// Takes refined volumes, without uploading them.
     void refine(const RenderBackend& backend, const HostScene& scene, RefinedPlacement refined);
+    /// Sets the clock: of volumes that this session placed before it was taken out and put back.
+    void set_seconds(double seconds) { seconds_ = seconds; }
     void count_round() { ++refinement_.rounds; }
 
     /// The materials of the scene changed: its brightest emission may be another. `is_same`: the volumes stay, see

@@ -13,6 +13,7 @@
 #include "core/session/served_kernel.h"
 #include "core/session/session_films.h"
 #include "core/session/session_scene.h"
+#include "core/session/session_state.h"
 #include "core/session/shown_range.h"
 
 namespace pl {
@@ -75,6 +76,12 @@ public:
     /// Continues from a learned field: takes its settings and volumes, and clears all films and the tables of other
     /// methods. Throws Error(Input) if it was learned in another scene or if the lengths of its arrays disagree.
     void import_field(LearnedField field);
+    /// All state that decides later bits, between two pieces of work or within a pass. Throws Error(Unavailable) if the back end's
+    /// films cannot be taken out, see exact().
+    SessionState save_state() const;
+    /// Continues from the state of another session; to be called before the first piece of work. Throws Error(Input) if that had
+    /// another scene, another kind of back end or other settings.
+    void restore_state(SessionState state);
     /// Volume that serves a point; kNoVolume if none. Places the volumes if they are not placed yet.
     std::int32_t find_volume_at(Vec3f position, Vec3f normal);
     /// First surface under a point of the film, in pixels of the present size; empty where rays hit nothing.
@@ -109,6 +116,8 @@ private:
     FieldProgress& field(MethodId method) { return fields_[static_cast<std::size_t>(method)]; }
     const FieldProgress& field(MethodId method) const { return fields_[static_cast<std::size_t>(method)]; }
 
+    std::vector<std::pair<std::string, std::string>> identity() const;
+    void save_film(FilmSlot slot, SessionState& state) const;
     void upload_scene();
     void replace_scene(const EditScene& edit);
     void change_material(const EditMaterial& edit);

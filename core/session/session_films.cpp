@@ -37,6 +37,12 @@ void SessionFilms::clear(View view) {
     }
 }
 
+void SessionFilms::restore(FilmSlot slot, FilmProgress progress) {
+    begun_ = std::max(begun_, progress.origin.number);
+    generation_ = std::max(generation_, progress.origin.generation);
+    (*this)[slot] = std::move(progress);
+}
+
 void SessionFilms::park(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const HostScene> scene) {
     parked_.push_back({std::move(backend), films_, std::move(scene)});
 }

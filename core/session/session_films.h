@@ -60,6 +60,9 @@ public:
     /// Clears the films of one view, of all methods.
     void clear(View view);
 
+    /// Puts back the progress of a film; later films are numbered after it.
+    void restore(FilmSlot slot, FilmProgress progress);
+
     /// Keeps the films of this back end for its return.
     void park(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const HostScene> scene);
     /// Removes a back end from the parked ones; without films and scene if it is not parked.

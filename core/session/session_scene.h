@@ -30,6 +30,7 @@ public:
     /// Whether closed surfaces surround the camera, so that escaped paths were lost. False before any has escaped.
     bool is_closed() const { return is_closed_.value_or(false); }
     bool knows_whether_closed() const { return is_closed_.has_value(); }
+    void remember_whether_closed(bool is_closed) { is_closed_ = is_closed; }
     /// Drops the result of the test, because the camera may have moved.
     void forget_whether_closed() { is_closed_.reset(); }
 

@@ -25,7 +25,7 @@ backend="core/session/backend.h core/session/film_slots.h $below_session"
 tools="core/bench core/selftest core/diagnose core/inspect core/plot core/io core/measure core/session $below_session"
 below_ui="ui/viewer.h $tools"
 worker="ui/worker"
-below_app='core/ cpu/ cuda/ ui/'
+below_app='core/ cpu/ cuda/ mpi/ ui/'
 arrows="
 core/kernel/base:
 core/kernel/geometry:   core/kernel/base
@@ -49,14 +49,15 @@ core/fields:  core/scene core/base core/kernel/
 core/session: $below_session
 core/measure: core/session $below_session
 core/plot:    core/base
-core/io:      core/session/learned_field.h core/session/settings.h core/session/snapshot.h core/session/shown_range.h core/scene core/fields core/base core/kernel/
+core/io:      core/session/learned_field.h core/session/session_state.h core/session/settings.h core/session/snapshot.h core/session/shown_range.h core/scene core/fields core/base core/kernel/
 core/diagnose: core/measure core/session $below_session
 core/inspect: core/measure core/session $below_session
 core/selftest: core/session $below_session
 core/bench:   core/measure core/io core/session $below_session
 
-cpu:          cpu/ $backend
-cuda:         cuda/ $backend
+cpu:          cpu/ core/session/exact_backend.h $backend
+cuda:         cuda/ core/session/exact_backend.h $backend
+mpi:          core/session/exact_backend.h $backend
 
 ui/viewer.h:  $tools
 ui/worker:    $below_ui
@@ -87,6 +88,7 @@ CLI/*:             app
 embree[34]/*:      cpu
 omp.h:             cpu
 cuda*:             cuda
+mpi.h:             mpi
 tiny_obj_loader.h: core/io
 tinyexr.h:         core/io
 stb_*:             core/io
@@ -182,7 +184,7 @@ check_includes() {
     local pattern='^([^:]+):([0-9]+):[[:space:]]*#[[:space:]]*include[[:space:]]*([<"])([^>"]+)'
     local all
     all=$(grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.h' --include='*.cpp' --include='*.cu' \
-        --include='*.cuh' core cpu cuda ui app 2>/dev/null)
+        --include='*.cuh' core cpu cuda mpi ui app 2>/dev/null)
     while IFS= read -r text; do
         [[ -n $text ]] && breach "$text"
     done <<<"$(grep -E 'include[[:space:]]*"' <<<"$all" | check_arrows)"
@@ -219,7 +221,7 @@ fi
 
 while IFS= read -r file; do
     [[ -n $file ]] && breach "$file: no #pragma once"
-done <<<"$(find core cpu cuda ui app -name '*.h' -exec grep -L '^#pragma once' {} + 2>/dev/null)"
+done <<<"$(find core cpu cuda mpi ui app -name '*.h' -exec grep -L '^#pragma once' {} + 2>/dev/null)"
 
 for folder in core/*/ core/kernel/*/ ui/*/ app/*/; do
     folder=${folder%/}

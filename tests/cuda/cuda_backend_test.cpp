@@ -8,6 +8,7 @@
 #include "core/measure/run_recorder.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
+#include "core/session/exact_backend.h"
 #include "tests/cuda/shim/control.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/closed_scenes.h"
@@ -251,6 +252,54 @@ TEST_CASE("Paths that wait for the next launch have the bits of the CPU back end
             CHECK(many > shim::launches());
         }
     CHECK(shim::live_objects() == 0);
+}
+
+TEST_CASE(
+    "A session that is taken out where its passes are stopped goes on elsewhere with the bits of the CPU back end") {
+    const SceneDescription scene = shipped_scene("cornell");
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        const RenderSettings settings = small_settings(scene, estimator, 31, 23);
+        const State expected = render(make_session(scene, settings), 5);
+        shim::reset();
+        StopFlag stop = false;
+        on_launch([&](int launch) { stop = launch % 3 == 0; });
+        Session session = make_cuda_session(scene, settings, kShortLaunches);
+        while (session.passes(slot_of(session)) < 5) {
+            exact(session.backend_access()).settle_when_stopped();
+            session.advance(slot_of(session), &stop);
+            stop = false;
+            SessionState state = session.save_state();
+            session = make_cuda_session(scene, settings, kShortLaunches);
+            session.restore_state(std::move(state));
+        }
+        on_launch({});
+        CHECK(same_state(state_of(session), expected));
+    }
+}
+
+TEST_CASE("Pixels and pending sums move to the host and back without changing a bit") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("cornell");
+    const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true});
+    Session session = make_cuda_session(scene, settings);
+    render_passes(session, 17);  // the last pass has left training samples
+    const State before = state_of(session);
+    ExactBackend& backend = exact(session.backend_access());
+    std::vector<FilmPixel> pixels(100);
+    backend.read_pixels(slot_of(session), 33, pixels);
+    backend.write_pixels(slot_of(session), 33, pixels);
+    std::uint64_t samples = 0;
+    backend.change_pending(MethodId::Reinforcement, [&](PendingSums sums) {
+        std::visit(
+            [&](auto values) {
+                samples +=
+                    static_cast<std::uint64_t>(std::ranges::count_if(values, [](auto value) { return value != 0; }));
+            },
+            sums);
+    });
+    CHECK(samples > 0);
+    CHECK(same_state(state_of(session), before));
 }
 
 TEST_CASE("Paths that wait are traced anew where another film came between, and pictures keep their bits") {

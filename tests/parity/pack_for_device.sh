@@ -41,7 +41,7 @@ make_programs() {
         shift
     done
     shift
-    cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DPL_TESTS=ON -DPL_CUDA=ON \
+    cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DPL_TESTS=ON -DPL_MPI=OFF -DPL_CUDA=ON \
         -DCMAKE_CUDA_ARCHITECTURES=90-real -DPL_CUDA_LINE_INFO=ON "${unset[@]}" "${options[@]}" --log-level=WARNING \
         >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
     cmake --build "$build" --target "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }

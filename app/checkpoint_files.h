@@ -1,0 +1,42 @@
+// --checkpoint, --checkpoint-every and --resume: the state of a rendering, from one run of the program to the next.
+#pragma once
+
+#include <optional>
+
+#include "app/console.h"
+#include "app/option_values.h"
+#include "core/base/timer.h"
+#include "core/io/checkpoint_file.h"
+#include "core/session/session.h"
+
+namespace pl {
+
+class CheckpointFiles {
+public:
+    /// Reads the file of --resume, if it is given. Throws Error(Input) if it cannot be used, Error(Usage) for --checkpoint-every
+    /// without --checkpoint.
+    explicit CheckpointFiles(const Options& given);
+
+    /// Gives the state of --resume to the session; to be called before its first piece of work. Throws Error(Input) if that
+    /// belongs to another run, Error(Unavailable) if the back end cannot be continued.
+    void hand_over(Session& session, Console& console);
+    /// Seconds of rendering before this run.
+    double earlier_seconds() const { return earlier_seconds_; }
+
+    /// Writes the checkpoint if its interval is over; between two pieces of work. `seconds`: of rendering, earlier runs included.
+    void save_if_due(const Session& session, double seconds);
+    /// Writes the checkpoint, if one is asked for.
+    void save(const Session& session, double seconds);
+    bool has_written() const { return has_written_; }
+
+private:
+    std::string path_;  ///< empty: none is asked for
+    double interval_ = 0.0;
+    std::string resumed_;
+    std::optional<Checkpoint> loaded_;
+    double earlier_seconds_ = 0.0;
+    bool has_written_ = false;
+    Stopwatch since_last_;
+};
+
+}  // namespace pl

@@ -1,0 +1,128 @@
+// Checkpoints in files: exact, and refused unless whole and of this version.
+#include "core/io/checkpoint_file.h"
+
+#include "core/base/hash.h"
+#include "core/io/files.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/field/small_field.h"
+#include "tests/support/files/input_error.h"
+#include "tests/support/files/temporary_folder.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kVersionOffset = 8;
+constexpr std::size_t kPrefixBytes = 8 + 4 + 8;
+constexpr std::size_t kChecksumBytes = 8;
+
+/// Two films, one of them within a pass, and the smallest field.
+Checkpoint small_checkpoint() {
+    const LearnedField learned = small_field();
+    SessionState state{.identity = {{"scene hash", "abc"}, {"seed", "1"}},
+                       .placement = {},
+                       .fields = {},
+                       .films = {},
+                       .is_closed = true};
+    state.placement = SavedPlacement{.settings = learned.settings,
+                                     .shape = learned.shape,
+                                     .refinement = {.rounds = 2, .added = 1},
+                                     .seconds = 0.25,
+                                     .volumes = learned.volumes};
+    state.fields.push_back({.method = learned.method, .progress = learned.progress, .arrays = learned.field});
+    state.fields[0].progress.forgotten = {0};
+    state.films.resize(2);
+    state.films[1].slot = {MethodId::Default, View::Beauty};
+    SavedFilm& film = state.films[0];
+    film.slot = {learned.method, View::Beauty};
+    film.pixels.resize(6);
+    film.progress.is_allocated = true;
+    film.progress.passes = 3;
+    film.progress.next_pixel = 2;
+    film.progress.switches = {1, 3};
+    film.progress.counters.path.method.lookup_misses = 77;
+    film.progress.counters.variance.sum = 5;
+    film.progress.guiding.begin_guided();
+    film.pixels[4].second_sum = Vec3d{0.1, 0.2, 1.0e300};
+    film.pixels[5].emission = {.value = 9, .varies = 3, .at_border = 1};
+    return {.seconds = 12.5, .state = std::move(state)};
+}
+
+std::string written(const TemporaryFolder& folder, const Checkpoint& checkpoint) {
+    write_checkpoint(folder.path() / "written", checkpoint);
+    return read_file(folder.path() / "written");
+}
+
+/// With the checksum of the bytes before it.
+std::string sealed(std::string bytes) {
+    Fnv1a hash;
+    hash.add(std::string_view(bytes).substr(0, bytes.size() - kChecksumBytes));
+    for (std::size_t i = 0; i < kChecksumBytes; ++i)
+        bytes[bytes.size() - kChecksumBytes + i] = static_cast<char>(hash.value() >> (8 * i));
+    return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("A checkpoint is read as it was written") {
+    const TemporaryFolder folder;
+    const std::string bytes = written(folder, small_checkpoint());
+    const Checkpoint read = read_checkpoint(folder.path() / "written");
+    CHECK(read.seconds == 12.5);
+    CHECK(read.state.identity[1].second == "1");
+    CHECK(read.state.is_closed == true);
+    CHECK(read.state.placement->refinement.added == 1);
+    CHECK(read.state.films[0].progress.counters.path.method.lookup_misses == 77);
+    CHECK(read.state.films[0].pixels[4].second_sum.z == 1.0e300);
+    CHECK(read.state.films[0].pixels[5].emission.varies == 3);
+    CHECK(read.state.films[0].progress.switches == std::vector<std::uint32_t>{1, 3});
+    CHECK_FALSE(read.state.films[0].progress.guiding.is_warming_up());
+    CHECK(read.state.films[1].progress.guiding.is_warming_up());
+    CHECK(read.state.fields[0].progress == small_checkpoint().state.fields[0].progress);
+    CHECK(written(folder, read) == bytes);
+}
+
+TEST_CASE("A checkpoint that is cut off, goes on or has a wrong bit is refused") {
+    const TemporaryFolder folder;
+    const std::string bytes = written(folder, small_checkpoint());
+    for (std::size_t size = 0; size < bytes.size(); size += 7) {
+        const fs::path path = folder.write("cut", bytes.substr(0, size));
+        REQUIRE_THAT(input_error([&] { read_checkpoint(path); }), contains("cut: ") && contains("checkpoint"));
+    }
+    const fs::path longer = folder.write("longer", bytes + '\0');
+    CHECK_THAT(input_error([&] { read_checkpoint(longer); }), contains("longer: damaged checkpoint: expected"));
+    for (std::size_t i = 0; i < 8 * bytes.size(); i += 13) {
+        std::string changed = bytes;
+        changed[i / 8] = static_cast<char>(changed[i / 8] ^ (1 << (i % 8)));
+        const fs::path path = folder.write("flipped", changed);
+        REQUIRE_FALSE(loads_or_refuses([&] { read_checkpoint(path); }));
+    }
+}
+
+TEST_CASE("Other files, other versions and missing files are no checkpoints") {
+    const TemporaryFolder folder;
+    CHECK_THAT(input_error([&] { read_checkpoint(folder.path() / "none"); }), contains("no such file"));
+    CHECK_THAT(input_error([&] { read_checkpoint(folder.write("f", "PLFIELD\n")); }),
+               contains("f: not a checkpoint: expected a file that begins with PLCHECK"));
+    std::string bytes = written(folder, small_checkpoint());
+    bytes[kVersionOffset] = 99;
+    CHECK_THAT(input_error([&] { read_checkpoint(folder.write("f", sealed(bytes))); }),
+               contains("f: checkpoint of another version: expected 1, got 99"));
+}
+
+// As if another program had written the file. Only Error(Input) is allowed.
+TEST_CASE("A checkpoint with any byte replaced and sealed again is read or refused") {
+    const TemporaryFolder folder;
+    const std::string bytes = written(folder, small_checkpoint());
+    int refused = 0;
+    for (std::size_t i = kPrefixBytes; i + kChecksumBytes < bytes.size(); i += 3) {
+        std::string changed = bytes;
+        changed[i] = '\xff';
+        const fs::path path = folder.write("replaced", sealed(changed));
+        refused += loads_or_refuses([&] { read_checkpoint(path); }) ? 0 : 1;
+    }
+    CHECK(refused > 30);
+}
