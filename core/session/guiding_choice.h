@@ -42,9 +42,8 @@ public:
     double samples() const { return samples_; }
     double variance() const { return variance_ / samples_; }  ///< of a path's sample; NaN before the first
     double cost() const { return cost_ / paths_; }            ///< of a path; NaN before the first
-    double lit_share() const {
-        return lit_ / paths_;
-    }  ///< of the paths: those that bring light; NaN before the first
+    /// Of the paths: those that bring light; NaN before the first.
+    double lit_share() const { return lit_ / paths_; }
 
     /// As GuidingChoice::each_value().
     template <class Efficiency, class Fn>
@@ -53,6 +52,7 @@ public:
         fn(efficiency.samples_);
         fn(efficiency.cost_);
         fn(efficiency.paths_);
+        fn(efficiency.lit_);
     }
 
 private:
