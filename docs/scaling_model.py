@@ -35,7 +35,7 @@ def parts_of_first_pass(pixels, volumes):
 
 
 class Run:
-    """What the time of a run is made of, on one thread."""
+    """The parts of the time of a run on one thread."""
 
     def __init__(self, stats, size=None, spp=None):
         """Of the run that was measured, or of a larger picture that takes as long per path and per update."""

@@ -11,7 +11,7 @@ namespace pl {
 
 using Bytes = std::vector<std::byte>;
 
-/// What a rank has sent, and the time that it spent in communication, waiting included.
+/// Messages of a rank, and the time that it spent in communication, waiting included.
 struct Traffic {
     std::uint64_t messages = 0;    ///< calls
     std::uint64_t bytes_sent = 0;  ///< that this rank has handed over, however often the network carries them

@@ -87,7 +87,7 @@ public:
     void read_pixels(FilmSlot slot, std::uint32_t first, std::span<FilmPixel> pixels) const override {
         gathered(slot).read_pixels(slot, first, pixels);
     }
-    /// Ranks get whole films: what they hold of the others' pixels is not known here.
+    /// Ranks get whole films: their state of the others' pixels is not known here.
     void write_pixels(FilmSlot slot, std::uint32_t first, std::span<const FilmPixel> pixels) override {
         gathered(slot);
         Payload payload{.pixels = {pixels.begin(), pixels.end()}};

@@ -11,7 +11,7 @@
 namespace pl {
 namespace {
 
-/// What a rank tells of a command.
+/// The result of a command on one rank.
 struct Outcome {
     std::int32_t error_kind = 0;  ///< 0: it has succeeded
     std::array<char, 508> message{};

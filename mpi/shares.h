@@ -27,8 +27,8 @@ inline PixelRange common_part(PixelRange a, PixelRange b) {
 /// The numbers of a subset's pixels that lie in a range of the film.
 PixelRange numbers_within(const PixelSubset& subset, PixelRange pixels, std::uint32_t film_pixels);
 
-/// A film as blocks of pixels, each cut into one contiguous share per rank. A pass ends or is stopped between blocks, so what it has
-/// rendered is a prefix of the film whatever the number of ranks.
+/// A film as blocks of pixels, each cut into one contiguous share per rank. A pass ends or is stopped between blocks, so the pixels
+/// rendered are a prefix of the film whatever the number of ranks.
 class Shares {
 public:
     /// Pixels of a share, at most: tenths of a second of work, after which a request to stop is honored.
