@@ -67,6 +67,9 @@ std::string report_text(const SceneReport& report) {
     text += fmt::format("bounds     {} to {}\n", print_vector(report.bounds.low), print_vector(report.bounds.high));
     text += fmt::format("camera     eye {}, target {}, up {}, fov {} degrees\n", print_vector(camera.eye),
                         print_vector(camera.target), print_vector(camera.up), print_float(camera.fov_deg));
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+        text += fmt::format("           --scene-camera {}: {}{}\n", i + 1, scene.cameras[i].name,
+                            scene.chosen_camera == i + 1 ? " (this one)" : "");
     text += fmt::format("effects    {}\n", report.effects.empty() ? "none needed" : "");
     for (const Effect& effect : report.effects)
         text += fmt::format("           {}: {}\n", effect.name, effect.reason);
@@ -90,6 +93,8 @@ Json json_of(const SceneReport& report) {
                          {"default", knob.default_value},
                          {"range", Json::array({knob.low, knob.high})},
                          {"does", knob.does}});
+    Json cameras = Json::array();
+    for (const NamedCamera& camera : scene.cameras) cameras.push_back(camera.name);
     Json effects = Json::array();
     for (const Effect& effect : report.effects) effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
     return {{"name", scene.name},
@@ -104,6 +109,7 @@ Json json_of(const SceneReport& report) {
             {"knobs", knobs},
             {"bounds", {{"low", vector_json(report.bounds.low)}, {"high", vector_json(report.bounds.high)}}},
             {"camera", camera_json(scene.camera)},
+            {"cameras", cameras},
             {"effects_needed", effects},
             {"effects_compiled", report.compiled},
             {"kernel", report.kernel}};

@@ -12,6 +12,7 @@ namespace pl {
 /// Where a choice is empty, the scene file decides.
 struct LoadSettings {
     KnobValues knobs{};
+    std::string camera{};              ///< name or number, from 1, of a camera that the file lists; empty: the first
     std::filesystem::path materials{};  ///< file of read_material_file(); empty for none
     std::optional<bool>
         default_light{};              ///< light a scene that has no light; on unless the scene file says otherwise

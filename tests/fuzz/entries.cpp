@@ -126,6 +126,13 @@ void run_json(std::string_view bytes) {
     read_or_refuse([&] { load_and_pack(path); });
 }
 
+/// A .gltf or .glb, which are told apart by their bytes.
+void run_gltf(std::string_view bytes) {
+    folder().write("b.bin", std::string(64, '\x3f'));
+    const fs::path path = folder().write("s.glb", bytes);
+    read_or_refuse([&] { load_and_pack(path); });
+}
+
 void run_field(std::string_view bytes) {
     const fs::path as_it_is = folder().write("f.field", bytes);
     read_or_refuse([&] { read_field(as_it_is); });
@@ -180,7 +187,7 @@ void run_script(std::string_view bytes) {
 #endif
 
 constexpr FuzzEntry kEntries[] = {
-    {"obj", run_obj},       {"json", run_json}, {"field", run_field}, {"image", run_image},
+    {"obj", run_obj},       {"json", run_json}, {"gltf", run_gltf}, {"field", run_field}, {"image", run_image},
 #if PL_FUZZ_SCRIPTS
     {"script", run_script},
 #endif
