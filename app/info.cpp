@@ -7,6 +7,7 @@
 #include "app/open_scene.h"
 #include "app/parse_values.h"
 #include "core/io/camera_file.h"
+#include "core/io/surface_names.h"
 #include "core/scene/default_light.h"
 #include "core/scene/effect_reasons.h"
 #include "core/scene/needed_effects.h"
@@ -29,6 +30,27 @@ std::vector<Effect> effects_of(FeatureSet needed, const SceneDescription& scene)
             effects.push_back(
                 {effect_names(FeatureSet{}.with(feature)).front(), reason_of(feature, scene, scene.camera)});
     return effects;
+}
+
+std::string finish_text(float roughness) {
+    return roughness == 0.0f ? "smooth" : fmt::format("roughness {}", print_float(roughness));
+}
+
+/// The light that a material sends back, and how.
+std::string surface_text(const MaterialDescription& material) {
+    switch (material.kind) {
+    case SurfaceKind::Diffuse: break;
+    case SurfaceKind::Conductor:
+        return fmt::format("metal, reflects {}, {}", print_vector(material.specular),
+                           finish_text(material.roughness));
+    case SurfaceKind::Dielectric:
+        return fmt::format("glass of ior {}, transmits {}, {}", print_float(material.ior),
+                           print_vector(material.transmission), finish_text(material.roughness));
+    case SurfaceKind::Plastic:
+        return fmt::format("reflects {} under a coat of ior {}, {}", print_vector(material.albedo),
+                           print_float(material.ior), finish_text(material.roughness));
+    }
+    return fmt::format("reflects {}", print_vector(material.albedo));
 }
 
 /// The content of the output.
@@ -54,7 +76,7 @@ std::string report_text(const SceneReport& report) {
     text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", scene.triangles.size(),
                         report.packed.lights.size(), scene.materials.size());
     for (const MaterialDescription& material : scene.materials)
-        text += fmt::format("           {}: reflects {}, emits {}{}\n", material.name, print_vector(material.albedo),
+        text += fmt::format("           {}: {}, emits {}{}\n", material.name, surface_text(material),
                             print_vector(material.emission), material.two_sided_emission ? " on both sides" : "");
     text += fmt::format("light      {}\n", light_text(scene));
     text += fmt::format("memory     {} bytes, {:.0f} per triangle\n", bytes_of(report.packed),
@@ -83,7 +105,12 @@ Json json_of(const SceneReport& report) {
     Json materials = Json::array();
     for (const MaterialDescription& material : scene.materials)
         materials.push_back({{"name", material.name},
+                             {"surface", kSurfaceNames[static_cast<std::size_t>(material.kind)]},
                              {"albedo", vector_json(material.albedo)},
+                             {"specular", vector_json(material.specular)},
+                             {"transmission", vector_json(material.transmission)},
+                             {"roughness", material.roughness},
+                             {"ior", material.ior},
                              {"emission", vector_json(material.emission)},
                              {"two_sided_emission", material.two_sided_emission}});
     Json knobs = Json::array();

@@ -43,7 +43,7 @@ SceneDescription load_file(const fs::path& path, const LoadSettings& asked) {
     if (suffix_of(path) == ".json") {
         return load_scene_json(path, asked);
     }
-    SceneDescription scene = load_mesh(path, nullptr);
+    SceneDescription scene = load_mesh(path, nullptr, asked.map_kd);
     scene.name = path.stem().string();
     const UpAxis standard = is_gltf(path) ? UpAxis::Y : UpAxis::Auto;
     scene.up = up_direction(asked.up_axis.value_or(standard), scene);

@@ -17,8 +17,8 @@ bool is_scene_suffix(std::string_view suffix) {
     return suffix == ".obj" || suffix == ".json" || is_gltf_suffix(suffix);
 }
 
-SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups) {
-    return is_gltf(path) ? load_gltf(path, groups) : load_obj(path, groups);
+SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd) {
+    return is_gltf(path) ? load_gltf(path, groups) : load_obj(path, groups, map_kd);
 }
 
 }  // namespace pl

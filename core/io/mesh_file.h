@@ -14,6 +14,6 @@ bool is_gltf(const std::filesystem::path& path);
 bool is_scene_suffix(std::string_view suffix);
 
 /// load_gltf() or load_obj(), by the suffix.
-SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups);
+SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd);
 
 }  // namespace pl

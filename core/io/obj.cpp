@@ -8,6 +8,7 @@
 #include "core/io/obj_library.h"
 #include "core/io/obj_materials.h"
 #include "core/io/obj_simple.h"
+#include "core/io/obj_smooth.h"
 #include "core/io/obj_triangles.h"
 
 namespace pl {
@@ -22,14 +23,15 @@ ObjMesh read_mesh(const std::filesystem::path& path, int threads) {
 
 }  // namespace
 
-SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups) {
+SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd) {
     const int threads = usable_threads();
     ObjMesh mesh = read_mesh(path, threads);
+    smooth_normals(mesh);
     SceneDescription scene;
     scene.source = path;
     scene.files = {path};
     scene.warnings = std::move(mesh.warnings);
-    const MaterialTable materials = load_materials(scene, path, mesh);
+    const MaterialTable materials = load_materials(scene, path, mesh, map_kd);
     add_obj_triangles(scene, std::move(mesh), materials, groups, threads);
     if (scene.triangles.empty()) {
         throw Error(ErrorKind::Input, fmt::format("{}: no face has an area", path.string()));

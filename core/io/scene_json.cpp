@@ -106,7 +106,7 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
         file.fail("/obj", "expected the name of an OBJ or glTF file");
     }
     MeshGroups groups;
-    SceneDescription scene = load_mesh(path.parent_path() / *obj, &groups);
+    SceneDescription scene = load_mesh(path.parent_path() / *obj, &groups, asked.map_kd);
     scene.source = path;
     scene.files.push_back(path);
     scene.name = file.text("/name").value_or(path.stem().string());
