@@ -11,6 +11,7 @@
 #include "core/io/files.h"
 #include "core/io/listed_cameras.h"
 #include "core/io/mesh_file.h"
+#include "core/io/mitsuba/mitsuba.h"
 #include "core/io/nearest_name.h"
 #include "core/io/scene_json.h"
 #include "core/io/scene_knobs.h"
@@ -42,6 +43,15 @@ bool has_scenes(const fs::path& dir) {
 SceneDescription load_file(const fs::path& path, const LoadSettings& asked) {
     if (suffix_of(path) == ".json") {
         return load_scene_json(path, asked);
+    }
+    if (suffix_of(path) == ".xml") {
+        SceneDescription scene = load_mitsuba(path);
+        scene.name = path.stem().string();
+        scene.up = asked.up_axis ? up_direction(*asked.up_axis, scene) : scene.up;
+        if (scene.cameras.empty()) {
+            set_default_camera(scene);
+        }
+        return scene;
     }
     SceneDescription scene = load_mesh(path, nullptr, asked.map_kd);
     scene.name = path.stem().string();
@@ -97,7 +107,9 @@ void warn_of_missing_uvs(SceneDescription& scene) {
     if (fs::exists(name, ignored)) {
         throw Error(
             ErrorKind::Input,
-            fmt::format("{}: expected an .obj, .gltf or .glb file, a scene .json file or the name of a scene", name));
+            fmt::format(
+                "{}: expected an .obj, .gltf, .glb or Mitsuba .xml file, a scene .json file or the name of a scene",
+                name));
     }
     const std::vector<std::string> known = list_scenes(assets_dir);
     const std::string hint = known.empty() ? ""

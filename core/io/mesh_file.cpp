@@ -14,7 +14,7 @@ bool is_gltf_suffix(std::string_view suffix) { return suffix == ".gltf" || suffi
 bool is_gltf(const std::filesystem::path& path) { return is_gltf_suffix(suffix_of(path)); }
 
 bool is_scene_suffix(std::string_view suffix) {
-    return suffix == ".obj" || suffix == ".json" || is_gltf_suffix(suffix);
+    return suffix == ".obj" || suffix == ".json" || suffix == ".xml" || is_gltf_suffix(suffix);
 }
 
 SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd) {

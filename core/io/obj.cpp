@@ -13,19 +13,15 @@
 
 namespace pl {
 
-namespace {
-
-ObjMesh read_mesh(const std::filesystem::path& path, int threads) {
+ObjMesh read_obj_mesh(const std::filesystem::path& path) {
     const std::string text = read_text_file(path);
-    std::optional<ObjMesh> simple = read_simple_obj(text, threads);
+    std::optional<ObjMesh> simple = read_simple_obj(text, usable_threads());
     return simple ? std::move(*simple) : read_any_obj(text, path);
 }
 
-}  // namespace
-
 SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd) {
     const int threads = usable_threads();
-    ObjMesh mesh = read_mesh(path, threads);
+    ObjMesh mesh = read_obj_mesh(path);
     smooth_normals(mesh);
     SceneDescription scene;
     scene.source = path;

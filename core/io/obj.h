@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/io/map_kd.h"
+#include "core/io/obj_mesh.h"
 #include "core/scene/description.h"
 
 namespace pl {
@@ -17,6 +18,9 @@ struct MeshGroups {
     std::vector<std::string> names;            ///< the first is empty: faces before any statement
     std::vector<std::uint32_t> of_triangle{};  ///< index into `names`, parallel to SceneDescription::triangles
 };
+
+/// The elements of the file, with no look at its materials. Throws Error(Input) as load_obj() does.
+ObjMesh read_obj_mesh(const std::filesystem::path& path);
 
 /// Reads geometry and materials; the caller sets camera and name.
 /// - `v`, `vn`, `vt`, `f` (triangles and polygons, negative indices), `usemtl`, `mtllib`; groups and objects are

@@ -14,7 +14,7 @@ struct DialogBench : FileBench {
         options.scenes = {"small", "other"};
         std::filesystem::create_directory(folder.path() / "sub");
         std::filesystem::create_directory(folder.path() / ".hidden");
-        for (const char* name : {"b.obj", "a.json", "a.mtl", "c.field", ".d.obj", "e.GLB", "f.gltf", "f.bin"})
+        for (const char* name : {"b.obj", "a.json", "a.mtl", "c.field", ".d.obj", "e.GLB", "f.gltf", "f.bin", "g.xml"})
             std::ofstream(folder.path() / name) << "x";
     }
 };
@@ -25,7 +25,7 @@ TEST_CASE("Open dialog: a folder shows its folders and what can be opened, sorte
     const DialogBench bench;
     const FolderListing listing = list_folder(bench.folder.path());
     CHECK(listing.folders == std::vector<std::string>{"sub"});
-    CHECK(listing.files == std::vector<std::string>{"a.json", "b.obj", "c.field", "e.GLB", "f.gltf"});
+    CHECK(listing.files == std::vector<std::string>{"a.json", "b.obj", "c.field", "e.GLB", "f.gltf", "g.xml"});
     CHECK(listing.folder.is_absolute());
     CHECK_THROWS_WITH(list_folder(bench.folder.path() / "none"), contains("expected a folder or a scene"));
 }
