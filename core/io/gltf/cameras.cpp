@@ -64,12 +64,12 @@ void add_gltf_cameras(GltfFile& file, const GltfNodes& nodes, SceneDescription& 
         }
         const std::string at = fmt::format("/cameras/{}", *node.camera);
         if (file.json().text(at + "/type") != "perspective") {
-            file.notes().add("cameras without perspective are left out", at);
+            file.note("cameras without perspective are left out", at);
             continue;
         }
         const std::optional<CameraDescription> camera = place_camera(node, field_of_view(file, at), bounds);
         if (!camera) {
-            file.notes().add("cameras whose node has no extent are left out", at);
+            file.note("cameras whose node has no extent are left out", at);
             continue;
         }
         scene.cameras.push_back({.name = node.name,

@@ -29,17 +29,17 @@ void note_the_rest(GltfFile& file) {
         const std::string pointer = fmt::format("/extensionsUsed/{}", i);
         const std::string name = file.json().text(pointer).value_or("");
         if (!is_known(name)) {
-            file.notes().add(fmt::format("the extension {} is left out", name), pointer);
+            file.note(fmt::format("the extension {} is left out", name), pointer);
         }
     }
     if (file.json().array_size("/animations") > 0) {
-        file.notes().add("animations are left out: everything is in the place of its node", "/animations/0");
+        file.note("animations are left out: everything is in the place of its node", "/animations/0");
     }
 }
 
 [[noreturn]] void fail_empty(const GltfFile& file) {
     std::vector<std::string> reasons;
-    file.notes().tell(reasons, file.path());
+    file.notes().tell(reasons);
     throw Error(ErrorKind::Input,
                 fmt::format("{}: expected a mesh in the scene that is shown, got no triangle with an "
                             "area{}{}",
@@ -61,7 +61,7 @@ SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups
     add_gltf_cameras(file, nodes, scene);
     add_gltf_lights(file, nodes, scene);
     note_the_rest(file);
-    file.notes().tell(scene.warnings, path);
+    file.notes().tell(scene.warnings);
     scene.files = file.files();
     return scene;
 }

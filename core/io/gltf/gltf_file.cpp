@@ -39,29 +39,16 @@ void require_readable(const JsonDocument& json) {
 
 }  // namespace
 
-void GltfNotes::add(const std::string& kind, const std::string& pointer) {
-    const auto known =
-        std::find_if(notes_.begin(), notes_.end(), [&](const Note& note) { return note.kind == kind; });
-    if (known == notes_.end()) {
-        notes_.push_back({kind, pointer, 1});
-    } else {
-        ++known->count;
-    }
-}
-
-void GltfNotes::tell(std::vector<std::string>& warnings, const fs::path& path) const {
-    for (const Note& note : notes_) {
-        warnings.push_back(
-            fmt::format("{}: '{}': {} ({} in all)", path.string(), note.first.substr(1), note.kind, note.count));
-    }
-}
-
 GltfFile::GltfFile(const fs::path& path) : GltfFile(path, split_gltf(read_file(path), path)) {}
 
 GltfFile::GltfFile(const fs::path& path, GltfParts parts)
     : path_(path), json_(parts.text, path), binary_(std::move(parts.binary)), files_{path} {
     require_version(json_);
     require_readable(json_);
+}
+
+void GltfFile::note(const std::string& kind, const std::string& pointer) {
+    notes_.add(kind, fmt::format("{}: '{}'", path_.string(), pointer.substr(1)));
 }
 
 std::optional<std::uint32_t> GltfFile::index(const std::string& pointer, const std::string& of) const {

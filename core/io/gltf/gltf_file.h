@@ -11,24 +11,9 @@
 
 #include "core/io/gltf/container.h"
 #include "core/io/json_document.h"
+#include "core/io/scene_notes.h"
 
 namespace pl {
-
-/// Content that is left out or shown otherwise: each kind is told once, with its first place and number.
-class GltfNotes {
-public:
-    /// `kind` is a sentence about the content; `pointer` is its place in the JSON.
-    void add(const std::string& kind, const std::string& pointer);
-    void tell(std::vector<std::string>& warnings, const std::filesystem::path& path) const;
-
-private:
-    struct Note {
-        std::string kind;
-        std::string first;
-        std::size_t count = 0;
-    };
-    std::vector<Note> notes_;  ///< in the order of their first places
-};
 
 /// All members throw Error(Input) with file, line and JSON pointer for content that breaks the format.
 class GltfFile {
@@ -38,8 +23,9 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
     const JsonDocument& json() const { return json_; }
-    GltfNotes& notes() { return notes_; }
-    const GltfNotes& notes() const { return notes_; }
+    /// Notes content that is left out or shown otherwise: `kind` is a sentence about it, `pointer` its place in the JSON.
+    void note(const std::string& kind, const std::string& pointer);
+    const SceneNotes& notes() const { return notes_; }
     /// The file itself and those that its URIs named.
     const std::vector<std::filesystem::path>& files() const { return files_; }
 
@@ -75,7 +61,7 @@ private:
     std::optional<std::string> binary_;
     std::map<std::uint32_t, std::string> buffers_;  ///< the loaded ones; nodes of a map stay where they are
     std::vector<std::filesystem::path> files_;
-    GltfNotes notes_;
+    SceneNotes notes_;
 };
 
 }  // namespace pl

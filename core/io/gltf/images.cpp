@@ -48,7 +48,7 @@ GltfImages::Source GltfImages::source_of(const std::string& texture) {
     for (const char* kind : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"}) {
         const std::string pointer = texture + "/extensions/" + kind;
         if (file_.json().has(pointer) && !file_.json().has(texture + "/source")) {
-            file_.notes().add(fmt::format("images of {} cannot be read", kind), pointer);
+            file_.note(fmt::format("images of {} cannot be read", kind), pointer);
             return {.image = file_.required_index(pointer + "/source", "images"), .repeats = repeats(texture)};
         }
     }
@@ -67,13 +67,13 @@ bool GltfImages::repeats(const std::string& texture) {
     const std::uint64_t u = mode("/wrapS", kRepeat);
     const std::uint64_t v = mode("/wrapT", kRepeat);
     if (u == kMirror || v == kMirror) {
-        file_.notes().add("mirrored repetition of images: they repeat without", at);
+        file_.note("mirrored repetition of images: they repeat without", at);
     }
     if ((u == kClamp) != (v == kClamp)) {
-        file_.notes().add("images that repeat in one direction only: they repeat in both", at);
+        file_.note("images that repeat in one direction only: they repeat in both", at);
     }
     if (mode("/magFilter", 0) == kNearest) {
-        file_.notes().add("images without interpolation: texels are interpolated", at);
+        file_.note("images without interpolation: texels are interpolated", at);
     }
     return u != kClamp || v != kClamp;
 }

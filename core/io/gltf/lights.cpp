@@ -29,7 +29,7 @@ glm::dvec3 irradiance_of(GltfFile& file, const std::string& at) {
 void set_sun(GltfFile& file, const GltfNode& node, const std::string& at, SunDescription& sun) {
     const glm::dvec3 towards(node.to_world[2]);
     if (!(glm::length(towards) > 0.0)) {
-        file.notes().add("lights whose node has no extent are left out", at);
+        file.note("lights whose node has no extent are left out", at);
         return;
     }
     const double half_angle = 0.5 * static_cast<double>(sun.angle_deg) * glm::pi<double>() / 180.0;
@@ -49,9 +49,9 @@ void add_gltf_lights(GltfFile& file, const GltfNodes& nodes, SceneDescription& s
         const std::string at = fmt::format("/extensions/KHR_lights_punctual/lights/{}", *node.light);
         const std::string type = file.json().text(at + "/type").value_or("none");
         if (type != "directional") {
-            file.notes().add(fmt::format("lights of the type {} are left out", type), at);
+            file.note(fmt::format("lights of the type {} are left out", type), at);
         } else if (scene.sun.radiance != glm::vec3(0.0f)) {
-            file.notes().add("directional lights after the first one, the sun, are left out", at);
+            file.note("directional lights after the first one, the sun, are left out", at);
         } else {
             set_sun(file, node, at, scene.sun);
         }

@@ -13,7 +13,7 @@ constexpr const char* kMoved = "a number out of the range of the format is moved
 float clamped_number(GltfFile& file, const std::string& pointer, float standard, float least, float most) {
     const float value = file.json().number(pointer).value_or(standard);
     if (value < least || value > most) {
-        file.notes().add(kMoved, pointer);
+        file.note(kMoved, pointer);
     }
     return std::clamp(value, least, most);
 }
@@ -26,7 +26,7 @@ glm::vec4 clamped_shares(GltfFile& file, const std::string& pointer, std::size_t
     }
     const glm::vec4 inside = glm::clamp(value, glm::vec4(0.0f), glm::vec4(1.0f));
     if (value != inside) {
-        file.notes().add(kMoved, pointer);
+        file.note(kMoved, pointer);
     }
     return inside;
 }

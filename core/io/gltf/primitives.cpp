@@ -57,7 +57,7 @@ GltfPrimitive GltfMeshes::read(const std::string& at) {
         return primitive;
     }
     if (file_.whole(at + "/mode", 4, 0, kLastMode) < static_cast<std::uint64_t>(Mode::Triangles)) {
-        file_.notes().add("points and lines are left out", at);
+        file_.note("points and lines are left out", at);
         return primitive;
     }
     read_attributes(primitive);
@@ -88,7 +88,7 @@ std::optional<std::uint32_t> GltfMeshes::attribute(const GltfPrimitive& primitiv
 void GltfMeshes::read_attributes(GltfPrimitive& primitive) {
     const std::optional<std::uint32_t> positions = file_.index(primitive.at + "/attributes/POSITION", "accessors");
     if (!positions) {
-        file_.notes().add("primitives without positions are left out", primitive.at);
+        file_.note("primitives without positions are left out", primitive.at);
         return;
     }
     count(primitive.at, accessor_count(file_, *positions));
@@ -107,15 +107,15 @@ void GltfMeshes::read_attributes(GltfPrimitive& primitive) {
     if (const auto accessor = attribute(primitive, "COLOR_0")) {
         const std::vector<float> colors = read_floats(file_, *accessor, accessor_type(file_, *accessor));
         if (std::any_of(colors.begin(), colors.end(), [](float value) { return value != 1.0f; })) {
-            file_.notes().add("colors of vertices are left out", color);
+            file_.note("colors of vertices are left out", color);
         }
     }
     if (file_.json().has(primitive.at + "/targets")) {
-        file_.notes().add("morph targets are left out: the base shape is shown", primitive.at);
+        file_.note("morph targets are left out: the base shape is shown", primitive.at);
     }
     for (const char* more : {"/attributes/JOINTS_1", "/extensions/KHR_materials_variants"}) {
         if (file_.json().has(primitive.at + more)) {
-            file_.notes().add(fmt::format("{} is left out", std::strrchr(more, '/') + 1), primitive.at + more);
+            file_.note(fmt::format("{} is left out", std::strrchr(more, '/') + 1), primitive.at + more);
         }
     }
 }
@@ -162,8 +162,7 @@ void GltfMeshes::read_triangles(GltfPrimitive& primitive) {
     const std::size_t count = is_indexed ? corners.size() : primitive.positions.size();
     const std::size_t triangles = mode == Mode::Triangles ? count / 3 : std::max<std::size_t>(count, 2) - 2;
     if (mode == Mode::Triangles && count % 3 != 0) {
-        file_.notes().add("corners without a triangle are left out: their number is not divisible by 3",
-                          primitive.at);
+        file_.note("corners without a triangle are left out: their number is not divisible by 3", primitive.at);
     }
     primitive.triangles.resize(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {

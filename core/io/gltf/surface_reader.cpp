@@ -60,7 +60,7 @@ private:
     std::string extension(const char* name) const { return fmt::format("{}/extensions/KHR_materials_{}", at_, name); }
     std::string specular_gloss() const { return extension("pbrSpecularGlossiness"); }
 
-    void note(const std::string& kind) { file_.notes().add(kind, at_); }
+    void note(const std::string& kind) { file_.note(kind, at_); }
 
     float number(const std::string& pointer, float standard, float least, float most) {
         return clamped_number(file_, pointer, standard, least, most);
@@ -231,7 +231,7 @@ private:
     void note_what_is_left_out() {
         for (const auto& [pointer, words] : kLeftOut) {
             if (json_.has(at_ + pointer)) {
-                file_.notes().add(words, at_ + pointer);
+                file_.note(words, at_ + pointer);
             }
         }
     }

@@ -56,8 +56,7 @@ std::vector<GltfSurface> read_surfaces(GltfFile& file, SceneDescription& scene) 
     }
     surfaces.emplace_back();
     if (needs_standard(file)) {
-        file.notes().add("triangles without a material: in the standard of the format, a rough white metal",
-                         "/meshes");
+        file.note("triangles without a material: in the standard of the format, a rough white metal", "/meshes");
         surfaces.back() = read_surface(file, scene, images, count, "standard");
     }
     return surfaces;

@@ -139,7 +139,7 @@ private:
             TriangleDescription triangle{.vertex = first_vertex_ + of, .material = surface.material};
             if (!has_area(scene_.positions[triangle.vertex.x], scene_.positions[triangle.vertex.y],
                           scene_.positions[triangle.vertex.z])) {
-                file_.notes().add("triangles without area are removed", primitive.at);
+                file_.note("triangles without area are removed", primitive.at);
                 continue;
             }
             if (!primitive.normals.empty()) {
@@ -158,7 +158,7 @@ private:
     void set_normals(const GltfPrimitive& primitive, const glm::uvec3& normal, TriangleDescription& triangle) {
         for (int k = 0; k < 3; ++k) {
             if (scene_.normals[normal[k]] == glm::vec3(0.0f)) {
-                file_.notes().add("normals of no length are ignored", primitive.at);
+                file_.note("normals of no length are ignored", primitive.at);
                 return;
             }
         }

@@ -11,22 +11,9 @@
 #include <glm/glm.hpp>
 #include <pugixml.hpp>
 
+#include "core/io/scene_notes.h"
+
 namespace pl {
-
-/// Content that is left out or shown otherwise: each kind is told once, with its first place and number.
-class MitsubaNotes {
-public:
-    void add(const std::string& kind, const std::string& place);
-    void tell(std::vector<std::string>& warnings) const;
-
-private:
-    struct Note {
-        std::string kind;
-        std::string first;
-        std::size_t count = 0;
-    };
-    std::vector<Note> notes_;
-};
 
 struct MitsubaText;
 
@@ -90,7 +77,7 @@ public:
     const std::vector<MitsubaObject>& objects() const { return objects_; }
     /// The object with this id; empty if there is none.
     MitsubaObject by_id(const std::string& id) const;
-    MitsubaNotes& notes() { return notes_; }
+    SceneNotes& notes() { return notes_; }
     const std::vector<std::filesystem::path>& files() const { return files_; }
 
 private:
@@ -103,7 +90,7 @@ private:
     std::vector<std::unique_ptr<MitsubaText>> texts_;
     std::vector<MitsubaObject> objects_;
     std::vector<std::filesystem::path> files_;
-    MitsubaNotes notes_;
+    SceneNotes notes_;
 };
 
 /// "toWorld" and "to_world" as "to_world", "intIOR" as "int_ior".
