@@ -120,7 +120,7 @@ private:
         note("specular and glossiness are shown as the nearer of metal and plastic");
     }
 
-    /// The amount and color of the reflection of what is no metal. [KHR_materials_specular]
+    /// The amount and color of the reflection of dielectrics. [KHR_materials_specular]
     void read_specular() {
         const std::string at = extension("specular");
         const float amount = share(at + "/specularFactor", 1.0f);

@@ -13,7 +13,7 @@
 
 namespace pl {
 
-/// With what its objects share with those of the other files.
+/// With the parameters and notes that all files share.
 struct MitsubaText {
     std::filesystem::path path;
     std::filesystem::path folder;  ///< of the scene

@@ -1,4 +1,4 @@
-// glTF files: meshes, nodes, cameras and the sun; what is left out is told; files that break the format are refused.
+// glTF files: meshes, nodes, cameras and the sun, notes about content that is left out, and files that are refused.
 #include "core/io/gltf/gltf.h"
 
 #include <cmath>
@@ -132,7 +132,7 @@ TEST_CASE("gltf: strided, quantized and sparse accessors") {
     CHECK(corners(scene, 2) == kTriangle);
 }
 
-TEST_CASE("gltf: nodes move, turn and scale what is below them") {
+TEST_CASE("gltf: nodes move, turn and scale the nodes below them") {
     GltfMaker file;
     file.triangle();
     file.root["nodes"][0]["translation"] = {1, 0, 0};

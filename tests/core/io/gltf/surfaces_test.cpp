@@ -1,4 +1,4 @@
-// glTF materials as the surfaces of the renderer: kinds, numbers, images, holes, and what is told.
+// glTF materials as the surfaces of the renderer: kinds, numbers, images, holes, and notes.
 #include "core/io/gltf/surfaces.h"
 
 #include <array>
@@ -136,7 +136,7 @@ TEST_CASE("gltf materials: glass by transmission") {
     CHECK(is_told(weak, "transmission below one half"));
 }
 
-TEST_CASE("gltf materials: a clear coat on what is no metal") {
+TEST_CASE("gltf materials: a clear coat on dielectrics") {
     const Json coat = extended("clearcoat", {{"clearcoatFactor", 1}, {"clearcoatRoughnessFactor", 0.2}});
     CHECK(surface(coat).kind == SurfaceKind::Plastic);
     CHECK(surface(coat).roughness == 0.2f);
@@ -162,7 +162,7 @@ TEST_CASE("gltf materials: emission with its strength, on both sides if the surf
     CHECK(is_told(label, "no light in this scene but surfaces that glow; by default"));
 }
 
-TEST_CASE("gltf materials: unlit, specular-glossiness and what is left out") {
+TEST_CASE("gltf materials: unlit, specular-glossiness, and content that is left out") {
     const SceneDescription unlit = load(extended("unlit", Json::object()));
     CHECK(unlit.materials[0].kind == SurfaceKind::Diffuse);
     CHECK(is_told(unlit, "unlit surfaces are shown as diffuse ones"));

@@ -1,4 +1,4 @@
-// Mitsuba scenes of 0.x and 3: shapes, surfaces, emitters, camera, parameters and includes; what is left out is told.
+// Mitsuba scenes of 0.x and 3: shapes, surfaces, emitters, camera, parameters and includes, notes, and files that are refused.
 #include "core/io/mitsuba/mitsuba.h"
 
 #include <cmath>
@@ -82,7 +82,7 @@ TEST_CASE("mitsuba: rectangle, cube, disk and sphere, with their fronts outwards
     CHECK(glm::dot(ball.normals[0], glm::vec3(0, 0, 1)) == Approx(1.0f));
 }
 
-TEST_CASE("mitsuba: transformations in their order, of both spellings; mirrored and flipped fronts") {
+TEST_CASE("mitsuba: transformations in their order, of both spellings, mirrored and flipped fronts") {
     const auto square = [](const std::string& transform) {
         return load("<shape type=\"rectangle\"><transform name=\"toWorld\">" + transform + "</transform></shape>");
     };
@@ -181,7 +181,7 @@ TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the val
     CHECK(is_told(odd, "surfaces of the type 'hair' are shown as gray"));
 }
 
-TEST_CASE("mitsuba: area and constant emitters; others are told") {
+TEST_CASE("mitsuba: area and constant emitters, others are told") {
     const SceneDescription scene =
         load("<shape type=\"rectangle\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"20, 3, "
              "3\"/></emitter></shape>" +
