@@ -150,7 +150,12 @@ glm::vec3 MitsubaObject::own_color() const {
         double sum = 0.0;
         const std::vector<std::string_view> pairs = words_of(value);
         for (const std::string_view pair : pairs) {
-            sum += numbers(std::string(pair.substr(pair.find(':') + 1))).at(0);
+            const std::vector<double> number = numbers(std::string(pair.substr(pair.find(':') + 1)));
+            if (number.size() != 1) {
+                fail(fmt::format("'{}': expected pairs of a wavelength and a value such as 400:0.5, got {}",
+                                 attribute("name"), in_quotes(pair)));
+            }
+            sum += number[0];
         }
         return glm::vec3(static_cast<float>(sum / static_cast<double>(pairs.size())));
     }

@@ -37,11 +37,11 @@ TEST_CASE("Open dialog: folders are browsed, and one that cannot be read leaves 
     dialog.toggle();
     REQUIRE(bench.run_until(model, [&] { return !dialog.listing().folder.empty(); }));
     dialog.open(bench.folder.path().string());
-    REQUIRE(bench.run_until(model, [&] { return dialog.listing().files.size() == 3; }));
+    REQUIRE(bench.run_until(model, [&] { return dialog.listing().files.size() == 6; }));
     CHECK(dialog.is_shown());
     dialog.open((bench.folder.path() / "none").string());
     REQUIRE(bench.run_until(model, [&] { return told(model, "expected a folder or a scene"); }));
-    CHECK(dialog.listing().files.size() == 3);
+    CHECK(dialog.listing().files.size() == 6);
     model.cancel();
     CHECK_FALSE(dialog.is_shown());
 }

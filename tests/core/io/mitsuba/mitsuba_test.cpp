@@ -246,6 +246,9 @@ TEST_CASE("mitsuba: broken files are refused with file and line", "[hard]") {
              {"<shape type=\"obj\"><string name=\"filename\" value=\"/etc/passwd\"/></shape>",
               "in the folder of the scene"},
              {"<include filename=\"../a.xml\"/>", "in the folder of the scene"},
+             {"<shape type=\"rectangle\"><bsdf type=\"diffuse\"><spectrum name=\"reflectance\" "
+              "value=\"400:0.1 700:\"/></bsdf></shape>",
+              "expected pairs of a wavelength and a value such as 400:0.5, got '700:'"},
              {"<shape type=\"sphere\"><float name=\"radius\" value=\"x\"/></shape>",
               "expected finite numbers, got 'x'"},
              {"<shape type=\"sphere\"><float name=\"radius\" value=\"1e19\"/></shape>",
