@@ -68,8 +68,8 @@ constexpr std::array kCommands{
 };
 
 constexpr std::string_view kScene =
-    "SCENE is a name (cornell, door, ...), an .obj file or a scene .json file. Settings of a scene file are\n"
-    "defaults that options override.\n";
+    "SCENE is a name (cornell, door, ...), an .obj, .gltf, .glb or Mitsuba .xml file, or a scene .json file.\n"
+    "Settings of a scene file are defaults that options override.\n";
 
 constexpr std::string_view kExitCodes =
     "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 input missing or invalid, 4 back end, device or "

@@ -7,6 +7,7 @@
 #include "app/open_scene.h"
 #include "app/parse_values.h"
 #include "core/io/camera_file.h"
+#include "core/io/surface_names.h"
 #include "core/scene/default_light.h"
 #include "core/scene/effect_reasons.h"
 #include "core/scene/needed_effects.h"
@@ -29,6 +30,27 @@ std::vector<Effect> effects_of(FeatureSet needed, const SceneDescription& scene)
             effects.push_back(
                 {effect_names(FeatureSet{}.with(feature)).front(), reason_of(feature, scene, scene.camera)});
     return effects;
+}
+
+std::string finish_text(float roughness) {
+    return roughness == 0.0f ? "smooth" : fmt::format("roughness {}", print_float(roughness));
+}
+
+/// The light that a material sends back, and how.
+std::string surface_text(const MaterialDescription& material) {
+    switch (material.kind) {
+    case SurfaceKind::Diffuse: break;
+    case SurfaceKind::Conductor:
+        return fmt::format("metal, reflects {}, {}", print_vector(material.specular),
+                           finish_text(material.roughness));
+    case SurfaceKind::Dielectric:
+        return fmt::format("glass of ior {}, transmits {}, {}", print_float(material.ior),
+                           print_vector(material.transmission), finish_text(material.roughness));
+    case SurfaceKind::Plastic:
+        return fmt::format("reflects {} under a coat of ior {}, {}", print_vector(material.albedo),
+                           print_float(material.ior), finish_text(material.roughness));
+    }
+    return fmt::format("reflects {}", print_vector(material.albedo));
 }
 
 /// The content of the output.
@@ -54,7 +76,7 @@ std::string report_text(const SceneReport& report) {
     text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", scene.triangles.size(),
                         report.packed.lights.size(), scene.materials.size());
     for (const MaterialDescription& material : scene.materials)
-        text += fmt::format("           {}: reflects {}, emits {}{}\n", material.name, print_vector(material.albedo),
+        text += fmt::format("           {}: {}, emits {}{}\n", material.name, surface_text(material),
                             print_vector(material.emission), material.two_sided_emission ? " on both sides" : "");
     text += fmt::format("light      {}\n", light_text(scene));
     text += fmt::format("memory     {} bytes, {:.0f} per triangle\n", bytes_of(report.packed),
@@ -67,6 +89,9 @@ std::string report_text(const SceneReport& report) {
     text += fmt::format("bounds     {} to {}\n", print_vector(report.bounds.low), print_vector(report.bounds.high));
     text += fmt::format("camera     eye {}, target {}, up {}, fov {} degrees\n", print_vector(camera.eye),
                         print_vector(camera.target), print_vector(camera.up), print_float(camera.fov_deg));
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+        text += fmt::format("           --scene-camera {}: {}{}\n", i + 1, scene.cameras[i].name,
+                            scene.chosen_camera == i + 1 ? " (this one)" : "");
     text += fmt::format("effects    {}\n", report.effects.empty() ? "none needed" : "");
     for (const Effect& effect : report.effects)
         text += fmt::format("           {}: {}\n", effect.name, effect.reason);
@@ -80,7 +105,12 @@ Json json_of(const SceneReport& report) {
     Json materials = Json::array();
     for (const MaterialDescription& material : scene.materials)
         materials.push_back({{"name", material.name},
+                             {"surface", kSurfaceNames[static_cast<std::size_t>(material.kind)]},
                              {"albedo", vector_json(material.albedo)},
+                             {"specular", vector_json(material.specular)},
+                             {"transmission", vector_json(material.transmission)},
+                             {"roughness", material.roughness},
+                             {"ior", material.ior},
                              {"emission", vector_json(material.emission)},
                              {"two_sided_emission", material.two_sided_emission}});
     Json knobs = Json::array();
@@ -90,6 +120,8 @@ Json json_of(const SceneReport& report) {
                          {"default", knob.default_value},
                          {"range", Json::array({knob.low, knob.high})},
                          {"does", knob.does}});
+    Json cameras = Json::array();
+    for (const NamedCamera& camera : scene.cameras) cameras.push_back(camera.name);
     Json effects = Json::array();
     for (const Effect& effect : report.effects) effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
     return {{"name", scene.name},
@@ -104,6 +136,7 @@ Json json_of(const SceneReport& report) {
             {"knobs", knobs},
             {"bounds", {{"low", vector_json(report.bounds.low)}, {"high", vector_json(report.bounds.high)}}},
             {"camera", camera_json(scene.camera)},
+            {"cameras", cameras},
             {"effects_needed", effects},
             {"effects_compiled", report.compiled},
             {"kernel", report.kernel}};

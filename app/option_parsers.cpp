@@ -183,6 +183,11 @@ void parse_knobs(Options& options, const std::string& text) {
     }
 }
 
+void parse_map_kd(Options& options, const std::string& text) {
+    if (text != "multiply" && text != "replace") fail_choice({"multiply", "replace"}, text);
+    options.load.map_kd = text == "replace" ? MapKd::Replaces : MapKd::Multiplies;
+}
+
 void parse_up_axis(Options& options, const std::string& text) {
     options.load.up_axis = up_axis_named(text);
     if (!options.load.up_axis) fail_choice(names_in(kUpAxisNames, [](std::string_view name) { return name; }), text);
@@ -238,6 +243,10 @@ std::string print_knobs(const Options& options) {
 std::string print_default_light(const Options& options) {
     if (!options.load.default_light) return "";
     return *options.load.default_light ? "on" : "off";
+}
+
+std::string print_map_kd(const Options& options) {
+    return options.load.map_kd == MapKd::Replaces ? "replace" : "";
 }
 
 std::string print_up_axis(const Options& options) {

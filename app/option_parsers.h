@@ -45,6 +45,7 @@ void parse_forced_effects(Options& options, const std::string& text);
 /// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
 void parse_knobs(Options& options, const std::string& text);
 void parse_up_axis(Options& options, const std::string& text);
+void parse_map_kd(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
 void parse_frame_kind(Options& options, const std::string& text);
 void parse_pixel(Options& options, const std::string& text);
@@ -58,6 +59,7 @@ std::string print_knobs(const Options& options);
 std::string print_default_light(const Options& options);
 /// Empty if it was not given.
 std::string print_up_axis(const Options& options);
+std::string print_map_kd(const Options& options);
 std::string_view tone_curve_name(ToneCurve curve);
 std::string_view lookup_name(Lookup lookup);
 std::string_view name_of(LearningRate rate);

@@ -22,11 +22,13 @@ namespace {
 /// Leaves one core to the window where there are several.
 int viewer_threads(int asked) { return asked > 0 ? asked : std::max(1, usable_threads() - 1); }
 
-/// Vertical axis and materials of the command line belong to the scene that it names, not to scenes opened later.
+/// Vertical axis, camera, materials and their reading, by the command line, belong to the scene that it names, not to scenes opened later.
 LoadSettings load_settings_of(const SceneRequest& scene, const Options& opened) {
     LoadSettings settings{.knobs = scene.knobs, .default_light = opened.load.default_light};
     if (scene.name == opened.scene) {
         settings.up_axis = opened.load.up_axis;
+        settings.camera = opened.load.camera;
+        settings.map_kd = opened.load.map_kd;
         settings.materials = opened.load.materials;
     }
     return settings;

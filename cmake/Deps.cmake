@@ -24,6 +24,7 @@ pl_require(fmt fmt fmt::fmt libfmt-dev)
 pl_require(cli11 CLI11 CLI11::CLI11 libcli11-dev)
 pl_require(json nlohmann_json nlohmann_json::nlohmann_json nlohmann-json3-dev)
 pl_require(tinyobjloader tinyobjloader tinyobjloader::tinyobjloader libtinyobjloader-dev)
+pl_require(pugixml pugixml pugixml::pugixml libpugixml-dev)
 pl_require(tinyexr tinyexr tinyexr::tinyexr libtinyexr-dev)
 
 find_package(Threads REQUIRED)

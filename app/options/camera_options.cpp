@@ -16,6 +16,10 @@ constexpr auto kCameraOptions = std::to_array<OptionSpec>({
              "\"aperture_radius\": r, \"focus_distance\": d}; overrides the scene's camera, and the options "
              "below override both",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
+    {.name = "scene-camera", .flags = "--scene-camera", .value = "NAME", .group = kCamera,
+     .help = "Camera that the scene's file lists (glTF), by its name or its number from 1, see 'info' (default: the first)",
+     .commands = kWithScene, .parse = [](Options& o, Text text) { o.load.camera = text; },
+     .print = [](const Options& o) { return o.load.camera; }},
     {.name = "path", .flags = "--path", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"schema\": \"pathlight.cameras/1\", \"cameras\": [{\"eye\": ...}, ...]}, such as the viewer's "
              "bookmarks: the camera moves through them, in equal times from each to the next",

@@ -80,6 +80,10 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
              "of the scene",
      .commands = kWithScene, .parse = [](Options& o, Text text) { o.load.materials = text; },
      .print = [](const Options& o) { return o.load.materials.string(); }},
+    {.name = "map-kd", .flags = "--map-kd", .value = "NAME", .group = kPicture,
+     .help = "Image of a material of an MTL file: multiply (default), map_Kd times Kd by the text of the format; or replace, map_Kd "
+             "alone, as Blender reads it",
+     .commands = kWithScene, .parse = parse_map_kd, .print = print_map_kd},
     {.name = "default-light", .flags = "--default-light", .value = "on|off", .group = kPicture,
      .help = "Light a scene that has no light with a sky and a soft sun (default on); no scene with a light changes",
      .commands = kWithScene, .in_scene_files = true,

@@ -49,6 +49,55 @@ void clear_once(const fs::path& folder) {
     }
 }
 
+void append_utf8(std::string& to, std::uint32_t code) {
+    const auto put = [&](std::uint32_t byte) { to += static_cast<char>(byte); };
+    if (code < 0x80) {
+        put(code);
+    } else if (code < 0x800) {
+        put(0xc0 | code >> 6);
+        put(0x80 | (code & 0x3f));
+    } else if (code < 0x10000) {
+        put(0xe0 | code >> 12);
+        put(0x80 | (code >> 6 & 0x3f));
+        put(0x80 | (code & 0x3f));
+    } else {
+        put(0xf0 | code >> 18);
+        put(0x80 | (code >> 12 & 0x3f));
+        put(0x80 | (code >> 6 & 0x3f));
+        put(0x80 | (code & 0x3f));
+    }
+}
+
+/// UTF-16 behind its byte order mark as UTF-8. [RFC 2781]
+std::string decode_utf16(const fs::path& path, std::string_view bytes) {
+    const std::size_t low = bytes[0] == '\xFF' ? 0 : 1;
+    const auto unit = [&](std::size_t at) {
+        const auto byte = [&](std::size_t i) {
+            return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i]));
+        };
+        return byte(at + low) | byte(at + 1 - low) << 8;
+    };
+    if (bytes.size() % 2 != 0) {
+        throw Error(ErrorKind::Input,
+                    fmt::format("{}: UTF-16 text of {} bytes: expected an even number", path.string(), bytes.size()));
+    }
+    std::string text;
+    for (std::size_t at = 2; at < bytes.size(); at += 2) {
+        std::uint32_t code = unit(at);
+        if (code >= 0xd800 && code < 0xe000) {
+            const std::uint32_t second = at + 2 < bytes.size() ? unit(at + 2) : 0;
+            if (code >= 0xdc00 || second < 0xdc00 || second >= 0xe000) {
+                throw Error(ErrorKind::Input,
+                            fmt::format("{}: UTF-16 text: half a character at byte {}", path.string(), at));
+            }
+            code = 0x10000 + ((code - 0xd800) << 10) + (second - 0xdc00);
+            at += 2;
+        }
+        append_utf8(text, code);
+    }
+    return text;
+}
+
 }  // namespace
 
 void fail_write(const fs::path& path, const std::string& why) {
@@ -83,6 +132,8 @@ std::string read_text_file(const fs::path& path) {
     std::string text = read_file(path);
     if (text.starts_with("\xEF\xBB\xBF")) {
         text.erase(0, 3);
+    } else if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+        return decode_utf16(path, text);
     }
     return text;
 }

@@ -10,7 +10,8 @@ namespace pl {
 /// The bytes of a regular file. Throws Error(Input) if it is missing, a directory, a device, or not readable.
 std::string read_file(const std::filesystem::path& path);
 
-/// As read_file(), without a leading UTF-8 byte order mark.
+/// As read_file(), in UTF-8 without a byte order mark; a file that starts with that of UTF-16 is converted. Throws Error(Input) also
+/// for damaged UTF-16.
 std::string read_text_file(const std::filesystem::path& path);
 
 /// File name extension with its dot, in lower case.

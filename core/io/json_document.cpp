@@ -232,6 +232,30 @@ std::optional<float> JsonDocument::number(const std::string& pointer) const {
     return value->get<float>();
 }
 
+std::optional<std::int64_t> JsonDocument::integer(const std::string& pointer) const {
+    const json* const value = find(pointer);
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    constexpr double kLargest = 9007199254740992.0;  // from here on doubles skip whole numbers
+    const double number = value->is_number() ? value->get<double>() : kLargest;
+    if (!(std::abs(number) < kLargest) || std::trunc(number) != number) {
+        fail(pointer, "expected a whole number, got " + in_quotes(value->dump()));
+    }
+    return static_cast<std::int64_t>(number);
+}
+
+std::optional<std::vector<double>> JsonDocument::numbers(const std::string& pointer, std::size_t length) const {
+    const json* const value = find(pointer);
+    if (value == nullptr) {
+        return std::nullopt;
+    }
+    if (!value->is_array() || value->size() != length || !std::all_of(value->begin(), value->end(), fits_float)) {
+        fail(pointer, fmt::format("expected an array of {} numbers, got {}", length, in_quotes(value->dump())));
+    }
+    return value->get<std::vector<double>>();
+}
+
 std::optional<glm::vec3> JsonDocument::vector(const std::string& pointer) const {
     const json* const value = find(pointer);
     if (value == nullptr) {

@@ -1,6 +1,7 @@
 // A JSON text with error messages that name file and line, which the JSON library does not keep.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -29,11 +30,16 @@ public:
     /// key; the message names the nearest known one.
     const nlohmann::json* object(const std::string& pointer, const std::vector<std::string>& known_keys) const;
 
+    bool has(const std::string& pointer) const { return find(pointer) != nullptr; }
+
     // The value at `pointer`, nothing if there is none. They throw Error(Input) for another type or a non-finite
     // number.
     std::optional<std::string> text(const std::string& pointer) const;
     std::optional<bool> boolean(const std::string& pointer) const;
     std::optional<float> number(const std::string& pointer) const;
+    std::optional<std::int64_t> integer(const std::string& pointer) const;
+    /// An array of so many finite numbers.
+    std::optional<std::vector<double>> numbers(const std::string& pointer, std::size_t length) const;
     std::optional<glm::vec3> vector(const std::string& pointer) const;
     /// [low, high] with low < high.
     std::optional<glm::vec2> range(const std::string& pointer) const;

@@ -9,9 +9,10 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
-#include "core/io/frame_camera.h"
+#include "core/io/listed_cameras.h"
+#include "core/io/mesh_file.h"
+#include "core/io/mitsuba/mitsuba.h"
 #include "core/io/nearest_name.h"
-#include "core/io/obj.h"
 #include "core/io/scene_json.h"
 #include "core/io/scene_knobs.h"
 #include "core/io/scene_materials.h"
@@ -43,23 +44,47 @@ SceneDescription load_file(const fs::path& path, const LoadSettings& asked) {
     if (suffix_of(path) == ".json") {
         return load_scene_json(path, asked);
     }
-    SceneDescription scene = load_obj(path);
+    if (suffix_of(path) == ".xml") {
+        SceneDescription scene = load_mitsuba(path);
+        scene.name = path.stem().string();
+        scene.up = asked.up_axis ? up_direction(*asked.up_axis, scene) : scene.up;
+        if (scene.cameras.empty()) {
+            set_default_camera(scene);
+        }
+        return scene;
+    }
+    SceneDescription scene = load_mesh(path, nullptr, asked.map_kd);
     scene.name = path.stem().string();
-    scene.up = up_direction(asked.up_axis.value_or(UpAxis::Auto), scene);
-    scene.camera = frame_camera(scene);
+    const UpAxis standard = is_gltf(path) ? UpAxis::Y : UpAxis::Auto;
+    scene.up = up_direction(asked.up_axis.value_or(standard), scene);
+    set_default_camera(scene);
     return scene;
 }
 
+/// glTF files leave the light to the viewer: surfaces whose emission is at most 1, such as labels and displays, light nothing.
+bool only_glows(const fs::path& path, const SceneDescription& scene) {
+    const auto glows = [](const MaterialDescription& material) {
+        return glm::all(glm::lessThanEqual(material.emission, glm::vec3(1.0f)));
+    };
+    return is_gltf(path) && scene.environment == glm::vec3(0.0f) && scene.environment_map.texels.empty() &&
+           scene.sun.radiance == glm::vec3(0.0f) &&
+           std::all_of(scene.materials.begin(), scene.materials.end(), glows);
+}
+
 /// Lights a scene that has no light, or says that it stays black.
-void see_to_light(const LoadSettings& asked, SceneDescription& scene) {
-    if (light_of(scene) != SceneLight::None) {
+void see_to_light(const fs::path& path, const LoadSettings& asked, SceneDescription& scene) {
+    const bool is_dark = light_of(scene) == SceneLight::None;
+    if (!is_dark && !only_glows(path, scene)) {
         return;
     }
     const bool is_on = asked.default_light.value_or(scene.setting("default-light") != "off");
     if (is_on) {
         add_default_light(scene);
+    } else if (!is_dark) {
+        return;
     }
-    scene.warnings.push_back(fmt::format("{}: no light in this scene{}", scene.source.string(),
+    scene.warnings.push_back(fmt::format("{}: no light in this scene{}{}", scene.source.string(),
+                                         is_dark ? "" : " but surfaces that glow",
                                          is_on ? "; by " + light_text(scene) + " (--default-light off: without)"
                                                : ": the picture is black (--default-light on: a sky with a sun)"));
 }
@@ -71,7 +96,7 @@ void warn_of_missing_uvs(SceneDescription& scene) {
     };
     const auto count = std::count_if(scene.triangles.begin(), scene.triangles.end(), lacks);
     if (count > 0) {
-        scene.warnings.push_back(fmt::format("{}: {} triangles have a texture but no texture points (vt): they show "
+        scene.warnings.push_back(fmt::format("{}: {} triangles have a texture but no texture coordinates: they show "
                                              "the point (0, 0) of it",
                                              scene.source.string(), count));
     }
@@ -80,8 +105,11 @@ void warn_of_missing_uvs(SceneDescription& scene) {
 [[noreturn]] void fail_unknown(const std::string& name, const fs::path& assets_dir) {
     std::error_code ignored;
     if (fs::exists(name, ignored)) {
-        throw Error(ErrorKind::Input,
-                    fmt::format("{}: expected an .obj file, a scene .json file or the name of a scene", name));
+        throw Error(
+            ErrorKind::Input,
+            fmt::format(
+                "{}: expected an .obj, .gltf, .glb or Mitsuba .xml file, a scene .json file or the name of a scene",
+                name));
     }
     const std::vector<std::string> known = list_scenes(assets_dir);
     const std::string hint = known.empty() ? ""
@@ -94,13 +122,14 @@ void warn_of_missing_uvs(SceneDescription& scene) {
 
 SceneDescription load_scene(const std::string& name_or_path, const fs::path& assets_dir, const LoadSettings& asked) {
     const std::string extension = suffix_of(name_or_path);
-    const bool is_path = extension == ".obj" || extension == ".json";
+    const bool is_path = is_scene_suffix(extension);
     const bool is_name = !is_path && !name_or_path.empty() && name_or_path.find('/') == std::string::npos;
     const fs::path path = is_path ? fs::path(name_or_path) : scene_file(assets_dir, name_or_path);
     if (!is_path && !(is_name && is_file(path))) {
         fail_unknown(name_or_path, assets_dir);
     }
     SceneDescription scene = load_file(path, asked);
+    choose_camera(asked.camera, scene);
     require_known_knobs(scene, asked.knobs);
     if (!asked.materials.empty()) {
         read_material_file(asked.materials, scene);
@@ -113,7 +142,7 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
         scene.warnings.push_back(fmt::format("{}: the camera's up vector is along its view, replaced by {} {} {}",
                                              scene.source.string(), up.x, up.y, up.z));
     }
-    see_to_light(asked, scene);
+    see_to_light(path, asked, scene);
     return scene;
 }
 

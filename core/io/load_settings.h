@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/io/map_kd.h"
 #include "core/scene/description.h"
 #include "core/scene/up_axis.h"
 
@@ -12,6 +13,8 @@ namespace pl {
 /// Where a choice is empty, the scene file decides.
 struct LoadSettings {
     KnobValues knobs{};
+    MapKd map_kd = MapKd::Multiplies;   ///< of MTL files
+    std::string camera{};               ///< name or number, from 1, of a camera that the file lists; empty: the first
     std::filesystem::path materials{};  ///< file of read_material_file(); empty for none
     std::optional<bool>
         default_light{};              ///< light a scene that has no light; on unless the scene file says otherwise

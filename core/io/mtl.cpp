@@ -5,6 +5,7 @@
 #include "core/io/files.h"
 #include "core/io/line_reader.h"
 #include "core/io/mtl_reader.h"
+#include "core/io/tally.h"
 #include "core/io/texture_file.h"
 
 namespace pl {
@@ -32,12 +33,26 @@ private:
     fs::path folder_;
 };
 
+/// Gray of 0.8, or of 0.64, its square: written beside images by exporters that do not mean it.
+bool is_default_of_exporters(const std::optional<glm::vec3>& kd) {
+    const auto is_gray_of = [&](float value) {
+        return glm::all(glm::lessThan(glm::abs(*kd - glm::vec3(value)), glm::vec3(1e-4f)));
+    };
+    return kd && (is_gray_of(0.8f) || is_gray_of(0.64f));
+}
+
 }  // namespace
 
-void load_mtl(const fs::path& path, SceneDescription& scene) {
+void load_mtl(const fs::path& path, SceneDescription& scene, MapKd map_kd) {
     TextureAdder textures(scene, path);
-    for (const MtlEntry& entry : read_mtl(read_text_file(path), path, scene.warnings)) {
+    Tally dimmed;
+    for (MtlEntry& entry : read_mtl(read_text_file(path), path, scene.warnings)) {
         std::vector<std::string> notes;
+        if (entry.map_kd && map_kd == MapKd::Replaces) {
+            entry.kd.reset();
+        } else if (entry.map_kd && is_default_of_exporters(entry.kd)) {
+            dimmed.add(entry.line);
+        }
         MaterialDescription material = surface_of(entry, notes);
         if (entry.map_kd && entry.kd == glm::vec3(0.0f)) {
             notes.emplace_back("multiplies its map_Kd with a black Kd");
@@ -55,6 +70,10 @@ void load_mtl(const fs::path& path, SceneDescription& scene) {
             .opacity = textures.add(entry.map_d, TextureContent::Opacity)};
         scene.materials.push_back(std::move(material));
     }
+    dimmed.tell(
+        scene.warnings, path,
+        "the image of map_Kd is multiplied by a Kd that is a default of exporters (--map-kd replace: the image "
+        "alone, as Blender shows it)");
 }
 
 }  // namespace pl

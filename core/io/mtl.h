@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/io/map_kd.h"
 #include "core/io/mtl_surface.h"
 #include "core/scene/description.h"
 
@@ -16,7 +17,9 @@ namespace pl {
 ///   Pl_two_sided 0|1  emission from the back side too
 /// A material without any color has kDefaultAlbedo; of two materials with the same name the first counts. Both give a
 /// warning, as do ignored statements that would change the picture and textures that cannot be read.
+/// With MapKd::Replaces an image of Kd is multiplied by 1. With MapKd::Multiplies one warning tells of materials whose Kd is a
+/// default of exporters.
 /// Throws Error(Input) with file and line for values of Kd, Ke and the Pl_ keys that are negative or not finite.
-void load_mtl(const std::filesystem::path& path, SceneDescription& scene);
+void load_mtl(const std::filesystem::path& path, SceneDescription& scene, MapKd map_kd = MapKd::Multiplies);
 
 }  // namespace pl

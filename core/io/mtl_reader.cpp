@@ -100,9 +100,6 @@ private:
 
     void begin_material() {
         const std::string name = decode_name(encode_name(reader_.arguments()));  // as `usemtl` encodes it
-        if (name.empty()) {
-            reader_.fail("'newmtl': expected a name");
-        }
         in_material_ = true;
         skips_ = !names_.insert(name).second;
         if (skips_) {

@@ -13,9 +13,6 @@ constexpr float kMirrorExponent = 1000.0f;
 /// Indices of refraction below this are ignored: programs write 1 as a default.
 constexpr float kNoRefraction = 1.01f;
 
-/// Below this index the interface is smooth: without refraction the half vector of a rough one is undefined.
-constexpr float kLeastRoughIor = 1.05f;
-
 float strongest(const std::optional<glm::vec3>& color) {
     return color ? std::max(color->x, std::max(color->y, color->z)) : 0.0f;
 }

@@ -15,6 +15,9 @@ inline constexpr glm::vec3 kDefaultAlbedo{0.70f, 0.45f, 0.70f};
 /// Roughness below this counts as 0: the surface looks like a mirror.
 inline constexpr float kLeastRoughness = 0.03f;
 
+/// Below this index an interface is smooth: without refraction the half vector of a rough one is undefined.
+inline constexpr float kLeastRoughIor = 1.05f;
+
 /// Roughness sqrt(alpha) of the GGX lobe of about the width of a Phong lobe with exponent Ns: alpha = sqrt(2 / (Ns +
 /// 2)). [Walter et al. 2007, section 5.2]
 float roughness_of_exponent(float ns);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/io/map_kd.h"
+#include "core/io/obj_mesh.h"
 #include "core/scene/description.h"
 
 namespace pl {
@@ -17,15 +19,20 @@ struct MeshGroups {
     std::vector<std::uint32_t> of_triangle{};  ///< index into `names`, parallel to SceneDescription::triangles
 };
 
+/// The elements of the file, with no look at its materials. Throws Error(Input) as load_obj() does.
+ObjMesh read_obj_mesh(const std::filesystem::path& path);
+
 /// Reads geometry and materials; the caller sets camera and name.
 /// - `v`, `vn`, `vt`, `f` (triangles and polygons, negative indices), `usemtl`, `mtllib`; groups and objects are
 ///   merged, and listed in `groups` if it is not null.
 /// - Corners share a vertex exactly if they share its index, so watertight meshes stay watertight.
 /// - Faces without a material get a default one with kDefaultAlbedo, with one warning for the whole scene.
+/// - Faces of a smoothing group (`s`) without normals get those of smooth_normals().
 /// - Triangles too small to have a normal are removed; normals of length 0, or missing at a corner of a triangle, are
 ///   ignored; each with one counted warning. A triangle with a corner without texture coordinates has none.
 /// - `mtllib` may only name files in the folder of the OBJ file or below.
 /// Throws Error(Input) with file and line for malformed statements; see check_obj() and load_mtl().
-SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups = nullptr);
+SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups = nullptr,
+                          MapKd map_kd = MapKd::Multiplies);
 
 }  // namespace pl

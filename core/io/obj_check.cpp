@@ -19,7 +19,7 @@ namespace {
 constexpr char kEncodedBlank = '\x1f';  // not in files: the reader refuses control characters
 constexpr std::int64_t kNone = 0;       // OBJ indices start at 1
 
-constexpr std::array<std::string_view, 5> kWithoutEffect = {"s", "l", "p", "vp", "mg"};
+constexpr std::array<std::string_view, 4> kWithoutEffect = {"l", "p", "vp", "mg"};
 
 /// Number of elements of a kind so far, and the forward references to later ones.
 struct Elements {
@@ -78,6 +78,8 @@ private:
             fmt::format_to(std::back_inserter(result_.text), "usemtl {}\n", word);
         } else if (keyword == "o" || keyword == "g") {
             group(std::string(reader_.arguments()));
+        } else if (keyword == "s") {
+            smoothing_ = smoothing_of(reader_.arguments());
         } else if (keyword == "mtllib") {
             result_.libraries.push_back({std::string(reader_.arguments()), reader_.line()});
         } else if (!is_without_effect(keyword)) {
@@ -161,6 +163,7 @@ private:
         }
         result_.face_lines.push_back(reader_.line());
         result_.face_groups.push_back(group_);
+        result_.face_smoothing.push_back(smoothing_);
     }
 
     /// `v`, `v/t`, `v//n` or `v/t/n`.
@@ -233,6 +236,7 @@ private:
     CheckedObj result_;
     NameIndex group_index_;
     std::uint32_t group_ = 0;
+    Smoothing smoothing_ = Smoothing::Off;
     Elements vertices_{.name = "vertex"};
     Elements normals_{.name = "normal"};
     Elements texture_points_{.name = "texture point"};

@@ -32,6 +32,7 @@ struct CheckedObj {
     std::string text;
     std::vector<int> face_lines;                ///< line in the file, per `f` of `text`
     std::vector<std::uint32_t> face_groups;     ///< index into `group_names`, per `f` of `text`
+    std::vector<Smoothing> face_smoothing;      ///< per `f` of `text`
     std::vector<std::string> group_names;       ///< arguments of `o` and `g` statements; first: faces before any
     std::vector<ObjName> libraries;             ///< arguments of each `mtllib`
     std::map<std::string, int> material_lines;  ///< name -> line of its first `usemtl`

@@ -99,7 +99,7 @@ ObjCounts count_elements(std::string_view text) {
 
 ObjChunkReader::ObjChunkReader(ObjMesh& mesh, const ObjCounts& before, const ObjCounts& total)
     : mesh_(mesh), at_(before), total_(total) {
-    faces_.runs.push_back({0, kInherited, kInherited});
+    faces_.runs.push_back({0, kInherited, kInherited, Smoothing::Inherited});
 }
 
 bool ObjChunkReader::read(std::string_view text, std::int64_t face_count) {
@@ -180,6 +180,8 @@ bool ObjChunkReader::other_statement(std::string_view keyword, const char* at, c
         });
     } else if (keyword == "o" || keyword == "g") {
         start_run().group = group_index_.find_or(arguments, [&] { groups_.push_back(arguments); });
+    } else if (keyword == "s") {
+        start_run().smoothing = smoothing_of(arguments);
     } else if (keyword == "mtllib") {
         libraries_.push_back({arguments, static_cast<int>(at_.lines)});
     } else {

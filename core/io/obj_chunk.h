@@ -41,7 +41,7 @@ public:
     /// False if the text is not simple.
     bool read(std::string_view text, std::int64_t face_count);
 
-    /// Materials and groups of the runs are numbers of this chunk's own lists, or kInherited.
+    /// Materials and groups of the runs are numbers of this chunk's own lists, or kInherited; their smoothing may be inherited.
     ObjFaces take_faces() { return std::move(faces_); }
     const std::vector<ObjName>& materials() const { return materials_; }
     const std::vector<std::string>& groups() const { return groups_; }

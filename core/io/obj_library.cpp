@@ -14,9 +14,9 @@ namespace {
 
 /// Collected by the callbacks of the library.
 struct LibraryReading {
-    explicit LibraryReading(const CheckedObj& checked) : face_groups(checked.face_groups) {}
+    explicit LibraryReading(const CheckedObj& checked_obj) : checked(checked_obj) {}
 
-    const std::vector<std::uint32_t>& face_groups;
+    const CheckedObj& checked;
     std::vector<glm::vec3> positions{};
     std::vector<glm::vec3> normals{};
     std::vector<glm::vec2> uvs{};
@@ -46,10 +46,12 @@ void on_material(void* user_data, const char* word, int) {
 void on_face(void* user_data, tinyobj::index_t* indices, int count) {
     LibraryReading& to = reading(user_data);
     const std::size_t face = to.faces.size();
-    const std::uint32_t group = face < to.face_groups.size() ? to.face_groups[face] : 0;
-    if (to.faces.runs.empty() || to.faces.runs.back().material != to.material ||
-        to.faces.runs.back().group != group) {
-        to.faces.runs.push_back({face, to.material, group});
+    const bool is_known = face < to.checked.face_groups.size();
+    const std::uint32_t group = is_known ? to.checked.face_groups[face] : 0;
+    const Smoothing smoothing = is_known ? to.checked.face_smoothing[face] : Smoothing::Off;
+    const ObjFaces::Run* const last = to.faces.runs.empty() ? nullptr : &to.faces.runs.back();
+    if (last == nullptr || last->material != to.material || last->group != group || last->smoothing != smoothing) {
+        to.faces.runs.push_back({face, to.material, group, smoothing});
     }
     to.faces.corner_counts.push_back(static_cast<std::uint32_t>(count));
     for (int i = 0; i < count; ++i) {

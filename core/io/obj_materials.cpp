@@ -43,7 +43,8 @@ std::vector<std::string> library_names(const fs::path& obj, const ObjName& libra
 }
 
 /// Loads all libraries into the scene. Returns the missing ones, for the warning about materials.
-std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path& obj, const ObjMesh& mesh) {
+std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path& obj, const ObjMesh& mesh,
+                                        MapKd map_kd) {
     std::vector<std::string> missing;
     std::set<std::string> seen;
     for (const ObjName& library : mesh.libraries) {
@@ -58,7 +59,7 @@ std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path&
                     fmt::format("{}: material file {} not found", place(obj, library.line), in_quotes(name)));
                 continue;
             }
-            load_mtl(path, scene);
+            load_mtl(path, scene, map_kd);
         }
     }
     return missing;
@@ -89,8 +90,8 @@ std::size_t faces_of(const ObjMesh& mesh, const MaterialTable& table, std::uint3
 
 }  // namespace
 
-MaterialTable load_materials(SceneDescription& scene, const fs::path& obj, const ObjMesh& mesh) {
-    std::vector<std::string> reasons = load_libraries(scene, obj, mesh);
+MaterialTable load_materials(SceneDescription& scene, const fs::path& obj, const ObjMesh& mesh, MapKd map_kd) {
+    std::vector<std::string> reasons = load_libraries(scene, obj, mesh, map_kd);
     std::map<std::string, std::uint32_t> known;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
         known.try_emplace(scene.materials[i].name, i);

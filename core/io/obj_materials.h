@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/io/map_kd.h"
 #include "core/io/obj_mesh.h"
 #include "core/scene/description.h"
 
@@ -23,6 +24,7 @@ struct MaterialTable {
 /// Loads the material libraries of the file into scene.materials and looks up the names that it uses. Missing materials
 /// are replaced by one default material, added only if faces use it, with one warning.
 /// Throws Error(Input) for a library that is outside the scene's folder or malformed.
-MaterialTable load_materials(SceneDescription& scene, const std::filesystem::path& obj, const ObjMesh& mesh);
+MaterialTable load_materials(SceneDescription& scene, const std::filesystem::path& obj, const ObjMesh& mesh,
+                             MapKd map_kd);
 
 }  // namespace pl

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -19,13 +20,27 @@ struct ObjCorner {
     std::uint32_t uv = kNone;
 };
 
+/// By the last `s` statement.
+enum class Smoothing : std::uint8_t {
+    Off,
+    On,
+    Inherited  ///< that of the chunk of text before
+};
+
+/// Whether the first of the arguments of an `s` statement names a smoothing group.
+inline Smoothing smoothing_of(std::string_view arguments) {
+    const std::string_view argument = arguments.substr(0, arguments.find_first_of(" \t#"));
+    return argument.empty() || argument == "0" || argument == "off" ? Smoothing::Off : Smoothing::On;
+}
+
 /// Consecutive faces of a file.
 struct ObjFaces {
-    /// Faces from `first` on, up to the next run, with one material and group.
+    /// Faces from `first` on, up to the next run, with one material, group and smoothing.
     struct Run {
         std::size_t first = 0;
         std::uint32_t material = kNoMaterial;
         std::uint32_t group = 0;
+        Smoothing smoothing = Smoothing::Off;
     };
     static constexpr std::uint32_t kNoMaterial = 0xffffffffu;
 

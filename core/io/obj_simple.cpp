@@ -33,6 +33,7 @@ public:
         for (ObjFaces::Run& run : faces.runs) {
             run.material = run.material == ObjChunkReader::kInherited ? before.material : materials[run.material];
             run.group = run.group == ObjChunkReader::kInherited ? before.group : groups[run.group];
+            run.smoothing = run.smoothing == Smoothing::Inherited ? before.smoothing : run.smoothing;
             last_ = run;
         }
         mesh_.parts.push_back(std::move(faces));

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/base/parallel_chunks.h"
 #include "core/io/tally.h"
+#include "core/io/triangle_area.h"
 #include "core/io/triangulate.h"
 
 namespace pl {
@@ -70,7 +70,7 @@ private:
 
     void add_triangle(const ObjCorner& a, const ObjCorner& b, const ObjCorner& c) {
         TriangleDescription triangle{.vertex = {a.vertex, b.vertex, c.vertex}, .material = material_};
-        if (!has_area(triangle)) {
+        if (!has_area(scene_.positions[a.vertex], scene_.positions[b.vertex], scene_.positions[c.vertex])) {
             no_area.add(faces_.lines[face_]);
             return;
         }
@@ -90,14 +90,6 @@ private:
 
     bool is_usable(std::uint32_t normal) const {
         return normal != ObjCorner::kNone && scene_.normals[normal] != glm::vec3(0.0f);
-    }
-
-    /// Whether a unit normal can be computed in floats: the squared length of the cross product is a normal float.
-    bool has_area(const TriangleDescription& t) const {
-        const glm::dvec3 a(scene_.positions[t.vertex.x]);
-        const glm::dvec3 n =
-            glm::cross(glm::dvec3(scene_.positions[t.vertex.y]) - a, glm::dvec3(scene_.positions[t.vertex.z]) - a);
-        return glm::dot(n, n) >= static_cast<double>(std::numeric_limits<float>::min());
     }
 
     const SceneDescription& scene_;

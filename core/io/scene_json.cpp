@@ -11,7 +11,8 @@
 #include "core/io/files.h"
 #include "core/io/frame_camera.h"
 #include "core/io/json_document.h"
-#include "core/io/obj.h"
+#include "core/io/listed_cameras.h"
+#include "core/io/mesh_file.h"
 #include "core/io/scene_knobs.h"
 #include "core/io/scene_materials.h"
 
@@ -46,7 +47,7 @@ void read_camera(const JsonDocument& file, const LoadSettings& asked, SceneDescr
         file.object("/camera", {"eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance"});
     read_up(file, asked, scene);
     if (!given) {
-        scene.camera = frame_camera(scene);
+        set_default_camera(scene);
         return;
     }
     const float fov_deg = file.number("/camera/fov_deg").value_or(CameraDescription{}.fov_deg);
@@ -102,10 +103,10 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     }
     const std::optional<std::string> obj = file.text("/obj");
     if (!obj || obj->empty()) {
-        file.fail("/obj", "expected the name of an OBJ file");
+        file.fail("/obj", "expected the name of an OBJ or glTF file");
     }
     MeshGroups groups;
-    SceneDescription scene = load_obj(path.parent_path() / *obj, &groups);
+    SceneDescription scene = load_mesh(path.parent_path() / *obj, &groups, asked.map_kd);
     scene.source = path;
     scene.files.push_back(path);
     scene.name = file.text("/name").value_or(path.stem().string());

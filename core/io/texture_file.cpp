@@ -81,8 +81,7 @@ std::vector<glm::vec4> unpack(const StbPixels<Sample>& pixels, const RawImage& i
     return texels;
 }
 
-RawImage read_by_stb(const fs::path& path, const std::string& suffix) {
-    const std::string bytes = read_file(path);
+RawImage read_by_stb(const std::string& bytes, const fs::path& path, const std::string& suffix) {
     const auto* const data = reinterpret_cast<const stbi_uc*>(bytes.data());
     if (!bytes.starts_with(signature_of(suffix)) || bytes.size() > std::numeric_limits<int>::max()) {
         fail_image(path, "not a file of this kind: " + suffix);
@@ -138,7 +137,7 @@ RawImage read_raw(const fs::path& path) {
         fail_image(path, fmt::format("expected an image (.png, .jpg, .tga, .bmp, .hdr, .exr or .pfm), got {}",
                                      suffix.empty() ? "a file without suffix" : suffix));
     }
-    return read_by_stb(path, suffix);
+    return read_by_stb(read_file(path), path, suffix);
 }
 
 /// Replaces NaN, infinite and negative texels by 0.
@@ -176,6 +175,22 @@ void take_opacity(std::vector<glm::vec4>& texels) {
     }
 }
 
+TextureDescription make_texture(RawImage image, const fs::path& path, TextureContent content, bool repeats,
+                                std::vector<std::string>& warnings) {
+    clean(path, image.texels, warnings);
+    if (content == TextureContent::Color && image.is_ldr) {
+        decode(image.texels);
+    } else if (content == TextureContent::Opacity) {
+        take_opacity(image.texels);
+    }
+    return {.source = path,
+            .content = content,
+            .width = static_cast<std::uint32_t>(image.width),
+            .height = static_cast<std::uint32_t>(image.height),
+            .repeats = repeats,
+            .texels = std::move(image.texels)};
+}
+
 /// Placeholder of an image that cannot be read: a conspicuous checkerboard.
 TextureDescription checkers(const fs::path& source, bool repeats) {
     constexpr glm::vec4 kMagenta{1.0f, 0.0f, 1.0f, 1.0f};
@@ -191,19 +206,13 @@ TextureDescription checkers(const fs::path& source, bool repeats) {
 
 TextureDescription read_texture(const fs::path& path, TextureContent content, bool repeats,
                                 std::vector<std::string>& warnings) {
-    RawImage image = read_raw(path);
-    clean(path, image.texels, warnings);
-    if (content == TextureContent::Color && image.is_ldr) {
-        decode(image.texels);
-    } else if (content == TextureContent::Opacity) {
-        take_opacity(image.texels);
-    }
-    return {.source = path,
-            .content = content,
-            .width = static_cast<std::uint32_t>(image.width),
-            .height = static_cast<std::uint32_t>(image.height),
-            .repeats = repeats,
-            .texels = std::move(image.texels)};
+    return make_texture(read_raw(path), path, content, repeats, warnings);
+}
+
+TextureDescription decode_texture(const std::string& bytes, const fs::path& source, TextureContent content,
+                                  bool repeats, std::vector<std::string>& warnings) {
+    const std::string suffix = bytes.starts_with(signature_of(".png")) ? ".png" : ".jpg";
+    return make_texture(read_by_stb(bytes, source, suffix), source, content, repeats, warnings);
 }
 
 std::uint32_t add_texture(SceneDescription& scene, const fs::path& path, TextureContent content, bool repeats) {
@@ -214,8 +223,14 @@ std::uint32_t add_texture(SceneDescription& scene, const fs::path& path, Texture
     if (known != scene.textures.end()) {
         return static_cast<std::uint32_t>(known - scene.textures.begin());
     }
+    return add_texture_by(scene, path, content, repeats,
+                          [&] { return read_texture(path, content, repeats, scene.warnings); });
+}
+
+std::uint32_t add_texture_by(SceneDescription& scene, const fs::path& source, TextureContent content, bool repeats,
+                             const std::function<TextureDescription()>& read) {
     try {
-        scene.textures.push_back(read_texture(path, content, repeats, scene.warnings));
+        scene.textures.push_back(read());
     } catch (const Error& error) {
         const bool shows = content == TextureContent::Color;
         const std::string told =
@@ -226,7 +241,7 @@ std::uint32_t add_texture(SceneDescription& scene, const fs::path& path, Texture
         if (!shows) {
             return kNoTexture;
         }
-        scene.textures.push_back(checkers(path, repeats));
+        scene.textures.push_back(checkers(source, repeats));
     }
     return static_cast<std::uint32_t>(scene.textures.size() - 1);
 }

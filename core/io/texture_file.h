@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,16 @@ inline constexpr std::size_t kMostTexels = std::size_t{1} << 26;
 TextureDescription read_texture(const std::filesystem::path& path, TextureContent content, bool repeats,
                                 std::vector<std::string>& warnings);
 
-/// Index of the texture of a file in the scene, added if it is new. If the file cannot be read, adds a warning and
+/// As read_texture() for the bytes of a PNG or JPEG file; `source` is for messages, and becomes that of the texture.
+TextureDescription decode_texture(const std::string& bytes, const std::filesystem::path& source,
+                                  TextureContent content, bool repeats, std::vector<std::string>& warnings);
+
+/// Index of the texture that `read` gives, added to the scene. If `read` throws an Error(Input), adds a warning and
 /// returns a checkerboard of magenta and black for colors, kNoTexture for other contents.
+std::uint32_t add_texture_by(SceneDescription& scene, const std::filesystem::path& source, TextureContent content,
+                             bool repeats, const std::function<TextureDescription()>& read);
+
+/// Index of the texture of a file in the scene, added by add_texture_by() if it is new.
 std::uint32_t add_texture(SceneDescription& scene, const std::filesystem::path& path, TextureContent content,
                           bool repeats);
 

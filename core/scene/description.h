@@ -108,6 +108,13 @@ struct CameraDescription {
     float focus_distance = 1.0f;   ///< distance of the plane of focus, along the viewing direction
 };
 
+/// A camera that a file lists.
+struct NamedCamera {
+    std::string name;
+    CameraDescription camera;
+    float aspect = 0.0f;  ///< width over height of its picture; 0: any
+};
+
 /// A parameter of a scene file, mostly for the difficulty of its light transport. Loading applies `value` to the
 /// geometry and materials.
 struct KnobDescription {
@@ -134,6 +141,8 @@ struct SceneDescription {
     std::vector<MaterialDescription> materials;
     std::vector<TextureDescription> textures;
     CameraDescription camera;
+    std::vector<NamedCamera> cameras;  ///< to choose from; of some kinds of files
+    std::uint32_t chosen_camera = 0;   ///< number of `camera` among them, from 1; 0: none of them
     glm::vec3 up{0.0f, 1.0f, 0.0f};  ///< vertical axis, of default camera and default light: x, y or z, +-1
     glm::vec3 environment{0.0f};     ///< constant radiance of escaped rays
     EnvironmentMapDescription environment_map;  ///< added to `environment`; no map without texels

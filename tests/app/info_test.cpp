@@ -34,6 +34,24 @@ TEST_CASE("info lists the contents of the scene and the effects it needs, and wh
     CHECK_THAT(run_program({"info", folder / "a.json"}).out, contains("environment: ") && contains("kernel"));
 }
 
+TEST_CASE("info describes metals and glass by what they are") {
+    const TempDir folder;
+    write_all(folder / "m.mtl",
+              "newmtl gold\nKd 0 0 0\nKs 1 0.75 0.25\nillum 3\nPr 0.5\nnewmtl pane\nillum 4\nNi 1.5\nTf 1 0.5 1\n"
+              "newmtl lacquer\nKd 0.5 0.25 0\nPc 1\nnewmtl wall\nKd 0.5 0.5 0.5\n");
+    write_all(folder / "a.obj", "mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl gold\nf 1 2 3\n");
+    const std::string text = run_program({"info", folder / "a.obj", "-q"}).out;
+    CHECK_THAT(text, contains("gold: metal, reflects 1,0.75,0.25, roughness 0.5, emits 0,0,0\n"));
+    CHECK_THAT(text, contains("pane: glass of ior 1.5, transmits 1,0.5,1, smooth, emits 0,0,0\n"));
+    CHECK_THAT(text, contains("lacquer: reflects 0.5,0.25,0 under a coat of ior 1.5, smooth, emits 0,0,0\n"));
+    CHECK_THAT(text, contains("wall: reflects 0.5,0.5,0.5, emits 0,0,0\n"));
+    const ProgramResult json = run_program({"info", folder / "a.obj", "--json"});
+    const ordered_json gold = ordered_json::parse(lines_of(json.out).back())["materials"][0];
+    CHECK(gold["surface"] == "conductor");
+    CHECK(gold["specular"] == ordered_json::array({1.0, 0.75, 0.25}));
+    CHECK(gold["roughness"] == 0.5);
+}
+
 TEST_CASE("devices lists the back ends, and why one is missing") {
     const ProgramResult result = run_program({"devices", "--json"});
     const std::vector<std::string> lines = lines_of(result.out);

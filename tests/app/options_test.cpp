@@ -67,6 +67,8 @@ Options any_options(std::mt19937& random) {
     if (whole(0, 1) == 1) o.time_limit_seconds = real(0.001f, 1.0e9f);
     if (whole(0, 1) == 1) o.load.default_light = whole(0, 1) == 1;
     if (whole(0, 1) == 1) o.load.up_axis = static_cast<UpAxis>(whole(0, 3));
+    if (whole(0, 1) == 1) o.load.map_kd = MapKd::Replaces;
+    if (whole(0, 1) == 1) o.load.camera = "the side's camera";
     if (whole(0, 1) == 1) o.load.materials = "edited materials.json";
     o.threads = whole(0, 1024);
     o.backend = whole(0, 1) == 1 ? "cpu" : "auto";
@@ -97,6 +99,8 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE(a.time_limit_seconds == b.time_limit_seconds);
     REQUIRE(a.load.default_light == b.load.default_light);
     REQUIRE(a.load.up_axis == b.load.up_axis);
+    REQUIRE(a.load.camera == b.load.camera);
+    REQUIRE(a.load.map_kd == b.load.map_kd);
     REQUIRE(a.load.materials == b.load.materials);
     REQUIRE(a.threads == b.threads);
     REQUIRE(a.backend == b.backend);

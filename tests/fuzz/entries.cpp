@@ -16,6 +16,7 @@
 #include "core/io/files.h"
 #include "core/io/image.h"
 #include "core/io/load_scene.h"
+#include "core/io/mitsuba/ply.h"
 #include "core/io/obj_library.h"
 #include "core/io/obj_simple.h"
 #include "core/io/texture_file.h"
@@ -126,6 +127,24 @@ void run_json(std::string_view bytes) {
     read_or_refuse([&] { load_and_pack(path); });
 }
 
+/// A .gltf or .glb, which are told apart by their bytes.
+void run_gltf(std::string_view bytes) {
+    folder().write("b.bin", std::string(64, '\x3f'));
+    const fs::path path = folder().write("s.glb", bytes);
+    read_or_refuse([&] { load_and_pack(path); });
+}
+
+void run_mitsuba(std::string_view bytes) {
+    folder().write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const fs::path path = folder().write("s.xml", bytes);
+    read_or_refuse([&] { load_and_pack(path); });
+}
+
+void run_ply(std::string_view bytes) {
+    const fs::path path = folder().write("m.ply", bytes);
+    read_or_refuse([&] { read_ply(path); });
+}
+
 void run_field(std::string_view bytes) {
     const fs::path as_it_is = folder().write("f.field", bytes);
     read_or_refuse([&] { read_field(as_it_is); });
@@ -180,7 +199,8 @@ void run_script(std::string_view bytes) {
 #endif
 
 constexpr FuzzEntry kEntries[] = {
-    {"obj", run_obj},       {"json", run_json}, {"field", run_field}, {"image", run_image},
+    {"obj", run_obj},       {"json", run_json},   {"gltf", run_gltf},   {"mitsuba", run_mitsuba},
+    {"ply", run_ply},       {"field", run_field}, {"image", run_image},
 #if PL_FUZZ_SCRIPTS
     {"script", run_script},
 #endif

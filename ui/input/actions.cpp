@@ -144,7 +144,7 @@ constexpr std::array kMouseActions{
     MouseAction{"wheel on plot", "zoom; dragging pans, a double click fits"},
     MouseAction{"drag on axis", "pictures at equal time, at equal error; right click: off"},
     MouseAction{"drag on border", "size of the panel; a double click makes it automatic, the arrow folds it"},
-    MouseAction{"drop a file", "open an .obj or .json scene, or a saved .field"},
+    MouseAction{"drop a file", "open an .obj, .gltf, .glb, .xml or .json scene, or a saved .field"},
 };
 
 /// "F1 or ?" is two keys.

@@ -79,7 +79,10 @@ void CameraBookmarks::load() {
     list_.clear();
     current_.reset();
     std::error_code ignored;
-    if (folder_.empty() || !std::filesystem::exists(file(), ignored)) return;
+    if (folder_.empty() || !std::filesystem::exists(file(), ignored)) {
+        for (const NamedCamera& camera : scene_.materials().file()->cameras) list_.push_back({.camera = camera.camera});
+        return;
+    }
     try {
         for (const CameraDescription& camera : load_cameras(file(), camera_.camera())) {
             auto picture = read_thumbnail(picture_file(camera));

@@ -1,5 +1,5 @@
-// Cameras of the open scene that the user keeps, with small pictures, in a folder from one start to the next. In their order they are a
-// camera path.
+// Cameras of the open scene that the user keeps, with small pictures, in a folder from one start to the next; at first those that
+// its file lists. In their order they are a camera path.
 #pragma once
 
 #include <filesystem>

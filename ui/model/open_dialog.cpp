@@ -6,13 +6,15 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/io/files.h"
+#include "core/io/mesh_file.h"
 
 namespace pl {
 namespace {
 
 bool can_be_opened(const std::filesystem::path& file) {
-    const auto suffix = file.extension();
-    return suffix == ".obj" || suffix == ".json" || suffix == kFieldSuffix;
+    const std::string suffix = suffix_of(file);
+    return is_scene_suffix(suffix) || suffix == kFieldSuffix;
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ void draw_files(OpenDialog& dialog, ImVec2 size) {
         if (ImGui::Selectable((name + "/").c_str())) entered = listing.folder / name;
     for (const std::string& name : listing.files)
         draw_choice(dialog, (listing.folder / name).string(), name, "file: ");
-    if (listing.files.empty()) faint_text("no .obj, .json or .field here");
+    if (listing.files.empty()) faint_text("no .obj, .gltf, .glb, .xml, .json or .field here");
     ImGui::EndChild();
     if (!entered.empty()) dialog.browse(entered);
 }

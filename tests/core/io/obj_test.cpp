@@ -241,3 +241,72 @@ TEST_CASE("An OBJ alone opens with a camera of its own, named after its file") {
         CHECK(scene.camera.eye == frame_camera(scene).eye);
     }
 }
+
+TEST_CASE("Faces of smoothing groups without normals get the mean normals of those faces, weighted by angles") {
+    // A tent over the x axis; the third face is flat, the fourth has normals of its own.
+    const std::string tent = "v 0 0 0\nv 4 0 0\nv 4 -1 -1\nv 0 -1 -1\nv 0 1 -1\nv 4 9 0\nvn 1 0 0\n";
+    const SceneDescription scene =
+        load(tent + "s 1\nf 4 3 2 1\ns 7\nf 2 5 1\ns off\nf 1 2 6\ns 1\nf 1//1 2//1 6//1\n");
+    REQUIRE(scene.triangles.size() == 5);
+    const auto normal_at = [&](std::uint32_t vertex) {
+        for (std::size_t i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k)
+                if (scene.triangles[i].vertex[k] == vertex) return scene.normals[scene.triangles[i].normal[k]];
+        return glm::vec3(0.0f);
+    };
+    const float half = std::sqrt(0.5f);
+    CHECK(glm::length(normal_at(2) - glm::vec3(0, -half, half)) < 1e-6f);  // of the quad alone
+    CHECK(glm::length(normal_at(4) - glm::vec3(0, half, half)) < 1e-6f);   // of the triangle alone
+    // At 0 both faces have a right angle; at 1 the triangle has a smaller one.
+    CHECK(glm::length(normal_at(0) - glm::vec3(0, 0, 1)) < 1e-6f);
+    const float angle = std::atan2(std::sqrt(2.0f), 4.0f);
+    const float right = std::acos(0.0f);
+    const glm::vec3 mixed = glm::normalize(right * glm::vec3(0, -half, half) + angle * glm::vec3(0, half, half));
+    CHECK(glm::length(normal_at(1) - mixed) < 1e-6f);
+    CHECK(scene.triangles[3].normal.x == TriangleDescription::kNoNormal);
+    CHECK(scene.normals[scene.triangles[4].normal.x] == glm::vec3(1, 0, 0));
+    for (const char* off : {"s off # flat\n", "s 0\n", "s\n", ""})
+        CHECK(load(tent + off + "f 1 2 6\n").triangles[0].normal.x == TriangleDescription::kNoNormal);
+}
+
+TEST_CASE("The image of Kd: multiplied by Kd, with one warning for defaults of exporters, or alone") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl a\nKd 0.8 0.8 0.8\nmap_Kd a.png\nnewmtl b\nKd 0.64 0.64 0.64\nmap_Kd a.png\n"
+                          "newmtl c\nKd 0.5 0.5 0.5\nmap_Kd a.png\nnewmtl d\nKd 0.8 0.8 0.8\n");
+    const auto obj = folder.write("s.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    const auto told = [](const SceneDescription& scene) {
+        return std::count_if(scene.warnings.begin(), scene.warnings.end(), [](const std::string& warning) {
+            return warning.find("m.mtl:1: the image of map_Kd is multiplied") != std::string::npos &&
+                   warning.find("(2 in all)") != std::string::npos;
+        });
+    };
+    const SceneDescription by_text = load_obj(obj);
+    CHECK(by_text.materials[0].albedo == glm::vec3(0.8f));
+    CHECK(told(by_text) == 1);
+    const SceneDescription alone = load_obj(obj, nullptr, MapKd::Replaces);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(alone.materials[i].albedo == glm::vec3(1.0f));
+    CHECK(alone.materials[3].albedo == glm::vec3(0.8f));
+    CHECK(told(alone) == 0);
+}
+
+TEST_CASE("A material without a name is that of a usemtl without one") {
+    const SceneDescription scene =
+        load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl\nf 1 2 3\n", "newmtl\nKd 0.1 0.2 0.3\n");
+    CHECK(scene.materials.at(scene.triangles.at(0).material).albedo == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("Files in UTF-16 are read, of either order of bytes", "[hard]") {
+    const auto wide = [](const std::string& text, bool is_little) {
+        std::string bytes = is_little ? "\xFF\xFE" : "\xFE\xFF";
+        for (const char c : text) (bytes += is_little ? c : '\0') += is_little ? '\0' : c;
+        return bytes;
+    };
+    const std::string text = "mtllib m.mtl\r\nv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nusemtl red\r\nf 1 2 3\r\n";
+    for (const bool is_little : {true, false}) {
+        const SceneDescription scene = load(wide(text, is_little), wide(kMtl, !is_little));
+        CHECK(scene.materials.at(scene.triangles.at(0).material).albedo == glm::vec3(0.6f, 0.1f, 0.2f));
+    }
+    CHECK_THAT(test::input_error([&] { load(wide(text, true) + "x"); }), contains("UTF-16") && contains("even number"));
+    CHECK_THAT(test::input_error([&] { load(wide(text, true) + "\x01\xD8"); }), contains("half a character at byte"));
+}

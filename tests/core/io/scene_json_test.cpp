@@ -168,7 +168,7 @@ TEST_CASE("The frame of a scene file is checked") {
     CHECK_THAT(message("{}"), contains("f.json:1: 'schema': expected \"pathlight.scene/1\", got none"));
     CHECK_THAT(message("{\n\"schema\": \"pathlight.scene/2\"}"),
                contains("f.json:2: 'schema': expected \"pathlight.scene/1\", got \"pathlight.scene/2\""));
-    CHECK_THAT(message("{\n\"schema\": \"pathlight.scene/1\"}"), contains("'obj': expected the name of an OBJ file"));
+    CHECK_THAT(message("{\n\"schema\": \"pathlight.scene/1\"}"), contains("'obj': expected the name of an OBJ or glTF file"));
     CHECK_THAT(message("{\"schema\": \"pathlight.scene/1\", \"obj\": \"gone.obj\"}"),
                contains("gone.obj: cannot be read: no such file"));
     CHECK_THAT(message("{\"schema\": \"pathlight.scene/1\"} {}"), contains("f.json:1: not valid JSON"));
@@ -246,5 +246,5 @@ TEST_CASE("Textures that a scene file names, and triangles without texture point
     CHECK(scene.triangles[0].uv == glm::uvec3(0, 1, 2));
     CHECK(scene.triangles[1].uv == glm::uvec3(TriangleDescription::kNoUv));
     REQUIRE(scene.warnings.size() == 1);
-    CHECK_THAT(scene.warnings[0], contains("1 triangles have a texture but no texture points"));
+    CHECK_THAT(scene.warnings[0], contains("1 triangles have a texture but no texture coordinates"));
 }

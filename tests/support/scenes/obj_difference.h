@@ -14,7 +14,7 @@ namespace pl::test {
 struct FlatFaces {
     std::vector<ObjCorner> corners;
     std::vector<std::uint32_t> corner_counts;
-    std::vector<std::tuple<int, std::uint32_t, std::uint32_t>> looks;  ///< line, material, group
+    std::vector<std::tuple<int, std::uint32_t, std::uint32_t, Smoothing>> looks;  ///< line, material, group
 
     explicit FlatFaces(const ObjMesh& mesh) {
         for (const ObjFaces& part : mesh.parts) {
@@ -22,7 +22,8 @@ struct FlatFaces {
             corner_counts.insert(corner_counts.end(), part.corner_counts.begin(), part.corner_counts.end());
             for (std::size_t run = 0; run < part.runs.size(); ++run)
                 for (std::size_t face = part.runs[run].first; face < part.end_of(run); ++face)
-                    looks.emplace_back(part.lines[face], part.runs[run].material, part.runs[run].group);
+                    looks.emplace_back(part.lines[face], part.runs[run].material, part.runs[run].group,
+                                       part.runs[run].smoothing);
         }
     }
 };
@@ -47,7 +48,7 @@ inline std::string obj_difference(const ObjMesh& a, const ObjMesh& b) {
     if (!same_bytes(a.uvs, b.uvs)) return "texture points";
     if (!same_bytes(faces.corners, others.corners)) return "corners";
     if (faces.corner_counts != others.corner_counts) return "numbers of corners";
-    if (faces.looks != others.looks) return "lines, materials or groups of faces";
+    if (faces.looks != others.looks) return "lines, materials, groups or smoothing of faces";
     if (faces.looks.size() != faces.corner_counts.size()) return "faces outside of runs";
     if (!same_names(a.materials, b.materials)) return "materials";
     if (a.groups != b.groups) return "groups";

@@ -53,6 +53,19 @@ TEST_CASE("Bookmarks: are shown again, stepped through in a circle, moved and re
     CHECK(model.bookmarks().path()->size() == 3);
 }
 
+TEST_CASE("Bookmarks: at first they are the cameras that the file of the scene lists") {
+    FileBench bench;
+    SceneDescription scene = *small_scene();
+    scene.cameras = {{.name = "a", .camera = scene.camera}, {.name = "b", .camera = scene.camera}};
+    scene.cameras[0].camera.eye.x = 0.25f;
+    scene.cameras[1].camera.eye.x = 0.5f;
+    ViewerModel model(bench.options, std::make_shared<const SceneDescription>(scene), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    CHECK(places(model) == std::vector{0.25f, 0.5f});
+    add_at(bench, model, 1.0f);
+    CHECK(places(model).size() == 3);
+}
+
 TEST_CASE("Bookmarks: stay from one start to the next, with their pictures, for their scene only") {
     FileBench bench;
     const std::filesystem::path folder = bench.options.screenshot_dir / "cameras";

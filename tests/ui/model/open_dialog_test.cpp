@@ -14,7 +14,7 @@ struct DialogBench : FileBench {
         options.scenes = {"small", "other"};
         std::filesystem::create_directory(folder.path() / "sub");
         std::filesystem::create_directory(folder.path() / ".hidden");
-        for (const char* name : {"b.obj", "a.json", "a.mtl", "c.field", ".d.obj"})
+        for (const char* name : {"b.obj", "a.json", "a.mtl", "c.field", ".d.obj", "e.GLB", "f.gltf", "f.bin", "g.xml"})
             std::ofstream(folder.path() / name) << "x";
     }
 };
@@ -25,7 +25,7 @@ TEST_CASE("Open dialog: a folder shows its folders and what can be opened, sorte
     const DialogBench bench;
     const FolderListing listing = list_folder(bench.folder.path());
     CHECK(listing.folders == std::vector<std::string>{"sub"});
-    CHECK(listing.files == std::vector<std::string>{"a.json", "b.obj", "c.field"});
+    CHECK(listing.files == std::vector<std::string>{"a.json", "b.obj", "c.field", "e.GLB", "f.gltf", "g.xml"});
     CHECK(listing.folder.is_absolute());
     CHECK_THROWS_WITH(list_folder(bench.folder.path() / "none"), contains("expected a folder or a scene"));
 }
@@ -37,11 +37,11 @@ TEST_CASE("Open dialog: folders are browsed, and one that cannot be read leaves 
     dialog.toggle();
     REQUIRE(bench.run_until(model, [&] { return !dialog.listing().folder.empty(); }));
     dialog.open(bench.folder.path().string());
-    REQUIRE(bench.run_until(model, [&] { return dialog.listing().files.size() == 3; }));
+    REQUIRE(bench.run_until(model, [&] { return dialog.listing().files.size() == 6; }));
     CHECK(dialog.is_shown());
     dialog.open((bench.folder.path() / "none").string());
     REQUIRE(bench.run_until(model, [&] { return told(model, "expected a folder or a scene"); }));
-    CHECK(dialog.listing().files.size() == 3);
+    CHECK(dialog.listing().files.size() == 6);
     model.cancel();
     CHECK_FALSE(dialog.is_shown());
 }

@@ -1,0 +1,69 @@
+#include "core/io/gltf/gltf.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/error.h"
+#include "core/io/gltf/cameras.h"
+#include "core/io/gltf/lights.h"
+#include "core/io/gltf/triangles.h"
+
+namespace pl {
+
+namespace {
+
+/// Extensions that are read, change no picture, or are noted where they are used.
+bool is_known(const std::string& extension) {
+    constexpr std::array<std::string_view, 9> kKnown = {
+        "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu",
+        "EXT_texture_webp",    "EXT_texture_avif",      "MSFT_texture_dds",      "KHR_xmp",
+        "KHR_xmp_json_ld"};
+    return extension.starts_with("KHR_materials_") ||
+           std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
+}
+
+void note_the_rest(GltfFile& file) {
+    for (std::size_t i = 0; i < file.json().array_size("/extensionsUsed"); ++i) {
+        const std::string pointer = fmt::format("/extensionsUsed/{}", i);
+        const std::string name = file.json().text(pointer).value_or("");
+        if (!is_known(name)) {
+            file.note(fmt::format("the extension {} is left out", name), pointer);
+        }
+    }
+    if (file.json().array_size("/animations") > 0) {
+        file.note("animations are left out: everything is in the place of its node", "/animations/0");
+    }
+}
+
+[[noreturn]] void fail_empty(const GltfFile& file) {
+    std::vector<std::string> reasons;
+    file.notes().tell(reasons);
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: expected a mesh in the scene that is shown, got no triangle with an "
+                            "area{}{}",
+                            file.path().string(), reasons.empty() ? "" : "; ", fmt::join(reasons, "; ")));
+}
+
+}  // namespace
+
+SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups) {
+    GltfFile file(path);
+    SceneDescription scene;
+    scene.source = path;
+    const GltfNodes nodes = read_nodes(file);
+    const std::vector<GltfSurface> surfaces = read_surfaces(file, scene);
+    add_gltf_triangles(file, nodes, surfaces, scene, groups);
+    if (scene.triangles.empty()) {
+        fail_empty(file);
+    }
+    add_gltf_cameras(file, nodes, scene);
+    add_gltf_lights(file, nodes, scene);
+    note_the_rest(file);
+    file.notes().tell(scene.warnings);
+    scene.files = file.files();
+    return scene;
+}
+
+}  // namespace pl

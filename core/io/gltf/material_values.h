@@ -1,0 +1,22 @@
+// Numbers of glTF materials.
+#pragma once
+
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "core/io/gltf/gltf_file.h"
+
+namespace pl {
+
+// Numbers out of their range are moved into it, with a note.
+
+float clamped_number(GltfFile& file, const std::string& pointer, float standard, float least, float most);
+
+/// `length` of at most 4 numbers within [0, 1]; those that are not given are 1.
+glm::vec4 clamped_shares(GltfFile& file, const std::string& pointer, std::size_t length);
+
+/// Three numbers as they are.
+glm::vec3 color_or(const JsonDocument& document, const std::string& pointer, const glm::vec3& standard);
+
+}  // namespace pl

@@ -1,0 +1,159 @@
+#include "core/io/gltf/nodes.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+
+namespace pl {
+
+namespace {
+
+constexpr std::uint32_t kNoParent = 0xffffffffu;
+
+std::string node_at(std::uint32_t node) { return fmt::format("/nodes/{}", node); }
+
+/// Place relative to the parent. [glTF 2.0, section 3.5.3]
+glm::dmat4 local_transform(const JsonDocument& json, const std::string& at) {
+    glm::dmat4 matrix(1.0);
+    if (const auto given = json.numbers(at + "/matrix", 16)) {
+        for (int i = 0; i < 16; ++i) {
+            matrix[i / 4][i % 4] = (*given)[static_cast<std::size_t>(i)];
+        }
+        return matrix;
+    }
+    if (const auto turn = json.numbers(at + "/rotation", 4)) {
+        const glm::dquat quaternion((*turn)[3], (*turn)[0], (*turn)[1], (*turn)[2]);
+        if (!(glm::length(quaternion) > 0.0)) {
+            json.fail(at + "/rotation", "expected a unit quaternion, got one of no length");
+        }
+        matrix = glm::mat4_cast(glm::normalize(quaternion));
+    }
+    if (const auto scale = json.numbers(at + "/scale", 3)) {
+        for (int i = 0; i < 3; ++i) {
+            matrix[i] *= (*scale)[static_cast<std::size_t>(i)];
+        }
+    }
+    if (const auto move = json.numbers(at + "/translation", 3)) {
+        matrix[3] = {(*move)[0], (*move)[1], (*move)[2], 1.0};
+    }
+    return matrix;
+}
+
+/// Reads the forest of nodes.
+class NodeReader {
+public:
+    explicit NodeReader(const GltfFile& file) : file_(file), count_(file.json().array_size("/nodes")) {}
+
+    GltfNodes run() {
+        read_parents();
+        GltfNodes nodes;
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            nodes.all.push_back(read_node(i));
+        }
+        std::vector<std::uint32_t> roots;
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            if (parent_[i] == kNoParent) {
+                roots.push_back(i);
+            }
+        }
+        place(roots, nodes.all);
+        nodes.shown = below(shown_roots(roots));
+        return nodes;
+    }
+
+private:
+    void read_parents() {
+        parent_.assign(count_, kNoParent);
+        children_.resize(count_);
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const std::string at = node_at(i) + "/children";
+            for (std::size_t c = 0; c < file_.json().array_size(at); ++c) {
+                const std::string pointer = fmt::format("{}/{}", at, c);
+                const std::uint32_t child = file_.required_index(pointer, "nodes");
+                if (parent_[child] != kNoParent) {
+                    file_.fail(pointer, fmt::format("expected a node without another parent, got node {}, a child of "
+                                                    "node {}",
+                                                    child, parent_[child]));
+                }
+                parent_[child] = i;
+                children_[i].push_back(child);
+            }
+        }
+    }
+
+    GltfNode read_node(std::uint32_t number) const {
+        const std::string at = node_at(number);
+        GltfNode node{.name = file_.name_of(at, "node", number), .to_world = local_transform(file_.json(), at)};
+        node.mesh = file_.index(at + "/mesh", "meshes");
+        node.camera = file_.index(at + "/camera", "cameras");
+        node.skin = file_.index(at + "/skin", "skins");
+        node.light =
+            file_.index(at + "/extensions/KHR_lights_punctual/light", "extensions/KHR_lights_punctual/lights");
+        return node;
+    }
+
+    /// Replaces places relative to parents by those in the world.
+    void place(const std::vector<std::uint32_t>& roots, std::vector<GltfNode>& nodes) const {
+        const std::vector<std::uint32_t> reached = below(roots);
+        for (const std::uint32_t i : reached) {
+            if (parent_[i] != kNoParent) {
+                nodes[i].to_world = nodes[parent_[i]].to_world * nodes[i].to_world;
+            }
+        }
+        if (reached.size() < count_) {
+            std::vector<bool> is_reached(count_, false);
+            for (const std::uint32_t i : reached) {
+                is_reached[i] = true;
+            }
+            const auto first = std::find(is_reached.begin(), is_reached.end(), false) - is_reached.begin();
+            file_.fail(node_at(static_cast<std::uint32_t>(first)),
+                       "expected a tree of nodes, got a circle: this node is above itself");
+        }
+    }
+
+    /// The nodes of trees, each before its children, in the order of the file.
+    std::vector<std::uint32_t> below(const std::vector<std::uint32_t>& roots) const {
+        std::vector<std::uint32_t> order;
+        std::vector<std::uint32_t> open(roots.rbegin(), roots.rend());
+        while (!open.empty()) {
+            const std::uint32_t node = open.back();
+            open.pop_back();
+            order.push_back(node);
+            open.insert(open.end(), children_[node].rbegin(), children_[node].rend());
+        }
+        return order;
+    }
+
+    /// Roots of the scene to show; without scenes all.
+    std::vector<std::uint32_t> shown_roots(const std::vector<std::uint32_t>& roots) const {
+        if (file_.json().array_size("/scenes") == 0) {
+            return roots;
+        }
+        const std::uint32_t scene = file_.index("/scene", "scenes").value_or(0);
+        const std::string at = fmt::format("/scenes/{}/nodes", scene);
+        std::vector<std::uint32_t> shown;
+        std::vector<bool> is_shown(count_, false);
+        for (std::size_t i = 0; i < file_.json().array_size(at); ++i) {
+            const std::string pointer = fmt::format("{}/{}", at, i);
+            const std::uint32_t node = file_.required_index(pointer, "nodes");
+            if (is_shown[node] || parent_[node] != kNoParent) {
+                file_.fail(pointer, fmt::format("expected nodes without parents, each once, got node {}", node));
+            }
+            is_shown[node] = true;
+            shown.push_back(node);
+        }
+        return shown;
+    }
+
+    const GltfFile& file_;
+    std::size_t count_;
+    std::vector<std::uint32_t> parent_;
+    std::vector<std::vector<std::uint32_t>> children_;
+};
+
+}  // namespace
+
+GltfNodes read_nodes(const GltfFile& file) { return NodeReader(file).run(); }
+
+}  // namespace pl

@@ -1,0 +1,57 @@
+// Primitives of the meshes of a glTF file as triangles, in the coordinates of their mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "core/io/gltf/gltf_file.h"
+#include "core/io/gltf/surfaces.h"
+
+namespace pl {
+
+/// Most vertices of all primitives of a file, and most triangles.
+inline constexpr std::uint64_t kMostGltfVertices = std::uint64_t{1} << 27;
+inline constexpr std::uint64_t kMostGltfTriangles = std::uint64_t{1} << 26;
+
+struct GltfPrimitive {
+    std::string at;  ///< JSON pointer
+    std::uint32_t surface = 0;
+    std::vector<glm::vec3> positions{};
+    std::vector<glm::vec3> normals{};     ///< per vertex, or none
+    std::vector<glm::vec2> uvs{};         ///< per vertex, or none; as UvMapping::apply() gives them
+    std::vector<std::uint32_t> joints{};  ///< [vertex][4], or none: indices into the joints of a skin
+    std::vector<float> weights{};         ///< [vertex][4]
+    std::vector<std::array<std::uint32_t, 3>> triangles{};
+};
+
+/// Reads each mesh once.
+class GltfMeshes {
+public:
+    GltfMeshes(GltfFile& file, const std::vector<GltfSurface>& surfaces) : file_(file), surfaces_(surfaces) {}
+
+    /// Valid as long as this object.
+    const std::vector<GltfPrimitive>& mesh(std::uint32_t number);
+
+private:
+    GltfPrimitive read(const std::string& at);
+    void read_attributes(GltfPrimitive& primitive);
+    void read_uvs(GltfPrimitive& primitive, std::size_t vertices);
+    void read_triangles(GltfPrimitive& primitive);
+    std::vector<std::uint32_t> read_corners(const GltfPrimitive& primitive);
+    /// The accessor of an attribute, which must have as many elements as there are vertices.
+    std::optional<std::uint32_t> attribute(const GltfPrimitive& primitive, const std::string& name);
+    /// Adds to the elements that the file makes the program keep. Throws Error(Input) if they are too many.
+    void count(const std::string& at, std::uint64_t elements);
+
+    GltfFile& file_;
+    const std::vector<GltfSurface>& surfaces_;
+    std::map<std::uint32_t, std::vector<GltfPrimitive>> known_;
+    std::uint64_t elements_ = 0;
+};
+
+}  // namespace pl

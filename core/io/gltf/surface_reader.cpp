@@ -1,0 +1,324 @@
+#include "core/io/gltf/surface_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/io/gltf/material_values.h"
+#include "core/io/mtl_surface.h"
+
+namespace pl {
+
+namespace {
+
+/// Extensions and members that change the picture and are not supported, with the words for them.
+constexpr std::array<std::pair<const char*, const char*>, 13> kLeftOut = {{
+    {"/normalTexture", "normal maps are left out"},
+    {"/occlusionTexture", "occlusion images are left out: the light itself is traced"},
+    {"/extensions/KHR_materials_sheen", "sheen is left out"},
+    {"/extensions/KHR_materials_iridescence", "iridescence is left out"},
+    {"/extensions/KHR_materials_anisotropy", "anisotropy is left out"},
+    {"/extensions/KHR_materials_dispersion", "dispersion is left out"},
+    {"/extensions/KHR_materials_diffuse_transmission", "diffuse transmission is left out"},
+    {"/extensions/KHR_materials_subsurface", "subsurface scattering is left out"},
+    {"/extensions/KHR_materials_volume/attenuationDistance", "absorption inside of glass is left out"},
+    {"/extensions/KHR_materials_transmission/transmissionTexture", "images of transmission are left out"},
+    {"/extensions/KHR_materials_specular/specularTexture", "images of the specular amount are left out"},
+    {"/extensions/KHR_materials_specular/specularColorTexture", "images of the specular color are left out"},
+    {"/extensions/KHR_materials_clearcoat/clearcoatNormalTexture", "normal maps are left out"},
+}};
+
+float strongest(const glm::vec3& color) { return std::max(color.x, std::max(color.y, color.z)); }
+
+/// Reads one material of the file.
+class GltfSurfaceReader {
+public:
+    GltfSurfaceReader(GltfFile& file, SceneDescription& scene, GltfImages& images, std::uint32_t number)
+        : file_(file), json_(file.json()), scene_(scene), images_(images), at_(fmt::format("/materials/{}", number)),
+          pbr_(at_ + "/pbrMetallicRoughness") {}
+
+    GltfSurface run(std::string name) {
+        if (json_.has(specular_gloss())) {
+            read_specular_gloss();
+        } else {
+            read_metal_rough();
+        }
+        read_specular();
+        read_transmission();
+        read_clearcoat();
+        read_unlit();
+        read_emission();
+        read_alpha();
+        note_what_is_left_out();
+        add(std::move(name));
+        return surface_;
+    }
+
+private:
+    std::string extension(const char* name) const { return fmt::format("{}/extensions/KHR_materials_{}", at_, name); }
+    std::string specular_gloss() const { return extension("pbrSpecularGlossiness"); }
+
+    void note(const std::string& kind) { file_.note(kind, at_); }
+
+    float number(const std::string& pointer, float standard, float least, float most) {
+        return clamped_number(file_, pointer, standard, least, most);
+    }
+    float share(const std::string& pointer, float standard) { return number(pointer, standard, 0.0f, 1.0f); }
+
+    /// Notes the texture coordinates of an image; a surface has one choice of them.
+    const std::string& placed(const std::string& info) {
+        if (!json_.has(info)) {
+            return info;
+        }
+        const UvMapping mapping = read_uv_mapping(file_, info);
+        if (has_uv_ && !(mapping == surface_.uv)) {
+            note("images of a material with several texture coordinates: those of the first image serve all");
+        }
+        surface_.uv = has_uv_ ? surface_.uv : mapping;
+        has_uv_ = true;
+        return info;
+    }
+
+    /// Base color with its opacity.
+    void read_base(const std::string& pointer) {
+        const glm::vec4 factor = clamped_shares(file_, pointer, 4);
+        base_ = glm::vec3(factor);
+        alpha_ = factor.w;
+    }
+
+    void read_metal_rough() {
+        base_at_ = pbr_ + "/baseColorTexture";
+        read_base(pbr_ + "/baseColorFactor");
+        material_.roughness = share(pbr_ + "/roughnessFactor", 1.0f);
+        surface_.metalness = share(pbr_ + "/metallicFactor", 1.0f);
+        placed(base_at_);
+        const std::string image = placed(pbr_ + "/metallicRoughnessTexture");
+        material_.textures.roughness = images_.roughness(image);
+        surface_.metalness_image = material_.textures.roughness;
+        material_.ior = number(extension("ior") + "/ior", 1.5f, 0.0f, kMostIor);
+        if (material_.ior < kLeastIor) {
+            material_.ior = material_.ior == 0.0f ? kMostIor : kLeastIor;  // 0: reflects everything
+        }
+    }
+
+    void read_specular_gloss() {
+        const std::string at = specular_gloss();
+        base_at_ = placed(at + "/diffuseTexture");
+        read_base(at + "/diffuseFactor");
+        const glm::vec3 specular = glm::vec3(clamped_shares(file_, at + "/specularFactor", 3));
+        const float gloss = share(at + "/glossinessFactor", 1.0f);
+        const std::string image = placed(at + "/specularGlossinessTexture");
+        material_.textures.roughness = images_.roughness_of_gloss(image, gloss);
+        material_.roughness = material_.textures.roughness == kNoTexture ? 1.0f - gloss : 1.0f;
+        const bool is_metal = !json_.has(image) && strongest(specular) > std::max(kGltfHalf, strongest(base_));
+        surface_.metalness = is_metal ? 1.0f : 0.0f;
+        if (is_metal) {
+            base_ = specular;
+        }
+        note("specular and glossiness are shown as the nearer of metal and plastic");
+    }
+
+    /// The amount and color of the reflection of dielectrics. [KHR_materials_specular]
+    void read_specular() {
+        const std::string at = extension("specular");
+        const float amount = share(at + "/specularFactor", 1.0f);
+        const glm::vec3 tint = color_or(json_, at + "/specularColorFactor", glm::vec3(1.0f));
+        material_.specular = glm::clamp(amount * tint, glm::vec3(0.0f), glm::vec3(1.0f));
+        material_.kind = strongest(material_.specular) > 0.0f ? SurfaceKind::Plastic : SurfaceKind::Diffuse;
+    }
+
+    void read_transmission() {
+        const std::string at = extension("transmission");
+        if (share(at + "/transmissionFactor", 0.0f) < kGltfHalf) {
+            if (json_.has(at)) {
+                note("transmission below one half is left out");
+            }
+            return;
+        }
+        if (surface_.metalness >= kGltfHalf && surface_.metalness_image == kNoTexture) {
+            return;  // metals let nothing through
+        }
+        material_.kind = SurfaceKind::Dielectric;
+        material_.transmission = base_;
+        if (material_.ior < kLeastRoughIor) {
+            material_.roughness = 0.0f;
+            material_.textures.roughness = kNoTexture;
+        }
+        if (!(json_.number(extension("volume") + "/thicknessFactor").value_or(0.0f) > 0.0f)) {
+            note("thin panes are shown as solid glass");
+        }
+    }
+
+    void read_clearcoat() {
+        const std::string at = extension("clearcoat");
+        const float amount = share(at + "/clearcoatFactor", 0.0f);
+        if (amount == 0.0f) {
+            return;
+        }
+        const bool fits =
+            amount >= kGltfHalf && surface_.metalness < kGltfHalf && material_.kind != SurfaceKind::Dielectric;
+        if (!fits) {
+            note("a clear coat on metal or glass, or of less than one half, is left out");
+            return;
+        }
+        material_.kind = SurfaceKind::Plastic;
+        material_.specular = glm::vec3(1.0f);
+        material_.ior = 1.5f;
+        material_.roughness = share(at + "/clearcoatRoughnessFactor", 0.0f);
+        material_.textures.roughness = kNoTexture;
+        note("a clear coat takes the place of the reflection of its base");
+    }
+
+    void read_unlit() {
+        if (json_.has(extension("unlit"))) {
+            material_.kind = SurfaceKind::Diffuse;
+            surface_.metalness = 0.0f;
+            note("unlit surfaces are shown as diffuse ones");
+        }
+    }
+
+    void read_emission() {
+        const float strength = json_.number(extension("emissive_strength") + "/emissiveStrength").value_or(1.0f);
+        const glm::vec3 emission = color_or(json_, at_ + "/emissiveFactor", glm::vec3(0.0f));
+        material_.emission = glm::max(emission, glm::vec3(0.0f)) * std::max(strength, 0.0f);
+        material_.two_sided_emission = json_.boolean(at_ + "/doubleSided").value_or(false);
+        if (material_.emission != glm::vec3(0.0f)) {
+            material_.textures.emission = images_.color(placed(at_ + "/emissiveTexture"));
+        }
+    }
+
+    void read_alpha() {
+        const std::string mode = json_.text(at_ + "/alphaMode").value_or("OPAQUE");
+        if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") {
+            file_.fail(at_ + "/alphaMode", fmt::format("expected OPAQUE, MASK or BLEND, got '{}'", mode));
+        }
+        const bool has_image = json_.has(base_at_);
+        const float cutoff = mode == "MASK" ? number(at_ + "/alphaCutoff", kGltfHalf, 0.0f, 1.0f) : kGltfHalf;
+        const bool has_holes = mode != "OPAQUE" && cutoff > 0.0f;
+        if (has_holes && has_image) {
+            // Holes are where the texture's alpha is below one half.
+            material_.textures.albedo = images_.color(base_at_, alpha_ * kGltfHalf / cutoff);
+            material_.textures.opacity = material_.textures.albedo;
+            if (mode == "BLEND") {
+                note("partial opacity is shown as holes where it is below one half");
+            }
+            return;
+        }
+        material_.textures.albedo = images_.color(base_at_);
+        surface_.is_hidden = mode == "MASK" && alpha_ < cutoff;
+        if (mode == "BLEND" && alpha_ < 1.0f) {
+            read_pane();
+        }
+    }
+
+    /// An even partial opacity: a pane that bends nothing, or an opaque surface.
+    void read_pane() {
+        if (alpha_ >= kGltfHalf) {
+            note("an even opacity of one half and more is shown as opaque");
+            return;
+        }
+        material_.kind = SurfaceKind::Dielectric;
+        material_.ior = 1.0f;
+        material_.roughness = 0.0f;
+        material_.textures.roughness = kNoTexture;
+        material_.transmission = glm::mix(glm::vec3(1.0f), base_, alpha_);
+        surface_.metalness = 0.0f;
+        note("an even opacity below one half is shown as a clear pane of its tint");
+    }
+
+    void note_what_is_left_out() {
+        for (const auto& [pointer, words] : kLeftOut) {
+            if (json_.has(at_ + pointer)) {
+                file_.note(words, at_ + pointer);
+            }
+        }
+    }
+
+    /// Adds the material to the scene: as a metal, as none, or as both.
+    void add(std::string name) {
+        material_.name = std::move(name);
+        if (material_.roughness < kLeastRoughness) {
+            material_.roughness = 0.0f;
+        }
+        const auto [least, most] = range_of_metalness();
+        if (material_.kind == SurfaceKind::Dielectric || most < kGltfHalf) {
+            surface_.material = surface_.metal = append(without_metal());
+        } else if (least >= kGltfHalf) {
+            surface_.material = surface_.metal = append(as_metal());
+        } else {
+            surface_.material = append(without_metal());
+            MaterialDescription metal = as_metal();
+            metal.name += " (metal)";
+            surface_.metal = append(std::move(metal));
+            note("metalness that varies decides triangle by triangle");
+        }
+        if (surface_.material == surface_.metal) {
+            surface_.metalness_image = kNoTexture;
+        }
+    }
+
+    std::uint32_t append(MaterialDescription material) {
+        scene_.materials.push_back(std::move(material));
+        return static_cast<std::uint32_t>(scene_.materials.size() - 1);
+    }
+
+    std::pair<float, float> range_of_metalness() {
+        std::pair<float, float> range{surface_.metalness, surface_.metalness};
+        if (surface_.metalness_image != kNoTexture && surface_.metalness > 0.0f) {
+            range = {1.0f, 0.0f};
+            for (const glm::vec4& texel : scene_.textures[surface_.metalness_image].texels) {
+                range.first = std::min(range.first, surface_.metalness * texel.z);
+                range.second = std::max(range.second, surface_.metalness * texel.z);
+            }
+        }
+        constexpr float kPure = 0.1f;
+        if (range.first == range.second && std::min(range.first, 1.0f - range.first) > kPure) {
+            note("metalness between 0 and 1 is shown as the nearer of them");
+        }
+        return range;
+    }
+
+    MaterialDescription without_metal() const {
+        MaterialDescription material = material_;
+        if (material.kind == SurfaceKind::Dielectric) {
+            material.textures.albedo = kNoTexture;
+        } else {
+            material.albedo = base_;
+        }
+        if (material.kind == SurfaceKind::Diffuse) {
+            material.roughness = 0.0f;
+            material.textures.roughness = kNoTexture;
+        }
+        return material;
+    }
+
+    MaterialDescription as_metal() const {
+        MaterialDescription material = material_;
+        material.kind = SurfaceKind::Conductor;
+        material.specular = base_;
+        return material;
+    }
+
+    GltfFile& file_;
+    const JsonDocument& json_;
+    SceneDescription& scene_;
+    GltfImages& images_;
+    std::string at_, pbr_;
+    std::string base_at_;  ///< textureInfo of the base color
+    MaterialDescription material_;
+    GltfSurface surface_;
+    glm::vec3 base_{1.0f};
+    float alpha_ = 1.0f;
+    bool has_uv_ = false;
+};
+
+}  // namespace
+
+GltfSurface read_surface(GltfFile& file, SceneDescription& scene, GltfImages& images, std::uint32_t number,
+                         const std::string& name) {
+    return GltfSurfaceReader(file, scene, images, number).run(name);
+}
+
+}  // namespace pl

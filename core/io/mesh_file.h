@@ -1,0 +1,19 @@
+// Files that hold the surfaces of a scene, by their suffixes.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "core/io/obj.h"
+
+namespace pl {
+
+bool is_gltf(const std::filesystem::path& path);
+
+/// Whether load_scene() opens files of a suffix: lower case, with its dot.
+bool is_scene_suffix(std::string_view suffix);
+
+/// load_gltf() or load_obj(), by the suffix.
+SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd);
+
+}  // namespace pl

@@ -1,0 +1,184 @@
+#include "core/io/mitsuba/mitsuba.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
+#include "core/base/error.h"
+#include "core/io/line_reader.h"
+#include "core/io/mitsuba/shapes.h"
+#include "core/io/mitsuba/surfaces.h"
+#include "core/io/texture_file.h"
+#include "core/scene/up_axis.h"
+
+namespace pl {
+
+namespace {
+
+/// Builds the scene from the objects of the file.
+class MitsubaLoader {
+public:
+    explicit MitsubaLoader(const std::filesystem::path& path) : file_(path) { scene_.source = path; }
+
+    SceneDescription run() {
+        for (const MitsubaObject& object : file_.objects()) {
+            const std::string element = object.element();
+            if (element == "shape") {
+                read_shape(object);
+            } else if (element == "emitter" || element == "light") {
+                read_far_light(object);
+            } else if (element == "sensor" || element == "camera") {
+                read_sensor(object);
+            } else if (element == "medium") {
+                object.note("media are left out");
+            }
+        }
+        if (scene_.triangles.empty()) {
+            throw Error(ErrorKind::Input,
+                        fmt::format("{}: expected a shape with an area, got none", scene_.source.string()));
+        }
+        file_.notes().tell(scene_.warnings);
+        const std::vector<std::filesystem::path>& own = file_.files();
+        scene_.files.insert(scene_.files.begin(), own.begin(), own.end());
+        return std::move(scene_);
+    }
+
+private:
+    void read_shape(const MitsubaObject& shape) {
+        const std::uint32_t material = material_of(shape);
+        if (shape.child("interior_medium") || shape.property("interior")) {
+            shape.note("media are left out");
+        }
+        add_mitsuba_shape(shape, material, scene_);
+    }
+
+    /// The scene's material of a shape: one for each surface and radiance.
+    std::uint32_t material_of(const MitsubaObject& shape) {
+        MitsubaObject surface;
+        glm::vec3 radiance(0.0f);
+        for (const MitsubaObject& child : shape.children()) {
+            const MitsubaObject target = mitsuba_target(file_, child);
+            if (target.element() == "bsdf") {
+                surface = target;
+            } else if (target.element() == "emitter" || target.element() == "light") {
+                radiance = radiance_of(target);
+            }
+        }
+        const std::string at = surface ? surface.place() : std::string("standard");
+        const auto key = std::make_tuple(at, radiance.x, radiance.y, radiance.z);
+        const auto [known, is_new] = materials_.try_emplace(key, static_cast<std::uint32_t>(scene_.materials.size()));
+        if (is_new) {
+            add_material(surface, radiance);
+        }
+        return known->second;
+    }
+
+    static glm::vec3 radiance_of(const MitsubaObject& emitter) {
+        if (emitter.type() != "area") {
+            emitter.note(fmt::format("emitters of the type {} are left out", in_quotes(emitter.type())));
+            return glm::vec3(0.0f);
+        }
+        if (!emitter.color("radiance")) {
+            emitter.note("images of radiance are shown as 1");
+        }
+        return emitter.color("radiance").value_or(glm::vec3(1.0f));
+    }
+
+    void add_material(const MitsubaObject& surface, const glm::vec3& radiance) {
+        MaterialDescription material;
+        material.albedo = glm::vec3(radiance == glm::vec3(0.0f) ? 0.5f : 0.0f);
+        if (surface) {
+            material = mitsuba_surface(file_, surface, scene_);
+        }
+        material.emission = radiance;
+        const std::string id = surface ? surface.attribute("id") : "";
+        material.name = id.empty() ? fmt::format("material {}", scene_.materials.size()) : id;
+        if (std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                        [&](const MaterialDescription& other) { return other.name == material.name; })) {
+            material.name += fmt::format(" ({})", scene_.materials.size());
+        }
+        scene_.materials.push_back(std::move(material));
+    }
+
+    void read_far_light(const MitsubaObject& emitter) {
+        const std::string type = emitter.type();
+        const float scale = emitter.number("scale").value_or(1.0f);
+        if (type == "constant") {
+            scene_.environment = emitter.color("radiance").value_or(glm::vec3(1.0f));
+        } else if (type == "envmap" && scale >= 0.0f) {
+            read_map(emitter, scale);
+        } else {
+            emitter.note(fmt::format("emitters of the type {} are left out", in_quotes(type)));
+        }
+    }
+
+    /// Its first column is towards -z, its middle one towards +z, seen from inside. [Mitsuba 3, envmap]
+    void read_map(const MitsubaObject& emitter, float scale) {
+        const glm::dvec3 forward(emitter.transform("to_world")[2]);
+        if (std::abs(forward.y) > 1e-3) {
+            emitter.note("environment maps that are tilted stand upright");
+        }
+        const double yaw = std::atan2(forward.x, forward.z) * 180.0 / glm::pi<double>();
+        scene_.environment_map =
+            read_environment_map(emitter.file("filename"), scale, static_cast<float>(180.0 + yaw), scene_.warnings);
+    }
+
+    void read_sensor(const MitsubaObject& sensor) {
+        const std::string type = sensor.type();
+        if ((type != "perspective" && type != "thinlens") || !scene_.cameras.empty()) {
+            sensor.note(scene_.cameras.empty() ? fmt::format("sensors of the type {} are left out", in_quotes(type))
+                                               : "sensors after the first one are left out");
+            return;
+        }
+        const MitsubaObject film = sensor.child("film");
+        const float width = film.number("width").value_or(768.0f);
+        const float height = film.number("height").value_or(576.0f);
+        if (!(width >= 1.0f && height >= 1.0f && width <= 65536.0f && height <= 65536.0f)) {
+            film.fail(fmt::format("expected a picture of 1 to 65536 pixels on each side, got {}x{}", width, height));
+        }
+        if (film.property("crop_width")) {
+            film.note("crops of the picture are left out");
+        }
+        scene_.settings.emplace_back("size", fmt::format("{:.0f}x{:.0f}", width, height));
+        scene_.cameras.push_back({.name = sensor.attribute("id"), .camera = camera_of(sensor, width / height)});
+        scene_.camera = scene_.cameras.front().camera;
+        scene_.chosen_camera = 1;
+        scene_.up = nearest_axis(scene_.camera.up);
+    }
+
+    /// Looks along +z of its place. [Mitsuba 3, perspective]
+    static CameraDescription camera_of(const MitsubaObject& sensor, float aspect) {
+        const glm::dmat4 to_world = sensor.transform("to_world");
+        const glm::dvec3 forward = glm::normalize(glm::dvec3(to_world[2]));
+        const double fov = static_cast<double>(sensor.number("fov").value_or(39.5978f));
+        if (!(fov > 0.0 && fov < 180.0) || !std::isfinite(forward.x)) {
+            sensor.fail(fmt::format("expected a direction, and 'fov' within (0, 180) degrees, got {}", fov));
+        }
+        const std::string axis = mitsuba_name(sensor.text("fov_axis").value_or("x"));
+        const bool is_vertical =
+            axis == "y" || (axis == "smaller" && aspect > 1.0f) || (axis == "larger" && aspect < 1.0f);
+        const double half = std::tan(0.5 * glm::radians(fov)) / (is_vertical ? 1.0 : static_cast<double>(aspect));
+        const double distance = static_cast<double>(sensor.number("focus_distance").value_or(1.0f));
+        CameraDescription camera;
+        camera.eye = glm::vec3(to_world[3]);
+        camera.target = glm::vec3(glm::dvec3(to_world[3]) + forward);
+        camera.up = glm::vec3(to_world[1]);
+        camera.fov_deg = static_cast<float>(glm::degrees(2.0 * std::atan(half)));
+        camera.aperture_radius = sensor.type() == "thinlens" ? sensor.number("aperture_radius").value_or(0.0f) : 0.0f;
+        camera.focus_distance = static_cast<float>(distance);
+        return camera;
+    }
+
+    MitsubaFile file_;
+    SceneDescription scene_;
+    std::map<std::tuple<std::string, float, float, float>, std::uint32_t> materials_;
+};
+
+}  // namespace
+
+SceneDescription load_mitsuba(const std::filesystem::path& path) { return MitsubaLoader(path).run(); }
+
+}  // namespace pl

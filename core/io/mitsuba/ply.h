@@ -1,0 +1,25 @@
+// Triangles of PLY files.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace pl {
+
+struct PlyMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;                       ///< per vertex, or none
+    std::vector<glm::vec2> uvs;                           ///< per vertex, or none
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< polygons are cut as fans
+};
+
+/// Reads text and binary files of either order of bytes. Elements other than `vertex` and `face`, and other properties, are passed
+/// over. Throws Error(Input) with the byte: a header that is none, counts beyond the file, indices out of range, numbers that are not
+/// finite.
+PlyMesh read_ply(const std::filesystem::path& path);
+
+}  // namespace pl

@@ -1,0 +1,237 @@
+#include "core/io/mitsuba/shapes.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/base/parallel_chunks.h"
+#include "core/io/line_reader.h"
+#include "core/io/mitsuba/ply.h"
+#include "core/io/obj.h"
+#include "core/io/obj_check.h"
+#include "core/io/obj_smooth.h"
+#include "core/io/obj_triangles.h"
+
+namespace pl {
+
+namespace {
+
+/// Corners of all faces of a mesh by arrays of their own, as the reader of OBJ files gives them.
+void add_face(ObjMesh& mesh, std::initializer_list<ObjCorner> corners) {
+    ObjFaces& faces = mesh.parts.front();
+    faces.corners.insert(faces.corners.end(), corners);
+    faces.corner_counts.push_back(static_cast<std::uint32_t>(corners.size()));
+    faces.lines.push_back(1);
+}
+
+ObjMesh empty_mesh() {
+    ObjMesh mesh;
+    mesh.parts.emplace_back();
+    mesh.parts.front().runs.emplace_back();
+    mesh.groups.emplace_back();
+    return mesh;
+}
+
+/// The square [-1, 1]^2 that faces +z.
+ObjMesh rectangle() {
+    ObjMesh mesh = empty_mesh();
+    mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    add_face(
+        mesh,
+        {{0, ObjCorner::kNone, 0}, {1, ObjCorner::kNone, 1}, {2, ObjCorner::kNone, 2}, {3, ObjCorner::kNone, 3}});
+    return mesh;
+}
+
+/// [-1, 1]^3.
+ObjMesh cube() {
+    ObjMesh mesh = empty_mesh();
+    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float side : {-1.0f, 1.0f}) {
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            for (const auto& [s, t] : {std::pair{-1.0f, -1.0f}, {1.0f, -1.0f}, {1.0f, 1.0f}, {-1.0f, 1.0f}}) {
+                glm::vec3 p(0.0f);
+                p[axis] = side;
+                p[(axis + 1) % 3] = side * s;
+                p[(axis + 2) % 3] = t;
+                mesh.positions.push_back(p);
+            }
+            add_face(mesh, {{first, ObjCorner::kNone, 0},
+                            {first + 1, ObjCorner::kNone, 1},
+                            {first + 2, ObjCorner::kNone, 2},
+                            {first + 3, ObjCorner::kNone, 3}});
+        }
+    }
+    return mesh;
+}
+
+/// The disk of radius 1 that faces +z.
+ObjMesh disk() {
+    constexpr std::uint32_t kSides = 64;
+    ObjMesh mesh = empty_mesh();
+    mesh.positions.emplace_back(0.0f);
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+        const double angle = glm::two_pi<double>() * i / kSides;
+        mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        add_face(mesh, {{0}, {i + 1}, {(i + 1) % kSides + 1}});
+    }
+    return mesh;
+}
+
+/// The sphere of radius 1, with its own normals.
+ObjMesh sphere() {
+    constexpr std::uint32_t kRows = 32;
+    constexpr std::uint32_t kColumns = 64;
+    ObjMesh mesh = empty_mesh();
+    for (std::uint32_t row = 0; row <= kRows; ++row) {
+        for (std::uint32_t column = 0; column <= kColumns; ++column) {
+            const double theta = glm::pi<double>() * row / kRows;
+            const double phi = glm::two_pi<double>() * (column % kColumns) / kColumns;
+            mesh.positions.emplace_back(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                        std::cos(theta));
+            mesh.uvs.emplace_back(static_cast<float>(column) / kColumns, static_cast<float>(row) / kRows);
+        }
+    }
+    mesh.normals = mesh.positions;
+    const auto corner = [](std::uint32_t row, std::uint32_t column) {
+        const std::uint32_t i = row * (kColumns + 1) + column;
+        return ObjCorner{i, i, i};
+    };
+    for (std::uint32_t row = 0; row < kRows; ++row) {
+        for (std::uint32_t column = 0; column < kColumns; ++column) {
+            if (row > 0) {
+                add_face(mesh, {corner(row, column), corner(row + 1, column), corner(row, column + 1)});
+            }
+            if (row + 1 < kRows) {
+                add_face(mesh, {corner(row, column + 1), corner(row + 1, column), corner(row + 1, column + 1)});
+            }
+        }
+    }
+    return mesh;
+}
+
+ObjMesh ply(const std::filesystem::path& path) {
+    PlyMesh read = read_ply(path);
+    ObjMesh mesh = empty_mesh();
+    const bool has_normals = !read.normals.empty();
+    const bool has_uvs = !read.uvs.empty();
+    for (const std::array<std::uint32_t, 3>& triangle : read.triangles) {
+        const auto corner = [&](std::uint32_t i) {
+            return ObjCorner{i, has_normals ? i : ObjCorner::kNone, has_uvs ? i : ObjCorner::kNone};
+        };
+        add_face(mesh, {corner(triangle[0]), corner(triangle[1]), corner(triangle[2])});
+    }
+    mesh.positions = std::move(read.positions);
+    mesh.normals = std::move(read.normals);
+    mesh.uvs = std::move(read.uvs);
+    return mesh;
+}
+
+/// Normals as Mitsuba has them: none, those of the file, or those of a smooth surface.
+void settle_normals(bool is_flat, ObjMesh& mesh) {
+    for (ObjFaces& part : mesh.parts) {
+        for (ObjFaces::Run& run : part.runs) {
+            run.smoothing = is_flat ? Smoothing::Off : Smoothing::On;
+        }
+        for (ObjCorner& corner : part.corners) {
+            corner.normal = is_flat ? ObjCorner::kNone : corner.normal;
+        }
+    }
+    smooth_normals(mesh);
+}
+
+void move(const MitsubaObject& shape, const glm::dmat4& to_world, ObjMesh& mesh) {
+    const glm::dmat3 m(to_world);
+    glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    const bool is_mirrored = glm::dot(cofactors[0], m[0]) < 0.0;
+    for (glm::vec3& position : mesh.positions) {
+        const glm::dvec3 moved(to_world * glm::dvec4(glm::dvec3(position), 1.0));
+        if (!(std::abs(moved.x) <= kLargestCoordinate && std::abs(moved.y) <= kLargestCoordinate &&
+              std::abs(moved.z) <= kLargestCoordinate)) {
+            shape.fail(fmt::format("expected coordinates up to {} in the world, got {}, {}, {}", kLargestCoordinate,
+                                   moved.x, moved.y, moved.z));
+        }
+        position = glm::vec3(moved);
+    }
+    for (glm::vec3& normal : mesh.normals) {
+        const glm::dvec3 turned = (is_mirrored ? -1.0 : 1.0) * (cofactors * glm::dvec3(normal));
+        const double length = glm::length(turned);
+        normal = length > 0.0 && std::isfinite(length) ? glm::vec3(turned / length) : glm::vec3(0.0f);
+    }
+}
+
+/// Turns the front of all faces to their other side.
+void turn_over(ObjMesh& mesh) {
+    for (ObjFaces& part : mesh.parts) {
+        std::size_t first = 0;
+        for (const std::uint32_t count : part.corner_counts) {
+            const auto begin = part.corners.begin() + static_cast<std::ptrdiff_t>(first);
+            std::reverse(begin, begin + static_cast<std::ptrdiff_t>(count));
+            first += count;
+        }
+    }
+}
+
+/// Moves the triangles of `added` behind those of the scene.
+void append(SceneDescription added, SceneDescription& scene) {
+    const auto shift = [](glm::uvec3 indices, std::size_t by) {
+        return indices.x == TriangleDescription::kNoNormal ? indices : indices + static_cast<std::uint32_t>(by);
+    };
+    for (TriangleDescription& triangle : added.triangles) {
+        triangle.vertex = shift(triangle.vertex, scene.positions.size());
+        triangle.normal = shift(triangle.normal, scene.normals.size());
+        triangle.uv = shift(triangle.uv, scene.uvs.size());
+    }
+    const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    join(scene.positions, added.positions);
+    join(scene.normals, added.normals);
+    join(scene.uvs, added.uvs);
+    join(scene.triangles, added.triangles);
+    join(scene.warnings, added.warnings);
+}
+
+}  // namespace
+
+void add_mitsuba_shape(const MitsubaObject& shape, std::uint32_t material, SceneDescription& scene) {
+    const std::string type = shape.type();
+    glm::dmat4 to_world = shape.transform("to_world");
+    ObjMesh mesh;
+    SceneDescription added;
+    added.source = scene.source;
+    if (type == "obj" || type == "ply") {
+        const std::filesystem::path path = shape.file("filename");
+        scene.files.push_back(path);
+        added.source = path;
+        mesh = type == "obj" ? read_obj_mesh(path) : ply(path);
+        settle_normals(shape.boolean("face_normals").value_or(false), mesh);
+    } else if (type == "rectangle") {
+        mesh = rectangle();
+    } else if (type == "cube") {
+        mesh = cube();
+    } else if (type == "disk") {
+        mesh = disk();
+        shape.note("disks are meshes of 64 sides");
+    } else if (type == "sphere") {
+        mesh = sphere();
+        shape.note("spheres are meshes of 32 x 64 faces");
+        to_world = glm::scale(glm::translate(to_world, glm::dvec3(shape.point("center").value_or(glm::vec3(0.0f)))),
+                              glm::dvec3(static_cast<double>(shape.number("radius").value_or(1.0f))));
+    } else {
+        shape.note(fmt::format("shapes of the type {} are left out", in_quotes(type)));
+        return;
+    }
+    move(shape, to_world, mesh);
+    const bool is_mirrored = glm::determinant(glm::dmat3(to_world)) < 0.0;
+    if (is_mirrored != shape.boolean("flip_normals").value_or(false)) {
+        turn_over(mesh);
+    }
+    const MaterialTable materials{.of_name = std::vector<std::uint32_t>(mesh.materials.size(), material),
+                                  .fallback = material};
+    add_obj_triangles(added, std::move(mesh), materials, nullptr, usable_threads());
+    append(std::move(added), scene);
+}
+
+}  // namespace pl

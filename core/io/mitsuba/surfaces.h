@@ -1,0 +1,16 @@
+// BSDFs and textures of Mitsuba as the surfaces that the renderer knows.
+#pragma once
+
+#include "core/io/mitsuba/xml_file.h"
+#include "core/scene/description.h"
+
+namespace pl {
+
+/// The surface of a `bsdf` element, with its textures added to the scene. Adapters such as `twosided` are those of the surface
+/// inside. [Mitsuba 3 and 0.6, plugins]
+MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene);
+
+/// The object that `object` stands for: the one with its id if it is a `ref`.
+MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& object);
+
+}  // namespace pl

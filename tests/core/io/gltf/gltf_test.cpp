@@ -1,0 +1,390 @@
+// glTF files: meshes, nodes, cameras and the sun, notes about content that is left out, and files that are refused.
+#include "core/io/gltf/gltf.h"
+
+#include <cmath>
+
+#include "core/io/load_scene.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/gltf_maker.h"
+#include "tests/support/files/input_error.h"
+#include "tests/support/files/temporary_folder.h"
+
+using namespace pl;
+using pl::test::contains;
+using pl::test::GltfMaker;
+using pl::test::input_error;
+using pl::test::TemporaryFolder;
+using Json = nlohmann::json;
+
+namespace {
+
+SceneDescription load(const std::string& bytes, const LoadSettings& asked = {}) {
+    const TemporaryFolder folder;
+    return load_scene(folder.write("s.gltf", bytes).string(), "", asked);
+}
+SceneDescription load(const GltfMaker& file, const LoadSettings& asked = {}) { return load(file.text(), asked); }
+
+std::string refusal(const std::string& bytes) {
+    return input_error([&] { load(bytes); });
+}
+std::string refusal(const GltfMaker& file) { return refusal(file.text()); }
+
+/// Corners of a triangle of a scene.
+std::vector<glm::vec3> corners(const SceneDescription& scene, std::size_t triangle) {
+    const glm::uvec3 v = scene.triangles.at(triangle).vertex;
+    return {scene.positions[v.x], scene.positions[v.y], scene.positions[v.z]};
+}
+
+bool is_told(const SceneDescription& scene, const std::string& words) {
+    return std::any_of(scene.warnings.begin(), scene.warnings.end(),
+                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+}
+
+const std::vector<glm::vec3> kTriangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+const std::vector<float> kSquare{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+
+}  // namespace
+
+TEST_CASE("gltf: a file of points alone is refused with the reason") {
+    GltfMaker file;
+    file.triangle();
+    file.root["meshes"][0]["primitives"][0]["mode"] = 0;
+    CHECK_THAT(refusal(file),
+               contains("got no triangle with an area; ") && contains("points and lines are left out"));
+}
+
+TEST_CASE("gltf: a triangle, as text and as a .glb, of any suffix") {
+    GltfMaker file;
+    file.triangle();
+    for (const std::string& bytes : {file.text(), file.glb(), "\xEF\xBB\xBF" + file.text()}) {
+        const SceneDescription scene = load(bytes);
+        REQUIRE(scene.triangles.size() == 1);
+        CHECK(corners(scene, 0) == kTriangle);
+        CHECK(scene.up == glm::vec3(0, 1, 0));
+        CHECK(scene.default_light);
+        CHECK(scene.name == "s");
+    }
+}
+
+TEST_CASE("gltf: buffers in files of the folder, with escapes in their names") {
+    GltfMaker file;
+    file.triangle();
+    file.root["buffers"] = {{{"byteLength", file.buffer.size()}, {"uri", "data/my%20buffer.bin"}}};
+    const TemporaryFolder folder;
+    const auto bin = folder.write("data/my buffer.bin", file.buffer + "more");
+    const auto path = folder.write("s.gltf", file.text());
+    const SceneDescription scene = load_scene(path.string(), "");
+    CHECK(corners(scene, 0) == kTriangle);
+    CHECK(scene.files == std::vector<std::filesystem::path>{path, bin});
+}
+
+TEST_CASE("gltf: indices, strips and fans have the order of the format") {
+    const std::vector<std::vector<glm::vec3>> square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+                                                     {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+    const auto triangles = [&](Json primitive) {
+        GltfMaker file;
+        primitive["attributes"]["POSITION"] = file.vec3(kSquare);
+        if (primitive.contains("corners")) {
+            primitive["indices"] = file.indices(primitive["corners"].get<std::vector<std::uint16_t>>());
+            primitive.erase("corners");
+        }
+        file.node({{"mesh", file.mesh(primitive)}});
+        return load(file);
+    };
+    const SceneDescription listed = triangles({{"corners", {0, 1, 2, 0, 2, 3}}});
+    CHECK(corners(listed, 0) == square[0]);
+    CHECK(corners(listed, 1) == square[1]);
+    CHECK(listed.positions.size() == 4);
+    const SceneDescription fan = triangles({{"mode", 6}});
+    REQUIRE(fan.triangles.size() == 2);
+    CHECK(corners(fan, 0) == std::vector<glm::vec3>{{1, 0, 0}, {1, 1, 0}, {0, 0, 0}});
+    CHECK(corners(fan, 1) == std::vector<glm::vec3>{{1, 1, 0}, {0, 1, 0}, {0, 0, 0}});
+    const SceneDescription strip = triangles({{"mode", 5}, {"corners", {0, 1, 3, 2}}});
+    REQUIRE(strip.triangles.size() == 2);
+    CHECK(corners(strip, 0) == std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    CHECK(corners(strip, 1) == std::vector<glm::vec3>{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+}
+
+TEST_CASE("gltf: strided, quantized and sparse accessors") {
+    GltfMaker file;
+    // Positions as normalized shorts, each padded to eight bytes.
+    const std::vector<std::int16_t> shorts{0, 0, 0, 7, 32767, 0, 0, 7, 0, 32767, 0, 7, -32768, 0, 0, 7};
+    const int view = file.view(test::bytes_of(shorts));
+    file.root["bufferViews"][static_cast<std::size_t>(view)]["byteStride"] = 8;
+    const int quantized = file.accessor(
+        {{"bufferView", view}, {"componentType", 5122}, {"normalized", true}, {"type", "VEC3"}, {"count", 4}});
+    const int bytes = file.numbers(std::vector<std::uint8_t>{0, 1, 2, 0, 2, 3}, 5121, "SCALAR", 6);
+    file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", quantized}}}, {"indices", bytes}})}});
+    // Zeros but for the elements 1 and 2.
+    const int sparse = file.accessor(
+        {{"componentType", 5126},
+         {"type", "VEC3"},
+         {"count", 3},
+         {"sparse",
+          {{"count", 2},
+           {"indices", {{"bufferView", file.view(test::bytes_of<std::uint8_t>({1, 2}))}, {"componentType", 5121}}},
+           {"values", {{"bufferView", file.view(test::bytes_of<float>({1, 0, 0, 0, 1, 0}))}}}}}});
+    file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", sparse}}}})}});
+    const SceneDescription scene = load(file);
+    REQUIRE(scene.triangles.size() == 3);
+    CHECK(corners(scene, 0) == kTriangle);
+    CHECK(corners(scene, 1) == std::vector<glm::vec3>{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
+    CHECK(corners(scene, 2) == kTriangle);
+}
+
+TEST_CASE("gltf: nodes move, turn and scale the nodes below them") {
+    GltfMaker file;
+    file.triangle();
+    file.root["nodes"][0]["translation"] = {1, 0, 0};
+    const double half = std::sqrt(0.5);
+    file.node({{"children", {0}}, {"rotation", {0, 0, half, half}}, {"scale", {2, 3, 1}}});  // 90 degrees about z
+    file.node({{"children", {1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}}});
+    const SceneDescription scene = load(file);
+    const std::vector<glm::vec3> expected{{0, 2, 5}, {0, 4, 5}, {-3, 2, 5}};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            CHECK(corners(scene, 0)[i][axis] == Approx(expected[i][axis]).margin(1e-6));
+}
+
+TEST_CASE("gltf: each node has its copy of a mesh, a mirrored one with its front in front") {
+    GltfMaker file;
+    const int mesh = file.mesh({{"attributes",
+                                 {{"POSITION", file.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0})},
+                                  {"NORMAL", file.vec3({0, 0, 2, 0, 0, 2, 0, 0, 0})}}}});
+    const int good = file.mesh({{"attributes",
+                                 {{"POSITION", file.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0})},
+                                  {"NORMAL", file.vec3({0, 1, 2, 0, 0, 2, 0, 0, 1})}}}});
+    file.node({{"mesh", mesh}});
+    file.node({{"mesh", good}, {"scale", {1, 2, 1}}});
+    file.node({{"mesh", good}, {"scale", {-1, 1, 1}}});
+    const SceneDescription scene = load(file);
+    REQUIRE(scene.triangles.size() == 3);
+    CHECK(scene.triangles[0].normal.x == TriangleDescription::kNoNormal);
+    CHECK(is_told(scene, "normals of no length are ignored (1 in all)"));
+    const glm::vec3 steep = scene.normals[scene.triangles[1].normal.x];
+    CHECK(steep.z == Approx(4.0 / std::sqrt(17.0)));
+    CHECK(corners(scene, 2) == std::vector<glm::vec3>{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
+    CHECK(scene.normals[scene.triangles[2].normal.y] == glm::vec3(0, 0, 1));
+}
+
+TEST_CASE("gltf: a skin is in the pose of its joints") {
+    GltfMaker file;
+    const int mesh = file.mesh(
+        {{"attributes",
+          {{"POSITION", file.vec3({0, 0, 0, 1, 0, 0, 0, 1, 0})},
+           {"JOINTS_0", file.numbers(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0}, 5121, "VEC4", 3)},
+           {"WEIGHTS_0", file.numbers(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 5126, "VEC4", 3)}}}});
+    file.root["skins"] = {{{"joints", {1, 2}}}};
+    file.node({{"mesh", mesh}, {"skin", 0}, {"translation", {100, 0, 0}}});
+    file.node({{"translation", {0, 0, 1}}});
+    file.node({{"translation", {0, 5, 0}}});
+    CHECK(corners(load(file), 0) == std::vector<glm::vec3>{{0, 0, 1}, {1, 0, 1}, {0, 6, 0}});
+    file.root["skins"][0]["joints"] = {1};
+    CHECK_THAT(refusal(file), contains("JOINTS_0") && contains("expected joints below 1, got 1 at vertex 2"));
+}
+
+TEST_CASE("gltf: the scene that the file shows, without it all roots") {
+    GltfMaker file;
+    file.triangle();
+    file.triangle();
+    file.triangle();
+    CHECK(load(file).triangles.size() == 3);
+    file.root["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1, 2}}}};
+    CHECK(load(file).triangles.size() == 1);
+    file.root["scene"] = 1;
+    CHECK(load(file).triangles.size() == 2);
+}
+
+TEST_CASE("gltf: cameras can be chosen by name and number, and set the shape of the picture") {
+    GltfMaker file;
+    file.triangle();
+    file.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"aspectRatio", 1.5}}}},
+                            {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}}}},
+                            {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}}}}};
+    file.node({{"name", "front"}, {"camera", 0}, {"translation", {0, 0, 5}}});
+    file.node({{"name", "side"},
+               {"camera", 1},
+               {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}},
+               {"translation", {7, 0, 0}}});
+    file.node({{"camera", 2}});
+    const SceneDescription scene = load(file);
+    REQUIRE(scene.cameras.size() == 2);
+    CHECK(is_told(scene, "cameras without perspective"));
+    CHECK(scene.chosen_camera == 1);
+    CHECK(scene.camera.eye == glm::vec3(0, 0, 5));
+    CHECK(scene.camera.target == glm::vec3(0, 0, 0));
+    CHECK(scene.camera.fov_deg == Approx(28.6479));
+    CHECK(scene.setting("size") == "768x512");
+    for (const char* name : {"side", "2"}) {
+        const SceneDescription chosen = load(file, {.camera = name});
+        CHECK(chosen.camera.eye == glm::vec3(7, 0, 0));
+        CHECK(chosen.camera.target.x < 7.0f);
+        CHECK(chosen.setting("size").empty());
+    }
+    CHECK_THAT(test::error_message(ErrorKind::Usage, [&] { load(file, {.camera = "top"}); }),
+               contains("--scene-camera top") && contains("1 'front', 2 'side'"));
+    file.root["cameras"][0]["perspective"]["yfov"] = 4;
+    CHECK_THAT(refusal(file), contains("cameras/0/perspective/yfov") && contains("got 4"));
+}
+
+TEST_CASE("gltf: the first directional light is the sun, in watts if Blender wrote it in lumens") {
+    GltfMaker file;
+    file.triangle();
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}}, {{"type", "directional"}, {"intensity", 683}, {"color", {1, 0.5, 0}}}};
+    file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    CHECK(load(file).default_light);
+    file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+    const SceneDescription scene = load(file);
+    CHECK_FALSE(scene.default_light);
+    CHECK(is_told(scene, "lights of the type point are left out (1 in all)"));
+    CHECK(scene.sun.direction == glm::vec3(0, 0, 1));
+    const double half = 0.5 * 0.533 * 3.14159265358979 / 180.0;
+    const double projected = 3.14159265358979 * std::sin(half) * std::sin(half);
+    CHECK(scene.sun.radiance.x * projected == Approx(683.0).epsilon(1e-4));
+    CHECK(scene.sun.radiance.y * projected == Approx(341.5).epsilon(1e-4));
+    CHECK(scene.sun.radiance.z == 0.0f);
+    file.root["asset"]["generator"] = "Khronos glTF Blender I/O v4.2.70";
+    CHECK(load(file).sun.radiance.x * projected == Approx(1.0).epsilon(1e-4));
+}
+
+TEST_CASE("gltf: content without a counterpart is told once for each kind") {
+    GltfMaker file;
+    file.triangle();
+    file.root["meshes"][0]["primitives"].push_back({{"mode", 1}, {"attributes", {{"POSITION", 0}}}});
+    file.root["meshes"][0]["primitives"].push_back({{"mode", 0}, {"attributes", {{"POSITION", 0}}}});
+    file.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = file.vec3({1, 0, 0, 1, 1, 1, 1, 1, 1});
+    file.root["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
+    file.root["extensionsUsed"] = {"EXT_mesh_gpu_instancing", "KHR_texture_transform"};
+    const SceneDescription scene = load(file);
+    CHECK(is_told(scene, "'meshes/0/primitives/1': points and lines are left out (2 in all)"));
+    CHECK(is_told(scene, "colors of vertices"));
+    CHECK(is_told(scene, "animations are left out"));
+    CHECK(is_told(scene, "the extension EXT_mesh_gpu_instancing is left out"));
+    CHECK_FALSE(is_told(scene, "KHR_texture_transform"));
+}
+
+TEST_CASE("gltf: a scene file may name one, with materials and knobs by the names of materials and nodes") {
+    GltfMaker file;
+    file.triangle({{"name", "wall"}});
+    const TemporaryFolder folder;
+    folder.write("m.glb", file.glb());
+    const auto json = folder.write("s.json", R"({"schema": "pathlight.scene/1", "obj": "m.glb",
+        "materials": {"wall": {"surface": "diffuse", "albedo": [0.1, 0.2, 0.3], "emission": [1, 1, 1]}}})");
+    const SceneDescription scene = load_scene(json.string(), "");
+    CHECK(scene.materials.at(0).albedo == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK_FALSE(scene.default_light);
+}
+
+TEST_CASE("gltf: broken files are refused with place, expected and got", "[hard]") {
+    struct Case {
+        std::string pointer;
+        Json value;
+        std::string told;
+    };
+    const std::vector<Case> cases = {
+        {"/asset/version", "1.0", "'asset/version': expected glTF of version 2, got '1.0'"},
+        {"/extensionsRequired", Json::array({"KHR_draco_mesh_compression"}), "expected meshes without compression"},
+        {"/nodes/0/mesh", 3, "'nodes/0/mesh': expected an index into the 1 meshes, got 3"},
+        {"/nodes/0/mesh", -1, "got -1"},
+        {"/nodes/0/mesh", "x", "expected a whole number"},
+        {"/nodes/0/mesh", 0.5, "expected a whole number"},
+        {"/nodes/0/children", Json::array({0}), "expected a tree of nodes, got a circle"},
+        {"/nodes/0/rotation", Json::array({0, 0, 0, 0}), "expected a unit quaternion"},
+        {"/nodes/0/matrix", Json::array({1, 2}), "expected an array of 16 numbers"},
+        {"/nodes/0/scale", Json::array({1e30, 1, 1}), "expected coordinates up to 1e+18"},
+        {"/scenes", Json::array({{{"nodes", {0, 0}}}}), "expected nodes without parents, each once"},
+        {"/accessors/0/bufferView", 9, "expected an index into the 2 bufferViews, got 9"},
+        {"/accessors/0/count", 4, "expected at most the 36 bytes of its buffer view, got 4 elements up to byte 48"},
+        {"/accessors/0/count", 4000000000u, "expected at most 134217728 vertices and corners in the file"},
+        {"/accessors/0/count", 1e300, "expected a whole number"},
+        {"/accessors/0/count", 0, "within [1,"},
+        {"/accessors/0/componentType", 5124, "got 5124"},
+        {"/accessors/0/type", "VEC4", "expected VEC3 for this use, got 'VEC4'"},
+        {"/accessors/0/byteOffset", 4, "expected at most the 36 bytes"},
+        {"/accessors/1/count", 2, "expected one element for each of the 3 vertices, got 2"},
+        {"/bufferViews/0/byteLength", 100000, "expected a part of the"},
+        {"/bufferViews/0/byteOffset", 18446744073709551615u, "expected a whole number"},
+        {"/bufferViews/0/byteStride", 1, "within [4, 252]"},
+        {"/buffers", Json::array({{{"byteLength", 60}}}), "expected a 'uri'"},
+        {"/buffers", Json::array({{{"byteLength", 60}, {"uri", "data:;base64,AAAA"}}}),
+         "expected at most the 3 bytes"},
+        {"/buffers", Json::array({{{"byteLength", 60}, {"uri", "data:;base64,A*AA"}}}), "expected \"data:TYPE"},
+        {"/buffers", Json::array({{{"byteLength", 60}, {"uri", "../x.bin"}}}), "in the folder of the scene"},
+        {"/buffers", Json::array({{{"byteLength", 60}, {"uri", "%2e%2e/x.bin"}}}), "in the folder of the scene"},
+        {"/buffers", Json::array({{{"byteLength", 60}, {"uri", "/etc/hostname"}}}), "in the folder of the scene"},
+        {"/buffers", Json::array({{{"byteLength", 60}, {"uri", "http://a/b"}}}), "in the folder of the scene"},
+        {"/buffers", Json::array({{{"byteLength", 60}, {"uri", "none.bin"}}}), "none.bin"},
+        {"/meshes/0/primitives/0/mode", 7, "within [0, 6]"},
+        {"/meshes/0/primitives/0/material", 0, "expected an index into the 0 materials, got 0"},
+        {"/meshes/0/primitives/0/mode", 1, "no triangle with an area"},
+        {"/meshes", Json::object(), "expected an array"},
+    };
+    for (const Case& broken : cases) {
+        GltfMaker file;
+        file.triangle();
+        Json text = Json::parse(file.text());
+        text[Json::json_pointer(broken.pointer)] = broken.value;
+        INFO(broken.pointer << " " << broken.value.dump());
+        CHECK_THAT(refusal(text.dump(1)), contains("s.gltf") || contains("none.bin"));
+        CHECK_THAT(refusal(text.dump(1)), contains(broken.told));
+    }
+}
+
+TEST_CASE("gltf: indices beyond the vertices, numbers that are none, and giant counts are refused", "[hard]") {
+    GltfMaker indices;
+    indices.node({{"mesh", indices.mesh({{"attributes", {{"POSITION", indices.vec3(kSquare)}}},
+                                         {"indices", indices.indices({0, 1, 4})}})}});
+    CHECK_THAT(refusal(indices), contains("expected indices below 4, the number of vertices, got 4 at corner 2"));
+
+    GltfMaker nan;
+    nan.node({{"mesh", nan.mesh({{"attributes", {{"POSITION", nan.vec3({0, 0, 0, 1, 0, NAN, 0, 1, 0})}}}})}});
+    CHECK_THAT(refusal(nan), contains("'accessors/0': expected finite numbers, got nan as component 5"));
+
+    GltfMaker zeros;
+    const int giant = zeros.accessor({{"componentType", 5126}, {"type", "VEC3"}, {"count", 4000000000u}});
+    zeros.node({{"mesh", zeros.mesh({{"attributes", {{"POSITION", giant}}}})}});
+    CHECK_THAT(refusal(zeros), contains("expected at most"));
+    zeros.root["accessors"][0]["count"] = 100000000;
+    CHECK_THAT(refusal(zeros), contains("elements without a buffer view, got 100000000"));
+
+    GltfMaker parents;
+    parents.triangle();
+    parents.node({{"children", {0}}});
+    parents.node({{"children", {0}}});
+    CHECK_THAT(refusal(parents), contains("'nodes/2/children/0': expected a node without another parent"));
+
+    GltfMaker sparse;
+    sparse.triangle();
+    sparse.root["accessors"][0]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", sparse.view(test::bytes_of<std::uint8_t>({3}))}, {"componentType", 5121}}},
+        {"values", {{"bufferView", sparse.view(test::bytes_of<float>({1, 0, 0}))}}}};
+    CHECK_THAT(refusal(sparse), contains("expected indices below 3, got 3"));
+}
+
+TEST_CASE("gltf: a chain of a hundred thousand nodes is no depth of recursion", "[hard]") {
+    GltfMaker file;
+    file.triangle();
+    Json nodes = file.root["nodes"];
+    for (int i = 0; i < 100000; ++i) nodes.push_back({{"children", {i}}});
+    file.root["nodes"] = nodes;
+    CHECK(load(file).triangles.size() == 1);
+}
+
+TEST_CASE("gltf: a .glb that is cut or lies about its length is refused with the byte", "[hard]") {
+    GltfMaker file;
+    file.triangle();
+    const std::string glb = file.glb();
+    for (const std::size_t size : {4, 11, 12, 19, 40}) CHECK_THAT(refusal(glb.substr(0, size)), contains("byte "));
+    CHECK_THAT(refusal(glb.substr(0, glb.size() - 4)), contains("byte 8: the header says"));
+    std::string other = glb;
+    other[4] = 1;
+    CHECK_THAT(refusal(other), contains("byte 4: expected version 2 of the container, got 1"));
+    other = glb;
+    other[16] = 'X';
+    CHECK_THAT(refusal(other), contains("byte 16: expected a JSON chunk first"));
+    other = glb;
+    other[15] = '\x7f';
+    CHECK_THAT(refusal(other), contains("byte 20: expected a chunk of"));
+}

@@ -1,0 +1,310 @@
+// glTF materials as the surfaces of the renderer: kinds, numbers, images, holes, and notes.
+#include "core/io/gltf/surfaces.h"
+
+#include <array>
+#include <cmath>
+
+#include <stb_image_write.h>
+
+#include "core/io/load_scene.h"
+#include "core/io/mtl_surface.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/gltf_maker.h"
+#include "tests/support/files/input_error.h"
+#include "tests/support/files/temporary_folder.h"
+
+using namespace pl;
+using pl::test::contains;
+using pl::test::GltfMaker;
+using pl::test::TemporaryFolder;
+using Json = nlohmann::json;
+
+namespace {
+
+SceneDescription load(const GltfMaker& file) {
+    const TemporaryFolder folder;
+    return load_scene(folder.write("s.gltf", file.text()).string(), "");
+}
+
+SceneDescription load(const Json& material) {
+    GltfMaker file;
+    file.triangle(material);
+    return load(file);
+}
+
+/// The only material of a file with this one.
+MaterialDescription surface(const Json& material) {
+    const SceneDescription scene = load(material);
+    REQUIRE(scene.materials.size() == 1);
+    return scene.materials[0];
+}
+
+Json metal_rough(const Json& members) { return {{"pbrMetallicRoughness", members}}; }
+Json extended(const std::string& name, const Json& members) {
+    return {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}, {"extensions", {{"KHR_materials_" + name, members}}}};
+}
+
+bool is_told(const SceneDescription& scene, const std::string& words) {
+    return std::any_of(scene.warnings.begin(), scene.warnings.end(),
+                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+}
+
+/// Bytes of a PNG file of 2 x 1 texels.
+std::string png(const std::array<std::uint8_t, 8>& rgba) {
+    std::string bytes;
+    const auto append = [](void* to, void* data, int size) {
+        static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+    };
+    stbi_write_png_to_func(append, &bytes, 2, 1, 4, rgba.data(), 8);
+    return bytes;
+}
+
+/// A file with a triangle of this material and an image for its textures.
+GltfMaker with_image(const Json& material, const std::array<std::uint8_t, 8>& rgba) {
+    GltfMaker file;
+    file.triangle(material);
+    file.root["images"] = {{{"bufferView", file.view(png(rgba))}, {"mimeType", "image/png"}}};
+    file.root["textures"] = {{{"source", 0}}};
+    return file;
+}
+
+}  // namespace
+
+TEST_CASE("gltf materials: metals and plastics by their metalness") {
+    const MaterialDescription metal =
+        surface(metal_rough({{"baseColorFactor", {0.9, 0.5, 0.1, 1}}, {"roughnessFactor", 0.25}}));
+    CHECK(metal.kind == SurfaceKind::Conductor);
+    CHECK(metal.specular == glm::vec3(0.9f, 0.5f, 0.1f));
+    CHECK(metal.albedo == glm::vec3(0.0f));
+    CHECK(metal.roughness == 0.25f);
+    const MaterialDescription plastic = surface(
+        metal_rough({{"baseColorFactor", {0.9, 0.5, 0.1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.01}}));
+    CHECK(plastic.kind == SurfaceKind::Plastic);
+    CHECK(plastic.albedo == glm::vec3(0.9f, 0.5f, 0.1f));
+    CHECK(plastic.specular == glm::vec3(1.0f));
+    CHECK(plastic.ior == 1.5f);
+    CHECK(plastic.roughness == 0.0f);
+    const SceneDescription half = load(metal_rough({{"metallicFactor", 0.4}}));
+    CHECK(half.materials[0].kind == SurfaceKind::Plastic);
+    CHECK(is_told(half, "metalness between 0 and 1"));
+    CHECK(surface(Json::object()).kind == SurfaceKind::Conductor);
+}
+
+TEST_CASE("gltf materials: triangles without one are of a rough white metal, which is told") {
+    GltfMaker file;
+    file.triangle();
+    const SceneDescription scene = load(file);
+    REQUIRE(scene.materials.size() == 1);
+    CHECK(scene.materials[0].kind == SurfaceKind::Conductor);
+    CHECK(scene.materials[0].roughness == 1.0f);
+    CHECK(is_told(scene, "triangles without a material"));
+}
+
+TEST_CASE("gltf materials: index of refraction, specular amount and its absence") {
+    CHECK(surface(extended("ior", {{"ior", 1.8}})).ior == 1.8f);
+    CHECK(surface(extended("ior", {{"ior", 0}})).ior == kMostIor);
+    const MaterialDescription tinted =
+        surface(extended("specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0.5, 0}}}));
+    CHECK(tinted.specular == glm::vec3(0.5f, 0.25f, 0.0f));
+    const MaterialDescription matte = surface(extended("specular", {{"specularFactor", 0}}));
+    CHECK(matte.kind == SurfaceKind::Diffuse);
+    CHECK(matte.albedo == glm::vec3(1.0f));
+    CHECK(matte.roughness == 0.0f);
+}
+
+TEST_CASE("gltf materials: glass by transmission") {
+    Json glass = extended("transmission", {{"transmissionFactor", 1}});
+    glass["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 1, 1, 1};
+    glass["pbrMetallicRoughness"]["roughnessFactor"] = 0.3;
+    glass["extensions"]["KHR_materials_ior"]["ior"] = 1.33;
+    SceneDescription scene = load(glass);
+    CHECK(scene.materials[0].kind == SurfaceKind::Dielectric);
+    CHECK(scene.materials[0].transmission == glm::vec3(0.5f, 1.0f, 1.0f));
+    CHECK(scene.materials[0].ior == 1.33f);
+    CHECK(scene.materials[0].roughness == 0.3f);
+    CHECK(is_told(scene, "thin panes"));
+    glass["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}, {"attenuationDistance", 2}};
+    scene = load(glass);
+    CHECK_FALSE(is_told(scene, "thin panes"));
+    CHECK(is_told(scene, "absorption inside of glass"));
+    glass["extensions"]["KHR_materials_ior"]["ior"] = 1.01;
+    CHECK(surface(glass).roughness == 0.0f);
+    glass["pbrMetallicRoughness"]["metallicFactor"] = 1;
+    CHECK(surface(glass).kind == SurfaceKind::Conductor);
+    const SceneDescription weak = load(extended("transmission", {{"transmissionFactor", 0.2}}));
+    CHECK(weak.materials[0].kind == SurfaceKind::Plastic);
+    CHECK(is_told(weak, "transmission below one half"));
+}
+
+TEST_CASE("gltf materials: a clear coat on dielectrics") {
+    const Json coat = extended("clearcoat", {{"clearcoatFactor", 1}, {"clearcoatRoughnessFactor", 0.2}});
+    CHECK(surface(coat).kind == SurfaceKind::Plastic);
+    CHECK(surface(coat).roughness == 0.2f);
+    Json metal = coat;
+    metal["pbrMetallicRoughness"]["metallicFactor"] = 1;
+    const SceneDescription scene = load(metal);
+    CHECK(scene.materials[0].roughness == 1.0f);
+    CHECK(is_told(scene, "a clear coat on metal"));
+}
+
+TEST_CASE("gltf materials: emission with its strength, on both sides if the surface has two") {
+    Json lamp = extended("emissive_strength", {{"emissiveStrength", 20}});
+    lamp["emissiveFactor"] = {1, 0.5, 0};
+    CHECK(surface(lamp).emission == glm::vec3(20.0f, 10.0f, 0.0f));
+    CHECK_FALSE(surface(lamp).two_sided_emission);
+    lamp["doubleSided"] = true;
+    CHECK(surface(lamp).two_sided_emission);
+    CHECK_FALSE(load(lamp).default_light);
+    // A label lights nothing: the viewer does.
+    lamp["extensions"].erase("KHR_materials_emissive_strength");
+    const SceneDescription label = load(lamp);
+    CHECK(label.default_light);
+    CHECK(is_told(label, "no light in this scene but surfaces that glow; by default"));
+}
+
+TEST_CASE("gltf materials: unlit, specular-glossiness, and content that is left out") {
+    const SceneDescription unlit = load(extended("unlit", Json::object()));
+    CHECK(unlit.materials[0].kind == SurfaceKind::Diffuse);
+    CHECK(is_told(unlit, "unlit surfaces are shown as diffuse ones"));
+    const Json gloss = {
+        {"diffuseFactor", {0.1, 0.2, 0.3, 1}}, {"glossinessFactor", 0.75}, {"specularFactor", {0, 0, 0.1}}};
+    const MaterialDescription plastic = surface(extended("pbrSpecularGlossiness", gloss));
+    CHECK(plastic.kind == SurfaceKind::Plastic);
+    CHECK(plastic.albedo == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(plastic.roughness == 0.25f);
+    Json metal = gloss;
+    metal["specularFactor"] = {0.9, 0.8, 0.7};
+    CHECK(surface(extended("pbrSpecularGlossiness", metal)).specular == glm::vec3(0.9f, 0.8f, 0.7f));
+    for (const auto& [name, words] : {std::pair{"sheen", "sheen is left out"},
+                                      {"iridescence", "iridescence is left out"},
+                                      {"anisotropy", "anisotropy"},
+                                      {"dispersion", "dispersion"}})
+        CHECK(is_told(load(extended(name, Json::object())), words));
+    const SceneDescription wild = load(metal_rough({{"roughnessFactor", 7}, {"baseColorFactor", {2, 0, 0, 1}}}));
+    CHECK(wild.materials[0].roughness == 1.0f);
+    CHECK(wild.materials[0].specular == glm::vec3(1.0f, 0.0f, 0.0f));
+    CHECK(is_told(wild, "a number out of the range of the format is moved into it (2 in all)"));
+}
+
+TEST_CASE("gltf materials: of two with one name both can be told apart") {
+    GltfMaker file;
+    file.triangle({{"name", "a"}});
+    file.triangle({{"name", "a"}});
+    file.triangle(Json::object());
+    const SceneDescription scene = load(file);
+    CHECK(scene.materials[0].name == "a");
+    CHECK(scene.materials[1].name == "a (1)");
+    CHECK(scene.materials[2].name == "material 2");
+}
+
+TEST_CASE("gltf images: colors are decoded, roughness is green, and coordinates start at the top") {
+    const Json info = {{"index", 0}};
+    const SceneDescription scene = load(with_image(
+        metal_rough({{"metallicFactor", 0}, {"baseColorTexture", info}, {"metallicRoughnessTexture", info}}),
+        {255, 51, 0, 255, 0, 255, 255, 0}));
+    const MaterialDescription& material = scene.materials[0];
+    REQUIRE(scene.textures.size() == 2);
+    const TextureDescription& color = scene.textures[material.textures.albedo];
+    CHECK(color.texels[0].x == 1.0f);
+    CHECK(color.texels[0].y == Approx(0.0331).epsilon(0.01));
+    CHECK(material.textures.opacity == kNoTexture);
+    const TextureDescription& rough = scene.textures[material.textures.roughness];
+    CHECK(rough.texels[0].x == Approx(0.2));
+    CHECK(rough.texels[1].x == 1.0f);
+    CHECK(scene.uvs == std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}});
+}
+
+TEST_CASE("gltf images: metalness that varies decides triangle by triangle") {
+    GltfMaker file =
+        with_image(metal_rough({{"metallicRoughnessTexture", {{"index", 0}}}}), {0, 99, 0, 255, 0, 99, 255, 255});
+    file.root["meshes"][0]["primitives"].push_back(file.root["meshes"][0]["primitives"][0]);
+    file.root["meshes"][0]["primitives"][1]["attributes"]["TEXCOORD_0"] = file.vec2({0.8f, 0, 0.9f, 0, 0.8f, 1});
+    const SceneDescription scene = load(file);
+    REQUIRE(scene.materials.size() == 2);
+    CHECK(scene.materials[scene.triangles[0].material].kind == SurfaceKind::Plastic);
+    CHECK(scene.materials[scene.triangles[1].material].kind == SurfaceKind::Conductor);
+    CHECK(scene.materials[1].name == "material 0 (metal)");
+    CHECK(is_told(scene, "decides triangle by triangle"));
+    const SceneDescription even = load(
+        with_image(metal_rough({{"metallicRoughnessTexture", {{"index", 0}}}}), {0, 99, 255, 255, 0, 99, 255, 255}));
+    REQUIRE(even.materials.size() == 1);
+    CHECK(even.materials[0].kind == SurfaceKind::Conductor);
+}
+
+TEST_CASE("gltf images: transformations, sets and wrapping of coordinates") {
+    const Json info = {
+        {"index", 0},
+        {"texCoord", 0},
+        {"extensions",
+         {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"scale", {2, 4}}, {"rotation", std::acos(0.0)}}}}}};
+    GltfMaker file = with_image(metal_rough({{"baseColorTexture", info}}), {1, 2, 3, 4, 5, 6, 7, 8});
+    file.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33071}}};
+    file.root["textures"][0]["sampler"] = 0;
+    const SceneDescription scene = load(file);
+    CHECK_FALSE(scene.textures[0].repeats);
+    // A quarter turn takes u to -v and v to u; then v is measured from below.
+    const std::vector<glm::vec2> expected{{0.5f, 0.75f}, {0.5f, 2.75f}, {4.5f, 0.75f}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(scene.uvs[i].x == Approx(expected[i].x).margin(1e-6));
+        CHECK(scene.uvs[i].y == Approx(expected[i].y).margin(1e-6));
+    }
+    file.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}, {"texCoord", 1}};
+    file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = file.vec2({0, 1, 0, 1, 0, 1});
+    file.root["samplers"][0] = {{"wrapS", 33648}};
+    const SceneDescription other = load(file);
+    CHECK(other.uvs[0] == glm::vec2(0.0f, 0.0f));
+    CHECK(other.textures[0].repeats);
+    CHECK(is_told(other, "mirrored repetition"));
+}
+
+TEST_CASE("gltf images: holes by the cutoff of the mask, partial opacity as holes") {
+    const Json info = {{"index", 0}};
+    Json material = metal_rough({{"baseColorTexture", info}});
+    const std::array<std::uint8_t, 8> rgba{255, 255, 255, 51, 255, 255, 255, 255};
+    material["alphaMode"] = "MASK";
+    SceneDescription scene = load(with_image(material, rgba));
+    CHECK(scene.materials[0].textures.opacity == scene.materials[0].textures.albedo);
+    CHECK(scene.textures[0].texels[0].w == Approx(0.2));
+    material["alphaCutoff"] = 0.1;
+    scene = load(with_image(material, rgba));
+    CHECK(scene.textures[0].texels[0].w == 1.0f);  // 0.2 is above the cutoff
+    material["alphaMode"] = "BLEND";
+    scene = load(with_image(material, rgba));
+    CHECK(scene.textures[0].texels[0].w == Approx(0.2));
+    CHECK(is_told(scene, "partial opacity is shown as holes"));
+    material["alphaMode"] = "HALF";
+    CHECK_THAT(test::input_error([&] { load(material); }), contains("expected OPAQUE, MASK or BLEND, got 'HALF'"));
+}
+
+TEST_CASE("gltf materials: an even opacity is a pane, opaque, or nothing at all") {
+    Json material = metal_rough({{"baseColorFactor", {1, 0, 0, 0.25}}, {"metallicFactor", 0}});
+    material["alphaMode"] = "BLEND";
+    const MaterialDescription pane = surface(material);
+    CHECK(pane.kind == SurfaceKind::Dielectric);
+    CHECK(pane.ior == 1.0f);
+    CHECK(pane.transmission == glm::vec3(1.0f, 0.75f, 0.75f));
+    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.75;
+    CHECK(surface(material).kind == SurfaceKind::Plastic);
+    GltfMaker hidden;
+    material["alphaMode"] = "MASK";
+    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.25;
+    hidden.triangle(material);
+    hidden.triangle(metal_rough({}));
+    CHECK(load(hidden).triangles.size() == 1);
+}
+
+TEST_CASE("gltf images: one that cannot be read is shown as checkers, one outside of the folder refused", "[hard]") {
+    GltfMaker file = with_image(metal_rough({{"baseColorTexture", {{"index", 0}}}}), {1, 2, 3, 4, 5, 6, 7, 8});
+    file.root["images"][0] = {{"uri", "none.png"}};
+    const SceneDescription scene = load(file);
+    CHECK(is_told(scene, "none.png"));
+    CHECK(is_told(scene, "shown as checkers"));
+    CHECK(scene.textures[0].texels[0] == glm::vec4(1, 0, 1, 1));
+    file.root["images"][0] = {{"uri", "data:image/png;base64,iVBORw0KGgo="}};
+    CHECK(is_told(load(file), "shown as checkers"));
+    file.root["images"][0] = {{"uri", "../none.png"}};
+    CHECK_THAT(test::input_error([&] { load(file); }),
+               contains("'images/0/uri': expected data or a file in the folder"));
+    file.root["textures"][0]["source"] = 5;
+    CHECK_THAT(test::input_error([&] { load(file); }), contains("expected an index into the 1 images, got 5"));
+}

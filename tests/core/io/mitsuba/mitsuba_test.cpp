@@ -1,0 +1,281 @@
+// Mitsuba scenes of 0.x and 3: shapes, surfaces, emitters, camera, parameters and includes, notes, and files that are refused.
+#include "core/io/mitsuba/mitsuba.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "core/io/load_scene.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/input_error.h"
+#include "tests/support/files/temporary_folder.h"
+
+using namespace pl;
+using pl::test::contains;
+using pl::test::input_error;
+using pl::test::TemporaryFolder;
+
+namespace {
+
+std::string scene_of(const std::string& content) { return "<scene version=\"3.0.0\">\n" + content + "\n</scene>\n"; }
+
+SceneDescription load(const TemporaryFolder& folder, const std::string& content) {
+    return load_scene(folder.write("s.xml", scene_of(content)).string(), "");
+}
+SceneDescription load(const std::string& content) { return load(TemporaryFolder(), content); }
+
+std::string refusal(const std::string& content) {
+    return input_error([&] { load(content); });
+}
+
+const std::string kSquare = "<shape type=\"rectangle\"/>";
+
+/// The only material of a scene with this surface.
+MaterialDescription surface(const std::string& bsdf) {
+    const SceneDescription scene = load("<shape type=\"rectangle\">" + bsdf + "</shape>");
+    REQUIRE(scene.materials.size() == 1);
+    return scene.materials[0];
+}
+
+bool is_told(const SceneDescription& scene, const std::string& words) {
+    return std::any_of(scene.warnings.begin(), scene.warnings.end(),
+                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+}
+
+/// Mean of the geometric normals, weighted by area, and the area.
+glm::dvec4 normal_and_area(const SceneDescription& scene) {
+    glm::dvec3 sum(0.0);
+    double area = 0.0;
+    for (const TriangleDescription& t : scene.triangles) {
+        const glm::dvec3 a(scene.positions[t.vertex.x]);
+        const glm::dvec3 n = 0.5 * glm::cross(glm::dvec3(scene.positions[t.vertex.y]) - a,
+                                              glm::dvec3(scene.positions[t.vertex.z]) - a);
+        sum += n;
+        area += glm::length(n);
+    }
+    return {sum, area};
+}
+
+/// Volume that the triangles enclose; positive if they face outwards.
+double volume(const SceneDescription& scene) {
+    double sum = 0.0;
+    for (const TriangleDescription& t : scene.triangles)
+        sum +=
+            glm::dot(glm::dvec3(scene.positions[t.vertex.x]),
+                     glm::cross(glm::dvec3(scene.positions[t.vertex.y]), glm::dvec3(scene.positions[t.vertex.z]))) /
+            6.0;
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("mitsuba: rectangle, cube, disk and sphere, with their fronts outwards") {
+    CHECK(normal_and_area(load(kSquare)) == glm::dvec4(0, 0, 4, 4));
+    CHECK(volume(load("<shape type=\"cube\"/>")) == Approx(8.0));
+    const glm::dvec4 disk = normal_and_area(load("<shape type=\"disk\"/>"));
+    CHECK(disk.z == Approx(3.14159).epsilon(0.01));
+    const SceneDescription ball = load("<shape type=\"sphere\"><point name=\"center\" x=\"1\" y=\"2\" "
+                                       "z=\"3\"/><float name=\"radius\" value=\"2\"/></shape>");
+    CHECK(volume(ball) == Approx(8.0 * 4.18879).epsilon(0.01));
+    CHECK(is_told(ball, "spheres are meshes"));
+    for (const glm::vec3& p : ball.positions)
+        CHECK(glm::length(p - glm::vec3(1, 2, 3)) == Approx(2.0f).epsilon(1e-5));
+    CHECK(glm::dot(ball.normals[0], glm::vec3(0, 0, 1)) == Approx(1.0f));
+}
+
+TEST_CASE("mitsuba: transformations in their order, of both spellings, mirrored and flipped fronts") {
+    const auto square = [](const std::string& transform) {
+        return load("<shape type=\"rectangle\"><transform name=\"toWorld\">" + transform + "</transform></shape>");
+    };
+    const SceneDescription moved = square("<scale value=\"2\"/><rotate x=\"1\" angle=\"90\"/><translate y=\"5\"/>");
+    const glm::dvec4 facing = normal_and_area(moved);
+    CHECK(facing.w == Approx(16.0));
+    CHECK(facing.y == Approx(-16.0));
+    CHECK(moved.positions[0].y == Approx(5.0f));
+    CHECK(normal_and_area(square("<scale x=\"-1\" y=\"1\" z=\"1\"/>")).z == Approx(4.0));
+    CHECK(normal_and_area(square("<matrix value=\"1 0 0 7 0 1 0 0 0 0 1 0 0 0 0 1\"/>")).z == Approx(4.0));
+    CHECK(square("<matrix value=\"1 0 0 7 0 1 0 0 0 0 1 0 0 0 0 1\"/>").positions[0].x == 6.0f);
+    CHECK(normal_and_area(load("<shape type=\"rectangle\"><boolean name=\"flip_normals\" value=\"true\"/></shape>"))
+              .z == Approx(-4.0));
+}
+
+TEST_CASE("mitsuba: OBJ and PLY files, text and binary, smooth unless they say otherwise") {
+    const TemporaryFolder folder;
+    folder.write("m/tent.obj", "v 0 0 0\nv 1 0 0\nv 0 1 -1\nv 0 -1 -1\nf 1 2 3\nf 1 4 2\n");
+    const std::string header =
+        "ply\nformat FORMAT 1.0\ncomment x\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const auto with = [&](const std::string& format) {
+        return std::string(header).replace(header.find("FORMAT"), 6, format);
+    };
+    folder.write("m/text.ply", with("ascii") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n");
+    std::string little = with("binary_little_endian");
+    std::string big = with("binary_big_endian");
+    for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f}) {
+        char bytes[4];
+        std::memcpy(bytes, &value, 4);
+        little.append(bytes, 4);
+        for (int i = 3; i >= 0; --i) big += bytes[i];
+    }
+    little += std::string("\4\0\0\0\0\1\0\0\0\2\0\0\0\3\0\0\0", 17);
+    big += std::string("\4\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0\3", 17);
+    folder.write("m/little.ply", little);
+    folder.write("m/big.ply", big);
+    const auto shape = [&](const std::string& type, const std::string& name, const std::string& more = "") {
+        return load(folder, "<shape type=\"" + type + "\"><string name=\"filename\" value=\"m/" + name + "\"/>" +
+                                more + "</shape>");
+    };
+    for (const char* name : {"text.ply", "little.ply", "big.ply"}) {
+        const SceneDescription scene = shape("ply", name);
+        INFO(name);
+        CHECK(normal_and_area(scene) == glm::dvec4(0, 0, 1, 1));
+        CHECK(scene.files.back() == folder.path() / "m" / name);
+    }
+    const SceneDescription smooth = shape("obj", "tent.obj");
+    REQUIRE(smooth.triangles.size() == 2);
+    CHECK(glm::length(smooth.normals[smooth.triangles[0].normal.x] - glm::vec3(0, 0, 1)) < 1e-6f);
+    const SceneDescription flat = shape("obj", "tent.obj", "<boolean name=\"faceNormals\" value=\"true\"/>");
+    CHECK(flat.triangles[0].normal.x == TriangleDescription::kNoNormal);
+    folder.write("m/cut.ply", little.substr(0, little.size() - 3));
+    CHECK_THAT(input_error([&] { shape("ply", "cut.ply"); }),
+               contains("cut.ply: byte") && contains("end of the file"));
+    folder.write("m/far.ply", with("ascii") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 4\n");
+    CHECK_THAT(input_error([&] { shape("ply", "far.ply"); }),
+               contains("expected indices below 4") && contains("got 4"));
+    folder.write("m/giant.ply", with("ascii").replace(header.find("vertex 4") + 1, 8, "vertex 4000000000"));
+    CHECK_THAT(input_error([&] { shape("ply", "giant.ply"); }), contains("giant.ply: byte"));
+}
+
+TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the values of the plugins") {
+    const SceneDescription scene = load("<bsdf type=\"twosided\" id=\"wall\"><bsdf type=\"diffuse\"><rgb "
+                                        "name=\"reflectance\" value=\"0.1, 0.2, 0.3\"/>"
+                                        "</bsdf></bsdf><shape type=\"rectangle\"><ref id=\"wall\"/></shape><shape "
+                                        "type=\"cube\"><ref id=\"wall\"/></shape>");
+    REQUIRE(scene.materials.size() == 1);
+    CHECK(scene.materials[0].name == "wall");
+    CHECK(scene.materials[0].albedo == glm::vec3(0.1f, 0.2f, 0.3f));
+    const MaterialDescription metal =
+        surface("<bsdf type=\"roughconductor\"><float name=\"alpha\" value=\"0.25\"/><rgb name=\"eta\" "
+                "value=\"1.65746 0.880369 "
+                "0.521229\"/><rgb name=\"k\" value=\"9.22387 6.26952 4.837\"/><rgb name=\"specularReflectance\" "
+                "value=\"0.578596\"/><string name=\"distribution\" value=\"ggx\"/></bsdf>");
+    CHECK(metal.kind == SurfaceKind::Conductor);
+    CHECK(metal.roughness == 0.5f);
+    CHECK(metal.specular.x == Approx(0.5369646).epsilon(1e-4));
+    CHECK(metal.specular.z == Approx(0.5316769).epsilon(1e-4));
+    const MaterialDescription glass = surface("<bsdf type=\"dielectric\"><string name=\"intIOR\" "
+                                              "value=\"water\"/><float name=\"extIOR\" value=\"1\"/></bsdf>");
+    CHECK(glass.kind == SurfaceKind::Dielectric);
+    CHECK(glass.ior == 1.333f);
+    const std::string leather =
+        "<bsdf type=\"plastic\"><float name=\"int_ior\" value=\"1.5\"/><float name=\"ext_ior\" "
+        "value=\"1\"/><rgb name=\"diffuse_reflectance\" value=\"0.034\"/>";
+    CHECK(surface(leather + "</bsdf>").albedo.x == 0.034f);
+    // With `nonlinear` the base darkens under its coat.
+    CHECK(surface(leather + "<boolean name=\"nonlinear\" value=\"true\"/></bsdf>").albedo.x ==
+          Approx(0.01400827).epsilon(0.01));
+    CHECK(surface("<bsdf type=\"principled\"><float name=\"metallic\" value=\"1\"/></bsdf>").kind ==
+          SurfaceKind::Conductor);
+    const SceneDescription odd =
+        load("<shape type=\"rectangle\"><bsdf type=\"bumpmap\"><bsdf type=\"hair\"/></bsdf></shape>");
+    CHECK(is_told(odd, "the effect of 'bumpmap' is left out"));
+    CHECK(is_told(odd, "surfaces of the type 'hair' are shown as gray"));
+}
+
+TEST_CASE("mitsuba: area and constant emitters, others are told") {
+    const SceneDescription scene =
+        load("<shape type=\"rectangle\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"20, 3, "
+             "3\"/></emitter></shape>" +
+             kSquare +
+             "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.3\"/></emitter><emitter type=\"point\"/>");
+    CHECK(scene.materials[scene.triangles[0].material].emission == glm::vec3(20, 3, 3));
+    CHECK(scene.materials[scene.triangles[0].material].albedo == glm::vec3(0.0f));
+    CHECK(scene.materials[scene.triangles[2].material].emission == glm::vec3(0.0f));
+    CHECK(scene.environment == glm::vec3(0.3f));
+    CHECK(is_told(scene, "emitters of the type 'point' are left out"));
+}
+
+TEST_CASE("mitsuba: the camera, its angle across or upwards, and the size of the picture") {
+    const std::string film = "<film type=\"hdrfilm\"><integer name=\"width\" value=\"640\"/><integer name=\"height\" "
+                             "value=\"360\"/></film>";
+    const std::string place =
+        "<transform name=\"to_world\"><lookat origin=\"0, 1, 5\" target=\"0, 1, 0\" up=\"0, 1, 0\"/></transform>";
+    const SceneDescription scene = load(kSquare + "<sensor type=\"perspective\"><float name=\"fov\" value=\"60\"/>" +
+                                        place + film + "</sensor>");
+    CHECK(scene.camera.eye == glm::vec3(0, 1, 5));
+    CHECK(glm::length(glm::normalize(scene.camera.target - scene.camera.eye) - glm::vec3(0, 0, -1)) < 1e-6f);
+    CHECK(scene.camera.up == glm::vec3(0, 1, 0));
+    CHECK(scene.camera.fov_deg == Approx(35.98339777).epsilon(1e-5));
+    CHECK(scene.setting("size") == "640x360");
+    const SceneDescription upwards = load(
+        kSquare +
+        "<sensor type=\"thinlens\"><float name=\"fov\" value=\"60\"/><string name=\"fovAxis\" value=\"y\"/><float "
+        "name=\"apertureRadius\" value=\"0.5\"/><float name=\"focusDistance\" value=\"3\"/>" +
+        film + "</sensor>");
+    CHECK(upwards.camera.fov_deg == Approx(60.0f));
+    CHECK(upwards.camera.aperture_radius == 0.5f);
+    CHECK(upwards.camera.focus_distance == 3.0f);
+    CHECK(upwards.camera.target.z == 1.0f);
+}
+
+TEST_CASE("mitsuba: parameters and included files") {
+    const TemporaryFolder folder;
+    folder.write("parts/wall.xml",
+                 scene_of("<bsdf type=\"diffuse\" id=\"wall\"><rgb name=\"reflectance\" value=\"$gray\"/></bsdf>"));
+    const SceneDescription scene =
+        load(folder, "<default name=\"gray\" value=\"0.25\"/><include filename=\"parts/wall.xml\"/>"
+                     "<shape type=\"rectangle\"><ref id=\"wall\"/></shape>");
+    CHECK(scene.materials.at(0).albedo == glm::vec3(0.25f));
+    REQUIRE(scene.files.size() == 2);
+    CHECK(scene.files[1] == folder.path() / "parts/wall.xml");
+    folder.write("again.xml", scene_of("<include filename=\"again.xml\"/>"));
+    CHECK_THAT(input_error([&] { load(folder, "<include filename=\"again.xml\"/>"); }), contains("in a circle?"));
+}
+
+TEST_CASE("mitsuba: broken files are refused with file and line", "[hard]") {
+    struct Case {
+        std::string content;
+        std::string told;
+    };
+    for (const Case& broken : std::vector<Case>{
+             {"<shape type=\"rectangle\">", "not valid XML"},
+             {"", "expected a shape with an area, got none"},
+             {"<shape type=\"rectangle\"><ref id=\"none\"/></shape>",
+              "s.xml:2: 'ref': expected the id of an object, got 'none'"},
+             {"<shape type=\"obj\"><string name=\"filename\" value=\"../a.obj\"/></shape>",
+              "in the folder of the scene"},
+             {"<shape type=\"obj\"><string name=\"filename\" value=\"/etc/passwd\"/></shape>",
+              "in the folder of the scene"},
+             {"<include filename=\"../a.xml\"/>", "in the folder of the scene"},
+             {"<shape type=\"rectangle\"><bsdf type=\"diffuse\"><spectrum name=\"reflectance\" "
+              "value=\"400:0.1 700:\"/></bsdf></shape>",
+              "expected pairs of a wavelength and a value such as 400:0.5, got '700:'"},
+             {"<shape type=\"sphere\"><float name=\"radius\" value=\"x\"/></shape>",
+              "expected finite numbers, got 'x'"},
+             {"<shape type=\"sphere\"><float name=\"radius\" value=\"1e19\"/></shape>",
+              "expected coordinates up to 1e+18"},
+             {"<shape type=\"rectangle\"><transform name=\"to_world\"><shear/></transform></shape>",
+              "expected translate, scale"},
+             {"<shape type=\"rectangle\"><bsdf type=\"twosided\"/></shape>", "expected a surface inside, got none"},
+             {"<bsdf type=\"mask\" id=\"a\"><ref id=\"a\"/></bsdf><shape type=\"rectangle\"><ref id=\"a\"/></shape>",
+              "got a circle"},
+             {kSquare + "<sensor type=\"perspective\"><film type=\"a\"><integer name=\"width\" "
+                        "value=\"0\"/></film></sensor>",
+              "expected a picture of 1 to 65536 pixels"},
+             {kSquare + "<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>",
+              "within (0, 180) degrees"},
+         }) {
+        INFO(broken.content);
+        CHECK_THAT(refusal(broken.content), contains("s.xml") && contains(broken.told));
+    }
+    std::string deep;
+    for (int i = 0; i < 100000; ++i) deep += "<a>";
+    for (int i = 0; i < 100000; ++i) deep += "</a>";
+    CHECK_THAT(refusal(deep), contains("s.xml"));
+    // Entities of a document type are not expanded: such a file stays as small as it is.
+    const TemporaryFolder folder;
+    const auto bomb = folder.write("b.xml", "<!DOCTYPE a [<!ENTITY b \"cccccccccc\"><!ENTITY d \"&b;&b;&b;\">]>\n" +
+                                                scene_of("<shape type=\"rectangle\" id=\"&d;\"/>"));
+    CHECK(load_scene(bomb.string(), "").triangles.size() == 2);
+    CHECK_THAT(input_error([&] { load_scene(folder.write("c.xml", "<svg/>").string(), ""); }),
+               contains("expected a scene of Mitsuba"));
+}
