@@ -245,9 +245,7 @@ std::string print_default_light(const Options& options) {
     return *options.load.default_light ? "on" : "off";
 }
 
-std::string print_map_kd(const Options& options) {
-    return options.load.map_kd == MapKd::Replaces ? "replace" : "";
-}
+std::string print_map_kd(const Options& options) { return options.load.map_kd == MapKd::Replaces ? "replace" : ""; }
 
 std::string print_up_axis(const Options& options) {
     if (!options.load.up_axis) return "";

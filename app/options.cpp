@@ -138,8 +138,9 @@ void require_complete(Command command, const Options& options) {
         command == Command::Replay || command == Command::Reference || command == Command::Bench;
     if (options.scene.empty() && options.inputs.empty() &&
         (needs_file || needs_folder || command == Command::Info || command == Command::Trace))
-        fail(fmt::format("'{}' needs a SCENE: a name ({}), an .obj, .gltf, .glb or Mitsuba .xml file, or a scene .json file", command_name(command),
-                         fmt::join(list_scenes(find_assets_dir()), ", ")));
+        fail(fmt::format(
+            "'{}' needs a SCENE: a name ({}), an .obj, .gltf, .glb or Mitsuba .xml file, or a scene .json file",
+            command_name(command), fmt::join(list_scenes(find_assets_dir()), ", ")));
     if (options.output.empty() && needs_file)
         fail(fmt::format("'{}' needs a file to write: -o FILE", command_name(command)));
     if (options.output.empty() && needs_folder)

@@ -4,7 +4,6 @@
 #include "core/io/gltf/gltf.h"
 
 namespace pl {
-
 namespace {
 
 bool is_gltf_suffix(std::string_view suffix) { return suffix == ".gltf" || suffix == ".glb"; }

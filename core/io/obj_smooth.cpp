@@ -5,7 +5,6 @@
 #include <span>
 
 namespace pl {
-
 namespace {
 
 /// Calls visit(corners) for every face of a smoothing group of whose corners none has a normal.
@@ -19,9 +18,8 @@ void for_each_smooth_face(ObjMesh& mesh, Visit&& visit) {
                 first += corners.size();
                 const auto has_none = [](const ObjCorner& corner) { return corner.normal == ObjCorner::kNone; };
                 if (part.runs[run].smoothing == Smoothing::On &&
-                    std::all_of(corners.begin(), corners.end(), has_none)) {
+                    std::all_of(corners.begin(), corners.end(), has_none))
                     visit(corners);
-                }
             }
         }
     }
@@ -48,9 +46,8 @@ public:
     void add(std::span<const ObjCorner> corners) {
         const std::size_t count = corners.size();
         glm::dvec3 area(0.0);
-        for (std::size_t i = 1; i + 1 < count; ++i) {
+        for (std::size_t i = 1; i + 1 < count; ++i)
             area += glm::cross(at(corners[i]) - at(corners[0]), at(corners[i + 1]) - at(corners[0]));
-        }
         const glm::dvec3 normal = direction(area);
         for (std::size_t i = 0; i < count; ++i) {
             const glm::dvec3 to_next = direction(at(corners[(i + 1) % count]) - at(corners[i]));
@@ -72,9 +69,7 @@ private:
 }  // namespace
 
 void smooth_normals(ObjMesh& mesh) {
-    if (!has_smooth_runs(mesh)) {
-        return;
-    }
+    if (!has_smooth_runs(mesh)) return;
     NormalSums sums(mesh.positions);
     for_each_smooth_face(mesh, [&](std::span<ObjCorner> corners) { sums.add(corners); });
     std::vector<std::uint32_t> number(mesh.positions.size(), ObjCorner::kNone);

@@ -80,7 +80,8 @@ void CameraBookmarks::load() {
     current_.reset();
     std::error_code ignored;
     if (folder_.empty() || !std::filesystem::exists(file(), ignored)) {
-        for (const NamedCamera& camera : scene_.materials().file()->cameras) list_.push_back({.camera = camera.camera});
+        for (const NamedCamera& camera : scene_.materials().file()->cameras)
+            list_.push_back({.camera = camera.camera});
         return;
     }
     try {

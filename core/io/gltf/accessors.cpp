@@ -10,7 +10,6 @@
 #include "core/io/line_reader.h"
 
 namespace pl {
-
 namespace {
 
 constexpr std::uint64_t kMostElements32 = 0xffffffffu;
@@ -39,9 +38,8 @@ std::size_t size_of(ComponentType type) {
 ComponentType component_type(const GltfFile& file, const std::string& pointer) {
     const auto type = static_cast<ComponentType>(file.whole(pointer, 0, 5120, 5126));
     constexpr std::uint32_t kNotUsed = 5124;
-    if (static_cast<std::uint32_t>(type) == kNotUsed) {
+    if (static_cast<std::uint32_t>(type) == kNotUsed)
         file.fail(pointer, "expected 5120, 5121, 5122, 5123, 5125 or 5126, got 5124");
-    }
     return type;
 }
 
@@ -51,11 +49,8 @@ std::size_t components_of(std::string_view type) {
         std::size_t components;
     };
     constexpr std::array<Known, 5> kKnown = {{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}}};
-    for (const Known& known : kKnown) {
-        if (known.type == type) {
-            return known.components;
-        }
-    }
+    for (const Known& known : kKnown)
+        if (known.type == type) return known.components;
     return 0;
 }
 
@@ -75,11 +70,10 @@ float normalized(Stored value) {
 
 template <class Number, class Stored>
 Number convert(Stored value, bool is_normalized) {
-    if constexpr (std::is_same_v<Number, float> && std::is_integral_v<Stored>) {
+    if constexpr (std::is_same_v<Number, float> && std::is_integral_v<Stored>)
         return is_normalized ? normalized(value) : static_cast<float>(value);
-    } else {
+    else
         return static_cast<Number>(value);
-    }
 }
 
 /// Elements in bytes of the file: `size` bytes each, `stride` bytes apart.
@@ -95,9 +89,8 @@ struct Elements {
     void read_as(std::vector<Number>& to) const {
         for (std::uint64_t i = 0; i < count; ++i) {
             const char* const at = bytes.data() + i * stride;
-            for (std::size_t c = 0; c < components; ++c) {
+            for (std::size_t c = 0; c < components; ++c)
                 to.push_back(convert<Number>(load<Stored>(at + c * sizeof(Stored)), is_normalized));
-            }
         }
     }
 
@@ -124,9 +117,8 @@ public:
         : file_(file), at_(fmt::format("/accessors/{}", accessor)), count_(accessor_count(file, accessor)),
           components_(components_of(type)), type_(component_type(file, at_ + "/componentType")),
           is_normalized_(file.json().boolean(at_ + "/normalized").value_or(false)) {
-        if (const std::string got = accessor_type(file, accessor); got != type) {
+        if (const std::string got = accessor_type(file, accessor); got != type)
             file.fail(at_ + "/type", fmt::format("expected {} for this use, got {}", type, in_quotes(got)));
-        }
     }
 
     ComponentType type() const { return type_; }
@@ -134,9 +126,7 @@ public:
     template <class Number>
     std::vector<Number> read() {
         std::vector<Number> values = base<Number>();
-        if (file_.json().has(at_ + "/sparse")) {
-            replace(values);
-        }
+        if (file_.json().has(at_ + "/sparse")) replace(values);
         return values;
     }
 
@@ -186,15 +176,13 @@ private:
             return elements(of, view, offset, {{}, count, components, type, components * size_of(type), normalized});
         };
         const ComponentType index_type = component_type(file_, at + "/indices/componentType");
-        if (index_type == ComponentType::Float32) {
+        if (index_type == ComponentType::Float32)
             file_.fail(at + "/indices/componentType", "expected an unsigned integer, got 5126");
-        }
         const auto indices = part(at + "/indices", 1, index_type, false).template read<std::uint32_t>();
         const auto replaced = part(at + "/values", components_, type_, is_normalized_).template read<Number>();
         for (std::size_t i = 0; i < indices.size(); ++i) {
-            if (indices[i] >= count_) {
+            if (indices[i] >= count_)
                 file_.fail(at + "/indices", fmt::format("expected indices below {}, got {}", count_, indices[i]));
-            }
             std::copy_n(replaced.begin() + static_cast<std::ptrdiff_t>(i * components_), components_,
                         values.begin() + static_cast<std::ptrdiff_t>(indices[i] * components_));
         }
@@ -222,9 +210,8 @@ std::vector<float> read_floats(GltfFile& file, std::uint32_t accessor, std::stri
     AccessorReader reader(file, accessor, type);
     std::vector<float> values = reader.read<float>();
     const auto bad = std::find_if(values.begin(), values.end(), [](float value) { return !std::isfinite(value); });
-    if (bad != values.end()) {
+    if (bad != values.end())
         reader.fail(fmt::format("expected finite numbers, got {} as component {}", *bad, bad - values.begin()));
-    }
     return values;
 }
 

@@ -9,7 +9,6 @@
 #include "core/scene/pack_scene.h"
 
 namespace pl {
-
 namespace {
 
 /// Distance to a target within or before the scene, so far that eye and target differ as floats.
@@ -28,9 +27,7 @@ double target_distance(const Bounds& bounds, const glm::dvec3& eye, const glm::d
 std::optional<CameraDescription> place_camera(const GltfNode& node, float fov_deg, const Bounds& bounds) {
     const glm::dvec3 back(node.to_world[2]);
     const glm::dvec3 up(node.to_world[1]);
-    if (!(glm::length(back) > 0.0) || !(glm::length(up) > 0.0)) {
-        return std::nullopt;
-    }
+    if (!(glm::length(back) > 0.0) || !(glm::length(up) > 0.0)) return std::nullopt;
     const glm::dvec3 eye(node.to_world[3]);
     const glm::dvec3 forward = -glm::normalize(back);
     const double distance = target_distance(bounds, eye, forward);
@@ -47,9 +44,8 @@ std::optional<CameraDescription> place_camera(const GltfNode& node, float fov_de
 float field_of_view(const GltfFile& file, const std::string& at) {
     const std::string pointer = at + "/perspective/yfov";
     const double radians = static_cast<double>(file.json().number(pointer).value_or(0.0f));
-    if (!(radians > 0.0 && radians < glm::pi<double>())) {
+    if (!(radians > 0.0 && radians < glm::pi<double>()))
         file.fail(pointer, fmt::format("expected an angle within (0, pi) radians, got {}", radians));
-    }
     return std::min(static_cast<float>(radians * 180.0 / glm::pi<double>()), 179.9f);
 }
 
@@ -59,9 +55,7 @@ void add_gltf_cameras(GltfFile& file, const GltfNodes& nodes, SceneDescription& 
     const Bounds bounds = bounds_of(scene);
     for (const std::uint32_t number : nodes.shown) {
         const GltfNode& node = nodes.all[number];
-        if (!node.camera) {
-            continue;
-        }
+        if (!node.camera) continue;
         const std::string at = fmt::format("/cameras/{}", *node.camera);
         if (file.json().text(at + "/type") != "perspective") {
             file.note("cameras without perspective are left out", at);

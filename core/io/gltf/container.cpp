@@ -8,7 +8,6 @@
 #include "core/base/error.h"
 
 namespace pl {
-
 namespace {
 
 constexpr std::string_view kGlbMagic = "glTF";
@@ -19,9 +18,7 @@ constexpr std::uint32_t kBinaryChunk = 0x004e4942u;
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;
-    for (std::size_t i = 4; i-- > 0;) {
-        value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-    }
+    for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
     return value;
 }
 
@@ -30,27 +27,22 @@ class GlbReader {
 public:
     GlbReader(std::string_view bytes, const std::filesystem::path& path) : bytes_(bytes), path_(path) {
         need(kGlbHeader, "a header");
-        if (const std::uint32_t version = little_endian(bytes_, 4); version != 2) {
+        if (const std::uint32_t version = little_endian(bytes_, 4); version != 2)
             fail(4, fmt::format("expected version 2 of the container, got {}", version));
-        }
-        if (const std::uint32_t length = little_endian(bytes_, 8); length != bytes_.size()) {
+        if (const std::uint32_t length = little_endian(bytes_, 8); length != bytes_.size())
             fail(8, fmt::format("the header says {} bytes, the file has {}", length, bytes_.size()));
-        }
         at_ = kGlbHeader;
     }
 
     GltfParts run() {
         GltfParts parts;
         const auto [first, text] = next_chunk();
-        if (first != kJsonChunk) {
+        if (first != kJsonChunk)
             fail(kGlbHeader + 4, fmt::format("expected a JSON chunk first, got the type 0x{:08x}", first));
-        }
         parts.text = text;
         while (at_ < bytes_.size()) {
             const auto [type, content] = next_chunk();
-            if (type == kBinaryChunk && !parts.binary) {
-                parts.binary.emplace(content);
-            }
+            if (type == kBinaryChunk && !parts.binary) parts.binary.emplace(content);
         }
         return parts;
     }
@@ -68,9 +60,8 @@ private:
     }
 
     void need(std::size_t count, const char* what) const {
-        if (bytes_.size() - at_ < count) {
+        if (bytes_.size() - at_ < count)
             fail(at_, fmt::format("expected {} of {} bytes, got {}", what, count, bytes_.size() - at_));
-        }
     }
 
     [[noreturn]] void fail(std::size_t at, const std::string& what) const {
@@ -93,18 +84,14 @@ int base64_digit(char c) {
 
 /// [RFC 4648, sections 4 and 5]
 std::optional<std::string> decode_base64(std::string_view text) {
-    while (text.ends_with('=')) {
-        text.remove_suffix(1);
-    }
+    while (text.ends_with('=')) text.remove_suffix(1);
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     std::uint32_t bits = 0;
     int count = 0;
     for (const char c : text) {
         const int digit = base64_digit(c);
-        if (digit < 0) {
-            return std::nullopt;
-        }
+        if (digit < 0) return std::nullopt;
         bits = bits << 6 | static_cast<std::uint32_t>(digit);
         count += 6;
         if (count >= 8) {
@@ -124,12 +111,8 @@ int hex_digit(char c) {
 }  // namespace
 
 GltfParts split_gltf(std::string bytes, const std::filesystem::path& path) {
-    if (bytes.starts_with(kGlbMagic)) {
-        return GlbReader(bytes, path).run();
-    }
-    if (bytes.starts_with("\xEF\xBB\xBF")) {
-        bytes.erase(0, 3);
-    }
+    if (bytes.starts_with(kGlbMagic)) return GlbReader(bytes, path).run();
+    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
     return {.text = std::move(bytes)};
 }
 

@@ -11,7 +11,6 @@
 #include "core/io/gltf/triangles.h"
 
 namespace pl {
-
 namespace {
 
 /// Extensions that are read, change no picture, or are noted where they are used.
@@ -28,13 +27,10 @@ void note_the_rest(GltfFile& file) {
     for (std::size_t i = 0; i < file.json().array_size("/extensionsUsed"); ++i) {
         const std::string pointer = fmt::format("/extensionsUsed/{}", i);
         const std::string name = file.json().text(pointer).value_or("");
-        if (!is_known(name)) {
-            file.note(fmt::format("the extension {} is left out", name), pointer);
-        }
+        if (!is_known(name)) file.note(fmt::format("the extension {} is left out", name), pointer);
     }
-    if (file.json().array_size("/animations") > 0) {
+    if (file.json().array_size("/animations") > 0)
         file.note("animations are left out: everything is in the place of its node", "/animations/0");
-    }
 }
 
 [[noreturn]] void fail_empty(const GltfFile& file) {
@@ -55,9 +51,7 @@ SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups
     const GltfNodes nodes = read_nodes(file);
     const std::vector<GltfSurface> surfaces = read_surfaces(file, scene);
     add_gltf_triangles(file, nodes, surfaces, scene, groups);
-    if (scene.triangles.empty()) {
-        fail_empty(file);
-    }
+    if (scene.triangles.empty()) fail_empty(file);
     add_gltf_cameras(file, nodes, scene);
     add_gltf_lights(file, nodes, scene);
     note_the_rest(file);

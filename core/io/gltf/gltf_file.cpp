@@ -22,18 +22,16 @@ constexpr std::array<std::string_view, 3> kUnreadable = {"KHR_draco_mesh_compres
 
 void require_version(const JsonDocument& json) {
     const std::string version = json.text("/asset/version").value_or("none");
-    if (!version.starts_with("2.")) {
+    if (!version.starts_with("2."))
         json.fail("/asset/version", fmt::format("expected glTF of version 2, got {}", in_quotes(version)));
-    }
 }
 
 void require_readable(const JsonDocument& json) {
     for (std::size_t i = 0; i < json.array_size("/extensionsRequired"); ++i) {
         const std::string pointer = fmt::format("/extensionsRequired/{}", i);
         const std::string name = json.text(pointer).value_or("");
-        if (std::find(kUnreadable.begin(), kUnreadable.end(), name) != kUnreadable.end()) {
+        if (std::find(kUnreadable.begin(), kUnreadable.end(), name) != kUnreadable.end())
             json.fail(pointer, fmt::format("expected meshes without compression, got {}", in_quotes(name)));
-        }
     }
 }
 
@@ -53,21 +51,16 @@ void GltfFile::note(const std::string& kind, const std::string& pointer) {
 
 std::optional<std::uint32_t> GltfFile::index(const std::string& pointer, const std::string& of) const {
     const std::optional<std::int64_t> value = json_.integer(pointer);
-    if (!value) {
-        return std::nullopt;
-    }
+    if (!value) return std::nullopt;
     const std::size_t count = json_.array_size("/" + of);
-    if (*value < 0 || static_cast<std::uint64_t>(*value) >= count) {
+    if (*value < 0 || static_cast<std::uint64_t>(*value) >= count)
         fail(pointer, fmt::format("expected an index into the {} {}, got {}", count, of, *value));
-    }
     return static_cast<std::uint32_t>(*value);
 }
 
 std::uint32_t GltfFile::required_index(const std::string& pointer, const std::string& of) const {
     const std::optional<std::uint32_t> value = index(pointer, of);
-    if (!value) {
-        fail(pointer, fmt::format("expected an index into {}, got none", of));
-    }
+    if (!value) fail(pointer, fmt::format("expected an index into {}, got none", of));
     return *value;
 }
 
@@ -115,13 +108,12 @@ std::string GltfFile::load_buffer(std::uint32_t buffer) {
     const std::string at = fmt::format("/buffers/{}", buffer);
     const std::uint64_t length = whole(at + "/byteLength", 0, 1, kMostBytes);
     std::string bytes;
-    if (const std::optional<std::string> uri = json_.text(at + "/uri")) {
+    if (const std::optional<std::string> uri = json_.text(at + "/uri"))
         bytes = uri_bytes(at + "/uri", *uri);
-    } else if (buffer == 0 && binary_) {
+    else if (buffer == 0 && binary_)
         bytes = std::move(*binary_);
-    } else {
+    else
         fail(at, "expected a 'uri', or for the first buffer the binary chunk of a .glb, got neither");
-    }
     if (bytes.size() < length) {
         fail(at + "/byteLength",
              fmt::format("expected at most the {} bytes of the buffer, got {}", bytes.size(), length));
@@ -133,9 +125,8 @@ std::string GltfFile::load_buffer(std::uint32_t buffer) {
 fs::path GltfFile::uri_path(const std::string& pointer, const std::string& uri) const {
     const std::string name = decode_percent(uri);
     const fs::path path = path_inside(path_.parent_path(), name);
-    if (path.empty() || name.find(':') != std::string::npos || name.find('\0') != std::string::npos) {
+    if (path.empty() || name.find(':') != std::string::npos || name.find('\0') != std::string::npos)
         fail(pointer, fmt::format("expected data or a file in the folder of the scene, got {}", in_quotes(uri)));
-    }
     return path;
 }
 
@@ -145,9 +136,7 @@ std::string GltfFile::uri_bytes(const std::string& pointer, const std::string& u
         return read_file(files_.back());
     }
     std::optional<std::string> bytes = decode_data_uri(uri);
-    if (!bytes) {
-        fail(pointer, fmt::format("expected \"data:TYPE;base64,TEXT\", got {}", in_quotes(uri)));
-    }
+    if (!bytes) fail(pointer, fmt::format("expected \"data:TYPE;base64,TEXT\", got {}", in_quotes(uri)));
     return std::move(*bytes);
 }
 

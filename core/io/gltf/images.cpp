@@ -8,7 +8,6 @@
 #include "core/io/texture_file.h"
 
 namespace pl {
-
 namespace {
 
 /// OpenGL's numbers of sampler modes.
@@ -33,14 +32,10 @@ std::uint32_t GltfImages::roughness_of_gloss(const std::string& info, float fact
 
 std::uint32_t GltfImages::add(const std::string& info, Use use, float factor) {
     const std::optional<std::uint32_t> texture = file_.index(info + "/index", "textures");
-    if (!texture) {
-        return kNoTexture;
-    }
+    if (!texture) return kNoTexture;
     const Source source = source_of(fmt::format("/textures/{}", *texture));
     const auto [known, is_new] = known_.try_emplace({source.image, use, factor, source.repeats}, kNoTexture);
-    if (is_new) {
-        known->second = make(source, use, factor);
-    }
+    if (is_new) known->second = make(source, use, factor);
     return known->second;
 }
 
@@ -57,24 +52,17 @@ GltfImages::Source GltfImages::source_of(const std::string& texture) {
 
 bool GltfImages::repeats(const std::string& texture) {
     const std::optional<std::uint32_t> sampler = file_.index(texture + "/sampler", "samplers");
-    if (!sampler) {
-        return true;
-    }
+    if (!sampler) return true;
     const std::string at = fmt::format("/samplers/{}", *sampler);
     const auto mode = [&](const char* key, std::uint64_t standard) {
         return file_.whole(at + key, standard, 0, 0xffffu);
     };
     const std::uint64_t u = mode("/wrapS", kRepeat);
     const std::uint64_t v = mode("/wrapT", kRepeat);
-    if (u == kMirror || v == kMirror) {
-        file_.note("mirrored repetition of images: they repeat without", at);
-    }
-    if ((u == kClamp) != (v == kClamp)) {
+    if (u == kMirror || v == kMirror) file_.note("mirrored repetition of images: they repeat without", at);
+    if ((u == kClamp) != (v == kClamp))
         file_.note("images that repeat in one direction only: they repeat in both", at);
-    }
-    if (mode("/magFilter", 0) == kNearest) {
-        file_.note("images without interpolation: texels are interpolated", at);
-    }
+    if (mode("/magFilter", 0) == kNearest) file_.note("images without interpolation: texels are interpolated", at);
     return u != kClamp || v != kClamp;
 }
 
@@ -85,9 +73,7 @@ std::uint32_t GltfImages::make(const Source& source, Use use, float factor) {
     const std::uint32_t index = add_texture_by(scene_, path, content, source.repeats, [&] {
         return decode_texture(image_bytes(source.image), path, content, source.repeats, scene_.warnings);
     });
-    if (index == kNoTexture) {
-        return index;
-    }
+    if (index == kNoTexture) return index;
     for (glm::vec4& texel : scene_.textures[index].texels) {
         switch (use) {
         case Use::Color: texel.w = std::min(texel.w * factor, 1.0f); break;

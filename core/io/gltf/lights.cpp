@@ -7,7 +7,6 @@
 #include <glm/gtc/constants.hpp>
 
 namespace pl {
-
 namespace {
 
 /// Lumens of a watt in files of Blender's exporter, in its default unit.
@@ -18,9 +17,8 @@ glm::dvec3 irradiance_of(GltfFile& file, const std::string& at) {
     const double intensity = static_cast<double>(file.json().number(at + "/intensity").value_or(1.0f));
     const auto color = file.json().numbers(at + "/color", 3);
     const glm::dvec3 tint = color ? glm::dvec3((*color)[0], (*color)[1], (*color)[2]) : glm::dvec3(1.0);
-    if (!(intensity >= 0.0) || glm::any(glm::lessThan(tint, glm::dvec3(0.0)))) {
+    if (!(intensity >= 0.0) || glm::any(glm::lessThan(tint, glm::dvec3(0.0))))
         file.fail(at, "expected a color and an intensity of at least 0");
-    }
     const bool is_of_blender = file.json().text("/asset/generator").value_or("").find("Blender") != std::string::npos;
     return tint * intensity / (is_of_blender ? kLumensPerWatt : 1.0);
 }
@@ -43,18 +41,15 @@ void set_sun(GltfFile& file, const GltfNode& node, const std::string& at, SunDes
 void add_gltf_lights(GltfFile& file, const GltfNodes& nodes, SceneDescription& scene) {
     for (const std::uint32_t number : nodes.shown) {
         const GltfNode& node = nodes.all[number];
-        if (!node.light) {
-            continue;
-        }
+        if (!node.light) continue;
         const std::string at = fmt::format("/extensions/KHR_lights_punctual/lights/{}", *node.light);
         const std::string type = file.json().text(at + "/type").value_or("none");
-        if (type != "directional") {
+        if (type != "directional")
             file.note(fmt::format("lights of the type {} are left out", type), at);
-        } else if (scene.sun.radiance != glm::vec3(0.0f)) {
+        else if (scene.sun.radiance != glm::vec3(0.0f))
             file.note("directional lights after the first one, the sun, are left out", at);
-        } else {
+        else
             set_sun(file, node, at, scene.sun);
-        }
     }
 }
 

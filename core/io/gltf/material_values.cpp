@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace pl {
-
 namespace {
 
 constexpr const char* kMoved = "a number out of the range of the format is moved into it";
@@ -12,22 +11,16 @@ constexpr const char* kMoved = "a number out of the range of the format is moved
 
 float clamped_number(GltfFile& file, const std::string& pointer, float standard, float least, float most) {
     const float value = file.json().number(pointer).value_or(standard);
-    if (value < least || value > most) {
-        file.note(kMoved, pointer);
-    }
+    if (value < least || value > most) file.note(kMoved, pointer);
     return std::clamp(value, least, most);
 }
 
 glm::vec4 clamped_shares(GltfFile& file, const std::string& pointer, std::size_t length) {
     const auto given = file.json().numbers(pointer, length);
     glm::vec4 value(1.0f);
-    for (std::size_t i = 0; given && i < length; ++i) {
-        value[static_cast<int>(i)] = static_cast<float>((*given)[i]);
-    }
+    for (std::size_t i = 0; given && i < length; ++i) value[static_cast<int>(i)] = static_cast<float>((*given)[i]);
     const glm::vec4 inside = glm::clamp(value, glm::vec4(0.0f), glm::vec4(1.0f));
-    if (value != inside) {
-        file.note(kMoved, pointer);
-    }
+    if (value != inside) file.note(kMoved, pointer);
     return inside;
 }
 

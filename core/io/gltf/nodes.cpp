@@ -6,7 +6,6 @@
 #include <glm/gtc/quaternion.hpp>
 
 namespace pl {
-
 namespace {
 
 constexpr std::uint32_t kNoParent = 0xffffffffu;
@@ -17,26 +16,18 @@ std::string node_at(std::uint32_t node) { return fmt::format("/nodes/{}", node);
 glm::dmat4 local_transform(const JsonDocument& json, const std::string& at) {
     glm::dmat4 matrix(1.0);
     if (const auto given = json.numbers(at + "/matrix", 16)) {
-        for (int i = 0; i < 16; ++i) {
-            matrix[i / 4][i % 4] = (*given)[static_cast<std::size_t>(i)];
-        }
+        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = (*given)[static_cast<std::size_t>(i)];
         return matrix;
     }
     if (const auto turn = json.numbers(at + "/rotation", 4)) {
         const glm::dquat quaternion((*turn)[3], (*turn)[0], (*turn)[1], (*turn)[2]);
-        if (!(glm::length(quaternion) > 0.0)) {
+        if (!(glm::length(quaternion) > 0.0))
             json.fail(at + "/rotation", "expected a unit quaternion, got one of no length");
-        }
         matrix = glm::mat4_cast(glm::normalize(quaternion));
     }
-    if (const auto scale = json.numbers(at + "/scale", 3)) {
-        for (int i = 0; i < 3; ++i) {
-            matrix[i] *= (*scale)[static_cast<std::size_t>(i)];
-        }
-    }
-    if (const auto move = json.numbers(at + "/translation", 3)) {
-        matrix[3] = {(*move)[0], (*move)[1], (*move)[2], 1.0};
-    }
+    if (const auto scale = json.numbers(at + "/scale", 3))
+        for (int i = 0; i < 3; ++i) matrix[i] *= (*scale)[static_cast<std::size_t>(i)];
+    if (const auto move = json.numbers(at + "/translation", 3)) matrix[3] = {(*move)[0], (*move)[1], (*move)[2], 1.0};
     return matrix;
 }
 
@@ -48,15 +39,10 @@ public:
     GltfNodes run() {
         read_parents();
         GltfNodes nodes;
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            nodes.all.push_back(read_node(i));
-        }
+        for (std::uint32_t i = 0; i < count_; ++i) nodes.all.push_back(read_node(i));
         std::vector<std::uint32_t> roots;
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            if (parent_[i] == kNoParent) {
-                roots.push_back(i);
-            }
-        }
+        for (std::uint32_t i = 0; i < count_; ++i)
+            if (parent_[i] == kNoParent) roots.push_back(i);
         place(roots, nodes.all);
         nodes.shown = below(shown_roots(roots));
         return nodes;
@@ -96,16 +82,11 @@ private:
     /// Replaces places relative to parents by those in the world.
     void place(const std::vector<std::uint32_t>& roots, std::vector<GltfNode>& nodes) const {
         const std::vector<std::uint32_t> reached = below(roots);
-        for (const std::uint32_t i : reached) {
-            if (parent_[i] != kNoParent) {
-                nodes[i].to_world = nodes[parent_[i]].to_world * nodes[i].to_world;
-            }
-        }
+        for (const std::uint32_t i : reached)
+            if (parent_[i] != kNoParent) nodes[i].to_world = nodes[parent_[i]].to_world * nodes[i].to_world;
         if (reached.size() < count_) {
             std::vector<bool> is_reached(count_, false);
-            for (const std::uint32_t i : reached) {
-                is_reached[i] = true;
-            }
+            for (const std::uint32_t i : reached) is_reached[i] = true;
             const auto first = std::find(is_reached.begin(), is_reached.end(), false) - is_reached.begin();
             file_.fail(node_at(static_cast<std::uint32_t>(first)),
                        "expected a tree of nodes, got a circle: this node is above itself");
@@ -127,9 +108,7 @@ private:
 
     /// Roots of the scene to show; without scenes all.
     std::vector<std::uint32_t> shown_roots(const std::vector<std::uint32_t>& roots) const {
-        if (file_.json().array_size("/scenes") == 0) {
-            return roots;
-        }
+        if (file_.json().array_size("/scenes") == 0) return roots;
         const std::uint32_t scene = file_.index("/scene", "scenes").value_or(0);
         const std::string at = fmt::format("/scenes/{}/nodes", scene);
         std::vector<std::uint32_t> shown;
@@ -137,9 +116,8 @@ private:
         for (std::size_t i = 0; i < file_.json().array_size(at); ++i) {
             const std::string pointer = fmt::format("{}/{}", at, i);
             const std::uint32_t node = file_.required_index(pointer, "nodes");
-            if (is_shown[node] || parent_[node] != kNoParent) {
+            if (is_shown[node] || parent_[node] != kNoParent)
                 file_.fail(pointer, fmt::format("expected nodes without parents, each once, got node {}", node));
-            }
             is_shown[node] = true;
             shown.push_back(node);
         }

@@ -9,7 +9,6 @@
 #include "core/io/gltf/accessors.h"
 
 namespace pl {
-
 namespace {
 
 /// Modes of primitives, OpenGL's numbers.
@@ -20,9 +19,7 @@ template <class Vector>
 std::vector<Vector> as_vectors(const std::vector<float>& values) {
     constexpr auto kLength = static_cast<std::size_t>(Vector::length());
     std::vector<Vector> vectors(values.size() / kLength);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        vectors[i / kLength][static_cast<int>(i % kLength)] = values[i];
-    }
+    for (std::size_t i = 0; i < values.size(); ++i) vectors[i / kLength][static_cast<int>(i % kLength)] = values[i];
     return vectors;
 }
 
@@ -42,9 +39,8 @@ const std::vector<GltfPrimitive>& GltfMeshes::mesh(std::uint32_t number) {
     const auto [known, is_new] = known_.try_emplace(number);
     if (is_new) {
         const std::string at = fmt::format("/meshes/{}/primitives", number);
-        for (std::size_t i = 0; i < file_.json().array_size(at); ++i) {
+        for (std::size_t i = 0; i < file_.json().array_size(at); ++i)
             known->second.push_back(read(fmt::format("{}/{}", at, i)));
-        }
     }
     return known->second;
 }
@@ -53,17 +49,13 @@ GltfPrimitive GltfMeshes::read(const std::string& at) {
     GltfPrimitive primitive{.at = at};
     const auto standard = static_cast<std::uint32_t>(surfaces_.size() - 1);
     primitive.surface = file_.index(at + "/material", "materials").value_or(standard);
-    if (surfaces_[primitive.surface].is_hidden) {
-        return primitive;
-    }
+    if (surfaces_[primitive.surface].is_hidden) return primitive;
     if (file_.whole(at + "/mode", 4, 0, kLastMode) < static_cast<std::uint64_t>(Mode::Triangles)) {
         file_.note("points and lines are left out", at);
         return primitive;
     }
     read_attributes(primitive);
-    if (!primitive.positions.empty()) {
-        read_triangles(primitive);
-    }
+    if (!primitive.positions.empty()) read_triangles(primitive);
     return primitive;
 }
 
@@ -93,9 +85,8 @@ void GltfMeshes::read_attributes(GltfPrimitive& primitive) {
     }
     count(primitive.at, accessor_count(file_, *positions));
     primitive.positions = as_vectors<glm::vec3>(read_floats(file_, *positions, "VEC3"));
-    if (const auto normals = attribute(primitive, "NORMAL")) {
+    if (const auto normals = attribute(primitive, "NORMAL"))
         primitive.normals = as_vectors<glm::vec3>(read_floats(file_, *normals, "VEC3"));
-    }
     read_uvs(primitive, primitive.positions.size());
     const auto joints = attribute(primitive, "JOINTS_0");
     const auto weights = attribute(primitive, "WEIGHTS_0");
@@ -106,27 +97,21 @@ void GltfMeshes::read_attributes(GltfPrimitive& primitive) {
     const std::string color = primitive.at + "/attributes/COLOR_0";
     if (const auto accessor = attribute(primitive, "COLOR_0")) {
         const std::vector<float> colors = read_floats(file_, *accessor, accessor_type(file_, *accessor));
-        if (std::any_of(colors.begin(), colors.end(), [](float value) { return value != 1.0f; })) {
+        if (std::any_of(colors.begin(), colors.end(), [](float value) { return value != 1.0f; }))
             file_.note("colors of vertices are left out", color);
-        }
     }
-    if (file_.json().has(primitive.at + "/targets")) {
+    if (file_.json().has(primitive.at + "/targets"))
         file_.note("morph targets are left out: the base shape is shown", primitive.at);
-    }
-    for (const char* more : {"/attributes/JOINTS_1", "/extensions/KHR_materials_variants"}) {
-        if (file_.json().has(primitive.at + more)) {
+    for (const char* more : {"/attributes/JOINTS_1", "/extensions/KHR_materials_variants"})
+        if (file_.json().has(primitive.at + more))
             file_.note(fmt::format("{} is left out", std::strrchr(more, '/') + 1), primitive.at + more);
-        }
-    }
 }
 
 void GltfMeshes::read_uvs(GltfPrimitive& primitive, std::size_t vertices) {
     const UvMapping& mapping = surfaces_[primitive.surface].uv;
     const std::string name = fmt::format("TEXCOORD_{}", mapping.set);
     const auto accessor = attribute(primitive, name);
-    if (!accessor) {
-        return;
-    }
+    if (!accessor) return;
     primitive.uvs = as_vectors<glm::vec2>(read_floats(file_, *accessor, "VEC2"));
     for (std::size_t i = 0; i < vertices; ++i) {
         glm::vec2& uv = primitive.uvs[i];
@@ -141,9 +126,7 @@ void GltfMeshes::read_uvs(GltfPrimitive& primitive, std::size_t vertices) {
 std::vector<std::uint32_t> GltfMeshes::read_corners(const GltfPrimitive& primitive) {
     const std::string at = primitive.at + "/indices";
     const std::optional<std::uint32_t> accessor = file_.index(at, "accessors");
-    if (!accessor) {
-        return {};
-    }
+    if (!accessor) return {};
     count(at, accessor_count(file_, *accessor));
     std::vector<std::uint32_t> corners = read_integers(file_, *accessor, "SCALAR");
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -161,15 +144,13 @@ void GltfMeshes::read_triangles(GltfPrimitive& primitive) {
     const bool is_indexed = file_.json().has(primitive.at + "/indices");
     const std::size_t count = is_indexed ? corners.size() : primitive.positions.size();
     const std::size_t triangles = mode == Mode::Triangles ? count / 3 : std::max<std::size_t>(count, 2) - 2;
-    if (mode == Mode::Triangles && count % 3 != 0) {
+    if (mode == Mode::Triangles && count % 3 != 0)
         file_.note("corners without a triangle are left out: their number is not divisible by 3", primitive.at);
-    }
     primitive.triangles.resize(triangles);
     for (std::size_t i = 0; i < triangles; ++i) {
         const std::array<std::size_t, 3> of = corners_of(mode, i);
-        for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < 3; ++k)
             primitive.triangles[i][k] = is_indexed ? corners[of[k]] : static_cast<std::uint32_t>(of[k]);
-        }
     }
 }
 

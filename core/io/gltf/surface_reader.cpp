@@ -10,7 +10,6 @@
 #include "core/io/mtl_surface.h"
 
 namespace pl {
-
 namespace {
 
 /// Extensions and members that change the picture and are not supported, with the words for them.
@@ -40,18 +39,17 @@ public:
           pbr_(at_ + "/pbrMetallicRoughness") {}
 
     GltfSurface run(std::string name) {
-        if (json_.has(specular_gloss())) {
+        if (json_.has(specular_gloss()))
             read_specular_gloss();
-        } else {
+        else
             read_metal_rough();
-        }
         read_specular();
         read_transmission();
         read_clearcoat();
         read_unlit();
         read_emission();
         read_alpha();
-        note_what_is_left_out();
+        note_left_out();
         add(std::move(name));
         return surface_;
     }
@@ -69,13 +67,10 @@ private:
 
     /// Notes the texture coordinates of an image; a surface has one choice of them.
     const std::string& placed(const std::string& info) {
-        if (!json_.has(info)) {
-            return info;
-        }
+        if (!json_.has(info)) return info;
         const UvMapping mapping = read_uv_mapping(file_, info);
-        if (has_uv_ && !(mapping == surface_.uv)) {
+        if (has_uv_ && !(mapping == surface_.uv))
             note("images of a material with several texture coordinates: those of the first image serve all");
-        }
         surface_.uv = has_uv_ ? surface_.uv : mapping;
         has_uv_ = true;
         return info;
@@ -98,9 +93,8 @@ private:
         material_.textures.roughness = images_.roughness(image);
         surface_.metalness_image = material_.textures.roughness;
         material_.ior = number(extension("ior") + "/ior", 1.5f, 0.0f, kMostIor);
-        if (material_.ior < kLeastIor) {
+        if (material_.ior < kLeastIor)
             material_.ior = material_.ior == 0.0f ? kMostIor : kLeastIor;  // 0: reflects everything
-        }
     }
 
     void read_specular_gloss() {
@@ -114,9 +108,7 @@ private:
         material_.roughness = material_.textures.roughness == kNoTexture ? 1.0f - gloss : 1.0f;
         const bool is_metal = !json_.has(image) && strongest(specular) > std::max(kGltfHalf, strongest(base_));
         surface_.metalness = is_metal ? 1.0f : 0.0f;
-        if (is_metal) {
-            base_ = specular;
-        }
+        if (is_metal) base_ = specular;
         note("specular and glossiness are shown as the nearer of metal and plastic");
     }
 
@@ -132,31 +124,25 @@ private:
     void read_transmission() {
         const std::string at = extension("transmission");
         if (share(at + "/transmissionFactor", 0.0f) < kGltfHalf) {
-            if (json_.has(at)) {
-                note("transmission below one half is left out");
-            }
+            if (json_.has(at)) note("transmission below one half is left out");
             return;
         }
-        if (surface_.metalness >= kGltfHalf && surface_.metalness_image == kNoTexture) {
+        if (surface_.metalness >= kGltfHalf && surface_.metalness_image == kNoTexture)
             return;  // metals let nothing through
-        }
         material_.kind = SurfaceKind::Dielectric;
         material_.transmission = base_;
         if (material_.ior < kLeastRoughIor) {
             material_.roughness = 0.0f;
             material_.textures.roughness = kNoTexture;
         }
-        if (!(json_.number(extension("volume") + "/thicknessFactor").value_or(0.0f) > 0.0f)) {
+        if (!(json_.number(extension("volume") + "/thicknessFactor").value_or(0.0f) > 0.0f))
             note("thin panes are shown as solid glass");
-        }
     }
 
     void read_clearcoat() {
         const std::string at = extension("clearcoat");
         const float amount = share(at + "/clearcoatFactor", 0.0f);
-        if (amount == 0.0f) {
-            return;
-        }
+        if (amount == 0.0f) return;
         const bool fits =
             amount >= kGltfHalf && surface_.metalness < kGltfHalf && material_.kind != SurfaceKind::Dielectric;
         if (!fits) {
@@ -184,16 +170,14 @@ private:
         const glm::vec3 emission = color_or(json_, at_ + "/emissiveFactor", glm::vec3(0.0f));
         material_.emission = glm::max(emission, glm::vec3(0.0f)) * std::max(strength, 0.0f);
         material_.two_sided_emission = json_.boolean(at_ + "/doubleSided").value_or(false);
-        if (material_.emission != glm::vec3(0.0f)) {
+        if (material_.emission != glm::vec3(0.0f))
             material_.textures.emission = images_.color(placed(at_ + "/emissiveTexture"));
-        }
     }
 
     void read_alpha() {
         const std::string mode = json_.text(at_ + "/alphaMode").value_or("OPAQUE");
-        if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") {
+        if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
             file_.fail(at_ + "/alphaMode", fmt::format("expected OPAQUE, MASK or BLEND, got '{}'", mode));
-        }
         const bool has_image = json_.has(base_at_);
         const float cutoff = mode == "MASK" ? number(at_ + "/alphaCutoff", kGltfHalf, 0.0f, 1.0f) : kGltfHalf;
         const bool has_holes = mode != "OPAQUE" && cutoff > 0.0f;
@@ -201,16 +185,12 @@ private:
             // Holes are where the texture's alpha is below one half.
             material_.textures.albedo = images_.color(base_at_, alpha_ * kGltfHalf / cutoff);
             material_.textures.opacity = material_.textures.albedo;
-            if (mode == "BLEND") {
-                note("partial opacity is shown as holes where it is below one half");
-            }
+            if (mode == "BLEND") note("partial opacity is shown as holes where it is below one half");
             return;
         }
         material_.textures.albedo = images_.color(base_at_);
         surface_.is_hidden = mode == "MASK" && alpha_ < cutoff;
-        if (mode == "BLEND" && alpha_ < 1.0f) {
-            read_pane();
-        }
+        if (mode == "BLEND" && alpha_ < 1.0f) read_pane();
     }
 
     /// An even partial opacity: a pane that bends nothing, or an opaque surface.
@@ -228,20 +208,15 @@ private:
         note("an even opacity below one half is shown as a clear pane of its tint");
     }
 
-    void note_what_is_left_out() {
-        for (const auto& [pointer, words] : kLeftOut) {
-            if (json_.has(at_ + pointer)) {
-                file_.note(words, at_ + pointer);
-            }
-        }
+    void note_left_out() {
+        for (const auto& [pointer, words] : kLeftOut)
+            if (json_.has(at_ + pointer)) file_.note(words, at_ + pointer);
     }
 
     /// Adds the material to the scene: as a metal, as none, or as both.
     void add(std::string name) {
         material_.name = std::move(name);
-        if (material_.roughness < kLeastRoughness) {
-            material_.roughness = 0.0f;
-        }
+        if (material_.roughness < kLeastRoughness) material_.roughness = 0.0f;
         const auto [least, most] = range_of_metalness();
         if (material_.kind == SurfaceKind::Dielectric || most < kGltfHalf) {
             surface_.material = surface_.metal = append(without_metal());
@@ -254,9 +229,7 @@ private:
             surface_.metal = append(std::move(metal));
             note("metalness that varies decides triangle by triangle");
         }
-        if (surface_.material == surface_.metal) {
-            surface_.metalness_image = kNoTexture;
-        }
+        if (surface_.material == surface_.metal) surface_.metalness_image = kNoTexture;
     }
 
     std::uint32_t append(MaterialDescription material) {
@@ -274,19 +247,17 @@ private:
             }
         }
         constexpr float kPure = 0.1f;
-        if (range.first == range.second && std::min(range.first, 1.0f - range.first) > kPure) {
+        if (range.first == range.second && std::min(range.first, 1.0f - range.first) > kPure)
             note("metalness between 0 and 1 is shown as the nearer of them");
-        }
         return range;
     }
 
     MaterialDescription without_metal() const {
         MaterialDescription material = material_;
-        if (material.kind == SurfaceKind::Dielectric) {
+        if (material.kind == SurfaceKind::Dielectric)
             material.textures.albedo = kNoTexture;
-        } else {
+        else
             material.albedo = base_;
-        }
         if (material.kind == SurfaceKind::Diffuse) {
             material.roughness = 0.0f;
             material.textures.roughness = kNoTexture;

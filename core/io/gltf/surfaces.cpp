@@ -9,18 +9,14 @@
 #include "core/io/gltf/surface_reader.h"
 
 namespace pl {
-
 namespace {
 
 /// Whether triangles use the material of the format for those without one.
 bool needs_standard(const GltfFile& file) {
     for (std::size_t mesh = 0; mesh < file.json().array_size("/meshes"); ++mesh) {
         const std::string at = fmt::format("/meshes/{}/primitives", mesh);
-        for (std::size_t i = 0; i < file.json().array_size(at); ++i) {
-            if (!file.json().has(fmt::format("{}/{}/material", at, i))) {
-                return true;
-            }
-        }
+        for (std::size_t i = 0; i < file.json().array_size(at); ++i)
+            if (!file.json().has(fmt::format("{}/{}/material", at, i))) return true;
     }
     return false;
 }
@@ -28,9 +24,7 @@ bool needs_standard(const GltfFile& file) {
 }  // namespace
 
 std::uint32_t GltfSurface::material_at(const SceneDescription& scene, glm::vec2 middle) const {
-    if (metalness_image == kNoTexture || !std::isfinite(middle.x) || !std::isfinite(middle.y)) {
-        return material;
-    }
+    if (metalness_image == kNoTexture || !std::isfinite(middle.x) || !std::isfinite(middle.y)) return material;
     const TextureDescription& image = scene.textures[metalness_image];
     const auto texel = [&](float coordinate, std::uint32_t size) {
         const float inside = image.repeats ? coordinate - std::floor(coordinate) : std::clamp(coordinate, 0.0f, 1.0f);

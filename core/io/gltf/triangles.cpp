@@ -9,7 +9,6 @@
 #include "core/io/triangle_area.h"
 
 namespace pl {
-
 namespace {
 
 /// Transformation of normals: the inverse transposed without its factor, which may be infinite.
@@ -22,9 +21,8 @@ glm::dmat3 normal_transform(const glm::dmat3& m) {
 std::vector<glm::dmat4> joint_transforms(GltfFile& file, const GltfNodes& nodes, std::uint32_t skin) {
     const std::string at = fmt::format("/skins/{}", skin);
     std::vector<glm::dmat4> joints;
-    for (std::size_t i = 0; i < file.json().array_size(at + "/joints"); ++i) {
+    for (std::size_t i = 0; i < file.json().array_size(at + "/joints"); ++i)
         joints.push_back(nodes.all[file.required_index(fmt::format("{}/joints/{}", at, i), "nodes")].to_world);
-    }
     const std::string bound_at = at + "/inverseBindMatrices";
     if (const auto accessor = file.index(bound_at, "accessors")) {
         const std::vector<float> bound = read_floats(file, *accessor, "MAT4");
@@ -34,9 +32,8 @@ std::vector<glm::dmat4> joint_transforms(GltfFile& file, const GltfNodes& nodes,
         }
         for (std::size_t i = 0; i < joints.size(); ++i) {
             glm::dmat4 inverse;
-            for (std::size_t k = 0; k < 16; ++k) {
+            for (std::size_t k = 0; k < 16; ++k)
                 inverse[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = static_cast<double>(bound[16 * i + k]);
-            }
             joints[i] = joints[i] * inverse;
         }
     }
@@ -50,22 +47,16 @@ public:
         : file_(file), nodes_(nodes), surfaces_(surfaces), scene_(scene), groups_(groups), meshes_(file, surfaces) {}
 
     void run() {
-        if (groups_ != nullptr) {
-            groups_->names = {""};
-        }
+        if (groups_ != nullptr) groups_->names = {""};
         for (const std::uint32_t number : nodes_.shown) {
             const GltfNode& node = nodes_.all[number];
-            if (node.mesh) {
-                add_mesh(node);
-            }
+            if (node.mesh) add_mesh(node);
         }
     }
 
 private:
     void add_mesh(const GltfNode& node) {
-        if (groups_ != nullptr) {
-            groups_->names.push_back(node.name);
-        }
+        if (groups_ != nullptr) groups_->names.push_back(node.name);
         joints_ = node.skin ? joint_transforms(file_, nodes_, *node.skin) : std::vector<glm::dmat4>{};
         for (const GltfPrimitive& primitive : meshes_.mesh(*node.mesh)) {
             if (scene_.triangles.size() + primitive.triangles.size() > kMostGltfTriangles ||
@@ -121,9 +112,7 @@ private:
                            fmt::format("expected joints below {}, got {} at vertex {}", joints_.size(),
                                        primitive.joints[k], vertex));
             }
-            if (weight != 0.0) {
-                sum += weight * joints_[primitive.joints[k]];
-            }
+            if (weight != 0.0) sum += weight * joints_[primitive.joints[k]];
             total += weight;
         }
         return total > 0.0 ? sum / total : glm::dmat4(1.0);
@@ -132,9 +121,7 @@ private:
     void add_triangles(const GltfPrimitive& primitive) {
         const GltfSurface& surface = surfaces_[primitive.surface];
         for (std::array<std::uint32_t, 3> corner : primitive.triangles) {
-            if (is_mirrored_) {
-                std::swap(corner[1], corner[2]);
-            }
+            if (is_mirrored_) std::swap(corner[1], corner[2]);
             const glm::uvec3 of(corner[0], corner[1], corner[2]);
             TriangleDescription triangle{.vertex = first_vertex_ + of, .material = surface.material};
             if (!has_area(scene_.positions[triangle.vertex.x], scene_.positions[triangle.vertex.y],
@@ -142,9 +129,7 @@ private:
                 file_.note("triangles without area are removed", primitive.at);
                 continue;
             }
-            if (!primitive.normals.empty()) {
-                set_normals(primitive, first_normal_ + of, triangle);
-            }
+            if (!primitive.normals.empty()) set_normals(primitive, first_normal_ + of, triangle);
             if (!primitive.uvs.empty()) {
                 triangle.uv = first_uv_ + of;
                 const glm::vec2 sum =
@@ -167,9 +152,7 @@ private:
 
     void add(const TriangleDescription& triangle) {
         scene_.triangles.push_back(triangle);
-        if (groups_ != nullptr) {
-            groups_->of_triangle.push_back(static_cast<std::uint32_t>(groups_->names.size() - 1));
-        }
+        if (groups_ != nullptr) groups_->of_triangle.push_back(static_cast<std::uint32_t>(groups_->names.size() - 1));
     }
 
     GltfFile& file_;

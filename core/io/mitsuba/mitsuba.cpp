@@ -15,7 +15,6 @@
 #include "core/scene/up_axis.h"
 
 namespace pl {
-
 namespace {
 
 /// Builds the scene from the objects of the file.
@@ -26,15 +25,14 @@ public:
     SceneDescription run() {
         for (const MitsubaObject& object : file_.objects()) {
             const std::string element = object.element();
-            if (element == "shape") {
+            if (element == "shape")
                 read_shape(object);
-            } else if (element == "emitter" || element == "light") {
+            else if (element == "emitter" || element == "light")
                 read_far_light(object);
-            } else if (element == "sensor" || element == "camera") {
+            else if (element == "sensor" || element == "camera")
                 read_sensor(object);
-            } else if (element == "medium") {
+            else if (element == "medium")
                 object.note("media are left out");
-            }
         }
         if (scene_.triangles.empty()) {
             throw Error(ErrorKind::Input,
@@ -49,9 +47,7 @@ public:
 private:
     void read_shape(const MitsubaObject& shape) {
         const std::uint32_t material = material_of(shape);
-        if (shape.child("interior_medium") || shape.property("interior")) {
-            shape.note("media are left out");
-        }
+        if (shape.child("interior_medium") || shape.property("interior")) shape.note("media are left out");
         add_mitsuba_shape(shape, material, scene_);
     }
 
@@ -61,18 +57,15 @@ private:
         glm::vec3 radiance(0.0f);
         for (const MitsubaObject& child : shape.children()) {
             const MitsubaObject target = mitsuba_target(file_, child);
-            if (target.element() == "bsdf") {
+            if (target.element() == "bsdf")
                 surface = target;
-            } else if (target.element() == "emitter" || target.element() == "light") {
+            else if (target.element() == "emitter" || target.element() == "light")
                 radiance = radiance_of(target);
-            }
         }
         const std::string at = surface ? surface.place() : std::string("standard");
         const auto key = std::make_tuple(at, radiance.x, radiance.y, radiance.z);
         const auto [known, is_new] = materials_.try_emplace(key, static_cast<std::uint32_t>(scene_.materials.size()));
-        if (is_new) {
-            add_material(surface, radiance);
-        }
+        if (is_new) add_material(surface, radiance);
         return known->second;
     }
 
@@ -81,46 +74,38 @@ private:
             emitter.note(fmt::format("emitters of the type {} are left out", in_quotes(emitter.type())));
             return glm::vec3(0.0f);
         }
-        if (!emitter.color("radiance")) {
-            emitter.note("images of radiance are shown as 1");
-        }
+        if (!emitter.color("radiance")) emitter.note("images of radiance are shown as 1");
         return emitter.color("radiance").value_or(glm::vec3(1.0f));
     }
 
     void add_material(const MitsubaObject& surface, const glm::vec3& radiance) {
         MaterialDescription material;
         material.albedo = glm::vec3(radiance == glm::vec3(0.0f) ? 0.5f : 0.0f);
-        if (surface) {
-            material = mitsuba_surface(file_, surface, scene_);
-        }
+        if (surface) material = mitsuba_surface(file_, surface, scene_);
         material.emission = radiance;
         const std::string id = surface ? surface.attribute("id") : "";
         material.name = id.empty() ? fmt::format("material {}", scene_.materials.size()) : id;
         if (std::any_of(scene_.materials.begin(), scene_.materials.end(),
-                        [&](const MaterialDescription& other) { return other.name == material.name; })) {
+                        [&](const MaterialDescription& other) { return other.name == material.name; }))
             material.name += fmt::format(" ({})", scene_.materials.size());
-        }
         scene_.materials.push_back(std::move(material));
     }
 
     void read_far_light(const MitsubaObject& emitter) {
         const std::string type = emitter.type();
         const float scale = emitter.number("scale").value_or(1.0f);
-        if (type == "constant") {
+        if (type == "constant")
             scene_.environment = emitter.color("radiance").value_or(glm::vec3(1.0f));
-        } else if (type == "envmap" && scale >= 0.0f) {
+        else if (type == "envmap" && scale >= 0.0f)
             read_map(emitter, scale);
-        } else {
+        else
             emitter.note(fmt::format("emitters of the type {} are left out", in_quotes(type)));
-        }
     }
 
     /// Its first column is towards -z, its middle one towards +z, seen from inside. [Mitsuba 3, envmap]
     void read_map(const MitsubaObject& emitter, float scale) {
         const glm::dvec3 forward(emitter.transform("to_world")[2]);
-        if (std::abs(forward.y) > 1e-3) {
-            emitter.note("environment maps that are tilted stand upright");
-        }
+        if (std::abs(forward.y) > 1e-3) emitter.note("environment maps that are tilted stand upright");
         const double yaw = std::atan2(forward.x, forward.z) * 180.0 / glm::pi<double>();
         scene_.environment_map =
             read_environment_map(emitter.file("filename"), scale, static_cast<float>(180.0 + yaw), scene_.warnings);
@@ -136,12 +121,9 @@ private:
         const MitsubaObject film = sensor.child("film");
         const float width = film.number("width").value_or(768.0f);
         const float height = film.number("height").value_or(576.0f);
-        if (!(width >= 1.0f && height >= 1.0f && width <= 65536.0f && height <= 65536.0f)) {
+        if (!(width >= 1.0f && height >= 1.0f && width <= 65536.0f && height <= 65536.0f))
             film.fail(fmt::format("expected a picture of 1 to 65536 pixels on each side, got {}x{}", width, height));
-        }
-        if (film.property("crop_width")) {
-            film.note("crops of the picture are left out");
-        }
+        if (film.property("crop_width")) film.note("crops of the picture are left out");
         scene_.settings.emplace_back("size", fmt::format("{:.0f}x{:.0f}", width, height));
         scene_.cameras.push_back({.name = sensor.attribute("id"), .camera = camera_of(sensor, width / height)});
         scene_.camera = scene_.cameras.front().camera;
@@ -154,9 +136,8 @@ private:
         const glm::dmat4 to_world = sensor.transform("to_world");
         const glm::dvec3 forward = glm::normalize(glm::dvec3(to_world[2]));
         const double fov = static_cast<double>(sensor.number("fov").value_or(39.5978f));
-        if (!(fov > 0.0 && fov < 180.0) || !std::isfinite(forward.x)) {
+        if (!(fov > 0.0 && fov < 180.0) || !std::isfinite(forward.x))
             sensor.fail(fmt::format("expected a direction, and 'fov' within (0, 180) degrees, got {}", fov));
-        }
         const std::string axis = mitsuba_name(sensor.text("fov_axis").value_or("x"));
         const bool is_vertical =
             axis == "y" || (axis == "smaller" && aspect > 1.0f) || (axis == "larger" && aspect < 1.0f);

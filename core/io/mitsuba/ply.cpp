@@ -15,7 +15,6 @@
 #include "core/io/line_reader.h"
 
 namespace pl {
-
 namespace {
 
 enum class PlyEncoding { Text, Little, Big };
@@ -66,9 +65,7 @@ public:
                 fail(fmt::format("expected at most {} elements, got {} of '{}'", bytes_.size() - at_, element.count,
                                  element.name));
             }
-            for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
-                read_element(element);
-            }
+            for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) read_element(element);
         }
         check();
         return std::move(mesh_);
@@ -81,9 +78,7 @@ private:
 
     std::string_view line() {
         const std::size_t end = bytes_.find('\n', at_);
-        if (end == std::string::npos) {
-            fail("expected a header that ends with 'end_header'");
-        }
+        if (end == std::string::npos) fail("expected a header that ends with 'end_header'");
         std::string_view text = std::string_view(bytes_).substr(at_, end - at_);
         at_ = end + 1;
         return text.ends_with('\r') ? text.substr(0, text.size() - 1) : text;
@@ -92,9 +87,7 @@ private:
     const PlyType* type_named(std::string_view name) const {
         const auto known =
             std::find_if(kPlyTypes.begin(), kPlyTypes.end(), [&](const PlyType& t) { return t.name == name; });
-        if (known == kPlyTypes.end()) {
-            fail(fmt::format("expected the type of a property, got {}", in_quotes(name)));
-        }
+        if (known == kPlyTypes.end()) fail(fmt::format("expected the type of a property, got {}", in_quotes(name)));
         return &*known;
     }
 
@@ -105,9 +98,7 @@ private:
         }
         for (std::string_view text = line(); text != "end_header"; text = line()) {
             const std::vector<std::string_view> words = split_words(text);
-            if (words.empty() || words[0] == "comment" || words[0] == "obj_info") {
-                continue;
-            }
+            if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
             header_line(words);
         }
     }
@@ -122,9 +113,7 @@ private:
                     : (fail(fmt::format("expected a format, got {}", in_quotes(words[1]))), PlyEncoding::Text);
         } else if (words[0] == "element" && words.size() == 3) {
             const std::optional<std::int64_t> count = parse_integer(words[2]);
-            if (!count || *count < 0) {
-                fail(fmt::format("expected a number of elements, got {}", in_quotes(words[2])));
-            }
+            if (!count || *count < 0) fail(fmt::format("expected a number of elements, got {}", in_quotes(words[2])));
             elements_.push_back({std::string(words[1]), static_cast<std::uint64_t>(*count)});
         } else if (words[0] == "property" && !elements_.empty() && words.size() == 3) {
             elements_.back().properties.push_back({std::string(words[2]), type_named(words[1])});
@@ -143,17 +132,14 @@ private:
         const std::size_t end = std::min(bytes_.find_first_of(" \t\r\n", first), bytes_.size());
         const std::string_view text = std::string_view(bytes_).substr(first, end - first);
         const std::optional<double> value = parse_number(text);
-        if (!value) {
-            fail(fmt::format("expected a finite number, got {}", in_quotes(text)));
-        }
+        if (!value) fail(fmt::format("expected a finite number, got {}", in_quotes(text)));
         at_ = end;
         return *value;
     }
 
     double stored(const PlyType& type) {
-        if (bytes_.size() - at_ < type.bytes) {
+        if (bytes_.size() - at_ < type.bytes)
             fail(fmt::format("expected {} bytes of a number, got the end of the file", type.bytes));
-        }
         std::uint64_t bits = 0;
         for (std::size_t i = 0; i < type.bytes; ++i) {
             const std::size_t from = encoding_ == PlyEncoding::Little ? type.bytes - 1 - i : i;
@@ -190,35 +176,26 @@ private:
                 has_uv = true;
             }
         }
-        if (element.name != "vertex") {
-            return;
-        }
+        if (element.name != "vertex") return;
         mesh_.positions.push_back(position);
-        if (has_normal) {
-            mesh_.normals.push_back(normal);
-        }
-        if (has_uv) {
-            mesh_.uvs.push_back(uv);
-        }
+        if (has_normal) mesh_.normals.push_back(normal);
+        if (has_uv) mesh_.uvs.push_back(uv);
     }
 
     void read_list(const PlyElement& element, const PlyProperty& property) {
         const double count = number(*property.count);
-        if (!(count >= 0.0 && count <= 65536.0)) {
+        if (!(count >= 0.0 && count <= 65536.0))
             fail(fmt::format("expected a list of at most 65536 numbers, got {}", count));
-        }
         const bool is_face = element.name == "face" && property.name.starts_with("vert");
         std::vector<std::uint32_t> corners;
         for (int i = 0; i < static_cast<int>(count); ++i) {
             const double value = number(*property.type);
-            if (is_face && !(value >= 0.0 && value < 4294967295.0)) {
+            if (is_face && !(value >= 0.0 && value < 4294967295.0))
                 fail(fmt::format("expected the index of a vertex, got {}", value));
-            }
             corners.push_back(is_face ? static_cast<std::uint32_t>(value) : 0u);
         }
-        for (std::size_t i = 1; is_face && i + 1 < corners.size(); ++i) {
+        for (std::size_t i = 1; is_face && i + 1 < corners.size(); ++i)
             mesh_.triangles.push_back({corners[0], corners[i], corners[i + 1]});
-        }
     }
 
     void check() const {
@@ -230,11 +207,8 @@ private:
                 }
             }
         }
-        for (const glm::vec2& uv : mesh_.uvs) {
-            if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-                fail("expected finite texture coordinates");
-            }
-        }
+        for (const glm::vec2& uv : mesh_.uvs)
+            if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) fail("expected finite texture coordinates");
     }
 
     const std::filesystem::path& path_;

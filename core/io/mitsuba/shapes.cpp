@@ -15,7 +15,6 @@
 #include "core/io/obj_triangles.h"
 
 namespace pl {
-
 namespace {
 
 /// Corners of all faces of a mesh by arrays of their own, as the reader of OBJ files gives them.
@@ -102,12 +101,9 @@ ObjMesh sphere() {
     };
     for (std::uint32_t row = 0; row < kRows; ++row) {
         for (std::uint32_t column = 0; column < kColumns; ++column) {
-            if (row > 0) {
-                add_face(mesh, {corner(row, column), corner(row + 1, column), corner(row, column + 1)});
-            }
-            if (row + 1 < kRows) {
+            if (row > 0) add_face(mesh, {corner(row, column), corner(row + 1, column), corner(row, column + 1)});
+            if (row + 1 < kRows)
                 add_face(mesh, {corner(row, column + 1), corner(row + 1, column), corner(row + 1, column + 1)});
-            }
         }
     }
     return mesh;
@@ -133,12 +129,8 @@ ObjMesh ply(const std::filesystem::path& path) {
 /// Normals as Mitsuba has them: none, those of the file, or those of a smooth surface.
 void settle_normals(bool is_flat, ObjMesh& mesh) {
     for (ObjFaces& part : mesh.parts) {
-        for (ObjFaces::Run& run : part.runs) {
-            run.smoothing = is_flat ? Smoothing::Off : Smoothing::On;
-        }
-        for (ObjCorner& corner : part.corners) {
-            corner.normal = is_flat ? ObjCorner::kNone : corner.normal;
-        }
+        for (ObjFaces::Run& run : part.runs) run.smoothing = is_flat ? Smoothing::Off : Smoothing::On;
+        for (ObjCorner& corner : part.corners) corner.normal = is_flat ? ObjCorner::kNone : corner.normal;
     }
     smooth_normals(mesh);
 }
@@ -225,9 +217,7 @@ void add_mitsuba_shape(const MitsubaObject& shape, std::uint32_t material, Scene
     }
     move(shape, to_world, mesh);
     const bool is_mirrored = glm::determinant(glm::dmat3(to_world)) < 0.0;
-    if (is_mirrored != shape.boolean("flip_normals").value_or(false)) {
-        turn_over(mesh);
-    }
+    if (is_mirrored != shape.boolean("flip_normals").value_or(false)) turn_over(mesh);
     const MaterialTable materials{.of_name = std::vector<std::uint32_t>(mesh.materials.size(), material),
                                   .fallback = material};
     add_obj_triangles(added, std::move(mesh), materials, nullptr, usable_threads());

@@ -13,7 +13,6 @@
 #include "core/io/texture_file.h"
 
 namespace pl {
-
 namespace {
 
 /// Names of indices of refraction.
@@ -60,9 +59,7 @@ public:
             bsdf_.note(fmt::format("surfaces of the type {} are shown as gray", in_quotes(type)));
             material_.albedo = glm::vec3(0.5f);
         }
-        if (is_rough) {
-            read_roughness();
-        }
+        if (is_rough) read_roughness();
         return material_;
     }
 
@@ -86,9 +83,8 @@ private:
             const glm::vec3 first = texture.color("color0").value_or(glm::vec3(0.4f));
             return within_one(0.5f * (first + texture.color("color1").value_or(glm::vec3(0.2f))));
         }
-        if (texture.property("to_uv") || texture.property("uscale") || texture.property("vscale")) {
+        if (texture.property("to_uv") || texture.property("uscale") || texture.property("vscale"))
             texture.note("transformations of images are left out");
-        }
         const std::string wrap = texture.text("wrap_mode").value_or("repeat");
         material_.textures.albedo =
             add_texture(scene_, texture.file("filename"), TextureContent::Color, wrap != "clamp");
@@ -97,15 +93,10 @@ private:
 
     float index(const char* name, float standard) {
         const MitsubaObject property = bsdf_.property(name);
-        if (property.element() != "string") {
-            return bsdf_.number(name).value_or(standard);
-        }
+        if (property.element() != "string") return bsdf_.number(name).value_or(standard);
         const std::string value = property.attribute("value");
-        for (const auto& [known, number] : kIndices) {
-            if (known == value) {
-                return number;
-            }
-        }
+        for (const auto& [known, number] : kIndices)
+            if (known == value) return number;
         property.note(
             fmt::format("the material {} is not known: index of refraction {}", in_quotes(value), standard));
         return standard;
@@ -140,11 +131,8 @@ private:
     }
 
     glm::vec3 metal(const std::string& name) {
-        for (const auto& [known, reflectance] : kMetals) {
-            if (known == name) {
-                return reflectance;
-            }
-        }
+        for (const auto& [known, reflectance] : kMetals)
+            if (known == name) return reflectance;
         bsdf_.note(fmt::format("the metal {} is not known: shown as chrome", in_quotes(name)));
         return kMetals.back().second;
     }
@@ -154,9 +142,7 @@ private:
         material_.ior = is_thin ? 1.0f : read_ior(1.5046f);
         material_.specular = within_one(bsdf_.color("specular_reflectance").value_or(glm::vec3(1.0f)));
         material_.transmission = within_one(bsdf_.color("specular_transmittance").value_or(glm::vec3(1.0f)));
-        if (is_thin) {
-            bsdf_.note("thin panes are shown as clear ones without reflection");
-        }
+        if (is_thin) bsdf_.note("thin panes are shown as clear ones without reflection");
     }
 
     void read_plastic() {
@@ -196,9 +182,8 @@ private:
             alpha = std::sqrt(std::max(*along * bsdf_.number("alpha_v").value_or(*along), 0.0f));
             bsdf_.note("anisotropic facets are shown as isotropic ones");
         }
-        if (bsdf_.text("distribution").value_or("beckmann") != "ggx") {
+        if (bsdf_.text("distribution").value_or("beckmann") != "ggx")
             bsdf_.note("facets of another distribution are shown as those of GGX");
-        }
         const float roughness = std::sqrt(std::clamp(alpha, 0.0f, 1.0f));
         const bool is_smooth = roughness < kLeastRoughness ||
                                (material_.kind == SurfaceKind::Dielectric && material_.ior < kLeastRoughIor);
@@ -220,13 +205,10 @@ bool is_adapter(const std::string& type) {
 }  // namespace
 
 MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& object) {
-    if (object.element() != "ref") {
-        return object;
-    }
+    if (object.element() != "ref") return object;
     const MitsubaObject target = file.by_id(object.attribute("id"));
-    if (!target) {
+    if (!target)
         object.fail(fmt::format("'ref': expected the id of an object, got {}", in_quotes(object.attribute("id"))));
-    }
     return target;
 }
 
@@ -240,9 +222,7 @@ MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject
         MitsubaObject next;
         for (const MitsubaObject& child : inner.children()) {
             const MitsubaObject target = mitsuba_target(file, child);
-            if (!next && target.element() == "bsdf") {
-                next = target;
-            }
+            if (!next && target.element() == "bsdf") next = target;
         }
         if (!next || depth > 16) {
             inner.fail(

@@ -35,12 +35,8 @@ void MitsubaFile::read(const fs::path& path, int depth) {
     text.notes = &notes_;
     const pugi::xml_parse_result result =
         text.document.load_buffer(text.text.data(), text.text.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (!result) {
-        fail_at(path, text.line_of(result.offset), fmt::format("not valid XML: {}", result.description()));
-    }
-    if (text.document.child("scene").empty()) {
-        fail_at(path, 1, "expected a scene of Mitsuba, '<scene version=...>'");
-    }
+    if (!result) fail_at(path, text.line_of(result.offset), fmt::format("not valid XML: {}", result.description()));
+    if (text.document.child("scene").empty()) fail_at(path, 1, "expected a scene of Mitsuba, '<scene version=...>'");
     take(text, depth);
 }
 
@@ -57,9 +53,7 @@ void MitsubaFile::take(const MitsubaText& text, int depth) {
             parameters_.try_emplace(object.attribute("name"), object.attribute("value"));
         } else {
             objects_.push_back(object);
-            if (const std::string id = object.attribute("id"); !id.empty()) {
-                ids_.try_emplace(id, object);
-            }
+            if (const std::string id = object.attribute("id"); !id.empty()) ids_.try_emplace(id, object);
         }
     }
 }

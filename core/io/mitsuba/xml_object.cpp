@@ -32,13 +32,10 @@ std::string replaced_parameters(std::string text, const std::map<std::string, st
     constexpr std::size_t kLongest = 65536;
     for (auto parameter = parameters.rbegin(); parameter != parameters.rend(); ++parameter) {
         const std::string mark = "$" + parameter->first;
-        if (parameter->first.empty()) {
-            continue;
-        }
+        if (parameter->first.empty()) continue;
         for (std::size_t at = text.find(mark); at != std::string::npos && text.size() < kLongest;
-             at = text.find(mark, at + parameter->second.size())) {
+             at = text.find(mark, at + parameter->second.size()))
             text.replace(at, mark.size(), parameter->second);
-        }
     }
     return text;
 }
@@ -51,9 +48,7 @@ std::string mitsuba_name(const std::string& name) {
         const auto code = static_cast<unsigned char>(name[i]);
         const bool starts =
             std::isupper(code) != 0 && i > 0 && std::isupper(static_cast<unsigned char>(name[i - 1])) == 0;
-        if (starts && result.back() != '_') {
-            result += '_';
-        }
+        if (starts && result.back() != '_') result += '_';
         result += static_cast<char>(std::tolower(code));
     }
     return result;
@@ -67,29 +62,20 @@ std::string MitsubaObject::name() const { return mitsuba_name(attribute("name"))
 
 std::vector<MitsubaObject> MitsubaObject::children() const {
     std::vector<MitsubaObject> all;
-    for (const pugi::xml_node& node : node_.children()) {
-        if (node.type() == pugi::node_element) {
-            all.emplace_back(node, *text_);
-        }
-    }
+    for (const pugi::xml_node& node : node_.children())
+        if (node.type() == pugi::node_element) all.emplace_back(node, *text_);
     return all;
 }
 
 MitsubaObject MitsubaObject::property(const std::string& name) const {
-    for (const MitsubaObject& object : children()) {
-        if (object.name() == name) {
-            return object;
-        }
-    }
+    for (const MitsubaObject& object : children())
+        if (object.name() == name) return object;
     return {};
 }
 
 MitsubaObject MitsubaObject::child(const std::string& element) const {
-    for (const MitsubaObject& object : children()) {
-        if (object.element() == element) {
-            return object;
-        }
-    }
+    for (const MitsubaObject& object : children())
+        if (object.element() == element) return object;
     return {};
 }
 
@@ -105,9 +91,7 @@ std::vector<double> MitsubaObject::numbers(const std::string& words) const {
     std::vector<double> values;
     for (const std::string_view word : words_of(words)) {
         const std::optional<double> value = parse_number(word);
-        if (!value) {
-            fail(fmt::format("'{}': expected finite numbers, got {}", attribute("name"), in_quotes(word)));
-        }
+        if (!value) fail(fmt::format("'{}': expected finite numbers, got {}", attribute("name"), in_quotes(word)));
         values.push_back(*value);
     }
     return values;
@@ -120,21 +104,17 @@ double MitsubaObject::number_or(const char* attribute_name, double standard) con
 
 std::optional<float> MitsubaObject::number(const std::string& name) const {
     const MitsubaObject object = property(name);
-    if (!object || object.attribute("value").empty()) {
-        return std::nullopt;
-    }
+    if (!object || object.attribute("value").empty()) return std::nullopt;
     const std::vector<double> values = object.numbers(object.attribute("value"));
-    if (values.size() != 1) {
+    if (values.size() != 1)
         object.fail(fmt::format("'{}': expected a number, got {}", name, in_quotes(object.attribute("value"))));
-    }
     return static_cast<float>(values[0]);
 }
 
 std::optional<bool> MitsubaObject::boolean(const std::string& name) const {
     const std::optional<std::string> value = text(name);
-    if (value && *value != "true" && *value != "false") {
+    if (value && *value != "true" && *value != "false")
         property(name).fail(fmt::format("'{}': expected true or false, got {}", name, in_quotes(*value)));
-    }
     return value ? std::optional(*value == "true") : std::nullopt;
 }
 
@@ -164,13 +144,11 @@ glm::vec3 MitsubaObject::own_color() const {
         return glm::vec3(0.5f);
     }
     const std::vector<double> values = numbers(value);
-    if (values.size() != 1 && values.size() != 3) {
+    if (values.size() != 1 && values.size() != 3)
         fail(fmt::format("'{}': expected one or three numbers, got {}", attribute("name"), in_quotes(value)));
-    }
     glm::vec3 color(0.0f);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; ++i)
         color[i] = std::max(static_cast<float>(values[values.size() == 3 ? static_cast<std::size_t>(i) : 0]), 0.0f);
-    }
     return color;
 }
 
@@ -183,29 +161,23 @@ std::optional<glm::vec3> MitsubaObject::color(const std::string& name) const {
 
 std::optional<glm::vec3> MitsubaObject::point(const std::string& name) const {
     const MitsubaObject object = property(name);
-    if (!object) {
-        return std::nullopt;
-    }
-    if (const std::vector<double> values = object.numbers(object.attribute("value")); values.size() == 3) {
+    if (!object) return std::nullopt;
+    if (const std::vector<double> values = object.numbers(object.attribute("value")); values.size() == 3)
         return glm::vec3(values[0], values[1], values[2]);
-    }
     return glm::vec3(object.number_or("x", 0.0), object.number_or("y", 0.0), object.number_or("z", 0.0));
 }
 
 fs::path MitsubaObject::file(const std::string& name) const {
     const std::string value = text(name).value_or("");
     const fs::path path = path_inside(text_->folder, value);
-    if (path.empty()) {
+    if (path.empty())
         fail(fmt::format("'{}': expected a file in the folder of the scene, got {}", name, in_quotes(value)));
-    }
     return path;
 }
 
 glm::dmat4 MitsubaObject::transform(const std::string& name) const {
     glm::dmat4 matrix(1.0);
-    for (const MitsubaObject& part : property(name).children()) {
-        matrix = part.step() * matrix;
-    }
+    for (const MitsubaObject& part : property(name).children()) matrix = part.step() * matrix;
     return matrix;
 }
 
@@ -217,9 +189,7 @@ glm::dmat4 MitsubaObject::step() const {
         return given.size() == 3 ? glm::dvec3(given[0], given[1], given[2]) : glm::dvec3(standard);
     };
     const glm::dvec3 xyz(number_or("x", 0.0), number_or("y", 0.0), number_or("z", 0.0));
-    if (kind == "translate") {
-        return glm::translate(glm::dmat4(1.0), values.size() == 3 ? vector("value", 0.0) : xyz);
-    }
+    if (kind == "translate") return glm::translate(glm::dmat4(1.0), values.size() == 3 ? vector("value", 0.0) : xyz);
     if (kind == "scale") {
         const glm::dvec3 each(number_or("x", 1.0), number_or("y", 1.0), number_or("z", 1.0));
         return glm::scale(glm::dmat4(1.0), values.size() == 1   ? glm::dvec3(values[0])
@@ -232,9 +202,7 @@ glm::dmat4 MitsubaObject::step() const {
     }
     if (kind == "matrix" && values.size() == 16) {
         glm::dmat4 matrix;
-        for (int i = 0; i < 16; ++i) {
-            matrix[i % 4][i / 4] = values[static_cast<std::size_t>(i)];
-        }
+        for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = values[static_cast<std::size_t>(i)];
         return matrix;
     }
     if (kind == "lookat" || kind == "look_at") {

@@ -195,7 +195,9 @@ TEST_CASE("Missing files and folders in place of files are named") {
     CHECK_THAT(message("gone.json"), contains("gone.json: cannot be read: no such file"));
     CHECK_THAT(message("dir.obj"), contains("dir.obj: cannot be read: it is a directory"));
     CHECK_THAT(message("dir.json"), contains("dir.json: cannot be read: it is a directory"));
-    CHECK_THAT(message("."), contains("expected an .obj, .gltf, .glb or Mitsuba .xml file, a scene .json file or the name of a scene"));
+    CHECK_THAT(
+        message("."),
+        contains("expected an .obj, .gltf, .glb or Mitsuba .xml file, a scene .json file or the name of a scene"));
     CHECK_THAT(input_error([&] { load_scene("/dev/null", folder.path()); }), contains("/dev/null: expected an .obj"));
 }
 

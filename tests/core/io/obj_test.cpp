@@ -307,6 +307,7 @@ TEST_CASE("Files in UTF-16 are read, of either order of bytes", "[hard]") {
         const SceneDescription scene = load(wide(text, is_little), wide(kMtl, !is_little));
         CHECK(scene.materials.at(scene.triangles.at(0).material).albedo == glm::vec3(0.6f, 0.1f, 0.2f));
     }
-    CHECK_THAT(test::input_error([&] { load(wide(text, true) + "x"); }), contains("UTF-16") && contains("even number"));
+    CHECK_THAT(test::input_error([&] { load(wide(text, true) + "x"); }),
+               contains("UTF-16") && contains("even number"));
     CHECK_THAT(test::input_error([&] { load(wide(text, true) + "\x01\xD8"); }), contains("half a character at byte"));
 }

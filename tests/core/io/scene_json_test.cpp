@@ -168,7 +168,8 @@ TEST_CASE("The frame of a scene file is checked") {
     CHECK_THAT(message("{}"), contains("f.json:1: 'schema': expected \"pathlight.scene/1\", got none"));
     CHECK_THAT(message("{\n\"schema\": \"pathlight.scene/2\"}"),
                contains("f.json:2: 'schema': expected \"pathlight.scene/1\", got \"pathlight.scene/2\""));
-    CHECK_THAT(message("{\n\"schema\": \"pathlight.scene/1\"}"), contains("'obj': expected the name of an OBJ or glTF file"));
+    CHECK_THAT(message("{\n\"schema\": \"pathlight.scene/1\"}"),
+               contains("'obj': expected the name of an OBJ or glTF file"));
     CHECK_THAT(message("{\"schema\": \"pathlight.scene/1\", \"obj\": \"gone.obj\"}"),
                contains("gone.obj: cannot be read: no such file"));
     CHECK_THAT(message("{\"schema\": \"pathlight.scene/1\"} {}"), contains("f.json:1: not valid JSON"));

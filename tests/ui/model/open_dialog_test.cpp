@@ -14,7 +14,8 @@ struct DialogBench : FileBench {
         options.scenes = {"small", "other"};
         std::filesystem::create_directory(folder.path() / "sub");
         std::filesystem::create_directory(folder.path() / ".hidden");
-        for (const char* name : {"b.obj", "a.json", "a.mtl", "c.field", ".d.obj", "e.GLB", "f.gltf", "f.bin", "g.xml"})
+        for (const char* name :
+             {"b.obj", "a.json", "a.mtl", "c.field", ".d.obj", "e.GLB", "f.gltf", "f.bin", "g.xml"})
             std::ofstream(folder.path() / name) << "x";
     }
 };
