@@ -1,6 +1,6 @@
 // Building the balanced tree that core/kernel/guiding/volume_lookup.h searches.
 #include <algorithm>
-#include <ranges>
+#include <span>
 #include <utility>
 
 #include "core/fields/extent.h"
@@ -15,7 +15,7 @@ using NodeIterator = std::vector<KdNode>::iterator;
 /// coordinates are ordered by number, so that the order is total. Ranges halve, so the recursion is at most 32 deep.
 void arrange(NodeIterator begin, NodeIterator end) {
     if (begin == end) return;
-    const int axis = longest_axis(extent_of(std::ranges::subrange(begin, end), &KdNode::position));
+    const int axis = longest_axis(extent_of(std::span(begin, end), &KdNode::position));
     const auto middle = begin + (end - begin) / 2;
     std::nth_element(begin, middle, end, [axis](const KdNode& a, const KdNode& b) {
         const float x = a.position[axis];
