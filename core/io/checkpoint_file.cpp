@@ -91,7 +91,7 @@ public:
     void learning(Progress& progress) {
         all(progress.passes, progress.untrained_passes, progress.records, progress.clamped_records,
             progress.lookup_misses, progress.precomputed_slices, progress.next_probe, progress.precompute_seconds,
-            progress.has_part, progress.was_edited);
+            progress.is_well_trained, progress.has_part, progress.was_edited);
         transfer_array(stream_, progress.forgotten);
     }
 

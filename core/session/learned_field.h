@@ -22,7 +22,8 @@ struct FieldProgress {
     std::uint32_t precomputed_slices = 0;  ///< complete ones
     std::uint32_t next_probe = 0;          ///< of the running slice
     double precompute_seconds = 0.0;
-    bool has_part = false;                  ///< the field was updated within a pass that is incomplete
+    bool is_well_trained = false;  ///< had enough training samples per volume at the last update, see is_trained_by()
+    bool has_part = false;         ///< the field was updated within a pass that is incomplete
     std::vector<std::int32_t> forgotten{};  ///< volumes that forget what they learned before the next pass
     bool was_edited =
         false;  ///< was stepped, continued after a freeze, or has forgotten volumes: no command line repeats it

@@ -158,7 +158,7 @@ private:
     bool is_frozen(MethodId method) const { return trained_passes(method) >= settings_.learn_passes; }
     void control_learning(const EditLearning& edit);
     void prepare_training(FilmSlot slot);
-    bool has_enough_samples(MethodId method) const;
+    void update_trained(MethodId method);
     bool is_trained_by_pass(FilmSlot slot, std::uint32_t pass) const;
     void forget_volume(const EditForgetVolume& edit);
     void forget_due_volumes(MethodId method);

@@ -119,7 +119,7 @@ void Session::finish_trial(FilmSlot slot) {
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
     const bool has_trained = state.trial.guided.paths > 0 && !is_frozen(slot.method) && info_of(slot.method).learns;
-    if (has_trained) backend_->update_field(slot.method);
+    if (has_trained) update_trained(slot.method);
     state.trial = {};
     state.learn_seconds += watch.seconds();
 }

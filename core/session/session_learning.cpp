@@ -21,8 +21,7 @@ void Session::control_learning(const EditLearning& edit) {
     switch (edit.control) {
     case LearningControl::Freeze:
         // As the last pass that trains: its training samples are waiting for an update.
-        if (!is_under_way && backend_->has_field(edit.method) && !is_frozen(edit.method))
-            backend_->update_field(edit.method);
+        if (!is_under_way && backend_->has_field(edit.method) && !is_frozen(edit.method)) update_trained(edit.method);
         settings_.learn_passes = trained;
         return;
     case LearningControl::Step: settings_.learn_passes = trained + 1; break;
@@ -37,15 +36,18 @@ void Session::prepare_training(FilmSlot slot) {
     forget_due_volumes(slot.method);
 }
 
-/// A field that was edited learns by every pass, so that a forgotten volume learns soon.
-bool Session::has_enough_samples(MethodId method) const {
-    const FieldProgress& learned = field(method);
-    return learned.records >= kEnoughSamplesPerVolume * placement_.count() && !learned.was_edited;
+/// An update after whole passes or a trial. Between two of them nothing decides anew whether passes train.
+void Session::update_trained(MethodId method) {
+    backend_->update_field(method);
+    FieldProgress& learned = field(method);
+    learned.is_well_trained = learned.records >= kEnoughSamplesPerVolume * placement_.count();
 }
 
-/// Whether the pass of this number would train the field as it is now.
+/// Whether the pass of this number trains the field if no update comes before it. A field that was edited learns by every pass, so
+/// that a forgotten volume learns soon.
 bool Session::is_trained_by_pass(FilmSlot slot, std::uint32_t pass) const {
-    return !is_frozen(slot.method) && is_trained_by(pass, has_enough_samples(slot.method));
+    const FieldProgress& learned = field(slot.method);
+    return !is_frozen(slot.method) && is_trained_by(pass, learned.is_well_trained && !learned.was_edited);
 }
 
 void Session::forget_volume(const EditForgetVolume& edit) {

@@ -135,7 +135,6 @@ std::uint32_t Session::equal_passes(FilmSlot slot, std::uint32_t most) const {
     if (!learns_from(slot)) return most;
     if (has_early_settings(field(slot.method).passes)) return 1;
     if (is_frozen(slot.method)) return most;
-    if (!has_enough_samples(slot.method)) return 1;  // it may have them after any pass
     std::uint32_t passes = 1;
     const std::uint64_t left = settings_.learn_passes - trained_passes(slot.method);
     while (passes < most && passes < left && !is_updated_after(state.passes + passes) &&
@@ -228,7 +227,7 @@ void Session::finish_learning_pass(FilmSlot slot) {
     // Where guiding does not pay, passes that learn are rare.
     const bool is_updated =
         has_trained && (is_updated_after(state.passes) || !state.guiding.pays() || is_frozen(slot.method));
-    if (is_updated) backend_->update_field(slot.method);
+    if (is_updated) update_trained(slot.method);
     learned.has_part = false;
     if (is_updated) refine_if_due(slot.method);
     films_[slot].learn_seconds += watch.seconds();

@@ -80,11 +80,15 @@ TEST_CASE("A field with enough samples makes training samples in one pass of fou
     const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true}, 150, 120);
     Session session = make_session(scene, settings, 2);
     const auto records = [&] { return session.field_status(MethodId::Reinforcement)->records; };
-    while (records() < kEnoughSamplesPerVolume * 60) {
+    const auto is_well_trained = [&] {
+        return session.export_field(MethodId::Reinforcement).progress.is_well_trained;
+    };
+    while (!is_well_trained()) {
         const std::uint64_t before = records();
         render_passes(session, 1);
         REQUIRE(records() > before);
     }
+    CHECK(records() >= kEnoughSamplesPerVolume * 60);
     const std::uint32_t enough = std::max(session.passes(slot_of(session)), 16u);
     REQUIRE(enough < 40);
     render_passes(session, enough - session.passes(slot_of(session)));
