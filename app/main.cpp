@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "mpi/job.h"
 #include "mpi/mpi_backend.h"
+#include "mpi/rank_device.h"
 
 namespace {
 
@@ -69,6 +70,7 @@ std::unique_ptr<Communicator> join(Console& console, int& code) {
     try {
         std::string version = version_text(true);
         std::ranges::replace(version, '\n', ' ');
+        choose_device();
         return join_job(version);
     } catch (const Error& error) {
         code = is_first_rank() ? tell(error.what(), error.kind(), console) : static_cast<int>(error.kind());

@@ -34,8 +34,8 @@ std::shared_ptr<ExactBackend> open_backend(Communicator& ranks, const RankBacken
 
 class MpiBackend final : public ExactBackend {
 public:
-    MpiBackend(Communicator& ranks, std::shared_ptr<ExactBackend> local, int number)
-        : ranks_(ranks), work_(ranks, std::move(local)), number_(number) {}
+    MpiBackend(Communicator& ranks, std::shared_ptr<ExactBackend> local, const RankCommand& opened)
+        : ranks_(ranks), work_(ranks, std::move(local), opened.share_pixels), number_(opened.backend_number) {}
     ~MpiBackend() override {
         try {
             RankCommand command{.order = Order::Close, .backend_number = number_};
@@ -138,12 +138,13 @@ private:
 }  // namespace
 
 std::unique_ptr<RenderBackend> make_mpi_backend(Communicator& ranks, const RankBackendFactory& make,
-                                                const std::string& name, int threads) {
+                                                const std::string& name, int threads, std::uint32_t share_pixels) {
     static std::atomic<std::int32_t> opened{0};
-    RankCommand command{.order = Order::Open, .backend_number = ++opened, .threads = threads};
+    RankCommand command{
+        .order = Order::Open, .backend_number = ++opened, .threads = threads, .share_pixels = share_pixels};
     name.copy(command.backend_name.data(), command.backend_name.size() - 1);
     ranks.broadcast(bytes_of_value(command));
-    return std::make_unique<MpiBackend>(ranks, open_backend(ranks, make, name, threads), command.backend_number);
+    return std::make_unique<MpiBackend>(ranks, open_backend(ranks, make, name, threads), command);
 }
 
 void follow_rank_0(Communicator& ranks, const RankBackendFactory& make, const std::function<void()>& called) {
@@ -159,7 +160,7 @@ void follow_rank_0(Communicator& ranks, const RankBackendFactory& make, const st
         } else if (command.order != Order::Open) {
             works.at(command.backend_number).follow(command);
         } else if (auto backend = open_backend(ranks, make, command.backend_name.data(), command.threads)) {
-            works.try_emplace(command.backend_number, ranks, std::move(backend));
+            works.try_emplace(command.backend_number, ranks, std::move(backend), command.share_pixels);
         }
     }
 }

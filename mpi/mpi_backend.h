@@ -7,6 +7,7 @@
 
 #include "core/session/exact_backend.h"
 #include "mpi/communicator.h"
+#include "mpi/shares.h"
 
 namespace pl {
 
@@ -14,9 +15,10 @@ namespace pl {
 using RankBackendFactory = std::function<std::unique_ptr<RenderBackend>(const std::string& name, int threads)>;
 
 /// Opens a back end on every rank. Those of the other ranks do the rendering of follow_rank_0(). Films, fields and counters are those
-/// of one rank, to the bit. Throws Error(Unavailable) with the first rank that has none of this kind.
+/// of one rank, to the bit. `share_pixels`: see Shares. Throws Error(Unavailable) with the first rank that has none of this kind.
 std::unique_ptr<RenderBackend> make_mpi_backend(Communicator& ranks, const RankBackendFactory& make,
-                                                const std::string& name, int threads);
+                                                const std::string& name, int threads,
+                                                std::uint32_t share_pixels = Shares::kMostPixels);
 
 /// The whole work of a rank other than 0: takes part in commands until rank 0 ends the job. `called` is the answer to call_ranks().
 void follow_rank_0(Communicator& ranks, const RankBackendFactory& make, const std::function<void()>& called = {});

@@ -18,7 +18,7 @@ void RankWork::write_pixels(const RankCommand& command, Payload& payload) {
         });
     ranks_.broadcast(std::as_writable_bytes(std::span(pixels)));
     if (ranks_.rank() != 0) locally([&] { backend_->write_pixels(command.slot, 0, pixels); });
-    film = {.pixels = film.pixels, .shares = Shares(ranks_.size())};
+    film = {.pixels = film.pixels, .shares = no_shares()};
 }
 
 void RankWork::gather_film(FilmSlot slot) {
@@ -41,7 +41,7 @@ void RankWork::gather_film(FilmSlot slot) {
 
 /// New shares by the times of the last pass; the pixels move with them. The many short blocks of a first pass are joined.
 void RankWork::balance(FilmSlot slot, Film& film) {
-    Shares next(ranks_.size());
+    Shares next = no_shares();
     next.cover(film.pixels);
     if (next.blocks() == film.shares.blocks()) next = film.shares.balanced(seconds_of_all(film));
     if (next == film.shares) return;

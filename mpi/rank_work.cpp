@@ -138,7 +138,7 @@ void RankWork::take_field(MethodId method, Payload& payload) {
 
 void RankWork::reset_film(const RankCommand& command) {
     films_[static_cast<std::size_t>(command.slot.index())] = {
-        .pixels = static_cast<std::uint32_t>(command.width * command.height), .shares = Shares(ranks_.size())};
+        .pixels = static_cast<std::uint32_t>(command.width * command.height), .shares = no_shares()};
     locally([&] { backend_->reset_film(command.slot, command.width, command.height); });
 }
 
@@ -186,7 +186,7 @@ void RankWork::run_block(const PassRequest& request, Film& film, std::size_t blo
 
 /// Probes are numbered through all volumes and cost much the same everywhere.
 void RankWork::precompute(const PrecomputeRequest& request, std::uint32_t end_probe, Payload& payload) {
-    Shares shares(ranks_.size());
+    Shares shares = no_shares();
     shares.cover(std::min(end_probe, probes_));
     bool is_first = true;
     for (std::size_t block = 0; block < shares.blocks(); ++block) {

@@ -46,6 +46,7 @@ struct RankCommand {
     std::uint32_t end_probe = 0;
     std::array<char, 16> backend_name{};  ///< asked for
     std::int32_t threads = 0;
+    std::uint32_t share_pixels = 0;  ///< of Open
 };
 
 /// Arguments and results of commands that are no plain values; those of rank 0 go to all.
@@ -61,8 +62,9 @@ struct Payload {
 
 class RankWork {
 public:
-    RankWork(Communicator& ranks, std::shared_ptr<ExactBackend> backend)
-        : ranks_(ranks), backend_(std::move(backend)) {}
+    /// `share_pixels`: see Shares; the same on all ranks.
+    RankWork(Communicator& ranks, std::shared_ptr<ExactBackend> backend, std::uint32_t share_pixels)
+        : ranks_(ranks), backend_(std::move(backend)), share_pixels_(share_pixels) {}
 
     /// On rank 0: sends a command and takes part in it. Returns the sum of the counters of all ranks. Throws the error of the first
     /// rank that failed, see report().
@@ -96,6 +98,7 @@ private:
     void precompute(const PrecomputeRequest& request, std::uint32_t end_probe, Payload& payload);
 
     bool goes_on(const StopFlag* stop);
+    Shares no_shares() const { return Shares(ranks_.size(), share_pixels_); }
     void balance(FilmSlot slot, Film& film);
     std::vector<double> seconds_of_all(const Film& film);
     void move_pixels(FilmSlot slot, const Shares& from, const Shares& to);
@@ -104,6 +107,7 @@ private:
 
     Communicator& ranks_;
     std::shared_ptr<ExactBackend> backend_;
+    std::uint32_t share_pixels_;
     std::shared_ptr<const HostScene> scene_;
     std::uint32_t probes_ = 0;
     std::array<Film, FilmSlot::kCount> films_{};

@@ -17,7 +17,7 @@ PixelRange numbers_within(const PixelSubset& subset, PixelRange pixels, std::uin
 
 void Shares::cover(std::uint32_t end) {
     std::uint32_t begin = cuts_.empty() ? 0 : cuts_.back();
-    const std::uint64_t most = std::uint64_t{kMostPixels} * ranks_;
+    const std::uint64_t most = std::uint64_t{most_pixels_} * ranks_;
     while (begin < end) {
         // Equal blocks, rather than a short one at the end.
         const std::uint64_t left = (end - begin + most - 1) / most;

@@ -31,11 +31,12 @@ PixelRange numbers_within(const PixelSubset& subset, PixelRange pixels, std::uin
 /// rendered are a prefix of the film whatever the number of ranks.
 class Shares {
 public:
-    /// Pixels of a share, at most: tenths of a second of work, after which a request to stop is honored.
+    /// Pixels of a share, at most, unless a test asks for fewer: tenths of a second of work, after which a request to stop is honored.
     static constexpr std::uint32_t kMostPixels = 1u << 16;
 
     Shares() = default;
-    explicit Shares(int ranks) : ranks_(static_cast<std::uint32_t>(ranks)) {}
+    explicit Shares(int ranks, std::uint32_t most_pixels = kMostPixels)
+        : ranks_(static_cast<std::uint32_t>(ranks)), most_pixels_(most_pixels) {}
 
     /// Adds blocks until the film is shared out up to `end`. Blocks end there: the parts of a first pass, each of which waits for the
     /// one before, are shared out one by one.
@@ -60,7 +61,8 @@ private:
     void balance_block(std::size_t block, std::span<const double> seconds);
 
     std::uint32_t ranks_ = 1;
-    std::vector<std::uint32_t> cuts_;  ///< [block][cut]
+    std::uint32_t most_pixels_ = kMostPixels;  ///< of a share
+    std::vector<std::uint32_t> cuts_;          ///< [block][cut]
 };
 
 }  // namespace pl

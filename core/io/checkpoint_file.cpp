@@ -188,10 +188,23 @@ void require_usable_fields(SessionState& state, const std::filesystem::path& pat
     require_usable(checked, path);
 }
 
+/// Volumes whose tables the next pass is to clear.
+void require_known_volumes(const std::vector<std::int32_t>& forgotten, std::size_t volumes,
+                           const std::filesystem::path& path) {
+    for (const std::int32_t volume : forgotten)
+        if (volume < 0 || static_cast<std::size_t>(volume) >= volumes)
+            fail_damaged(path, kCheckpointKind.word,
+                         fmt::format("forgotten volume: expected one of {}, got {}", volumes, volume));
+}
+
 void require_usable(SessionState& state, const std::filesystem::path& path) {
-    for (const SavedField& field : state.fields)
-        if (field_bytes(field.arrays) > 0 && !(state.placement && info_of(field.method).uses_field))
+    for (const SavedField& field : state.fields) {
+        const bool has_tables = field_bytes(field.arrays) > 0;
+        if (has_tables && !(state.placement && info_of(field.method).uses_field))
             fail_damaged(path, kCheckpointKind.word, "tables: expected a method that learns, and volumes");
+        require_known_volumes(field.progress.forgotten, has_tables ? state.placement->volumes->normals.size() : 0,
+                              path);
+    }
     require_usable_fields(state, path);
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/io/checkpoint_file.h"
 #include "core/io/field_file.h"
 #include "core/io/files.h"
 #include "core/io/image.h"
@@ -148,8 +149,15 @@ void run_ply(std::string_view bytes) {
 void run_field(std::string_view bytes) {
     const fs::path as_it_is = folder().write("f.field", bytes);
     read_or_refuse([&] { read_field(as_it_is); });
-    const fs::path sealed = folder().write("f.field", sealed_field(std::string(bytes)));
+    const fs::path sealed = folder().write("f.field", sealed_again(std::string(bytes)));
     read_or_refuse([&] { read_field(sealed); });
+}
+
+void run_checkpoint(std::string_view bytes) {
+    const fs::path as_it_is = folder().write("c", bytes);
+    read_or_refuse([&] { read_checkpoint(as_it_is); });
+    const fs::path sealed = folder().write("c", sealed_again(std::string(bytes)));
+    read_or_refuse([&] { read_checkpoint(sealed); });
 }
 
 /// The first byte chooses the kind of image of the rest.
@@ -199,8 +207,14 @@ void run_script(std::string_view bytes) {
 #endif
 
 constexpr FuzzEntry kEntries[] = {
-    {"obj", run_obj},       {"json", run_json},   {"gltf", run_gltf},   {"mitsuba", run_mitsuba},
-    {"ply", run_ply},       {"field", run_field}, {"image", run_image},
+    {"obj", run_obj},
+    {"json", run_json},
+    {"gltf", run_gltf},
+    {"mitsuba", run_mitsuba},
+    {"ply", run_ply},
+    {"field", run_field},
+    {"checkpoint", run_checkpoint},
+    {"image", run_image},
 #if PL_FUZZ_SCRIPTS
     {"script", run_script},
 #endif
@@ -216,7 +230,7 @@ const FuzzEntry* find_fuzz_entry(std::string_view name) {
     return nullptr;
 }
 
-std::string sealed_field(std::string bytes) {
+std::string sealed_again(std::string bytes) {
     constexpr std::size_t kSizeAt = 8 + 4;  // behind the magic word and the version
     constexpr std::size_t kChecksumBytes = 8;
     if (bytes.size() < kSizeAt + 8 + kChecksumBytes) return bytes;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <random>
 
+#include "core/io/checkpoint_file.h"
 #include "core/io/field_file.h"
 #include "core/io/files.h"
 #include "tests/fuzz/entries.h"
@@ -94,7 +95,7 @@ TEST_CASE("Scripts of the corpora are played on the viewer's model and panels", 
 }
 #endif
 
-// A file of an older version is only refused: then the program make_field_corpus has to write the corpus anew.
+// Files of an older version are only refused: then the program make_sealed_corpora has to write the corpora anew.
 TEST_CASE("The corpus of fields holds one of this version", "[hard]") {
     const std::filesystem::path folder = std::filesystem::path(PL_SOURCE_DIR) / "tests/fuzz/corpus/field";
     CHECK_NOTHROW(read_field(folder / "small"));
@@ -102,5 +103,14 @@ TEST_CASE("The corpus of fields holds one of this version", "[hard]") {
     CHECK_THROWS(read_field(folder / "cut"));
     CHECK_THROWS(read_field(folder / "other"));
     const std::string small = read_file(folder / "small");
-    CHECK(sealed_field(small) == small);
+    CHECK(sealed_again(small) == small);
+}
+TEST_CASE("The corpus of checkpoints holds one of this version", "[hard]") {
+    const std::filesystem::path folder = std::filesystem::path(PL_SOURCE_DIR) / "tests/fuzz/corpus/checkpoint";
+    CHECK_NOTHROW(read_checkpoint(folder / "small"));
+    CHECK_NOTHROW(read_checkpoint(folder / "unplaced"));
+    CHECK_THROWS(read_checkpoint(folder / "cut"));
+    CHECK_THROWS(read_checkpoint(folder / "other"));
+    const std::string small = read_file(folder / "small");
+    CHECK(sealed_again(small) == small);
 }

@@ -5,6 +5,7 @@
 #include <barrier>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -51,6 +52,7 @@ public:
     std::vector<Bytes> exchange(std::span<const std::byte> own) override {
         ++traffic_.messages;
         traffic_.bytes_sent += own.size();
+        if (on_message_) on_message_();
         job_->slots[static_cast<std::size_t>(rank_)].assign(own.begin(), own.end());
         job_->all_here.arrive_and_wait();
         std::vector<Bytes> all = job_->slots;
@@ -73,6 +75,9 @@ public:
         queue.pop_front();
     }
 
+    /// Called with every message to all ranks, before it goes.
+    void set_on_message(std::function<void()> call) { on_message_ = std::move(call); }
+
     bool has_message(int from) override {
         const std::lock_guard lock(job_->mutex);
         return !job_->mail[{from, rank_}].empty();
@@ -91,6 +96,7 @@ private:
 
     std::shared_ptr<ThreadJob> job_;
     int rank_;
+    std::function<void()> on_message_;
 };
 
 inline std::unique_ptr<RenderBackend> small_batches(const std::string&, int threads) {
@@ -117,8 +123,10 @@ public:
     ThreadRanks(const ThreadRanks&) = delete;
     ThreadRanks& operator=(const ThreadRanks&) = delete;
 
-    std::shared_ptr<RenderBackend> backend(int threads) { return make_mpi_backend(first_, make_, "cpu", threads); }
-    Communicator& first() { return first_; }
+    std::shared_ptr<RenderBackend> backend(int threads, std::uint32_t share_pixels = Shares::kMostPixels) {
+        return make_mpi_backend(first_, make_, "cpu", threads, share_pixels);
+    }
+    ThreadRank& first() { return first_; }
 
 private:
     RankBackendFactory make_;  ///< gets the name with the number of the rank behind it
