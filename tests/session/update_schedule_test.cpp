@@ -83,17 +83,18 @@ TEST_CASE("A field with enough samples makes training samples in one pass of fou
     const auto is_well_trained = [&] {
         return session.export_field(MethodId::Reinforcement).progress.is_well_trained;
     };
-    while (!is_well_trained()) {
-        const std::uint64_t before = records();
+    std::uint64_t before = 0;
+    do {
+        before = records();
         render_passes(session, 1);
         REQUIRE(records() > before);
-    }
+    } while (!is_well_trained());
     CHECK(records() >= kEnoughSamplesPerVolume * 60);
     const std::uint32_t enough = std::max(session.passes(slot_of(session)), 16u);
     REQUIRE(enough < 40);
     render_passes(session, enough - session.passes(slot_of(session)));
     for (std::uint32_t pass = enough; pass < enough + 9; ++pass) {
-        const std::uint64_t before = records();
+        before = records();
         render_passes(session, 1);
         INFO("pass " << pass);
         CHECK((records() > before) == (pass % 4 == 3));
@@ -105,7 +106,7 @@ TEST_CASE("A field with enough samples makes training samples in one pass of fou
 
     session.apply(EditForgetVolume{MethodId::Reinforcement, 0});
     for (int pass = 0; pass < 3; ++pass) {
-        const std::uint64_t before = records();
+        before = records();
         render_passes(session, 1);
         CHECK(records() > before);  // the volume learns again
     }
