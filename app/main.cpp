@@ -50,11 +50,12 @@ int tell(const std::string& message, ErrorKind kind, Console& console) {
     return static_cast<int>(kind);
 }
 
-/// Runs `body` and turns errors into messages and exit codes.
-template <class Body>
-int guarded(Console& console, Body&& body) {
+/// run(), with errors turned into messages and exit codes.
+int run_guarded(const std::vector<std::string>& arguments, Console& console) {
     try {
-        return body();
+        const int code = run(arguments, console);
+        console.finish();
+        return code;
     } catch (const Error& error) {
         return tell(error.what(), error.kind(), console);
     } catch (const std::bad_alloc&) {
@@ -94,11 +95,7 @@ int follow(Communicator& job, const std::vector<std::string>& arguments, Console
 /// Rank 0 of a job: the other ranks end with it.
 int lead(Communicator& job, const std::vector<std::string>& arguments, Console& console) {
     share_over(&job);
-    const int code = guarded(console, [&] {
-        const int result = run(arguments, console);
-        console.finish();
-        return result;
-    });
+    const int code = run_guarded(arguments, console);
     share_over(nullptr);
     try {
         end_ranks(job);
@@ -117,9 +114,5 @@ int main(int argc, char** argv) {
     const std::unique_ptr<Communicator> job = join(console, code);
     if (code != 0) return code;
     if (job) return job->rank() == 0 ? lead(*job, arguments, console) : follow(*job, arguments, console);
-    return guarded(console, [&] {
-        const int result = run(arguments, console);
-        console.finish();
-        return result;
-    });
+    return run_guarded(arguments, console);
 }

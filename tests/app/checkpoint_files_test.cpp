@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/program/joined_arguments.h"
 #include "tests/support/program/refusal.h"
 
 namespace pl::test {
@@ -11,11 +12,6 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-Arguments joined(Arguments arguments, const Arguments& more) {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-}
 
 Arguments render(const std::string& output, std::uint32_t spp, const Arguments& more) {
     return joined({"render", "cornell", "-o", output, "--size", "32x32", "--volumes", "60", "--bins", "64",

@@ -4,18 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.hpp"
-#include "tests/support/program/run_program.h"
+#include "tests/support/program/joined_arguments.h"
 
 namespace pl::test {
 namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-Arguments joined(Arguments arguments, const Arguments& more) {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-}
 
 /// As root in a container, with more ranks than cores; a job that hangs is ended.
 const ProgramSetup kSetup{.set = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",

@@ -54,6 +54,17 @@ void check_ranks(std::initializer_list<Size> sizes, std::uint32_t passes) {
     }
 }
 
+/// Checks that six passes over ranks have the bits of one process, which is returned.
+Session check_six_passes(int count, const SceneDescription& scene, const RenderSettings& settings) {
+    Session one = make_session(scene, settings, 2);
+    render_passes(one, 6);
+    ThreadRanks ranks(count);
+    Session session = over(ranks, scene, settings);
+    render_passes(session, 6);
+    CHECK(same_state(state_of(one), state_of(session)));
+    return one;
+}
+
 }  // namespace
 
 TEST_CASE("Any number of ranks and threads gives the bits of one rank") { check_ranks({{2, 1}, {3, 2}, {8, 2}}, 9); }
@@ -66,13 +77,7 @@ TEST_CASE("A scene that needs every effect has the bits of one rank") {
     const SceneDescription scene = every_effect();
     for (const Estimator estimator : {kEstimators[1], kEstimators[5]}) {
         INFO(estimator);
-        const RenderSettings settings = small_settings(scene, estimator);
-        Session one = make_session(scene, settings, 2);
-        render_passes(one, 6);
-        ThreadRanks ranks(3);
-        Session session = over(ranks, scene, settings);
-        render_passes(session, 6);
-        CHECK(same_state(state_of(one), state_of(session)));
+        check_six_passes(3, scene, small_settings(scene, estimator));
     }
 }
 
@@ -82,13 +87,8 @@ TEST_CASE("Borders of lamps are found across the borders of shares") {
     RenderSettings settings = small_settings(scene, {MethodId::Default, true});
     settings.camera.aperture_radius = 0.05f;
     settings.camera.focus_distance = 1.0f;
-    Session one = make_session(scene, settings, 2);
-    render_passes(one, 6);
+    const Session one = check_six_passes(24, scene, settings);
     CHECK(one.snapshot(slot_of(one)).counters.path.emission_rays > 6 * 61 * 47);
-    ThreadRanks ranks(24);
-    Session session = over(ranks, scene, settings);
-    render_passes(session, 6);
-    CHECK(same_state(state_of(one), state_of(session)));
 }
 
 // Small pictures decide by trials between their passes; larger ones by a warm-up before the first one.
