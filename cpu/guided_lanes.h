@@ -3,8 +3,7 @@
 // unit square, so that lanes of different strategies do not diverge.
 #pragma once
 
-#include "cpu/lane_kernels.h"
-#include "cpu/lanes.h"
+#include "cpu/group_rows.h"
 #include "cpu/philox_lanes.h"
 
 namespace pl {
@@ -12,34 +11,37 @@ namespace {
 
 /// Samples directions for one vector of a group in steps. Each step prefetches the table entries of the next, since
 /// tables exceed the caches; the latency is hidden by the same step of the other vectors.
-class GuidedLanes {
+class GuidedLanes : GroupRows {
 public:
-    PL_INLINE GuidedLanes(const TableSampler& tables, const GuidedGroup& paths, std::uint32_t first)
-        : tables_(tables), first_(first),
-          paths_(paths), point_{{load_lanes<LaneInt>(paths.volume + first), vector(paths.site),
-                                 vector(paths.volume_normal), row(paths.inverse_reach), vector(paths.position)},
-                                vector(paths.shading_normal),
-                                row(paths.bsdf_fraction)} {}
+    PL_INLINE GuidedLanes(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
+                          std::uint32_t first)
+        : GroupRows(first), tables_(tables),
+          vertices_(vertices), point_{{integers(paths.volume), vector(paths.site),
+                                       vector(paths.volume_normal), row(paths.inverse_reach), vector(vertices.position)},
+                                      vector(vertices.shading_normal),
+                                      row(paths.bsdf_fraction)} {}
 
     PL_INLINE void sample_rows(SampledGroup& sampled) const {
         const LaneInt guided = is_guided();
         const DirectionTables<Lanes> tables = tables_of(guided);
-        const LaneInt table_row = select(guided, sample_row(tables, row(paths_.u_y)), LaneInt{});
-        store_lanes(table_row, sampled.row + first_);
+        const LaneInt table_row = select(guided, sample_row(tables, row(vertices_.scatter.z)), LaneInt{});
+        store(table_row, sampled.row);
         for (int column = 0; column < tables_.cells.side; column += kFloatsPerLine)
             Lanes::prefetch(tables_.column_cdf, tables.first_of_row(table_row) + column);
     }
 
     PL_INLINE void sample_direction(SampledGroup& sampled) const {
-        const Real3<Lanes> wi = mixture_direction(load_lanes<LaneInt>(sampled.row + first_));
-        store(wi.x, sampled.direction.x);
-        store(wi.y, sampled.direction.y);
-        store(wi.z, sampled.direction.z);
+        const Real3<Lanes> wi = mixture_direction(integers(sampled.row));
+        store(wi, sampled.direction);
         locate(wi, sampled);
     }
 
-    /// The same for directions that come in `sampled`.
-    PL_INLINE void locate_direction(SampledGroup& sampled) const { locate(vector(sampled.direction), sampled); }
+    /// The same for the directions towards lights.
+    PL_INLINE void locate_light(const LightSampleGroup& lights, SampledGroup& sampled) const {
+        const Real3<Lanes> wi = vector(lights.wi);
+        store(wi, sampled.direction);
+        locate(wi, sampled);
+    }
 
     PL_INLINE void weigh(const SampledGroup& sampled, DirectionGroup& directions) const {
         const Real3<Lanes> wi = vector(sampled.direction);
@@ -51,12 +53,10 @@ public:
         const LaneFloat bsdf_pdf_sa = cosine_pdf_sa<Lanes>(dot(wi, point_.shading_normal));
         const LaneFloat a = point_.bsdf_fraction;
         const LaneFloat mixed = a * bsdf_pdf_sa + (1.0f - a) * table.pdf_sa;
-        store(wi.x, directions.x);
-        store(wi.y, directions.y);
-        store(wi.z, directions.z);
+        store(wi, directions.wi);
         store(select(served, mixed, bsdf_pdf_sa), directions.pdf_sa);
         store(bsdf_pdf_sa, directions.bsdf_pdf_sa);
-        store_lanes(select(served, table.cell, Lanes::constant(-1)), directions.bin + first_);
+        store(select(served, table.cell, Lanes::constant(-1)), directions.bin);
     }
 
 private:
@@ -78,7 +78,7 @@ private:
 
     /// Mask of the lanes that sample the table rather than the BSDF.
     PL_INLINE LaneInt is_guided() const {
-        return (point_.served.volume >= 0) & (row(paths_.choice) >= point_.bsdf_fraction);
+        return (point_.served.volume >= 0) & (row(vertices_.scatter.x) >= point_.bsdf_fraction);
     }
     /// The table of each lane's volume; of volume 0 in lanes outside the mask.
     PL_INLINE DirectionTables<Lanes> tables_of(const LaneInt& wanted) const {
@@ -86,7 +86,7 @@ private:
     }
     PL_INLINE Real3<Lanes> mixture_direction(const LaneInt& table_row) const {
         const LaneInt guided = is_guided();
-        const Real2<Lanes> u{row(paths_.u_x), row(paths_.u_y)};
+        const Real2<Lanes> u{row(vertices_.scatter.y), row(vertices_.scatter.z)};
         Real2<Lanes> square = u;
         if (Lanes::any(guided)) square = select(guided, sample_square(tables_of(guided), table_row, u), u);
         const FrameOf<Lanes> frame = make_frame(select(guided, point_.served.normal, point_.shading_normal));
@@ -94,41 +94,46 @@ private:
         return select(guided, TableSampler::parallax_of(point_.served).to_point(direction), direction);
     }
 
-    PL_INLINE LaneFloat row(const float* values) const { return load_lanes<LaneFloat>(values + first_); }
-    PL_INLINE Real3<Lanes> vector(const VectorGroup& group) const {
-        return {row(group.x), row(group.y), row(group.z)};
-    }
-    PL_INLINE void store(const LaneFloat& lanes, float* values) const { store_lanes(lanes, values + first_); }
 
     const TableSampler& tables_;
-    std::uint32_t first_;
-    const GuidedGroup& paths_;
+    const VertexGroup& vertices_;
     MixturePoint<Lanes> point_;
 };
 
-PL_INLINE void sample_rows_of_group(const TableSampler& tables, const GuidedGroup& paths, SampledGroup& sampled) {
-    for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-        GuidedLanes(tables, paths, first).sample_rows(sampled);
+/// Calls step(lanes, group) for every vector of every group.
+template <class Step>
+PL_INLINE void for_guided_lanes(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+                                std::uint32_t groups, const Step& step) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            step(GuidedLanes(tables, vertices[group], paths[group], first), group);
 }
 
-PL_INLINE void weigh_guided_groups(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
-                                   DirectionGroup* directions, std::uint32_t groups) {
-    for (std::uint32_t group = 0; group < groups; ++group)
-        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            GuidedLanes(tables, paths[group], first).locate_direction(sampled[group]);
-    for (std::uint32_t group = 0; group < groups; ++group)
-        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            GuidedLanes(tables, paths[group], first).weigh(sampled[group], directions[group]);
+PL_INLINE void sample_rows_of_group(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
+                                    SampledGroup& sampled) {
+    for_guided_lanes(tables, &vertices, &paths, 1,
+                     [&](const GuidedLanes& lanes, std::uint32_t) { lanes.sample_rows(sampled); });
 }
 
-PL_INLINE void sample_guided_groups(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
-                                    DirectionGroup* directions, std::uint32_t groups) {
-    for (std::uint32_t group = 0; group < groups; ++group)
-        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            GuidedLanes(tables, paths[group], first).sample_direction(sampled[group]);
-    for (std::uint32_t group = 0; group < groups; ++group)
-        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            GuidedLanes(tables, paths[group], first).weigh(sampled[group], directions[group]);
+PL_INLINE void weigh_guided_groups(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+                                   const LightSampleGroup* lights, DirectionGroup* directions, std::uint32_t groups) {
+    SampledGroup sampled[kBlockGroups];
+    for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
+        lanes.locate_light(lights[group], sampled[group]);
+    });
+    for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
+        lanes.weigh(sampled[group], directions[group]);
+    });
+}
+
+PL_INLINE void sample_guided_groups(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+                                    SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
+    for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
+        lanes.sample_direction(sampled[group]);
+    });
+    for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
+        lanes.weigh(sampled[group], directions[group]);
+    });
 }
 
 }  // namespace

@@ -71,13 +71,22 @@ struct alignas(64) VectorGroup {
     Vec3f get(std::uint32_t lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 
-/// 16 paths at vertices of a guided method. Lanes that were never set have no volume.
+/// 16 vertices of paths at Lambert reflectors, with the random numbers of each.
+struct alignas(64) VertexGroup {
+    VectorGroup position, geometric_normal, shading_normal;
+    float position_error[kGroupSize] = {};
+    std::uint32_t primitive[kGroupSize] = {};
+    VectorGroup albedo;
+    VectorGroup throughput;  ///< of the path before the roulette at the vertex
+    VectorGroup scatter;     ///< x, y, z of ScatterNumbers::u
+    NumberGroup light;       ///< VertexNumbers::light
+};
+
+/// The volumes of a VertexGroup for a method guided by tables. Lanes that were never set have no volume.
 struct alignas(64) GuidedGroup {
     std::int32_t volume[kGroupSize];
     VectorGroup site, volume_normal;
     float inverse_reach[kGroupSize] = {}, bsdf_fraction[kGroupSize] = {};
-    VectorGroup position, shading_normal;
-    float choice[kGroupSize] = {}, u_x[kGroupSize] = {}, u_y[kGroupSize] = {};  ///< x, y, z of ScatterNumbers::u
 
     GuidedGroup() { std::fill_n(volume, kGroupSize, kNoVolume); }
 
@@ -97,22 +106,33 @@ struct alignas(64) SampledGroup {
     float square_x[kGroupSize], square_y[kGroupSize], cosine[kGroupSize], jacobian[kGroupSize];  ///< TableDirection
 };
 
-/// Sampled directions of a GuidedGroup; members as in DirectionSample.
+/// Sampled directions of a VertexGroup; members as in DirectionSample.
 struct alignas(64) DirectionGroup {
-    float x[kGroupSize] = {}, y[kGroupSize] = {}, z[kGroupSize] = {};
+    VectorGroup wi;
     float pdf_sa[kGroupSize] = {}, bsdf_pdf_sa[kGroupSize] = {};
     std::int32_t bin[kGroupSize] = {};
 
-    DirectionSample get(std::uint32_t lane) const {
-        return {{x[lane], y[lane], z[lane]}, pdf_sa[lane], bsdf_pdf_sa[lane], bin[lane]};
+    DirectionSample get(std::uint32_t lane) const { return {wi.get(lane), pdf_sa[lane], bsdf_pdf_sa[lane], bin[lane]}; }
+    void set(std::uint32_t lane, const DirectionSample& sample) {
+        wi.set(lane, sample.wi);
+        pdf_sa[lane] = sample.pdf_sa;
+        bsdf_pdf_sa[lane] = sample.bsdf_pdf_sa;
+        bin[lane] = sample.bin;
     }
+};
+
+/// The paths of a VertexGroup, scattered into sampled directions.
+struct alignas(64) ScatteredGroup {
+    std::int32_t is_lit[kGroupSize] = {};  ///< 0: f cos is 0 in the direction, or its density is
+    VectorGroup weight;                    ///< f cos / pdf
+    VectorGroup origin;                    ///< of the ray in the direction
 };
 
 /// Lights as plain pointers, a row of numbers per column.
 struct LightColumns {
     /// The first of three columns, or the only one.
     static constexpr int kCorner0 = 0, kCorner1 = 3, kCorner2 = 6, kNormal = 9, kPositionError = 12, kPdfArea = 13,
-                         kCumulative = 14, kCount = 15;
+                         kCumulative = 14, kEmission = 15, kBackEmission = 18, kPrimitive = 21, kCount = 22;
 
     const float* numbers;  ///< [column][light]
     std::uint32_t count;
@@ -120,23 +140,21 @@ struct LightColumns {
     PL_INLINE const float* row(int column) const { return numbers + static_cast<std::uint32_t>(column) * count; }
 };
 
-/// 16 Lambert reflectors that lights are sampled for, and the numbers for it.
-struct alignas(64) ReceiverGroup {
-    VectorGroup position, geometric_normal, shading_normal;
-    float position_error[kGroupSize] = {};
-    float u[3][kGroupSize] = {};
-};
-
-/// A light sample for each of a ReceiverGroup, without emission.
+/// A light sample for each of a VertexGroup: members as in DirectLight, and the results of weighing it.
 struct alignas(64) LightSampleGroup {
     std::int32_t light[kGroupSize] = {};      ///< its number
     std::int32_t is_near[kGroupSize] = {};    ///< not 0: the light may be sampled by solid angle, this sample is none
     std::int32_t is_behind[kGroupSize] = {};  ///< not 0: its back is seen
+    VectorGroup weights;                      ///< barycentric, on the light
     float cos_i[kGroupSize] = {};
     float pdf_sa[kGroupSize] = {};  ///< 0: nothing can be reflected
-    VectorGroup weights;            ///< barycentric, on the light
-    VectorGroup wi;
-    VectorGroup origin, direction;  ///< of the shadow ray
+    VectorGroup wi, emitted;
+    std::uint32_t target[kGroupSize] = {};  ///< the light's primitive; kNoPrimitive: a far light
+    VectorGroup origin, direction;          ///< of the shadow ray
+    float weight[kGroupSize] = {};          ///< the MIS weight over pdf_sa
+    VectorGroup reflected;                  ///< f cos times emitted
+    VectorGroup contribution;               ///< ShadowRequest::contribution
+    float irradiance[kGroupSize] = {};      ///< LightEstimate::irradiance
 };
 
 struct LaneKernels {
@@ -154,16 +172,29 @@ struct LaneKernels {
     void (*draw_vertices)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers,
                           std::uint32_t groups);
     /// Samples table rows for sample_guided() and prefetches the columns it reads.
-    void (*sample_rows)(const TableSampler& tables, const GuidedGroup& paths, SampledGroup& sampled);
-    /// Guided::sample_direction() of every path, at Lambert reflectors.
-    void (*sample_guided)(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
-                          DirectionGroup* directions, std::uint32_t groups);
-    /// Guided::pdf_sa() of the directions in `sampled`, at Lambert reflectors.
-    void (*weigh_guided)(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
-                         DirectionGroup* directions, std::uint32_t groups);
-    /// Samples a light for every receiver.
-    void (*sample_lights)(const LightColumns& lights, const ReceiverGroup* receivers, LightSampleGroup* samples,
+    void (*sample_rows)(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
+                        SampledGroup& sampled);
+    /// Guided::sample_direction() at every vertex.
+    void (*sample_guided)(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+                          SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups);
+    /// Guided::pdf_sa() towards every light.
+    void (*weigh_guided)(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+                         const LightSampleGroup* lights, DirectionGroup* directions, std::uint32_t groups);
+    /// DefaultMethod::sample_direction() at every vertex.
+    void (*sample_lambert)(const VertexGroup* vertices, DirectionGroup* directions, std::uint32_t groups);
+    /// DefaultMethod::pdf_sa() towards every light.
+    void (*weigh_lambert)(const VertexGroup* vertices, const LightSampleGroup* lights, DirectionGroup* directions,
                           std::uint32_t groups);
+    /// Samples a light for every vertex.
+    void (*sample_lights)(const LightColumns& lights, const VertexGroup* vertices, LightSampleGroup* samples,
+                          std::uint32_t groups);
+    /// Weighs the light samples by multiple importance sampling, with the densities in `directions`. Clears pdf_sa of those that
+    /// cannot contribute.
+    void (*weigh_lights)(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,
+                         std::uint32_t groups);
+    /// Scatters every path into its direction, see scatter_lambert().
+    void (*scatter)(const VertexGroup* vertices, const DirectionGroup* directions, ScatteredGroup* scattered,
+                    std::uint32_t groups);
     /// Whether any cell of a volume has new training samples.
     bool (*has_samples)(const TableUpdateView& field, std::uint32_t volume);
     /// The update of one volume's table: update_volume() without the BSDF fraction and the reach. Returns false, and changes

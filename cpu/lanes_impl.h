@@ -6,6 +6,7 @@
 #include "cpu/guided_lanes.h"
 #include "cpu/light_lanes.h"
 #include "cpu/update_lanes.h"
+#include "cpu/vertex_lanes.h"
 #include "cpu/wide_lanes.h"
 
 namespace pl {
@@ -35,23 +36,50 @@ void draw_vertices(const DrawKey& key, const CounterGroup* counters, NumberGroup
     draw_vertex_groups(key, counters, numbers, groups);
 }
 
-void sample_rows(const TableSampler& tables, const GuidedGroup& paths, SampledGroup& sampled) {
-    sample_rows_of_group(tables, paths, sampled);
+void sample_rows(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
+                 SampledGroup& sampled) {
+    sample_rows_of_group(tables, vertices, paths, sampled);
 }
 
-void sample_guided(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
-                   DirectionGroup* directions, std::uint32_t groups) {
-    sample_guided_groups(tables, paths, sampled, directions, groups);
+void sample_guided(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+                   SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
+    sample_guided_groups(tables, vertices, paths, sampled, directions, groups);
 }
 
-void weigh_guided(const TableSampler& tables, const GuidedGroup* paths, SampledGroup* sampled,
-                  DirectionGroup* directions, std::uint32_t groups) {
-    weigh_guided_groups(tables, paths, sampled, directions, groups);
+void weigh_guided(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+                  const LightSampleGroup* lights, DirectionGroup* directions, std::uint32_t groups) {
+    weigh_guided_groups(tables, vertices, paths, lights, directions, groups);
 }
 
-void sample_lights(const LightColumns& lights, const ReceiverGroup* receivers, LightSampleGroup* samples,
+void sample_lambert(const VertexGroup* vertices, DirectionGroup* directions, std::uint32_t groups) {
+    for_vertex_lanes(vertices, groups,
+                     [&](const VertexLanes& lanes, std::uint32_t group) { lanes.sample_lambert(directions[group]); });
+}
+
+void weigh_lambert(const VertexGroup* vertices, const LightSampleGroup* lights, DirectionGroup* directions,
                    std::uint32_t groups) {
-    sample_lights_of_groups(lights, receivers, samples, groups);
+    for_vertex_lanes(vertices, groups, [&](const VertexLanes& lanes, std::uint32_t group) {
+        lanes.weigh_lambert(lights[group], directions[group]);
+    });
+}
+
+void sample_lights(const LightColumns& lights, const VertexGroup* vertices, LightSampleGroup* samples,
+                   std::uint32_t groups) {
+    sample_lights_of_groups(lights, vertices, samples, groups);
+}
+
+void weigh_lights(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,
+                  std::uint32_t groups) {
+    for_vertex_lanes(vertices, groups, [&](const VertexLanes& lanes, std::uint32_t group) {
+        lanes.weigh_light(directions[group], samples[group]);
+    });
+}
+
+void scatter(const VertexGroup* vertices, const DirectionGroup* directions, ScatteredGroup* scattered,
+             std::uint32_t groups) {
+    for_vertex_lanes(vertices, groups, [&](const VertexLanes& lanes, std::uint32_t group) {
+        lanes.scatter(directions[group], scattered[group]);
+    });
 }
 
 bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return any_sample_in_lanes(field, volume); }
@@ -59,9 +87,23 @@ bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return an
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name,          find_closest,  find_occluded, find_closest_wide, find_occluded_wide,
-            draw,          draw_vertices, sample_rows,   sample_guided,     weigh_guided,
-            sample_lights, has_samples,   update_table};
+    return {name,
+            find_closest,
+            find_occluded,
+            find_closest_wide,
+            find_occluded_wide,
+            draw,
+            draw_vertices,
+            sample_rows,
+            sample_guided,
+            weigh_guided,
+            sample_lambert,
+            weigh_lambert,
+            sample_lights,
+            weigh_lights,
+            scatter,
+            has_samples,
+            update_table};
 }
 
 }  // namespace

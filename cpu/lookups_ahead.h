@@ -10,25 +10,6 @@
 
 namespace pl {
 
-/// Paths per block: their state fits into the L1 cache.
-inline constexpr std::uint32_t kGuidedBlock = 64;
-inline constexpr std::uint32_t kGuidedGroups = group_count(kGuidedBlock);
-
-/// The numbers of at most kGuidedBlock paths that are treated at once.
-class BlockPaths {
-public:
-    std::uint32_t count() const { return count_; }
-    void clear() { count_ = 0; }
-    std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
-
-protected:
-    void append(std::uint32_t path) { paths_[count_++] = path; }
-
-private:
-    std::uint32_t count_ = 0;
-    std::uint32_t paths_[kGuidedBlock];
-};
-
 /// A method guided by tables. `found` is the volume of the next surface point; if nullptr, locate() looks it up.
 template <class M>
 struct LookedUpAhead : M {
@@ -40,7 +21,7 @@ struct LookedUpAhead : M {
     }
 };
 
-/// The volumes at the hits of at most kGuidedBlock rays.
+/// The volumes at the hits of at most kPathBlock rays.
 class LookupsAhead {
 public:
     /// Prefetches the grid cells of rays [first, end). Skips rays that miss, or hit a surface that does not reflect.
@@ -70,10 +51,10 @@ private:
     std::uint32_t first_ = 0;
     std::uint32_t count_ = 0;
     std::uint64_t known_ = 0;  ///< one bit per ray
-    static_assert(kGuidedBlock <= 64);
-    Pending pending_[kGuidedBlock];
-    FoundVolume found_[kGuidedBlock];
-    SurfacePoint points_[kGuidedBlock];
+    static_assert(kPathBlock <= 64);
+    Pending pending_[kPathBlock];
+    FoundVolume found_[kPathBlock];
+    SurfacePoint points_[kPathBlock];
 };
 
 }  // namespace pl

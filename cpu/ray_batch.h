@@ -14,6 +14,10 @@ inline constexpr std::uint32_t kGroupSize = 16;
 
 constexpr std::uint32_t group_count(std::uint32_t count) { return (count + kGroupSize - 1) / kGroupSize; }
 
+/// Paths per block: their vertices fit into the L1 cache.
+inline constexpr std::uint32_t kPathBlock = 64;
+inline constexpr std::uint32_t kBlockGroups = group_count(kPathBlock);
+
 /// 16 rays. Lanes that were never set hold the default ray.
 struct alignas(64) RayGroup {
     float origin_x[kGroupSize] = {}, origin_y[kGroupSize] = {}, origin_z[kGroupSize] = {};

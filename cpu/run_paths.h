@@ -11,8 +11,9 @@
 
 #include "core/kernel/integrator/steps.h"
 #include "core/session/backend.h"
-#include "cpu/guided_block.h"
-#include "cpu/light_candidates.h"
+#include "cpu/direction_block.h"
+#include "cpu/guided_memory.h"
+#include "cpu/light_block.h"
 #include "cpu/path_source.h"
 #include "cpu/ray_batch.h"
 #include "cpu/solid_hits.h"
@@ -57,7 +58,7 @@ public:
           numbers_(setup.batch_paths, kSamplesLights && setup.path.next_event != 0), rays_(setup.batch_paths),
           shadows_(kSamplesLights ? setup.batch_paths : 0), shadow_paths_(shadows_.size()),
           shadow_rays_(static_cast<std::uint32_t>(shadows_.size())),
-          solid_hits_(setup.scene, intersector, setup.batch_paths), block_(method_, shared) {}
+          solid_hits_(setup.scene, intersector, setup.batch_paths), guided_(method_, shared) {}
 
     /// The main loop: traces paths until the source is empty and the last path has ended.
     PassCounters run(PathSource& source) {
@@ -69,20 +70,12 @@ public:
             if constexpr (kSamplesLights) connect();
             retire(source);
         }
-        if constexpr (TableGuided<M>) {
-            block_.training.flush();
-            block_.lights.flush();
-        }
+        guided_.flush();
         return counters_;
     }
 
 private:
     static constexpr bool kSamplesLights = F.has(Feature::NextEventEstimation);
-    /// Whether lights are sampled by blocks. Methods whose light_sampled() has to come before a path is scattered sample them path by
-    /// path, unless a block is scattered after its lights.
-    static constexpr bool kSamplesLightsInLanes =
-        kSamplesLights && (TableGuided<M> || std::is_same_v<typename M::Light, MethodHooks::Light>);
-
     [[gnu::flatten, gnu::noinline]] void fill(PathSource& source) {
         while (active_ < setup_.batch_paths && start(source, active_)) ++active_;
     }
@@ -108,133 +101,145 @@ private:
 
     void extend() {
         shadow_count_ = 0;
-        if constexpr (TableGuided<M>)
-            extend_blocks();
-        else
-            for (std::uint32_t first = 0; first < active_; first += kGuidedBlock)
-                extend_each(first, std::min(first + kGuidedBlock, active_));
-    }
-
-    void extend_blocks() {
-        const auto end_of = [this](std::uint32_t first) { return std::min(first + kGuidedBlock, active_); };
-        block_.lookups[0].begin(setup_.scene, method_.field, rays_, 0, end_of(0));
-        for (std::uint32_t first = 0; first < active_; first += kGuidedBlock) {
-            const std::uint32_t block = first / kGuidedBlock;
+        const auto end_of = [this](std::uint32_t first) { return std::min(first + kPathBlock, active_); };
+        if constexpr (TableGuided<M>) begin_lookups(0, 0, end_of(0));
+        for (std::uint32_t first = 0; first < active_; first += kPathBlock) {
             const std::uint32_t next = end_of(first);
-            LookupsAhead& lookups = block_.lookups[block % 2];
-            block_.lookups[(block + 1) % 2].begin(setup_.scene, method_.field, rays_, next, end_of(next));
-            lookups.finish(method_.field);
-            extend_block(first, next, lookups);
+            if constexpr (TableGuided<M>) {
+                begin_lookups(first + kPathBlock, next, end_of(next));
+                lookups_of(first).finish(method_.field);
+            }
+            extend_block(first, next);
         }
     }
 
-    /// Shades and scatters paths [first, end) one by one: most of the run time of a small scene. Their lights may be sampled after that.
-    [[gnu::flatten, gnu::noinline]] void extend_each(std::uint32_t first, std::uint32_t end) {
-        if constexpr (kSamplesLightsInLanes) candidates_.clear();
-        for (std::uint32_t i = first; i < end; ++i) {
-            const VertexNumbers numbers = numbers_.numbers(i);
-            statuses_[i] = extend_path<F>(
-                context_, rays_.hit(i), numbers, states_[i],
-                [&](const ScatterPoint<F, M>& from) { request_light_later(i, from, numbers.light); }, counters_.path);
+    /// Begins the lookups of paths [begin, end) of the block of path `first`.
+    void begin_lookups(std::uint32_t first, std::uint32_t begin, std::uint32_t end) {
+        lookups_of(first).begin(setup_.scene, method_.field, rays_, begin, end);
+    }
+    /// The lookups of the block of path i, while those of the next one are under way.
+    auto& lookups_of(std::uint32_t i) { return guided_.lookups[i / kPathBlock % 2]; }
+
+    /// Shades and scatters paths [first, end): most of the run time of a small scene. In one loop each path is shaded up to the
+    /// roulette at its vertex; lights and directions are then sampled for all vertices at Lambert reflectors.
+    [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end) {
+        vertices_.clear();
+        for (std::uint32_t i = first; i < end; ++i) shade(i);
+        directions_.complete(vertices_);
+        if constexpr (kSamplesLights) {
+            if (samples_lights()) request_lights();
         }
-        if constexpr (kSamplesLightsInLanes) request_lights();
+        scatter_vertices();
     }
 
-    /// The same for paths [first, end) in two loops, so that directions are sampled in SIMD lanes.
-    [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end,
-                                                      const LookupsAhead& lookups) {
-        block_.scattered.clear();
-        if constexpr (kSamplesLightsInLanes) candidates_.clear();
-        for (std::uint32_t i = first; i < end; ++i) shade_ahead(i, lookups);
-        if constexpr (kSamplesLightsInLanes) request_lights();
-        block_.scattered.sample_directions();
-        for (std::uint32_t i = 0; i < block_.scattered.count(); ++i) {
-            const std::uint32_t path = block_.scattered.path(i);
-            typename M::Sample none{};
-            statuses_[path] = scatter_lambert(method_, block_.scattered.point(i), block_.scattered.direction(i),
-                                              states_[path], StepOutput<M>{none, counters_.path});
-        }
-    }
+    bool samples_lights() const { return kSamplesLights && setup_.path.next_event != 0; }
 
-    /// Shades path i with the surface point and volume of `lookups`.
-    void shade_ahead(std::uint32_t i, const LookupsAhead& lookups) {
+    void shade(std::uint32_t i) {
         typename M::Sample sample{};
         const StepOutput<M> out{sample, counters_.path};
-        const VertexNumbers numbers = numbers_.numbers(i);
         const Hit hit = rays_.hit(i);
-        method_.found = lookups.found(i);
-        const auto surface_of = [&]() -> decltype(auto) { return lookups.template surface<F>(setup_.scene, hit, i); };
-        ScatterPoint<F, M>& from = block_.scattered.next();
-        statuses_[i] = shade_hit<F, M>(context_, hit, surface_of, states_[i], {out, from});
-        if (statuses_[i] == PathStatus::Continues) {
-            request_light_later(i, from, numbers.light);
-            statuses_[i] = continue_path(context_, hit, numbers.scatter.w, states_[i], from, out);
+        ScatterPoint<F, M> from;
+        if constexpr (TableGuided<M>) {
+            const LookupsAhead& lookups = lookups_of(i);
+            method_.found = lookups.found(i);
+            const auto surface_of = [&]() -> decltype(auto) {
+                return lookups.template surface<F>(setup_.scene, hit, i);
+            };
+            statuses_[i] = shade_hit<F, M>(context_, hit, surface_of, states_[i], {out, from});
+        } else {
+            const auto surface_of = [&] { return make_surface_point<F>(setup_.scene, hit, -states_[i].ray.direction); };
+            statuses_[i] = shade_hit<F, M>(context_, hit, surface_of, states_[i], {out, from});
         }
-        if (statuses_[i] == PathStatus::Continues) scatter_later(i, numbers.scatter, out);
-        block_.training.push(sample);
+        if (statuses_[i] == PathStatus::Continues) statuses_[i] = leave(i, hit, from, out);
+        guided_.record(sample);
     }
 
-    /// Samples a light for path i at the vertex `from`, with those of the other paths of the block if lanes can.
-    void request_light_later(std::uint32_t i, const ScatterPoint<F, M>& from, Vec4f u) {
-        if constexpr (kSamplesLights) {
-            if (setup_.path.next_event == 0) return;
-            if constexpr (kSamplesLightsInLanes) {
-                if (candidates_.takes(from, u)) return candidates_.add(i, from, u, received_weights(states_[i]));
-            }
-            ShadowRequest<M> shadow;
-            request_light(context_, from, u, states_[i], shadow);
-            push(shadow, i);
-        }
-    }
-    /// Samples the lights of a block, and weighs them.
-    void request_lights() {
-        candidates_.sample();
-        if constexpr (TableGuided<M>) block_.lit.clear();
-        for (std::uint32_t k = 0; k < candidates_.count(); ++k) {
-            const UnweightedLight light = candidates_.light(k);
-            const ScatterPoint<F, M>& from = candidates_.point(k);
-            const std::uint32_t path = candidates_.path(k);
-            if (!(light.pdf_sa > 0.0f))
-                weigh(path, from.vertex, light, 0.0f);
-            else if constexpr (TableGuided<M>)
-                block_.lit.add(path, from, light);
-            else
-                weigh(path, from.vertex, light, scatter_pdf_sa(method_, from, light.wi));
-        }
-        if constexpr (TableGuided<M>) weigh_lights();
-    }
-    void weigh_lights() {
-        block_.lit.weigh_directions();
-        for (std::uint32_t k = 0; k < block_.lit.count(); ++k)
-            weigh(block_.lit.path(k), block_.lit.vertex(k), block_.lit.light(k), block_.lit.pdf_sa(k));
-    }
-    void weigh(std::uint32_t path, const typename M::Vertex& vertex, const UnweightedLight& light,
-               float scatter_pdf) {
-        ShadowRequest<M> shadow;
-        weigh_light<F>(method_, vertex, light, scatter_pdf, states_[path], shadow);
-        push(shadow, path);
-    }
-
-    /// Queues path i for the sampling of its direction at a Lambert reflector; scatters it at once at other surfaces.
-    void scatter_later(std::uint32_t i, Vec4f u, const StepOutput<M>& out) {
+    /// Plays roulette at the vertex `from` of path i. At a Lambert reflector its light and its direction are left to the block.
+    PathStatus leave(std::uint32_t i, const Hit& hit, ScatterPoint<F, M>& from, const StepOutput<M>& out) {
+        const VertexNumbers numbers = numbers_.numbers(i);
         if constexpr (F.has_any(kLobeFeatures)) {
-            const ScatterPoint<F, M>& from = block_.scattered.next();
-            if (!from.bsdf.is_lambert()) {
-                statuses_[i] =
-                    scatter_layered(method_, from, scatter_numbers(setup_.path, states_[i], u), states_[i], out);
-                return;
+            if (!from.bsdf.is_lambert()) return leave_alone(i, hit, numbers, from, out);
+        }
+        vertices_.add(i, from, states_[i].throughput, numbers);
+        if (samples_lights()) directions_.add(vertices_, from, numbers.scatter);
+        const PathStatus status = continue_path(context_, hit, numbers.scatter.w, states_[i], from, out);
+        if (status == PathStatus::Continues) {
+            if (!samples_lights()) directions_.add(vertices_, from, numbers.scatter);
+            vertices_.keep_last(from.roulette_weight);
+        } else if (!samples_lights()) {
+            vertices_.drop_last();
+        }
+        return status;
+    }
+    /// The same at another surface: path i is scattered at once.
+    PathStatus leave_alone(std::uint32_t i, const Hit& hit, const VertexNumbers& numbers, ScatterPoint<F, M>& from,
+                           const StepOutput<M>& out) {
+        if constexpr (kSamplesLights) {
+            ShadowRequest<M> shadow;
+            if (samples_lights()) {
+                request_light(context_, from, numbers.light, states_[i], shadow);
+                push(shadow, i);
             }
         }
-        block_.scattered.add(i, u);
+        const PathStatus status = continue_path(context_, hit, numbers.scatter.w, states_[i], from, out);
+        if (status == PathStatus::Finished) return status;
+        return scatter_layered(method_, from, scatter_numbers(setup_.path, states_[i], numbers.scatter), states_[i],
+                               out);
+    }
+
+    /// Samples and weighs the lights of the block's vertices.
+    void request_lights() {
+        lights_.sample(vertices_);
+        directions_.weigh_lights(vertices_, lights_.groups());
+        lights_.weigh(vertices_, directions_.groups());
+        for (std::uint32_t k = 0; k < vertices_.count(); ++k) request_light_of(k);
+    }
+    void request_light_of(std::uint32_t k) {
+        const std::uint32_t path = vertices_.path(k);
+        const bool wanted = lights_.is_wanted(k);
+        const Vec3f chain = received_weights(states_[path]).chain;
+        const typename M::Light light = method_.light_sampled(
+            states_[path].memory, vertices_.vertex(k), wanted ? lights_.estimate(k, chain) : LightEstimate{});
+        if (!wanted) return guided_.record_light(light, false);
+        ShadowRequest<M>& shadow = shadows_[shadow_count_];
+        shadow.contribution = lights_.contribution(k);
+        shadow.light = light;
+        shadow_rays_.set_ray(shadow_count_, lights_.shadow_ray(k, vertices_.primitive(k)));
+        shadow_paths_[shadow_count_++] = path;
+    }
+
+    /// Scatters the paths that continue from the block's vertices.
+    void scatter_vertices() {
+        directions_.sample(vertices_, states_.data());
+        kernels_.scatter(vertices_.groups(), directions_.groups(), scattered_, vertices_.group_count());
+        vertices_.for_continuing([this](std::uint32_t k) {
+            const std::uint32_t path = vertices_.path(k);
+            statuses_[path] = scatter_vertex(k, states_[path]);
+        });
+    }
+    PathStatus scatter_vertex(std::uint32_t k, PathState<F, M>& state) {
+        const std::uint32_t lane = k % kGroupSize;
+        const ScatteredGroup& to = scattered_[k / kGroupSize];
+        if (to.is_lit[lane] == 0) {
+            typename M::Sample none{};
+            return terminate_black(method_, state, StepOutput<M>{none, counters_.path});
+        }
+        const DirectionSample direction = directions_.groups()[k / kGroupSize].get(lane);
+        const Vec3f weight = to.weight.get(lane);
+        state.throughput *= weight;
+        state.ray = {.origin = to.origin.get(lane), .direction = direction.wi, .source = vertices_.primitive(k)};
+        state.direction_pdf_sa = direction.pdf_sa;
+        state.lights = learned_lights<F>(method_, vertices_.vertex(k));
+        leave_vertex(method_, vertices_.vertex(k),
+                     {vertices_.roulette_weight(k) * weight, vertices_.albedo(k), direction}, state, counters_.path);
+        return PathStatus::Continues;
     }
 
     void push(const ShadowRequest<M>& shadow, std::uint32_t path) {
-        if constexpr (kSamplesLights) {
-            if (!shadow.wanted) return record_light(shadow, false);
-            shadow_rays_.set_ray(shadow_count_, shadow.ray);
-            shadow_paths_[shadow_count_] = path;
-            shadows_[shadow_count_++] = shadow;
-        }
+        if (!shadow.wanted) return guided_.record_light(shadow.light, false);
+        shadow_rays_.set_ray(shadow_count_, shadow.ray);
+        shadow_paths_[shadow_count_] = path;
+        shadows_[shadow_count_++] = shadow;
     }
 
     [[gnu::flatten, gnu::noinline]] void connect() {
@@ -242,16 +247,9 @@ private:
         for (std::uint32_t i = 0; i < shadow_count_; ++i) {
             const bool is_visible = !shadow_rays_.occluded(i);
             if (is_visible) connect_light(method_, shadows_[i], states_[shadow_paths_[i]], counters_.path);
-            record_light(shadows_[i], is_visible);
+            guided_.record_light(shadows_[i].light, is_visible);
         }
         counters_.path.shadow_rays += shadow_count_;
-    }
-
-    void record_light(const ShadowRequest<M>& shadow, bool is_visible) {
-        if constexpr (TableGuided<M>)
-            block_.lights.push(shadow.light, is_visible);
-        else
-            method_.record_light(shadow.light, is_visible);
     }
 
     /// Marks the shadow rays that are occluded.
@@ -299,8 +297,12 @@ private:
     std::vector<std::uint32_t> shadow_paths_;
     RayBatch shadow_rays_;
     SolidHits<F, I> solid_hits_;
-    [[no_unique_address]] LightCandidates<F, M> candidates_{context_};
-    [[no_unique_address]] BlockMemory<F, M> block_;
+    LaneKernels kernels_ = best_lane_kernels();
+    VertexBlock<F, M> vertices_;
+    [[no_unique_address]] LightBlock<F, M> lights_{context_};
+    DirectionBlock<F, M> directions_{setup_.path, method_};
+    ScatteredGroup scattered_[kBlockGroups];
+    GuidedMemory<M> guided_;
     std::uint32_t active_ = 0;
     std::uint32_t shadow_count_ = 0;
     PassCounters counters_;

@@ -1,7 +1,7 @@
 // Guided directions sampled in SIMD lanes are bit-identical to those of the scalar code.
 #include <cstring>
 
-#include "cpu/guided_block.h"
+#include "cpu/direction_block.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 #include "tests/support/field/guided_methods.h"
@@ -30,11 +30,13 @@ float any_number(Uniforms& random) {
 void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, const std::vector<Vec3f>& normals,
                  Uniforms& random) {
     constexpr std::uint32_t kGroups = 3;
+    VertexGroup vertices[kGroups];
     GuidedGroup groups[kGroups];
     SampledGroup sampled[kGroups];
     DirectionGroup directions[kGroups];
     for (std::uint32_t i = 0; i < kGroups * kGroupSize; ++i) {
         GuidedGroup& group = groups[i / kGroupSize];
+        VertexGroup& at = vertices[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
         const auto volumes = static_cast<std::uint32_t>(normals.size());
         const auto volume = static_cast<std::int32_t>(random.below(volumes + 1)) - 1;
@@ -43,23 +45,23 @@ void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, co
         if (volume >= 0)
             group.set_volume(lane, method.field.served_point({volume}, SurfacePoint{}),
                              method.bsdf_fraction({volume}));
-        group.position.set(lane, position);
-        group.shading_normal.set(lane, normal);
-        group.choice[lane] = any_number(random);
-        group.u_x[lane] = any_number(random);
-        group.u_y[lane] = any_number(random);
+        at.position.set(lane, position);
+        at.shading_normal.set(lane, normal);
+        const float choice = any_number(random);
+        const float u = any_number(random);
+        at.scatter.set(lane, {choice, u, any_number(random)});
     }
-    for (std::uint32_t i = 0; i < kGroups; ++i) kernels.sample_rows(method.field.sampler(), groups[i], sampled[i]);
-    kernels.sample_guided(method.field.sampler(), groups, sampled, directions, kGroups);
+    for (std::uint32_t i = 0; i < kGroups; ++i)
+        kernels.sample_rows(method.field.sampler(), vertices[i], groups[i], sampled[i]);
+    kernels.sample_guided(method.field.sampler(), vertices, groups, sampled, directions, kGroups);
     for (std::uint32_t i = 0; i < kGroups * kGroupSize; ++i) {
-        const GuidedGroup& group = groups[i / kGroupSize];
+        const VertexGroup& at = vertices[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
         SurfacePoint surface;
-        surface.position = group.position.get(lane);
-        surface.shading_normal = group.shading_normal.get(lane);
-        const DirectionSample alone =
-            method.sample_direction({group.volume[lane]}, surface,
-                                    {.rng = {}, .u = {group.choice[lane], group.u_x[lane], group.u_y[lane], 0.0f}});
+        surface.position = at.position.get(lane);
+        surface.shading_normal = at.shading_normal.get(lane);
+        const DirectionSample alone = method.sample_direction({groups[i / kGroupSize].volume[lane]}, surface,
+                                                              {.rng = {}, .u = {at.scatter.get(lane), 0.0f}});
         REQUIRE(same_bits(directions[i / kGroupSize].get(lane), alone));
     }
 }
@@ -91,13 +93,19 @@ TEST_CASE("Every instruction set chooses the guided directions of one path alone
 
 TEST_CASE("Without volumes a block of paths scatters by the BSDF") {
     PrecomputedMethod method;
-    ScatterBlock<FeatureSet{}, PrecomputedMethod> block(method);
-    block.next() = {.surface = SurfacePoint{}, .bsdf = {Vec3f{0.5f}}};
-    block.add(7, {0.25f, 0.75f, 0.125f, 0.0f});
-    block.sample_directions();
+    const PathSettings settings;
+    VertexBlock<FeatureSet{}, PrecomputedMethod> block;
+    DirectionBlock<FeatureSet{}, PrecomputedMethod> directions(settings, method);
+    const ScatterPoint<FeatureSet{}, PrecomputedMethod> point{.surface = SurfacePoint{}, .bsdf = {Vec3f{0.5f}}};
+    block.clear();
+    block.add(7, point, Vec3f{1.0f}, {.scatter = {0.25f, 0.75f, 0.125f, 0.0f}});
+    block.keep_last(1.0f);
+    directions.add(block, point, {});
+    directions.complete(block);
+    directions.sample(block, nullptr);
     REQUIRE(block.count() == 1);
     CHECK(block.path(0) == 7);
-    const DirectionSample direction = block.direction(0);
+    const DirectionSample direction = directions.groups()[0].get(0);
     CHECK(direction.wi == lambert_sample(SurfacePoint{}, {0.75f, 0.125f}));
     CHECK(direction.pdf_sa == direction.bsdf_pdf_sa);
     CHECK(direction.bin == -1);

@@ -57,7 +57,11 @@ PL_HD inline bool is_finite(const Vec3f& v) {
 }
 
 /// Relative luminance of linear sRGB (Rec. 709 weights).
-PL_HD inline float luminance(Vec3f rgb) { return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z; }
+template <class Real>
+PL_INLINE Real luminance_of(const Real& red, const Real& green, const Real& blue) {
+    return 0.2126f * red + 0.7152f * green + 0.0722f * blue;
+}
+PL_HD inline float luminance(Vec3f rgb) { return luminance_of(rgb.x, rgb.y, rgb.z); }
 
 /// True if every channel is finite and not negative: the values that a film accepts.
 PL_HD inline bool is_valid_radiance(Vec3f v) {

@@ -105,6 +105,15 @@ template <class N>
 PL_INLINE Real3<N> scaled(const Real3<N>& v, const typename N::Real& factor) {
     return {v.x * factor, v.y * factor, v.z * factor};
 }
+/// Component by component.
+template <class N>
+PL_INLINE Real3<N> product(const Real3<N>& a, const Real3<N>& b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+template <class N>
+PL_INLINE typename N::Real luminance(const Real3<N>& rgb) {
+    return luminance_of(rgb.x, rgb.y, rgb.z);
+}
 template <class N>
 PL_INLINE typename N::Real dot(const Real3<N>& a, const Real3<N>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;

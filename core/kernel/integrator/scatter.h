@@ -76,24 +76,32 @@ PL_HD inline PathStatus terminate_black(const M& method, PathState<F, M>& state,
     return terminate_path(method, state, out);
 }
 
+/// The path leaves a vertex that may have a location. event.weight and event.albedo are those of this vertex alone.
+template <FeatureSet F, Method M>
+PL_HD inline void leave_vertex(const M& method, const typename M::Vertex& vertex, const ScatterEvent& event,
+                               PathState<F, M>& state, PathCounters& counters) {
+    Vec3f chain_weight{1.0f};
+    if constexpr (F.has_any(kLobeFeatures)) {
+        chain_weight = state.chain.weight;
+        state.chain = {};
+    }
+    method.scattered(state.memory, vertex,
+                     {chain_weight * event.weight, chain_weight * event.albedo, event.direction}, counters.method);
+}
+
 /// Sends the path into `direction` with weight f cos / pdf. direction.pdf_sa is that of scatter_pdf_sa(), 0 for a delta lobe.
 template <FeatureSet F, Method M>
 PL_HD inline PathStatus send_path(const M& method, const ScatterPoint<F, M>& from, const DirectionSample& direction,
                                   Vec3f weight, PathState<F, M>& state, PathCounters& counters) {
     state.throughput *= weight;
     state.ray = spawn_ray(from.surface, direction.wi);
-    Vec3f chain_weight{1.0f};
     if constexpr (F.has_any(kLobeFeatures)) {
         if (from.bsdf.is_specular()) {
             state.chain.weight *= weight;
             return PathStatus::Continues;
         }
-        chain_weight = state.chain.weight;
-        state.chain = {};
     }
-    method.scattered(state.memory, from.vertex,
-                     {chain_weight * (from.roulette_weight * weight), chain_weight * from.bsdf.albedo(), direction},
-                     counters.method);
+    leave_vertex(method, from.vertex, {from.roulette_weight * weight, from.bsdf.albedo(), direction}, state, counters);
     return PathStatus::Continues;
 }
 

@@ -19,7 +19,11 @@ PL_HD inline float reflection_cosine(const SurfacePoint& surface, Vec3f wi) {
 }
 
 /// BSDF times cos(theta_i), 1/sr.
-PL_HD inline Vec3f lambert_eval(Vec3f albedo, float cos_i) { return albedo * (cos_i * kInvPi); }
+template <class N>
+PL_INLINE Real3<N> lambert_eval(const Real3<N>& albedo, const typename N::Real& cos_i) {
+    return scaled(albedo, cos_i * kInvPi);
+}
+PL_HD inline Vec3f lambert_eval(Vec3f albedo, float cos_i) { return pack(lambert_eval(unpack(albedo), cos_i)); }
 
 /// Cosine-weighted direction around the shading normal; u in [0,1)^2. Density: lambert_pdf_sa.
 PL_HD inline Vec3f lambert_sample(const SurfacePoint& surface, Vec2f u) {

@@ -213,8 +213,13 @@ PL_HD inline Ray shadow_ray_to(const SurfacePoint& surface, const DirectLight& s
 
 /// Balance heuristic for two strategies with one sample each; densities in the same measure. A ratio, so that huge
 /// densities cannot overflow.   [Veach 1997, eq. 9.8]
+template <class N>
+PL_INLINE typename N::Real balance_weight(const typename N::Real& own_pdf, const typename N::Real& other_pdf) {
+    const auto weight = 1.0f / (1.0f + other_pdf / own_pdf);
+    return select(static_cast<typename N::Mask>(own_pdf > 0.0f), weight, N::constant(0.0f));
+}
 PL_HD inline float balance_weight(float own_pdf, float other_pdf) {
-    return own_pdf > 0.0f ? 1.0f / (1.0f + other_pdf / own_pdf) : 0.0f;
+    return own_pdf > 0.0f ? balance_weight<One>(own_pdf, other_pdf) : 0.0f;
 }
 
 }  // namespace pl

@@ -1,0 +1,40 @@
+// A vector of lanes of a group: loads and stores its rows. Included by one file per instruction set; see lanes.h.
+#pragma once
+
+#include "cpu/lane_kernels.h"
+#include "cpu/lanes.h"
+
+namespace pl {
+namespace {
+
+/// Lanes [first, first + kLaneWidth) of groups of kGroupSize.
+class GroupRows {
+public:
+    explicit PL_INLINE GroupRows(std::uint32_t first) : first_(first) {}
+
+protected:
+    PL_INLINE LaneFloat row(const float* values) const { return load_lanes<LaneFloat>(values + first_); }
+    template <class T>
+    PL_INLINE LaneInt integers(const T* values) const {
+        return load_lanes<LaneInt>(values + first_);
+    }
+    PL_INLINE Real3<Lanes> vector(const VectorGroup& group) const {
+        return {row(group.x), row(group.y), row(group.z)};
+    }
+    PL_INLINE void store(const LaneFloat& lanes, float* values) const { store_lanes(lanes, values + first_); }
+    template <class T>
+    PL_INLINE void store(const LaneInt& lanes, T* values) const {
+        store_lanes(lanes, values + first_);
+    }
+    PL_INLINE void store(const Real3<Lanes>& lanes, VectorGroup& group) const {
+        store(lanes.x, group.x);
+        store(lanes.y, group.y);
+        store(lanes.z, group.z);
+    }
+
+private:
+    std::uint32_t first_;
+};
+
+}  // namespace
+}  // namespace pl

@@ -1,0 +1,193 @@
+// Lights that are sampled in SIMD lanes are those of the scalar code, bit for bit, by every instruction set.
+#include "cpu/light_block.h"
+
+#include <cstring>
+#include <memory>
+
+#include "core/kernel/methods/default.h"
+#include "core/scene/pack_scene.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);
+
+/// Default path tracing that keeps the estimates it is told of.
+struct KeepsEstimates : DefaultMethod {
+    using Light = LightEstimate;
+
+    Light light_sampled(auto&, const auto&, const LightEstimate& estimate) const { return estimate; }
+    void record_light(const Light&, bool) const {}
+};
+using Context = PathContext<KeepsEstimates>;
+using Point = ScatterPoint<kLights, KeepsEstimates>;
+
+/// A room with triangles that shine: small, large, edge-on, and one without area.
+HostScene room_of_lights(int lights) {
+    SceneDescription scene;
+    scene.materials = {gray(), gray(0.3f)};
+    scene.materials[1].emission = glm::vec3{3.0f, 2.0f, 1.0f};
+    add_box(scene, Vec3f{-1.0f}, Vec3f{1.0f}, true);
+    Uniforms random(3);
+    for (int i = 0; i < lights; ++i) {
+        const Vec3f corner = random.cube(-0.9f, 0.9f);
+        const float size = std::exp2(-static_cast<float>(random.below(12)));
+        const Vec3f last = i == 2 ? corner : corner + size * random.direction();
+        add_triangle(scene, corner, corner + size * random.direction(), last, 1);
+    }
+    return pack_scene(scene);
+}
+
+/// A point on a surface, often on a light, seen from a random direction.
+Point random_point(const SceneView& scene, Uniforms& random) {
+    Vec3f b = random.cube(0.0f, 1.0f);
+    b *= 1.0f / (b.x + b.y + b.z);
+    const Vec3f wo = random.direction();
+    Point point;
+    point.surface = make_surface_point<kLights>(scene, random.below(scene.triangles.count), b, wo);
+    point.bsdf = make_bsdf<kLights>(scene, point.surface, b, wo);
+    return point;
+}
+
+Vec4f random_numbers(Uniforms& random) {
+    const Vec3f u = random.cube(0.0f, 1.0f);
+    return {u, random.next()};
+}
+
+bool same_bits(const Vec3f& a, const Vec3f& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+bool same_ray(const Ray& a, const Ray& b) {
+    return same_bits(a.origin, b.origin) && same_bits(a.direction, b.direction) && a.t_max == b.t_max &&
+           a.source == b.source && a.target == b.target;
+}
+
+/// The light sample of one path alone, weighed.
+ShadowRequest<KeepsEstimates> request_alone(const Context& context, const Point& point, Vec4f u, Vec3f throughput) {
+    PathState<kLights, KeepsEstimates> state;
+    state.throughput = throughput;
+    ShadowRequest<KeepsEstimates> shadow;
+    request_light(context, point, u, state, shadow);
+    return shadow;
+}
+
+bool same_light(const LightBlock<kLights, KeepsEstimates>& block, std::uint32_t i, const Point& point,
+                const ShadowRequest<KeepsEstimates>& alone) {
+    if (block.is_wanted(i) != alone.wanted) return false;
+    if (!alone.wanted) return true;
+    const LightEstimate estimate = block.estimate(i, Vec3f{1.0f});
+    return same_ray(block.shadow_ray(i, point.surface.primitive), alone.ray) &&
+           same_bits(block.contribution(i), alone.contribution) &&
+           same_bits(estimate.reflected, alone.light.reflected) && estimate.irradiance == alone.light.irradiance &&
+           estimate.cluster == alone.light.cluster;
+}
+
+struct Comparison {
+    int different = 0;
+    int lit = 0;   ///< vertices whose sample can contribute
+    int near = 0;  ///< vertices whose light may be sampled by solid angle
+};
+
+/// Blocks of every size up to the largest one.
+Comparison compare(const Context& context, const LaneKernels& kernels) {
+    Comparison result;
+    const auto block = std::make_unique<VertexBlock<kLights, KeepsEstimates>>();
+    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, kernels);
+    DirectionGroup directions[kBlockGroups];
+    Uniforms random(5);
+    for (std::uint32_t size = 0; size <= kPathBlock; ++size) {
+        block->clear();
+        std::vector<Point> points;
+        std::vector<ShadowRequest<KeepsEstimates>> expected;
+        for (std::uint32_t i = 0; i < size; ++i) {
+            points.push_back(random_point(context.scene, random));
+            const Vec4f u = random_numbers(random);
+            const Vec3f throughput = random.cube(0.0f, 1.0f);
+            block->add(i, points.back(), throughput, {.light = u});
+            expected.push_back(request_alone(context, points.back(), u, throughput));
+        }
+        lights->sample(*block);
+        kernels.weigh_lambert(block->groups(), lights->groups(), directions, block->group_count());
+        lights->weigh(*block, directions);
+        for (std::uint32_t i = 0; i < size; ++i) {
+            result.different += same_light(*lights, i, points[i], expected[i]) ? 0 : 1;
+            result.lit += expected[i].wanted ? 1 : 0;
+            result.near += lights->groups()[i / kGroupSize].is_near[i % kGroupSize] != 0 ? 1 : 0;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("Every instruction set samples the lights of the scalar code, bit for bit") {
+    for (const int lights : {1, 3, 20}) {
+        const HostScene scene = room_of_lights(lights);
+        const SceneView view = scene.view();
+        REQUIRE(view.light_tree.empty());
+        const KeepsEstimates method;
+        const PathSettings settings{.next_event = 1};
+        const Context context{view, method, settings};
+        for (const LaneKernels& kernels : usable_lane_kernels()) {
+            INFO(kernels.isa << ", " << lights << " lights");
+            const Comparison result = compare(context, kernels);
+            CHECK(result.different == 0);
+            CHECK(result.lit > 150);
+            CHECK(result.near > 50);
+        }
+    }
+}
+
+TEST_CASE("Lights of a tree are sampled as by one path alone") {
+    constexpr FeatureSet kMany = kLights.with(Feature::ManyLights);
+    const HostScene many = room_of_lights(3000);
+    const SceneView view = many.view();
+    REQUIRE_FALSE(view.light_tree.empty());
+    const DefaultMethod method;
+    const PathSettings settings{.next_event = 1};
+    const PathContext<DefaultMethod> context{view, method, settings};
+    const auto block = std::make_unique<VertexBlock<kMany, DefaultMethod>>();
+    const auto lights = std::make_unique<LightBlock<kMany, DefaultMethod>>(context);
+    Uniforms random(6);
+    block->clear();
+    std::vector<UnweightedLight> expected;
+    for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+        const Point at = random_point(view, random);
+        const ScatterPoint<kMany, DefaultMethod> point{at.surface, at.bsdf};
+        const Vec4f u = random_numbers(random);
+        block->add(i, point, Vec3f{1.0f}, {.light = u});
+        expected.push_back(sample_light(context, point, u, {}));
+    }
+    lights->sample(*block);
+    int lit = 0;
+    for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+        REQUIRE(lights->is_wanted(i) == (expected[i].pdf_sa > 0.0f));
+        if (!lights->is_wanted(i)) continue;
+        ++lit;
+        CHECK(lights->groups()[i / kGroupSize].pdf_sa[i % kGroupSize] == expected[i].pdf_sa);
+        CHECK(lights->estimate(i, Vec3f{1.0f}).cluster == expected[i].cluster);
+        CHECK(same_ray(lights->shadow_ray(i, block->primitive(i)), expected[i].ray));
+    }
+    CHECK(lit > 5);
+}
+
+TEST_CASE("A scene without lights has no light samples") {
+    SceneDescription dark;
+    dark.materials = {gray()};
+    add_box(dark, Vec3f{-1.0f}, Vec3f{1.0f}, true);
+    const HostScene scene = pack_scene(dark);
+    const SceneView view = scene.view();
+    const KeepsEstimates method;
+    const PathSettings settings{.next_event = 1};
+    const Context context{view, method, settings};
+    const auto block = std::make_unique<VertexBlock<kLights, KeepsEstimates>>();
+    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context);
+    Uniforms random(7);
+    block->clear();
+    block->add(0, random_point(view, random), Vec3f{1.0f}, {.light = random_numbers(random)});
+    lights->sample(*block);
+    CHECK_FALSE(lights->is_wanted(0));
+}
