@@ -13,6 +13,13 @@ public:
     explicit PL_INLINE GroupRows(std::uint32_t first) : first_(first) {}
 
 protected:
+    PL_INLINE std::uint32_t first() const { return first_; }
+    /// The lanes whose bit is set: bit i stands for lane i of the group.
+    PL_INLINE LaneInt lanes_of(std::uint32_t bits) const {
+        LaneUint bit;
+        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) bit[lane] = 1u << lane;
+        return (broadcast(bits >> first_) & bit) != 0u;
+    }
     PL_INLINE LaneFloat row(const float* values) const { return load_lanes<LaneFloat>(values + first_); }
     template <class T>
     PL_INLINE LaneInt integers(const T* values) const {

@@ -82,6 +82,31 @@ struct alignas(64) VertexGroup {
     NumberGroup light;       ///< VertexNumbers::light
 };
 
+/// A scene and the volumes placed in it, as plain pointers.
+struct PlacementRows {
+    const Triangle* triangles;
+    const TrianglePlane* planes;
+    const Vec3f* positions;
+    std::uint32_t sided_triangles;  ///< triangles with sides in the grid
+    const VolumePlace* sides;       ///< members as in VolumeGridView
+    const SideGrid* grids;
+    const VolumeCell* cells;
+    const KdNode* nodes;
+};
+
+/// The surface points at the hits of 16 rays, and the places of their volumes. Lanes of rays that miss are arbitrary.
+struct alignas(64) PointGroup {
+    VectorGroup position, geometric_normal;
+    float position_error[kGroupSize] = {};
+    std::uint32_t material[kGroupSize] = {};
+    std::int32_t front[kGroupSize] = {};   ///< 0: the back is seen
+    VolumePlace place[kGroupSize];         ///< VolumeGridView::place_of()
+    std::uint32_t nodes[VolumeCell::kMostNodes][kGroupSize] = {};  ///< of the cell at the place
+    std::int32_t volume[kGroupSize] = {};  ///< the nearest of the nodes' volumes
+    std::uint32_t node[kGroupSize] = {};   ///< and its node
+    std::uint32_t cells = 0;               ///< one bit per lane: its place is a cell with nodes
+};
+
 /// The volumes of a VertexGroup for a method guided by tables. Lanes that were never set have no volume.
 struct alignas(64) GuidedGroup {
     std::int32_t volume[kGroupSize];
@@ -171,6 +196,14 @@ struct LaneKernels {
     /// Evaluates vertex_numbers() for every counter.
     void (*draw_vertices)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers,
                           std::uint32_t groups);
+    /// The surface points at hits, and the places of their volumes.
+    void (*find_points)(const PlacementRows& scene, const RayGroup* rays, const HitGroup* hits, PointGroup* points,
+                        std::uint32_t groups);
+    /// Reads the cells at the places of the lanes in PointGroup::cells, takes lanes out of it whose cells have no nodes, and
+    /// prefetches the nodes of the others.
+    void (*read_cells)(const PlacementRows& scene, PointGroup* points, std::uint32_t groups);
+    /// Finds the nearest volumes of lanes in PointGroup::cells.
+    void (*find_nearest)(const PlacementRows& scene, PointGroup* points, std::uint32_t groups);
     /// Samples table rows for sample_guided() and prefetches the columns it reads.
     void (*sample_rows)(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
                         SampledGroup& sampled);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #ifdef __SSE2__
@@ -168,6 +169,24 @@ struct Lanes {
 #else
         Real loaded;
         for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) loaded[lane] = values[index[lane]];
+        return loaded;
+#endif
+    }
+    /// Each lane loads a word of 32 bits.
+    static PL_INLINE Int load_word(const void* words, const Int& index) {
+#if defined(__AVX512F__)
+        return std::bit_cast<Int>(
+            _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xffff, std::bit_cast<__m512i>(index), words, 4));
+#elif defined(__AVX2__)
+        return std::bit_cast<Int>(
+            _mm256_i32gather_epi32(static_cast<const int*>(words), std::bit_cast<__m256i>(index), 4));
+#else
+        Int loaded;
+        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {
+            std::int32_t word;
+            std::memcpy(&word, static_cast<const char*>(words) + std::ptrdiff_t{4} * index[lane], sizeof word);
+            loaded[lane] = word;
+        }
         return loaded;
 #endif
     }

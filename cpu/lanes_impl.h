@@ -5,6 +5,7 @@
 #include "cpu/dense_lanes.h"
 #include "cpu/guided_lanes.h"
 #include "cpu/light_lanes.h"
+#include "cpu/lookup_lanes.h"
 #include "cpu/update_lanes.h"
 #include "cpu/vertex_lanes.h"
 #include "cpu/wide_lanes.h"
@@ -34,6 +35,22 @@ void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers
 
 void draw_vertices(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups) {
     draw_vertex_groups(key, counters, numbers, groups);
+}
+
+void find_points(const PlacementRows& scene, const RayGroup* rays, const HitGroup* hits, PointGroup* points,
+                 std::uint32_t groups) {
+    for_lookup_lanes(scene, groups, [&](const LookupLanes& lanes, std::uint32_t group) {
+        lanes.find_points(rays[group], hits[group], points[group]);
+    });
+}
+
+void read_cells(const PlacementRows& scene, PointGroup* points, std::uint32_t groups) {
+    read_cells_of_groups(scene, points, groups);
+}
+
+void find_nearest(const PlacementRows& scene, PointGroup* points, std::uint32_t groups) {
+    for_lookup_lanes(scene, groups,
+                     [&](const LookupLanes& lanes, std::uint32_t group) { lanes.find_nearest(points[group]); });
 }
 
 void sample_rows(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
@@ -94,6 +111,9 @@ constexpr LaneKernels lane_kernels_named(const char* name) {
             find_occluded_wide,
             draw,
             draw_vertices,
+            find_points,
+            read_cells,
+            find_nearest,
             sample_rows,
             sample_guided,
             weigh_guided,

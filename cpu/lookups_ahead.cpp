@@ -1,18 +1,20 @@
 #include "cpu/lookups_ahead.h"
 
-#include <new>
+#include <bit>
 
 namespace pl {
 namespace {
 
-void prefetch_nodes(const PlacementView& placement, VolumePlace place) {
-    if (place.kind() == VolumePlace::Kind::Node) __builtin_prefetch(placement.tree.nodes.data + place.number());
-    if (place.kind() != VolumePlace::Kind::Cell) return;
-    const VolumeCell cell = placement.grid.cells[place.number()];
-    if (cell.has_nodes())
-        for (int i = 0; i < VolumeCell::kMostNodes; ++i) __builtin_prefetch(&placement.tree.nodes[cell.node(i)]);
-    else if (cell.has_list())
-        __builtin_prefetch(&placement.grid.lists[cell.first_of_list()]);
+PlacementRows rows_of(const SceneView& scene, const PlacementView& placement) {
+    const bool has_grid = placement.tree.lookup == Lookup::Grid;
+    return {.triangles = scene.triangles.data,
+            .planes = scene.planes.data,
+            .positions = scene.positions.data,
+            .sided_triangles = has_grid ? placement.grid.sides.count / 2 : 0,
+            .sides = placement.grid.sides.data,
+            .grids = placement.grid.grids.data,
+            .cells = placement.grid.cells.data,
+            .nodes = placement.tree.nodes.data};
 }
 
 }  // namespace
@@ -20,31 +22,39 @@ void prefetch_nodes(const PlacementView& placement, VolumePlace place) {
 void LookupsAhead::begin(const SceneView& scene, const PlacementView& placement, const RayBatch& rays,
                          std::uint32_t first, std::uint32_t end) {
     first_ = first;
-    count_ = 0;
-    known_ = 0;
-    const bool has_grid = placement.tree.lookup == Lookup::Grid;
-    for (std::uint32_t i = first; i < end; ++i) {
-        const Hit hit = rays.hit(i);
-        if (!hit.found()) continue;
-        // Constructed in place: the wide loads of a copy would stall, since narrower stores do not forward to them.
-        const SurfacePoint& point = *::new (static_cast<void*>(&points_[i - first]))
-                                        SurfacePoint(make_flat_point(scene, hit, -rays.ray(i).direction));
-        if (!scene.materials[point.material].reflects()) continue;
-        VolumePlace place{VolumePlace::Kind::Search, 0};
-        if (has_grid) place = placement.grid.place_of(point.primitive, point.front, point.position);
-        if (place.kind() == VolumePlace::Kind::Cell) __builtin_prefetch(&placement.grid.cells[place.number()]);
-        pending_[count_++] = {place, i};
+    groups_ = group_count(end - first);
+    wanted_ = 0;
+    const std::uint32_t group = first / kGroupSize;
+    kernels_.find_points(rows_of(scene, placement), rays.ray_groups() + group, rays.hit_groups() + group, points_,
+                         groups_);
+    for (std::uint32_t i = 0; i < groups_; ++i) points_[i].cells = 0;
+    for (std::uint32_t i = 0; i < end - first; ++i) {
+        primitives_[i] = rays.hit(first + i).primitive;
+        PointGroup& points = points_[i / kGroupSize];
+        const std::uint32_t lane = i % kGroupSize;
+        if (primitives_[i] == kNoPrimitive || !scene.materials[points.material[lane]].reflects()) continue;
+        wanted_ |= std::uint64_t{1} << i;
+        if (points.place[lane].kind() != VolumePlace::Kind::Cell) continue;
+        points.cells |= 1u << lane;
+        __builtin_prefetch(&placement.grid.cells[points.place[lane].number()]);
     }
 }
 
-void LookupsAhead::finish(const PlacementView& placement) {
-    for (std::uint32_t k = 0; k < count_; ++k) prefetch_nodes(placement, pending_[k].place);
-    for (std::uint32_t k = 0; k < count_; ++k) {
-        const Pending& at = pending_[k];
-        const SurfacePoint& point = points_[at.ray - first_];
-        const GridAnswer answer = volume_at_place(placement.tree, placement.grid, at.place, point.position);
-        found_[at.ray - first_] = answer.is_known ? answer.found : placement.find(point);
-        known_ |= std::uint64_t{1} << (at.ray - first_);
+void LookupsAhead::finish(const SceneView& scene, const PlacementView& placement) {
+    const PlacementRows rows = rows_of(scene, placement);
+    kernels_.read_cells(rows, points_, groups_);
+    kernels_.find_nearest(rows, points_, groups_);
+    std::uint64_t rest = wanted_;
+    for (std::uint32_t i = 0; i < groups_; ++i) rest &= ~(std::uint64_t{points_[i].cells} << (i * kGroupSize));
+    for (; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
+        PointGroup& points = points_[i / kGroupSize];
+        const std::uint32_t lane = i % kGroupSize;
+        const GridAnswer answer =
+            volume_at_place(placement.tree, placement.grid, points.place[lane], points.position.get(lane));
+        const FoundVolume found = answer.is_known ? answer.found : placement.find(flat_point(i, primitives_[i]));
+        points.volume[lane] = found.volume;
+        points.node[lane] = found.node;
     }
 }
 

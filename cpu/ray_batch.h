@@ -87,6 +87,7 @@ public:
 
     const RayGroup* ray_groups() const { return rays_.data(); }
     HitGroup* hit_groups() { return hits_.data(); }
+    const HitGroup* hit_groups() const { return hits_.data(); }
     OcclusionMask* occlusion_masks() { return occluded_.data(); }
 
 private:

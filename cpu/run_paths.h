@@ -107,7 +107,7 @@ private:
             const std::uint32_t next = end_of(first);
             if constexpr (TableGuided<M>) {
                 begin_lookups(first + kPathBlock, next, end_of(next));
-                lookups_of(first).finish(method_.field);
+                lookups_of(first).finish(setup_.scene, method_.field);
             }
             extend_block(first, next);
         }
@@ -139,19 +139,22 @@ private:
         const StepOutput<M> out{sample, counters_.path};
         const Hit hit = rays_.hit(i);
         ScatterPoint<F, M> from;
-        if constexpr (TableGuided<M>) {
-            const LookupsAhead& lookups = lookups_of(i);
-            method_.found = lookups.found(i);
-            const auto surface_of = [&]() -> decltype(auto) {
-                return lookups.template surface<F>(setup_.scene, hit, i);
-            };
-            statuses_[i] = shade_hit<F, M>(context_, hit, surface_of, states_[i], {out, from});
-        } else {
-            const auto surface_of = [&] { return make_surface_point<F>(setup_.scene, hit, -states_[i].ray.direction); };
-            statuses_[i] = shade_hit<F, M>(context_, hit, surface_of, states_[i], {out, from});
-        }
+        const auto find_surface = [&](SurfacePoint& surface) { construct_surface(i, hit, surface); };
+        statuses_[i] = shade_hit<F, M>(context_, hit, find_surface, states_[i], {out, from});
         if (statuses_[i] == PathStatus::Continues) statuses_[i] = leave(i, hit, from, out);
         guided_.record(sample);
+    }
+
+    void construct_surface(std::uint32_t i, const Hit& hit, SurfacePoint& surface) {
+        if constexpr (TableGuided<M>) {
+            const LookupsAhead& lookups = lookups_of(i);
+            method_.is_found = lookups.is_found(i);
+            method_.found = lookups.found(i);
+            ::new (static_cast<void*>(&surface)) SurfacePoint(lookups.template surface<F>(setup_.scene, hit, i));
+        } else {
+            ::new (static_cast<void*>(&surface))
+                SurfacePoint(make_surface_point<F>(setup_.scene, hit, -states_[i].ray.direction));
+        }
     }
 
     /// Plays roulette at the vertex `from` of path i. At a Lambert reflector its light and its direction are left to the block.

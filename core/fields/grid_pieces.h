@@ -30,7 +30,7 @@ public:
         const auto cells = static_cast<std::uint32_t>(grid_.cells.size());
         for (const VolumeCell cell : pieces.cells) grid_.cells.push_back(joined(cell, pieces.lists));
         for (SideGrid grid : pieces.grids) {
-            grid.first_cell += cells;
+            grid.first_cell += static_cast<std::int32_t>(cells);
             grid_.grids.push_back(grid);
         }
         for (VolumePlace place : pieces.sides) {

@@ -193,16 +193,16 @@ private:
         const Vec2d size = extent / counts;
         const Vec2d start =
             (-low - Vec2d{glm::dot(frame.origin, frame.x_axis), glm::dot(frame.origin, frame.y_axis)}) / size;
-        const SideGrid grid{.x_axis = Vec3f{frame.x_axis / size.x},
+        const SideGrid grid{.x_axis = unpack(Vec3f{frame.x_axis / size.x}),
                             .x_start = static_cast<float>(start.x),
-                            .y_axis = Vec3f{frame.y_axis / size.y},
+                            .y_axis = unpack(Vec3f{frame.y_axis / size.y}),
                             .y_start = static_cast<float>(start.y),
-                            .first_cell = static_cast<std::uint32_t>(pieces_.cells.size()),
-                            .columns = static_cast<std::uint32_t>(counts.x),
-                            .rows = static_cast<std::uint32_t>(counts.y)};
+                            .first_cell = static_cast<std::int32_t>(pieces_.cells.size()),
+                            .columns = static_cast<std::int32_t>(counts.x),
+                            .rows = static_cast<std::int32_t>(counts.y)};
         const Vec2d error{triangle.map_error()};
-        for (std::uint32_t row = 0; row < grid.rows; ++row)
-            for (std::uint32_t column = 0; column < grid.columns; ++column) {
+        for (std::int32_t row = 0; row < grid.rows; ++row)
+            for (std::int32_t column = 0; column < grid.columns; ++column) {
                 const Vec2d corner = low + Vec2d{column, row} * size;
                 pieces_.cells.push_back(cell(triangle.part(corner - error, corner + size + error)));
             }

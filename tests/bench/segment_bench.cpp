@@ -1,5 +1,5 @@
 // The cost of a segment of a guided path, compared with one of default path tracing.
-// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER [LIGHT]]]]]]; the scene "ball" has a million triangles, the
+// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER [LIGHT [METHOD]]]]]]]; the scene "ball" has a million triangles, the
 // tracer is auto, dense, wide, bvh or embree, LIGHT is off, on or both: without and with light samples. Processor time, of one
 // thread unless told otherwise. The methods take turns, one pass each, so that other work on the machine meets all of them; a
 // ratio is to `default` with the same light samples. A checksum tells whether two builds make the same pictures.
@@ -110,9 +110,18 @@ std::vector<bool> light_samples_of(const std::string& name) {
     throw Error(ErrorKind::Usage, "light samples: expected off, on or both, got " + name);
 }
 
-void measure(const Common& common, int rounds) {
+/// All methods, or the one with this name.
+std::vector<MethodInfo> methods_of(const std::string& name) {
+    std::vector<MethodInfo> methods;
+    for (const MethodInfo& method : all_methods())
+        if (name == "all" || name == method.name) methods.push_back(method);
+    if (methods.empty()) throw Error(ErrorKind::Usage, "method: expected all or a method, got " + name);
+    return methods;
+}
+
+void measure(const Common& common, const std::vector<MethodInfo>& methods, int rounds) {
     std::vector<std::unique_ptr<Run>> runs;
-    for (const MethodInfo& method : all_methods()) runs.push_back(std::make_unique<Run>(common, method.id));
+    for (const MethodInfo& method : methods) runs.push_back(std::make_unique<Run>(common, method.id));
     for (const auto& run : runs) {
         for (int pass = 0; pass < kWarmUp; ++pass) run->render_pass();
         run->forget_times();
@@ -126,7 +135,7 @@ void measure(const Common& common, int rounds) {
             ratio.push_back(runs[i]->render_ns[round] / plain[round]);
         const Quartiles quartiles = quartiles_of(ratio);
         std::printf("%-14s %-5s %8.1f %8.1f %8.2f [%.2f, %.2f] %8.1f   %08x\n",
-                    std::string(all_methods()[i].name).c_str(), common.light_samples ? "on" : "off",
+                    std::string(methods[i].name).c_str(), common.light_samples ? "on" : "off",
                     quartiles_of(runs[i]->render_ns).median,
                     *std::min_element(runs[i]->render_ns.begin(), runs[i]->render_ns.end()), quartiles.median,
                     quartiles.lower, quartiles.upper, quartiles_of(runs[i]->learn_ns).median, runs[i]->checksum());
@@ -146,6 +155,7 @@ int main(int count, char** arguments) try {
     const int threads = count > 4 ? std::max(1, std::atoi(arguments[4])) : 1;
     const std::string tracer = word(5, "auto");
     const std::vector<bool> light_samples = pl::bench::light_samples_of(word(6, "both"));
+    const std::vector<pl::MethodInfo> methods = pl::bench::methods_of(word(7, "all"));
     const pl::CpuSettings cpu{.threads = threads, .intersector = pl::bench::tracer_of(tracer)};
     const pl::bench::MachineLoad load;
     std::printf(
@@ -156,7 +166,8 @@ int main(int count, char** arguments) try {
                 "[quartiles]", "learning");
     const auto description = std::make_shared<const pl::SceneDescription>(pl::bench::open_scene(scene));
     for (const bool light : light_samples)
-        pl::bench::measure({.scene = description, .volumes = volumes, .cpu = cpu, .light_samples = light}, rounds);
+        pl::bench::measure({.scene = description, .volumes = volumes, .cpu = cpu, .light_samples = light}, methods,
+                           rounds);
     const pl::bench::MachineLoad::Shares shares = load.shares();
     std::printf("processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
                 shares.stolen);

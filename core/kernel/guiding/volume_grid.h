@@ -71,15 +71,29 @@ private:
 };
 
 /// A grid over the side of a triangle: an affine map from space to cells, which lie row by row.
-struct SideGrid {
-    Vec3f x_axis;
-    float x_start;
-    Vec3f y_axis;
-    float y_start;
-    std::uint32_t first_cell;
-    std::uint32_t columns;
-    std::uint32_t rows;
+template <class N>
+struct SideGridOf {
+    Real3<N> x_axis;
+    typename N::Real x_start;
+    Real3<N> y_axis;
+    typename N::Real y_start;
+    typename N::Int first_cell, columns, rows;
+
+    /// A position in units of cells.
+    PL_INLINE Real2<N> coordinates(const Real3<N>& position) const {
+        return {dot(x_axis, position) + x_start, dot(y_axis, position) + y_start};
+    }
+    /// Also false for coordinates that are not finite. Points of the triangle are inside.
+    PL_INLINE typename N::Mask holds(const Real2<N>& at) const {
+        return static_cast<typename N::Mask>((at.x >= 0.0f) & (at.y >= 0.0f) & (at.x < N::to_real(columns)) &
+                                             (at.y < N::to_real(rows)));
+    }
+    /// Number of the cell at coordinates inside.
+    PL_INLINE typename N::Int cell(const Real2<N>& at) const {
+        return first_cell + N::truncate(at.y) * columns + N::truncate(at.x);
+    }
 };
+using SideGrid = SideGridOf<One>;
 
 /// Entries of lists are numbers of tree nodes, by ascending volume; this bit marks the last one.
 inline constexpr std::uint32_t kLastOfList = 0x80000000u;
@@ -97,14 +111,9 @@ struct VolumeGridView {
         const VolumePlace side = sides[primitive + (front ? 0 : triangles)];
         if (side.kind() != VolumePlace::Kind::Grid) return side;
         const SideGrid& grid = grids[side.number()];
-        const float x = glm::dot(grid.x_axis, position) + grid.x_start;
-        const float y = glm::dot(grid.y_axis, position) + grid.y_start;
-        // Also catches positions that are not finite. Points of the triangle are inside.
-        const bool inside =
-            x >= 0.0f && y >= 0.0f && x < static_cast<float>(grid.columns) && y < static_cast<float>(grid.rows);
-        if (!inside) return {VolumePlace::Kind::Search, 0};
-        return {VolumePlace::Kind::Cell,
-                grid.first_cell + static_cast<std::uint32_t>(y) * grid.columns + static_cast<std::uint32_t>(x)};
+        const Real2<One> at = grid.coordinates(unpack(position));
+        if (!grid.holds(at)) return {VolumePlace::Kind::Search, 0};
+        return {VolumePlace::Kind::Cell, static_cast<std::uint32_t>(grid.cell(at))};
     }
 };
 

@@ -229,14 +229,16 @@ PL_HD_INLINED PathStatus continue_path(const PathContext<M>& context, const Hit&
 }
 
 /// Shades the end of the path's segment: adds emission and calls the observe() of the method. Returns whether the path reaches a
-/// vertex where it may go on. `surface_of()` is called once if there is a hit.
-template <FeatureSet F, Method M, class SurfaceOf>
-PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const SurfaceOf& surface_of,
+/// vertex where it may go on. `find_surface(surface)` is called once if there is a hit, and sets the surface point: in its place, since
+/// the wide loads of a copy would wait for the narrow stores before them.
+template <FeatureSet F, Method M, class FindSurface>
+PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const FindSurface& find_surface,
                                    PathState<F, M>& state, const ShadeOutput<F, M>& out) {
     ++out.counters.segments;
     if (!hit.found()) return shade_miss(context, state, out);
     const SceneView& scene = context.scene;
-    const SurfacePoint& surface = surface_of();
+    find_surface(out.from.surface);
+    const SurfacePoint& surface = out.from.surface;
     const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, hit_weights(hit), -state.ray.direction);
     const Vec3f emitted = emitted_at<F>(scene, surface, hit_weights(hit));
     float direction_share = 1.0f;
@@ -251,7 +253,8 @@ PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit
         ++out.counters.truncated;
         return terminate_path(context.method, state, out);
     }
-    out.from = {surface, bsdf, vertex};
+    out.from.bsdf = bsdf;
+    out.from.vertex = vertex;
     return PathStatus::Continues;
 }
 
@@ -264,8 +267,10 @@ PL_HD_INLINED PathStatus extend_path(const PathContext<M>& context, const Hit& h
     ScatterPoint<F, M> from;
     typename M::Sample sample{};
     const StepOutput<M> out{sample, counters};
-    const auto surface_of = [&] { return make_surface_point<F>(context.scene, hit, -state.ray.direction); };
-    PathStatus status = shade_hit<F, M>(context, hit, surface_of, state, {out, from});
+    const auto find_surface = [&](SurfacePoint& surface) {
+        surface = make_surface_point<F>(context.scene, hit, -state.ray.direction);
+    };
+    PathStatus status = shade_hit<F, M>(context, hit, find_surface, state, {out, from});
     if (status == PathStatus::Continues) {
         request_light(from);
         status = continue_path(context, hit, numbers.scatter.w, state, from, out);

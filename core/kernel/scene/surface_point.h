@@ -22,9 +22,17 @@ struct SurfacePoint {
 PL_HD inline Vec3f hit_weights(const Hit& hit) { return {1.0f - hit.b1 - hit.b2, hit.b1, hit.b2}; }
 
 /// Barycentric weights (b0, b1, b2), each at least about `margin`.
+template <class N>
+PL_INLINE Real3<N> inner_barycentrics(const typename N::Real& b1, const typename N::Real& b2,
+                                      const typename N::Real& margin) {
+    const auto at_least = [&](const typename N::Real& b) {
+        return select(static_cast<typename N::Mask>(b < margin), margin, b);
+    };
+    const Real3<N> b{at_least(1.0f - b1 - b2), at_least(b1), at_least(b2)};
+    return scaled(b, 1.0f / (b.x + b.y + b.z));
+}
 PL_HD inline Vec3f inner_barycentrics(const Hit& hit, float margin) {
-    const Vec3f b{max_of(1.0f - hit.b1 - hit.b2, margin), max_of(hit.b1, margin), max_of(hit.b2, margin)};
-    return b * (1.0f / (b.x + b.y + b.z));
+    return pack(inner_barycentrics<One>(hit.b1, hit.b2, margin));
 }
 
 /// Corners of a triangle.
@@ -104,7 +112,10 @@ PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, const Hit& hit
 }
 template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
-    return with_shading_normal<F>(scene, make_flat_point(scene, hit, wo), hit_weights(hit));
+    if constexpr (F.has(Feature::SmoothNormals))
+        return with_shading_normal<F>(scene, make_flat_point(scene, hit, wo), hit_weights(hit));
+    else
+        return make_flat_point(scene, hit, wo);
 }
 
 /// A surface point without its surface: its normal is on any side. `error`: SurfacePoint::position_error.
