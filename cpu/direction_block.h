@@ -10,14 +10,13 @@ namespace pl {
 
 /// Methods whose directions at Lambert reflectors are those of DefaultMethod.
 template <class M>
-concept LambertSampled = Method<M> && (std::same_as<M, DefaultMethod> || std::same_as<M, ProbeMethod>);
+concept LambertSampled = Method<M> &&(std::same_as<M, DefaultMethod> || std::same_as<M, ProbeMethod>);
 
 /// One path after the other, by the functions of the method.
 template <FeatureSet F, Method M>
 class DirectionBlock {
 public:
-    DirectionBlock(const PathSettings& settings, const M& method)
-        : settings_(settings), method_(method) {}
+    DirectionBlock(const PathSettings& settings, const M& method) : settings_(settings), method_(method) {}
 
     /// Told of the last vertex of the block, which was `from`.
     void add(const VertexBlock<F, M>& block, const ScatterPoint<F, M>& from, Vec4f u) {
@@ -108,7 +107,8 @@ public:
         group.volume[lane] = kNoVolume;
         if (from.vertex.is_served()) {
             __builtin_prefetch(field.row_cdf.data + from.vertex.volume * field.cells.side);
-            group.set_volume(lane, served_point(field, from.vertex, from.surface), method_.bsdf_fraction(from.vertex));
+            group.set_volume(lane, served_point(field, from.vertex, from.surface),
+                             method_.bsdf_fraction(from.vertex));
         }
         if (lane + 1 == kGroupSize) sample_rows(block, last / kGroupSize);
     }

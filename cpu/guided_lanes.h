@@ -16,8 +16,8 @@ public:
     PL_INLINE GuidedLanes(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
                           std::uint32_t first)
         : GroupRows(first), tables_(tables),
-          vertices_(vertices), point_{{integers(paths.volume), vector(paths.site),
-                                       vector(paths.volume_normal), row(paths.inverse_reach), vector(vertices.position)},
+          vertices_(vertices), point_{{integers(paths.volume), vector(paths.site), vector(paths.volume_normal),
+                                       row(paths.inverse_reach), vector(vertices.position)},
                                       vector(vertices.shading_normal),
                                       row(paths.bsdf_fraction)} {}
 
@@ -94,7 +94,6 @@ private:
         return select(guided, TableSampler::parallax_of(point_.served).to_point(direction), direction);
     }
 
-
     const TableSampler& tables_;
     const VertexGroup& vertices_;
     MixturePoint<Lanes> point_;
@@ -128,9 +127,8 @@ PL_INLINE void weigh_guided_groups(const TableSampler& tables, const VertexGroup
 
 PL_INLINE void sample_guided_groups(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
                                     SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
-    for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
-        lanes.sample_direction(sampled[group]);
-    });
+    for_guided_lanes(tables, vertices, paths, groups,
+                     [&](const GuidedLanes& lanes, std::uint32_t group) { lanes.sample_direction(sampled[group]); });
     for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
         lanes.weigh(sampled[group], directions[group]);
     });

@@ -99,12 +99,12 @@ struct alignas(64) PointGroup {
     VectorGroup position, geometric_normal;
     float position_error[kGroupSize] = {};
     std::uint32_t material[kGroupSize] = {};
-    std::int32_t front[kGroupSize] = {};   ///< 0: the back is seen
-    VolumePlace place[kGroupSize];         ///< VolumeGridView::place_of()
+    std::int32_t front[kGroupSize] = {};                           ///< 0: the back is seen
+    VolumePlace place[kGroupSize];                                 ///< VolumeGridView::place_of()
     std::uint32_t nodes[VolumeCell::kMostNodes][kGroupSize] = {};  ///< of the cell at the place
-    std::int32_t volume[kGroupSize] = {};  ///< the nearest of the nodes' volumes
-    std::uint32_t node[kGroupSize] = {};   ///< and its node
-    std::uint32_t cells = 0;               ///< one bit per lane: its place is a cell with nodes
+    std::int32_t volume[kGroupSize] = {};                          ///< the nearest of the nodes' volumes
+    std::uint32_t node[kGroupSize] = {};                           ///< and its node
+    std::uint32_t cells = 0;  ///< one bit per lane: its place is a cell with nodes
 };
 
 /// The volumes of a VertexGroup for a method guided by tables. Lanes that were never set have no volume.
@@ -137,7 +137,9 @@ struct alignas(64) DirectionGroup {
     float pdf_sa[kGroupSize] = {}, bsdf_pdf_sa[kGroupSize] = {};
     std::int32_t bin[kGroupSize] = {};
 
-    DirectionSample get(std::uint32_t lane) const { return {wi.get(lane), pdf_sa[lane], bsdf_pdf_sa[lane], bin[lane]}; }
+    DirectionSample get(std::uint32_t lane) const {
+        return {wi.get(lane), pdf_sa[lane], bsdf_pdf_sa[lane], bin[lane]};
+    }
     void set(std::uint32_t lane, const DirectionSample& sample) {
         wi.set(lane, sample.wi);
         pdf_sa[lane] = sample.pdf_sa;

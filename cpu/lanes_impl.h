@@ -104,26 +104,10 @@ bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return an
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name,
-            find_closest,
-            find_occluded,
-            find_closest_wide,
-            find_occluded_wide,
-            draw,
-            draw_vertices,
-            find_points,
-            read_cells,
-            find_nearest,
-            sample_rows,
-            sample_guided,
-            weigh_guided,
-            sample_lambert,
-            weigh_lambert,
-            sample_lights,
-            weigh_lights,
-            scatter,
-            has_samples,
-            update_table};
+    return {name,          find_closest,  find_occluded, find_closest_wide, find_occluded_wide,
+            draw,          draw_vertices, find_points,   read_cells,        find_nearest,
+            sample_rows,   sample_guided, weigh_guided,  sample_lambert,    weigh_lambert,
+            sample_lights, weigh_lights,  scatter,       has_samples,       update_table};
 }
 
 }  // namespace

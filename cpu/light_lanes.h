@@ -20,7 +20,8 @@ public:
         const SpawnPoint<Lanes> from{vector(receivers_.position), vector(receivers_.geometric_normal),
                                      row(receivers_.position_error)};
         const LaneInt is_near = see_triangle(corners, spawn_origin(from, from.normal)).is_near();
-        const Real3<Lanes> weights = sample_weights(Real2<Lanes>{row(receivers_.light.rows[1]), row(receivers_.light.rows[2])});
+        const Real3<Lanes> weights =
+            sample_weights(Real2<Lanes>{row(receivers_.light.rows[1]), row(receivers_.light.rows[2])});
         SpawnPoint<Lanes> point{corners.at(weights), normal, number(LightColumns::kPositionError, light)};
         const LaneInt behind = is_behind(point, from.position);
         point.normal = select(behind, -normal, normal);

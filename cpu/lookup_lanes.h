@@ -61,7 +61,8 @@ public:
         const auto high = std::bit_cast<LaneUint>(cell.integer(4));
         const LaneInt has_nodes = wanted & (std::bit_cast<LaneInt>(high) >= 0);  // see VolumeCell::has_nodes()
         const LaneUint nodes[] = {low & VolumeCell::kMaxNode,
-                                  (low >> VolumeCell::kNodeBits | high << (32 - VolumeCell::kNodeBits)) & VolumeCell::kMaxNode,
+                                  (low >> VolumeCell::kNodeBits | high << (32 - VolumeCell::kNodeBits)) &
+                                      VolumeCell::kMaxNode,
                                   high >> (2 * VolumeCell::kNodeBits - 32) & VolumeCell::kMaxNode};
         for (int i = 0; i < VolumeCell::kMostNodes; ++i) {
             const LaneInt node = select(has_nodes, std::bit_cast<LaneInt>(nodes[i]), LaneInt{});
@@ -95,23 +96,27 @@ public:
 private:
     static constexpr std::int32_t kNodeWords = sizeof(KdNode) / 4;
 
-    PL_INLINE Real3<Lanes> corner(const LaneInt& vertex) const { return Words<Vec3f>(scene_.positions, vertex).vector(0); }
+    PL_INLINE Real3<Lanes> corner(const LaneInt& vertex) const {
+        return Words<Vec3f>(scene_.positions, vertex).vector(0);
+    }
 
     PL_INLINE LaneInt place_of(const LaneInt& primitive, const LaneInt& front, const Real3<Lanes>& position) const {
         const auto triangles = static_cast<std::int32_t>(scene_.sided_triangles);
         const LaneInt has_side = primitive < triangles;
         const LaneInt search = Lanes::constant(word_of(VolumePlace::Kind::Search));
         if (triangles == 0) return search;
-        const LaneInt number = select(has_side, primitive + select(front, LaneInt{}, Lanes::constant(triangles)), LaneInt{});
+        const LaneInt number =
+            select(has_side, primitive + select(front, LaneInt{}, Lanes::constant(triangles)), LaneInt{});
         const LaneInt side = select(has_side, Words<VolumePlace>(scene_.sides, number).integer(0), search);
         const LaneInt is_grid = kind_of(side) == static_cast<std::int32_t>(VolumePlace::Kind::Grid);
         if (!Lanes::any(is_grid)) return side;
         const LaneInt grid_number = side & static_cast<std::int32_t>(VolumePlace::kNone);
         const Words<SideGrid> of(scene_.grids, select(is_grid, grid_number, LaneInt{}));
-        const SideGridOf<Lanes> grid{of.vector(offsetof(SideGrid, x_axis)),       of.real(offsetof(SideGrid, x_start)),
-                                     of.vector(offsetof(SideGrid, y_axis)),       of.real(offsetof(SideGrid, y_start)),
-                                     of.integer(offsetof(SideGrid, first_cell)), of.integer(offsetof(SideGrid, columns)),
-                                     of.integer(offsetof(SideGrid, rows))};
+        const SideGridOf<Lanes> grid{
+            of.vector(offsetof(SideGrid, x_axis)),      of.real(offsetof(SideGrid, x_start)),
+            of.vector(offsetof(SideGrid, y_axis)),      of.real(offsetof(SideGrid, y_start)),
+            of.integer(offsetof(SideGrid, first_cell)), of.integer(offsetof(SideGrid, columns)),
+            of.integer(offsetof(SideGrid, rows))};
         const Real2<Lanes> at = grid.coordinates(position);
         const LaneInt cell = grid.cell(at) | word_of(VolumePlace::Kind::Cell);
         return select(is_grid, select(grid.holds(at), cell, search), side);

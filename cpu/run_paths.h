@@ -201,8 +201,8 @@ private:
         const std::uint32_t path = vertices_.path(k);
         const bool wanted = lights_.is_wanted(k);
         const Vec3f chain = received_weights(states_[path]).chain;
-        const typename M::Light light = method_.light_sampled(
-            states_[path].memory, vertices_.vertex(k), wanted ? lights_.estimate(k, chain) : LightEstimate{});
+        const typename M::Light light = method_.light_sampled(states_[path].memory, vertices_.vertex(k),
+                                                              wanted ? lights_.estimate(k, chain) : LightEstimate{});
         if (!wanted) return guided_.record_light(light, false);
         ShadowRequest<M>& shadow = shadows_[shadow_count_];
         shadow.contribution = lights_.contribution(k);

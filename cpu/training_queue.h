@@ -46,7 +46,7 @@ struct QueuedSample {
 
     typename M::Sample sample;
 
-    std::int32_t volume() const { return sample.entry.volume; }
+    static std::int32_t volume_of(const Source& sample) { return sample.entry.volume; }
     void prefetch(const TableField& field) const {
         const std::uint32_t cell = field.cell_index(sample.entry.volume, sample.entry.cell);
         __builtin_prefetch(field.pending_sum.data + cell, 1);
@@ -63,7 +63,7 @@ struct QueuedLight {
     typename M::Light light;
     bool is_visible = false;
 
-    std::int32_t volume() const { return light.location.volume; }
+    static std::int32_t volume_of(const Source& light, bool) { return light.location.volume; }
     void prefetch(const TableField&) const {}  // there are few volumes
     void add_to(const M& method) const { method.record_light(light, is_visible); }
 };
@@ -87,12 +87,13 @@ public:
 
     /// Queues an item, unless it has no volume, and prefetches the pending sums that it is added to.
     void push(const auto&... parts) {
-        const Item item{parts...};
-        if (item.volume() == kNoVolume) return;
-        item.prefetch(method_.field);
-        const std::uint32_t number = locks_.range_of(item.volume());
+        const std::int32_t volume = Item::volume_of(parts...);
+        if (volume == kNoVolume) return;
+        const std::uint32_t number = locks_.range_of(volume);
         Range& range = ranges_[number];
-        range.items[range.count++] = item;
+        // Constructed in place: the wide loads of a copy would wait for the narrow stores before them.
+        ::new (static_cast<void*>(&range.items[range.count])) Item{parts...};
+        range.items[range.count++].prefetch(method_.field);
         if (range.count == kCapacity) flush(number);
     }
 

@@ -54,7 +54,6 @@ public:
     }
 
 private:
-
     const VertexGroup& vertices_;
 };
 

@@ -134,9 +134,8 @@ void measure(const Common& common, const std::vector<MethodInfo>& methods, int r
         for (std::size_t round = 0; round < plain.size(); ++round)
             ratio.push_back(runs[i]->render_ns[round] / plain[round]);
         const Quartiles quartiles = quartiles_of(ratio);
-        std::printf("%-14s %-5s %8.1f %8.1f %8.2f [%.2f, %.2f] %8.1f   %08x\n",
-                    std::string(methods[i].name).c_str(), common.light_samples ? "on" : "off",
-                    quartiles_of(runs[i]->render_ns).median,
+        std::printf("%-14s %-5s %8.1f %8.1f %8.2f [%.2f, %.2f] %8.1f   %08x\n", std::string(methods[i].name).c_str(),
+                    common.light_samples ? "on" : "off", quartiles_of(runs[i]->render_ns).median,
                     *std::min_element(runs[i]->render_ns.begin(), runs[i]->render_ns.end()), quartiles.median,
                     quartiles.lower, quartiles.upper, quartiles_of(runs[i]->learn_ns).median, runs[i]->checksum());
     }

@@ -58,9 +58,10 @@ Comparison compare(const LaneKernels& kernels) {
             PathState<FeatureSet{}, DefaultMethod> state;
             PathCounters counters;
             DefaultMethod::Sample none;
-            const DirectionSample alone = method.sample_direction({}, points[i].surface, {.rng = {}, .u = numbers[i]});
-            const PathStatus status = scatter_lambert(method, points[i], alone, state,
-                                                      StepOutput<DefaultMethod>{none, counters});
+            const DirectionSample alone =
+                method.sample_direction({}, points[i].surface, {.rng = {}, .u = numbers[i]});
+            const PathStatus status =
+                scatter_lambert(method, points[i], alone, state, StepOutput<DefaultMethod>{none, counters});
             bool same = same_bits(directions[i / kGroupSize].get(lane), alone) &&
                         (to.is_lit[lane] != 0) == (status == PathStatus::Continues);
             if (status == PathStatus::Continues)

@@ -119,17 +119,18 @@ PL_HD inline bool differs_from_neighbors(const FilmView& film, std::uint32_t pix
     return false;
 }
 
-/// Notes the emission along one ray of a pixel.
-template <FeatureSet F, class Rays>
-PL_HD inline void note_emission(const EmissionContext& context, const SceneView& scene, Rays& rays, FilmPixel& p,
-                                std::uint32_t pixel) {
-    rays.trace(
-        1, [&](std::uint32_t) { return probing_ray<F>(context, pixel, kCorners); },
-        [&](std::uint32_t, const Ray& ray, const Hit& hit) {
-            const EmissionSeen now = seen_emission<F>(scene, ray, hit);
-            p.emission.varies = p.emission.border_with(now);
-            p.emission.value = now.value;
-        });
+/// Whether the emission along one ray, noting_ray(), is noted in this pass for every pixel whose emission is not known to vary.
+/// `passes`: EmissionContext::passes.
+PL_HD inline bool notes_emission(std::uint32_t passes) { return passes >= 2 && (passes & (passes - 1)) == 0; }
+template <FeatureSet F>
+PL_HD inline Ray noting_ray(const EmissionContext& context, std::uint32_t pixel) {
+    return probing_ray<F>(context, pixel, kCorners);
+}
+template <FeatureSet F>
+PL_HD inline void note_emission(const SceneView& scene, const Ray& ray, const Hit& hit, EmissionSeen& seen) {
+    const EmissionSeen now = seen_emission<F>(scene, ray, hit);
+    seen.varies = seen.border_with(now);
+    seen.value = now.value;
 }
 
 /// Decides by further rays whether the emission of a pixel varies.
@@ -150,33 +151,50 @@ PL_HD inline void decide_border(const EmissionContext& context, const SceneView&
 template <FeatureSet F, class Rays>
 PL_HD inline std::uint32_t look_for_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
                                              const FilmView& film, std::uint32_t pixel) {
-    const auto is_power_of_two = [](std::uint32_t n) { return n >= 2 && (n & (n - 1)) == 0; };
-    if (is_power_of_two(context.passes)) {
-        note_emission<F>(context, scene, rays, film.pixels[pixel], pixel);
+    if (notes_emission(context.passes)) {
+        rays.trace(
+            1, [&](std::uint32_t) { return noting_ray<F>(context, pixel); },
+            [&](std::uint32_t, const Ray& ray, const Hit& hit) {
+                note_emission<F>(scene, ray, hit, film.pixels[pixel].emission);
+            });
         return 1;
     }
-    if (!is_power_of_two(context.passes - 1) || !differs_from_neighbors(film, pixel)) return 0;
+    if (!notes_emission(context.passes - 1) || !differs_from_neighbors(film, pixel)) return 0;
     decide_border<F>(context, scene, rays, film.pixels[pixel], pixel);
     return kBorderRays;
 }
 
-/// Refines the sample that a pass has added to a pixel, if the emission that the camera sees there varies; once it is found to vary,
-/// those of the passes before, too, which have the numbers before that of this one. Unbiased, because the rays that look for
-/// such pixels are independent of the samples. Returns the number of rays traced.
+/// Whether the samples of the passes before are refined already.
+PL_HD inline bool is_refined(const EmissionSeen& seen) {
+    return seen.varies == EmissionSeen::kLampBorder || seen.varies == EmissionSeen::kSkyBorder;
+}
+
+/// Refines the sample that a pass has added to a pixel whose emission varies; if it has just been found to vary, those of the passes
+/// before, too, which have the numbers before that of this one. `was_refined`: is_refined() before this pass. Returns the number of
+/// rays traced.
 template <FeatureSet F, class Rays>
-PL_HD inline std::uint32_t refine_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
-                                           const FilmView& film, std::uint32_t pixel) {
+PL_HD inline std::uint32_t refine_samples(const EmissionContext& context, const SceneView& scene, Rays& rays,
+                                          const FilmView& film, std::uint32_t pixel, bool was_refined) {
     EmissionSeen& seen = film.pixels[pixel].emission;
-    const bool is_refined = seen.varies == EmissionSeen::kLampBorder || seen.varies == EmissionSeen::kSkyBorder;
-    std::uint32_t traced = 0;
-    if (seen.varies == 0) traced = look_for_emission<F>(context, scene, rays, film, pixel);
-    if (seen.varies == 0) return traced;
+    if (seen.varies == 0) return 0;
     if (seen.varies == EmissionSeen::kBorderMarked) seen.varies = EmissionSeen::kLampBorder;
     const std::uint32_t last = context.grid.sample;
-    const std::uint32_t samples = is_refined ? 1u : min_of(context.passes, last + 1);
+    const std::uint32_t samples = was_refined ? 1u : min_of(context.passes, last + 1);
+    std::uint32_t traced = 0;
     for (std::uint32_t i = 0; i < samples; ++i)
         traced += replace_emission<F>(context, scene, rays, film, pixel, last - i);
     return traced;
+}
+
+/// Looks for emission that varies within a pixel, and refines its samples where it does. Unbiased, because the rays that look for such
+/// pixels are independent of the samples. Returns the number of rays traced.
+template <FeatureSet F, class Rays>
+PL_HD inline std::uint32_t refine_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
+                                           const FilmView& film, std::uint32_t pixel) {
+    const EmissionSeen& seen = film.pixels[pixel].emission;
+    const bool was_refined = is_refined(seen);
+    const std::uint32_t traced = seen.varies == 0 ? look_for_emission<F>(context, scene, rays, film, pixel) : 0;
+    return traced + refine_samples<F>(context, scene, rays, film, pixel, was_refined);
 }
 
 }  // namespace pl

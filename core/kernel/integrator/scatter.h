@@ -101,7 +101,8 @@ PL_HD inline PathStatus send_path(const M& method, const ScatterPoint<F, M>& fro
             return PathStatus::Continues;
         }
     }
-    leave_vertex(method, from.vertex, {from.roulette_weight * weight, from.bsdf.albedo(), direction}, state, counters);
+    leave_vertex(method, from.vertex, {from.roulette_weight * weight, from.bsdf.albedo(), direction}, state,
+                 counters);
     return PathStatus::Continues;
 }
 
