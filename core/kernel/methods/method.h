@@ -65,7 +65,7 @@ using MethodCounters = MethodCountersOf<std::uint64_t>;
 ///              |                                                                   |
 ///             hit -> locate -> observe -+-> surface does not scatter --------------+
 ///              ^                        v                                          |
-///              |               light_sampled (if lights are sampled)                |
+///              |      light_sampled (if lights are sampled; or after the roulette)  |
 ///              |                        v                                          v
 ///              |            estimate_contribution ---> roulette ends it: terminated -> finished
 ///              |                        v
