@@ -16,9 +16,6 @@ constexpr std::uint32_t kLeafChunk = 16;
 constexpr std::uint32_t kVolumeChunk = 256;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Training samples that a quadrant is to have, on the mean, before it is divided: fewer say nothing of its quarters. Leaves of the
-/// first updates are small; the paper's have thousands.
-constexpr float kFewestInQuadrant = 8.0f;
 /// Nodes for each leaf at least within the bound on all nodes, before leaves become fewer.
 constexpr std::uint32_t kNodesPerLeaf = 16;
 

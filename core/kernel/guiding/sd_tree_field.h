@@ -62,8 +62,7 @@ struct SdTreeField : SdTreeView {
     }
     PL_HD float radiance_at(const Location& location, std::int32_t bin) const {
         if (bin < 0 || visits[location.leaf.leaf] == 0) return value_at(location);
-        const auto word = static_cast<std::uint32_t>(bin);
-        return radiance_of({word & ((1u << kSlotBits) - 1), word >> kSlotBits});
+        return radiance_of(slot_of(bin));
     }
     /// Mean incident radiance (luminance) of a slot's directions.
     PL_HD float radiance_of(const QuadSlot& slot) const {
@@ -78,7 +77,7 @@ struct SdTreeField : SdTreeView {
         const Philox random = filter_bits(location.in_cube, direction.wi);
         const std::uint32_t leaf = leaf_at(filtered_point(location, random)).leaf;
         const float cosine = glm::dot(normals[static_cast<std::uint32_t>(location.volume)], direction.wi);
-        return {location.volume, leaf, filtered_slot(leaf, direction.wi, random.v[3]),
+        return {location.volume, leaf, filtered_slot(leaf, direction, random.v[3]),
                 min_of(1.0f / direction.pdf_sa, kMostInverseDensity),
                 clamp_to(cosine * kInvPi / direction.pdf_sa, 0.0f, kMostCosineWeight)};
     }
@@ -130,10 +129,15 @@ private:
         }
         return point;
     }
+    static PL_HD QuadSlot slot_of(std::int32_t bin) {
+        const auto word = static_cast<std::uint32_t>(bin);
+        return {word & ((1u << kSlotBits) - 1), word >> kSlotBits};
+    }
     /// The azimuth wraps around; beyond a pole the box is cut off.
-    PL_HD std::uint32_t filtered_slot(std::uint32_t leaf, Vec3f wi, std::uint32_t random) const {
-        Vec2f square = sphere_to_square(wi);
-        const float side = slot_at(leaf, square).side();
+    PL_HD std::uint32_t filtered_slot(std::uint32_t leaf, const DirectionSample& direction,
+                                      std::uint32_t random) const {
+        Vec2f square = sphere_to_square(direction.wi);
+        const float side = slot_of(direction.bin).side();
         square.x += side * (to_unit_float(random << 16) - 0.5f);
         square.y += side * (to_unit_float(random & 0xffff0000u) - 0.5f);
         square.y -= std::floor(square.y);
