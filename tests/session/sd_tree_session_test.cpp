@@ -133,7 +133,9 @@ TEST_CASE("What an SD-tree has learned is inspected, shown and counted") {
         render_passes(session, {MethodId::Reinforcement, view}, 1);
         const std::vector<Vec3f> pixels = session.snapshot({MethodId::Reinforcement, view}).pixels;
         INFO(info_of(view).name);
-        CHECK(std::ranges::any_of(pixels, [](Vec3f pixel) { return max_component(pixel) > 0.0f; }));
+        // In a closed box no direction stays dark.
+        CHECK((view == View::Unvisited ||
+               std::ranges::any_of(pixels, [](Vec3f pixel) { return max_component(pixel) > 0.0f; })));
         CHECK(std::ranges::all_of(pixels, [](Vec3f pixel) { return is_valid_radiance(pixel); }));
     }
 }
