@@ -166,7 +166,7 @@ TEST_CASE("An SD-tree divides quadrants by their share of the energy, and joins 
     TestTree tree;
     Uniforms random(3);
     const auto train = [&](Vec3f bright) {
-        for (int i = 0; i < 200000; ++i) {
+        for (int i = 0; i < 20000; ++i) {
             const Vec3f wi = square_to_sphere(random.square());
             tree.record({{0.1f, 0.1f, 0.1f}, wi, kUniformSpherePdf, glm::dot(wi, bright) > 0.98f ? 1.0f : 0.01f});
         }
