@@ -22,6 +22,10 @@ constexpr std::array kCurves{Named<ToneCurve>{ToneCurve::Clamp, "clamp"},
 constexpr std::array kRates{
     Named<LearningRate>{LearningRate::SampleMean, "mean"}, Named<LearningRate>{LearningRate::Forgetful, "forgetful"},
     Named<LearningRate>{LearningRate::Power, "power"}, Named<LearningRate>{LearningRate::Floor, "floor"}};
+constexpr std::array kRepresentations{Named<Representation>{Representation::Table, "table"},
+                                      Named<Representation>{Representation::SdTree, "sd-tree"}};
+constexpr std::array kIterations{Named<Iterations>{Iterations::Updates, "updates"},
+                                 Named<Iterations>{Iterations::Doubling, "doubling"}};
 constexpr std::array kTargets{Named<LearningTarget>{LearningTarget::ExpectedSarsa, "expected-sarsa"},
                               Named<LearningTarget>{LearningTarget::Sarsa, "sarsa"},
                               Named<LearningTarget>{LearningTarget::MonteCarlo, "monte-carlo"}};
@@ -66,6 +70,12 @@ void parse_lookup(Options& options, const std::string& text) {
     options.render.field.lookup = static_cast<Lookup>(found - kLookups.begin());
 }
 
+void parse_representation(Options& options, const std::string& text) {
+    parse_named(options.render.field.representation, kRepresentations, text);
+}
+void parse_iterations(Options& options, const std::string& text) {
+    parse_named(options.render.field.iterations, kIterations, text);
+}
 void parse_learning_rate(Options& options, const std::string& text) {
     parse_named(options.render.field.rate, kRates, text);
 }
@@ -89,6 +99,8 @@ void parse_frame_kind(Options& options, const std::string& text) {
 
 std::string_view tone_curve_name(ToneCurve curve) { return name_in(kCurves, curve); }
 
+std::string_view name_of(Representation representation) { return name_in(kRepresentations, representation); }
+std::string_view name_of(Iterations iterations) { return name_in(kIterations, iterations); }
 std::string_view name_of(LearningRate rate) { return name_in(kRates, rate); }
 std::string_view name_of(LearningTarget target) { return name_in(kTargets, target); }
 std::string_view name_of(LearnedLight light) { return name_in(kLights, light); }

@@ -107,6 +107,28 @@ void check_combinations(Command command, const Options& options) {
     if (!options.save_field.empty()) require_learning(options);
 }
 
+/// An SD-tree is learned, and on the CPU: "auto" then takes that.
+void settle_representation(Options& options) {
+    const FieldSettings& field = options.render.field;
+    if (field.representation == Representation::Table && field.iterations != Iterations::Updates)
+        throw Error(ErrorKind::Usage, fmt::format("--iterations {}: expected --field {} with it, got --field {}",
+                                                  name_of(field.iterations), name_of(Representation::SdTree),
+                                                  name_of(field.representation)));
+    if (field.representation == Representation::Table) return;
+    const std::string_view name = name_of(field.representation);
+    if (info_of(options.render.method).precomputes)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--field {}: expected --field table with --method {}, whose probes fill tables", name,
+                                info_of(options.render.method).name));
+    const auto is_cuda = [](const std::string& backend) { return backend == "cuda"; };
+    if (is_cuda(options.backend) || std::ranges::any_of(options.backends, is_cuda))
+        throw Error(ErrorKind::Unavailable,
+                    fmt::format("--field {}: expected --backend cpu or auto, got cuda, which has kernels for "
+                                "tables alone",
+                                name));
+    options.backend = "cpu";
+}
+
 bool is_given(const CommandLine& line, std::string_view name) {
     return std::any_of(line.given.begin(), line.given.end(),
                        [&](const GivenOption& option) { return option.spec->name == name; });
@@ -178,6 +200,7 @@ Options resolve_options(const CommandLine& line, const SceneDescription& scene, 
         forget_scene_limits(line, options);
     }
     settle_target(line, options);
+    settle_representation(options);
     check_combinations(line.command, options);
     return options;
 }

@@ -34,7 +34,8 @@ Json target_json(const ErrorTarget* target) {
 
 Json field_json(const std::optional<FieldStatus>& field) {
     if (!field) return nullptr;
-    return {{"volumes", field->volumes},
+    return {{"representation", name_of(field->representation)},
+            {"volumes", field->volumes},
             {"added_volumes", field->added_volumes},
             {"bins", field->bins},
             {"bytes", field->bytes},

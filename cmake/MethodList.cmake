@@ -1,12 +1,12 @@
-# pl_method_sources(RESULT NAME SUFFIX): one generated source per entry of core/kernel/methods/method_list.h, so that builds
+# pl_method_sources(RESULT LIST NAME SUFFIX): one generated source per entry of core/kernel/methods/LIST, so that builds
 # compile them in parallel. Each defines PL_METHOD_ENTRY, the index of its entry, and includes NAME.
-function(pl_method_sources result name suffix)
-    set(list "${PROJECT_SOURCE_DIR}/core/kernel/methods/method_list.h")
+function(pl_method_sources result list_name name suffix)
+    set(list "${PROJECT_SOURCE_DIR}/core/kernel/methods/${list_name}")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${list}")
     file(STRINGS "${list}" entries REGEX "^    MethodKernel<")
     list(LENGTH entries count)
     if(count EQUAL 0)
-        message(FATAL_ERROR "core/kernel/methods/method_list.h: expected lines that begin with 'MethodKernel<', got none")
+        message(FATAL_ERROR "core/kernel/methods/${list_name}: expected lines that begin with 'MethodKernel<', got none")
     endif()
     math(EXPR last "${count} - 1")
     get_filename_component(stem "${name}" NAME_WE)

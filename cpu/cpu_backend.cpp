@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/fields/sd_tree_update.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/scene/pack_scene.h"
 #include "core/session/exact_backend.h"
@@ -21,10 +22,16 @@
 namespace pl {
 namespace {
 
-const PassKernels<PicturePass>& kernels_for(const PassRequest& request) {
+/// The kernels of a method for the representation of its field.
+const PassKernels<PicturePass>& kernels_for(const PassRequest& request, const AnyFieldView& field) {
     const PassKernels<PicturePass>* kernels = nullptr;
-    with_method_kernel(request.kernel_method(), request.learning, request.path.next_event != 0,
-                       [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); });
+    const bool samples_lights = request.path.next_event != 0;
+    if (std::holds_alternative<SdTreeField>(field))
+        with_host_kernel<SdTreeField>(request.kernel_method(), request.learning, samples_lights,
+                                      [&]<int kEntry>() { kernels = &host_picture_kernels<kEntry>(); });
+    else
+        with_method_kernel(request.kernel_method(), request.learning, samples_lights,
+                           [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); });
     if (kernels == nullptr) throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
     return *kernels;
 }
@@ -72,6 +79,10 @@ public:
         return field ? field->arrays : HostField{};
     }
     bool has_field(MethodId method) const override { return fields_[index_of(method)].has_value(); }
+    std::size_t field_bytes(MethodId method) const override {
+        const std::optional<StoredField>& field = fields_[index_of(method)];
+        return field ? pl::field_bytes(field->arrays) : 0;
+    }
 
     void reset_film(FilmSlot slot, int width, int height) override {
         films_.reset(slot, width, height, settings_.threads);
@@ -95,7 +106,7 @@ public:
         if (request.slot.view != View::Beauty) return run_view(setup, request);
         const MethodId method = request.method();
         const AnyFieldView field = info_of(method).uses_field ? learned_field(method) : AnyFieldView{};
-        PassCounters counters = launch(kernels_for(request), request.features,
+        PassCounters counters = launch(kernels_for(request, field), request.features,
                                        PicturePass{.setup = setup,
                                                    .tracer = *tracer_,
                                                    .field = field,
@@ -124,24 +135,13 @@ public:
 
     void change_pending(MethodId method, const std::function<void(PendingSums)>& change) override {
         std::visit(
-            [&](auto& arrays) {
-                for_each_pending_array([&](const auto& spec) { change(std::span(spec.get(arrays))); });
-            },
+            [&](auto& arrays) { for_each_pending_array(arrays, [&](auto& array) { change(std::span(array)); }); },
             existing_field(method).arrays);
     }
 
     void update_field(MethodId method) override {
         StoredField& learned = existing_field(method);
-        const LaneKernels& kernels = best_lane_kernels();
-        std::visit(
-            [&](auto& arrays) {
-                const auto field = update_view(shape_, arrays);
-                for_each_volume(volume_count(arrays), [&](std::uint32_t volume) {
-                    if (!learned.is_updated || has_new_samples(kernels, field, volume))
-                        update_volume_in_lanes(kernels, field, volume);
-                });
-            },
-            learned.arrays);
+        std::visit([&](auto& arrays) { update(arrays, learned.is_updated); }, learned.arrays);
         learned.is_updated = true;
     }
 
@@ -157,6 +157,16 @@ private:
                 .threads = settings_.threads,
                 .batch_paths = settings_.batch_paths};
     }
+
+    void update(HostTables& tables, bool is_updated) const {
+        const LaneKernels& kernels = best_lane_kernels();
+        const TableUpdateView field = update_view(shape_, tables);
+        for_each_volume(volume_count(tables), [&](std::uint32_t volume) {
+            if (!is_updated || has_new_samples(kernels, field, volume))
+                update_volume_in_lanes(kernels, field, volume);
+        });
+    }
+    void update(HostSdTree& tree, bool) const { update_sd_tree(shape_, tree, settings_.threads); }
 
     StoredField& existing_field(MethodId method) {
         std::optional<StoredField>& field = fields_[index_of(method)];
@@ -193,7 +203,7 @@ private:
     Span<const float> volume_values(const FilmSlot& slot) {
         std::visit(
             [&](auto& arrays) {
-                const VolumeSummary auto summary = summary_of(update_view(shape_, arrays));
+                const VolumeSummary auto summary = summary_of(shape_, *volumes_, arrays);
                 volume_values_.resize(volume_count(arrays));
                 for_each_volume(volume_values_.size(), [&](std::uint32_t volume) {
                     volume_values_[volume] = volume_value(summary, volume, slot.view);

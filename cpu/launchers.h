@@ -4,7 +4,7 @@
 
 #include "core/base/kernel_row.h"
 #include "core/fields/field_model.h"
-#include "core/kernel/methods/method_list.h"
+#include "core/kernel/methods/host_method_list.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/path_work.h"
 #include "cpu/run_paths.h"
@@ -40,6 +40,9 @@ using PassKernels = KernelRow<PassCounters (*)(const Pass&)>;
 /// Picture kernels of an entry of MethodList.
 template <int kEntry>
 const PassKernels<PicturePass>& picture_kernels();
+/// Picture kernels of an entry of HostMethodList.
+template <int kEntry>
+const PassKernels<PicturePass>& host_picture_kernels();
 extern const PassKernels<ProbePass> kProbeKernels;
 
 /// Maps a method to the type that run_paths() uses: methods guided by tables get their lookups ahead.

@@ -47,6 +47,10 @@ public:
     void upload_field(MethodId method, HostField field) override {
         if (volumes_.normals.size() == 0)
             throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
+        if (representation_of(field) != Representation::Table)
+            throw Error(ErrorKind::Unavailable,
+                        "CUDA back end: expected a field of tables, got an SD-tree, which the CPU serves: take "
+                        "--backend cpu or --field table");
         launcher_.forget();
         DeviceField uploaded;
         zip_fields(field, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });
@@ -246,8 +250,7 @@ PassCounters CudaBackend::precompute_part(const PrecomputeRequest& request, std:
 
 void CudaBackend::change_pending(MethodId method, const std::function<void(PendingSums)>& change) {
     auto& arrays = std::get<TableStorage<DeviceArray>>(existing_field(method));
-    for_each_pending_array([&](const auto& spec) {
-        auto& array = spec.get(arrays);
+    for_each_pending_array(arrays, [&](auto& array) {
         std::vector<std::remove_cvref_t<decltype(*array.data())>> values;
         array.download(values, stream_);
         stream_.wait("reading pending sums");

@@ -127,6 +127,9 @@ void RankWork::take_volumes(Payload& payload) {
 
 /// Its pending sums stay with rank 0: they count once.
 void RankWork::take_field(MethodId method, Payload& payload) {
+    Representation representation = representation_of(payload.field);
+    ranks_.broadcast(bytes_of_value(representation));
+    if (ranks_.rank() != 0) clear_to(payload.field, representation);
     std::visit(
         [&](auto& arrays) { zip(arrays, arrays, [&](const auto&, auto& array) { broadcast_array(ranks_, array); }); },
         payload.field);

@@ -1,5 +1,6 @@
 #include "app/measure/bench_options.h"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -62,7 +63,11 @@ BenchPlan make_bench_plan(const CommandLine& line, Console& console) {
                    .seeds = line.options.seeds};
     if (plan.methods.empty())
         for (const MethodInfo& info : all_methods()) plan.methods.push_back(info.id);
-    if (plan.backend_names.empty()) plan.backend_names = available_backends();
+    const bool is_on_cpu = std::ranges::any_of(plan.scenes, [](const BenchScene& scene) {
+        return scene.settings.field.representation != Representation::Table;
+    });
+    if (plan.backend_names.empty())
+        plan.backend_names = is_on_cpu ? std::vector<std::string>{"cpu"} : available_backends();
     for (const std::string& name : plan.backend_names)
         plan.backends[name] = make_own_backend(name, line.options.threads);
     return plan;

@@ -11,6 +11,16 @@ void refuse_save_field(Options&, const std::string&) {
 
 // clang-format off
 constexpr auto kFieldOptions = std::to_array<OptionSpec>({
+    {.name = "field", .flags = "--field", .value = "NAME", .group = kField,
+     .help = "How reinforcement represents what it learns: table (default), cells of each radiance volume, or sd-tree, quadtrees "
+             "over directions at the leaves of a binary tree over space, on the CPU",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_representation,
+     .print = [](const Options& o) { return std::string(name_of(o.render.field.representation)); }},
+    {.name = "iterations", .flags = "--iterations", .value = "NAME", .group = kField,
+     .help = "Training samples that an SD-tree is built from: updates (default), all so far by the learning rate, or doubling, "
+             "those of the last iteration alone, each twice as long as the one before",
+     .commands = kSampling, .in_scene_files = true, .parse = parse_iterations,
+     .print = [](const Options& o) { return std::string(name_of(o.render.field.iterations)); }},
     {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,
      .help = "Number of radiance volumes (default: what the budget holds, at most 1000)",
      .commands = kPaths, .in_scene_files = true,

@@ -6,21 +6,39 @@
 #include <utility>
 #include <variant>
 
-#include "core/fields/table_model.h"
+#include "core/fields/sd_tree_model.h"
 #include "core/kernel/methods/method.h"
 
 namespace pl {
 
 /// The arrays of a field in memory of one kind, by representation.
 template <template <class> class Array>
-using FieldArrays = std::variant<TableStorage<Array>>;
+using FieldArrays = std::variant<TableStorage<Array>, SdTreeStorage<Array>>;
 using HostField = FieldArrays<LargeArray>;
 
 /// A field as kernels see it, by representation; std::monostate for methods without one.
-using AnyFieldView = std::variant<std::monostate, TableField>;
+using AnyFieldView = std::variant<std::monostate, TableField, SdTreeField>;
+
+/// The representation of a field's arrays: their place in the variant.
+template <class Field>
+Representation representation_of(const Field& field) {
+    return static_cast<Representation>(field.index());
+}
+
+/// Arrays without values.
+template <template <class> class Array>
+void clear_to(FieldArrays<Array>& field, Representation representation) {
+    switch (representation) {
+    case Representation::Table: field = TableStorage<Array>{}; return;
+    case Representation::SdTree: field = SdTreeStorage<Array>{}; return;
+    }
+}
 
 /// A field without training samples.
-inline HostField make_field(const FieldShape& shape, std::size_t volumes) { return make_tables(shape, volumes); }
+inline HostField make_field(const FieldShape& shape, std::size_t volumes, Representation representation) {
+    if (representation == Representation::SdTree) return make_sd_tree(shape, volumes);
+    return make_tables(shape, volumes);
+}
 
 /// Whether all arrays have the length that follows from the shape and the number of volumes.
 inline bool fits(const FieldShape& shape, const HostField& field, std::size_t volumes) {
@@ -34,8 +52,11 @@ inline std::size_t field_bytes(const HostField& field) {
 /// Calls fn(array of `from`, array of `to`) for every array, after `to` has got the representation of `from`.
 template <template <class> class From, template <class> class To, class Fn>
 void zip_fields(const FieldArrays<From>& from, FieldArrays<To>& to, Fn&& fn) {
-    to = TableStorage<To>{};
-    zip(std::get<TableStorage<From>>(from), std::get<TableStorage<To>>(to), fn);
+    clear_to(to, representation_of(from));
+    if (const auto* tree = std::get_if<SdTreeStorage<From>>(&from))
+        zip(*tree, std::get<SdTreeStorage<To>>(to), fn);
+    else
+        zip(std::get<TableStorage<From>>(from), std::get<TableStorage<To>>(to), fn);
 }
 
 /// The field of a refined placement: volume i of the new ones, behind the others, is split off parents[i].
@@ -57,6 +78,7 @@ AnyFieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& vol
 /// Calls visit(view) with the view that `field`, an AnyFieldView, holds. Throws std::bad_variant_access if it holds none.
 template <class Any, class Visit>
 decltype(auto) visit_field(Any& field, Visit&& visit) {
+    if (auto* tree = std::get_if<SdTreeField>(&field)) return visit(*tree);
     return visit(std::get<TableField>(field));
 }
 

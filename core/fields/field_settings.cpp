@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fields/table_model.h"
+#include "core/fields/sd_tree_model.h"
 #include "core/fields/volume_grid.h"
 #include "core/scene/pack_scene.h"
 
@@ -18,6 +18,16 @@ int side_of(int bins) { return static_cast<int>(std::lround(std::sqrt(static_cas
 double affordable(const FieldSettings& settings, std::size_t light_clusters) {
     return settings.budget_megabytes * kBytesPerMegabyte /
            static_cast<double>(bytes_per_volume(settings.bins, light_clusters));
+}
+
+/// Nodes of an SD-tree within the budget, which its volumes share.
+std::uint32_t affordable_nodes(const FieldSettings& settings, std::size_t light_clusters) {
+    const std::size_t per_volume =
+        bytes_per_volume(settings.bins) - table_bytes(settings.bins) + sd_tree_bytes_per_volume(light_clusters);
+    const double volumes = static_cast<double>(per_volume) * volume_count(settings, light_clusters);
+    const double left = settings.budget_megabytes * kBytesPerMegabyte - volumes;
+    const double nodes = left / static_cast<double>(sd_tree_bytes_per_node());
+    return static_cast<std::uint32_t>(std::clamp(nodes, 64.0, static_cast<double>(kMostQuadNodes)));
 }
 
 /// Smallest power of two not below `value`, kept where neither dividing by it nor kMaxRecordedUnits times it can
@@ -64,13 +74,21 @@ FieldShape make_field_shape(const HostScene& scene, const FieldSettings& setting
         const Material& material = scene.materials[scene.triangles[light.primitive].material];
         brightest = std::max(brightest, luminance(material.emission));
     }
+    const Bounds bounds = bounds_of(scene);
+    const auto light_clusters = static_cast<std::uint32_t>(scene.light_clusters.size());
+    const float edge = bounds.empty() ? 0.0f : max_component(bounds.high - bounds.low);
     return {.cells = {side_of(settings.bins)},
-            .light_clusters = static_cast<std::uint32_t>(scene.light_clusters.size()),
+            .light_clusters = light_clusters,
             .radiance_unit = power_of_two_above(brightest),
-            .extent = bounds_of(scene).diagonal(),
+            .extent = bounds.diagonal(),
             .rate = settings.rate,
             .uniform_floor = settings.uniform_floor,
-            .lookup = settings.lookup};
+            .lookup = settings.lookup,
+            .representation = settings.representation,
+            .corner = bounds.empty() ? Vec3f{0.0f} : bounds.low,
+            .edge = edge > 0.0f && edge < kInfinity ? edge : 1.0f,
+            .most_nodes = affordable_nodes(settings, light_clusters),
+            .iterations = settings.iterations};
 }
 
 std::size_t volume_bytes(const HostVolumes& volumes) {

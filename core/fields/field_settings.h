@@ -25,6 +25,8 @@ struct FieldSettings {
     Lookup lookup = Lookup::Grid;
     /// Volumes that refinement may add, as a share of those placed, in [0, 1]; or kRefineByRecords. See refine_placement().
     float refine_share = kRefineByRecords;
+    Representation representation = Representation::Table;  ///< of methods that learn; probes fill tables
+    Iterations iterations = Iterations::Updates;            ///< of an SD-tree
 
     friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };

@@ -7,6 +7,18 @@
 
 namespace pl {
 
+/// How a method that learns represents incident radiance. Files store these numbers.
+enum class Representation : std::uint32_t {
+    Table,   ///< a table of cells per radiance volume
+    SdTree,  ///< quadtrees over directions at the leaves of a binary tree over space   [Mueller et al. 2017]
+};
+
+/// The training samples that an SD-tree is built from. Files store these numbers.
+enum class Iterations : std::uint32_t {
+    Updates,   ///< all so far, by the learning rate, at every update
+    Doubling,  ///< those of the last iteration alone, each as long as all before it together   [Mueller et al. 2017]
+};
+
 struct FieldShape {
     DirectionCells cells;
     std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
@@ -15,6 +27,12 @@ struct FieldShape {
     LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = kUniformShare;
     Lookup lookup = Lookup::Grid;
+    Representation representation = Representation::Table;
+    // Of an SD-tree:
+    Vec3f corner{0.0f};            ///< lowest corner of the cube that it divides
+    float edge = 1.0f;             ///< of the cube, above 0
+    std::uint32_t most_nodes = 1;  ///< of all quadtrees
+    Iterations iterations = Iterations::Updates;
 };
 
 }  // namespace pl

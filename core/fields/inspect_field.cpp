@@ -1,6 +1,48 @@
 #include "core/fields/inspect_field.h"
 
+#include <algorithm>
+
 namespace pl {
+namespace {
+
+/// Calls visit(point) for the middles of the kFinePoints x kFinePoints parts of a cell.
+template <class Visit>
+void for_each_point_of(const DirectionCells& cells, int cell, Visit&& visit) {
+    for (int row = 0; row < kFinePoints; ++row)
+        for (int column = 0; column < kFinePoints; ++column)
+            visit(cells.point_in_cell(cell, (Vec2f{column, row} + 0.5f) / static_cast<float>(kFinePoints)));
+}
+
+constexpr float kPointWeight = 1.0f / static_cast<float>(kFinePoints * kFinePoints);
+
+}  // namespace
+
+float SdTreeInspector::radiance(std::int32_t volume, int cell) const {
+    const std::uint32_t leaf = leaf_of(volume);
+    float sum = 0.0f;
+    for_each_point_of(field.cells, cell, [&](Vec2f square) {
+        const Vec3f wi = field.frame(volume).to_world(square_to_cosine_hemisphere(square));
+        sum += field.radiance_of(field.slot_at(leaf, sphere_to_square(wi)));
+    });
+    return kPointWeight * sum;
+}
+
+float SdTreeInspector::probability(std::int32_t volume, int cell) const {
+    float sum = 0.0f;
+    for_each_point_of(field.cells, cell, [&](Vec2f square) { sum += density(volume, square); });
+    return kPointWeight * sum / static_cast<float>(field.cells.count());
+}
+
+std::uint32_t SdTreeInspector::samples(std::int32_t volume, int cell) const {
+    const auto all = static_cast<double>(field.samples[static_cast<std::uint32_t>(volume)]);
+    return static_cast<std::uint32_t>(all * std::min(1.0, static_cast<double>(probability(volume, cell))));
+}
+
+float SdTreeInspector::density(std::int32_t volume, Vec2f square) const {
+    const Vec3f local = square_to_cosine_hemisphere(square);
+    const float cosine = std::max(local.z, 1.0e-4f);  // of the outermost points: rounding noise below
+    return field.direction_pdf_sa(leaf_of(volume), field.frame(volume).to_world(local)) * kPi / cosine;
+}
 
 std::uint32_t fine_cell_of(int side, Vec2f square) {
     const DirectionCells fine{.side = side * kFinePoints};

@@ -45,6 +45,27 @@ static_assert(FieldInspector<TableInspector>);
 
 inline TableInspector inspector_of(const TableField& field) { return {field}; }
 
+/// An SD-tree by the cells that tables have. Its samples are those of the volume, spread over the cells by their probability.
+struct SdTreeInspector {
+    SdTreeField field;
+
+    DirectionCells cells() const { return field.cells; }
+    float radiance(std::int32_t volume, int cell) const;
+    float probability(std::int32_t volume, int cell) const;
+    std::uint32_t samples(std::int32_t volume, int cell) const;
+    float mean_radiance(std::int32_t volume) const { return field.mean_radiance[static_cast<std::uint32_t>(volume)]; }
+    float density(std::int32_t volume, Vec2f square) const;
+    float bsdf_fraction(std::int32_t volume) const { return field.bsdf_fraction[leaf_of(volume)]; }
+
+private:
+    std::uint32_t leaf_of(std::int32_t volume) const {
+        return SdTreeVolumeSummary{field}.leaf_of(static_cast<std::uint32_t>(volume));
+    }
+};
+static_assert(FieldInspector<SdTreeInspector>);
+
+inline SdTreeInspector inspector_of(const SdTreeField& field) { return {field}; }
+
 /// Points per side of a cell at which densities are taken.
 inline constexpr int kFinePoints = 4;
 

@@ -5,7 +5,8 @@
 
 namespace pl {
 
-/// One volume as make_field() makes it: it has learned nothing. `volume` is below volume_count().
-void forget_volume(const FieldShape& shape, HostField& field, std::size_t volume);
+/// One volume as make_field() makes it: it has learned nothing. The leaf of an SD-tree at the volume forgets its directions with it.
+/// `volume` is below volume_count().
+void forget_volume(const FieldShape& shape, const HostVolumes& volumes, HostField& field, std::size_t volume);
 
 }  // namespace pl

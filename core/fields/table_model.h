@@ -169,6 +169,9 @@ TableUpdateView update_view(const FieldShape& shape, TableStorage<Array>& tables
     return view;
 }
 
-inline TableVolumeSummary summary_of(const TableUpdateView& field) { return {field}; }
+template <template <class> class Array>
+TableVolumeSummary summary_of(const FieldShape& shape, const HostVolumes&, TableStorage<Array>& tables) {
+    return {update_view(shape, tables)};
+}
 
 }  // namespace pl

@@ -12,7 +12,7 @@
 namespace pl {
 namespace {
 
-constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 1, .title = "checkpoint", .word = "checkpoint"};
+constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 2, .title = "checkpoint", .word = "checkpoint"};
 
 /// transfer(), also for the kinds of values that only checkpoints hold. Each works for writing, with constant values, and for
 /// reading.
@@ -184,7 +184,8 @@ void require_usable_fields(SessionState& state, const std::filesystem::path& pat
         field.arrays = std::move(checked.field);
     }
     if (has_tables) return;
-    checked.field = make_field(placement.shape, placement.volumes->normals.size());
+    checked.method = MethodId::Reinforcement;
+    checked.field = make_field(placement.shape, placement.volumes->normals.size(), placement.settings.representation);
     require_usable(checked, path);
 }
 

@@ -68,6 +68,10 @@ private:
         require(s.precompute_samples > 0 && is_square(s.precompute_samples), "precomputed samples",
                 "a square number above 0", s.precompute_samples);
         require(s.lookup <= Lookup::Grid, "lookup", "0 to 2", static_cast<std::uint32_t>(s.lookup));
+        require(s.representation <= Representation::SdTree, "representation", "0 or 1",
+                static_cast<std::uint32_t>(s.representation));
+        require(s.iterations <= Iterations::Doubling, "iterations", "0 or 1",
+                static_cast<std::uint32_t>(s.iterations));
         require((s.refine_share >= 0.0f && s.refine_share <= 1.0f) || s.refine_share == kRefineByRecords,
                 "share of added volumes", "0 to 1, or -1", s.refine_share);
     }
@@ -87,6 +91,16 @@ private:
         require(is_amount(shape.extent), "extent", "0 or more", shape.extent);
         require(shape.rate == s.rate && shape.uniform_floor == s.uniform_floor && shape.lookup == s.lookup,
                 "learning rate, uniform share and lookup of the tables", "those of the settings", "others");
+        require(shape.representation == s.representation && shape.iterations == s.iterations,
+                "representation and iterations of the shape", "those of the settings", "others");
+        require(is_finite(shape.corner), "corner of the cube", "a finite position", text_of(shape.corner));
+        require(shape.edge > 0.0f && std::isfinite(shape.edge), "edge of the cube", "a length above 0", shape.edge);
+        require(shape.most_nodes > 0 && shape.most_nodes <= kMostQuadNodes, "nodes of quadtrees",
+                fmt::format("1 to {}", kMostQuadNodes), shape.most_nodes);
+        const Representation expected = representation_of(s, field_.method);
+        require(representation_of(field_.field) == expected, "representation of the arrays",
+                fmt::format("{}", static_cast<std::uint32_t>(expected)),
+                static_cast<std::uint32_t>(representation_of(field_.field)));
     }
 
     /// All arrays have the length that follows from the number of volumes.
@@ -113,6 +127,15 @@ private:
         for_each_table_array([&](const auto& spec) {
             size(spec.name, spec.get(tables), extent_of(spec.extent, field_.shape, volumes));
         });
+    }
+
+    template <class Size>
+    void lengths_of(const HostSdTree& tree, const Size& size) const {
+        for_each_sd_tree_array([&](const auto& spec) {
+            size(spec.name, spec.get(tree), extent_of(spec.extent, field_.shape, tree, volumes_.normals.size()));
+        });
+        require(fits(field_.shape, tree, volumes_.normals.size()), "quadtrees",
+                "a node for each leaf, of four quadrants", tree.energy.size());
     }
 
     void progress() const {
@@ -162,10 +185,27 @@ private:
         pending_targets(tables);
         pending_distances(tables);
     }
+    void arrays_of(const HostSdTree& tree) const {
+        for_each_sd_tree_array([&](const auto& spec) { values_of(spec, spec.get(tree)); });
+        if (const std::optional<std::string> damage = damage_of(tree))
+            fail("SD-tree", "each node and each leaf once, children behind their parents", *damage);
+    }
+
+    static const char* word_of(ArrayExtent extent) { return extent == ArrayExtent::Cell ? "cell" : "volume"; }
+    static const char* word_of(SdTreeExtent extent) {
+        switch (extent) {
+        case SdTreeExtent::SpatialNode: return "place";
+        case SdTreeExtent::Leaf: return "leaf";
+        case SdTreeExtent::Slot: return "quadrant";
+        case SdTreeExtent::Volume:
+        case SdTreeExtent::LightCluster: break;
+        }
+        return "volume";
+    }
 
     template <class Spec, class Array>
     void values_of(const Spec& spec, const Array& values) const {
-        const char* where = spec.extent == ArrayExtent::Cell ? "cell" : "volume";
+        const char* where = word_of(spec.extent);
         const auto all = [&](std::string_view expected, const auto& is_valid) {
             for (std::size_t i = 0; i < values.size(); ++i)
                 if (!is_valid(values[i]))

@@ -10,7 +10,7 @@
 namespace pl {
 namespace {
 
-constexpr SealedKind kFieldKind{.magic = "PLFIELD\n", .version = 7, .title = "learned field", .word = "field"};
+constexpr SealedKind kFieldKind{.magic = "PLFIELD\n", .version = 8, .title = "learned field", .word = "field"};
 
 template <class Stream, class Field>
 void transfer_header(Stream& stream, Field& field) {

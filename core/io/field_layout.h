@@ -12,14 +12,14 @@ void transfer_settings(Stream& stream, Settings& settings) {
     const auto all = [&](auto&... values) { (transfer(stream, values), ...); };
     all(settings.volumes, settings.budget_megabytes, settings.bins, settings.rate, settings.learning.target,
         settings.learning.light, settings.uniform_floor, settings.precompute_samples, settings.lookup,
-        settings.refine_share);
+        settings.refine_share, settings.representation, settings.iterations);
 }
 
 template <class Stream, class Shape>
 void transfer_shape(Stream& stream, Shape& shape) {
     const auto all = [&](auto&... values) { (transfer(stream, values), ...); };
     all(shape.cells.side, shape.light_clusters, shape.radiance_unit, shape.extent, shape.rate, shape.uniform_floor,
-        shape.lookup);
+        shape.lookup, shape.representation, shape.corner, shape.edge, shape.most_nodes, shape.iterations);
 }
 
 template <class Stream, class Rounds>
@@ -34,8 +34,17 @@ void transfer_volumes(Stream& stream, Volumes& volumes) {
     zip_placement(volumes, volumes, [&](const auto&, auto& array) { transfer_array(stream, array); });
 }
 
+/// The arrays, behind their representation.
 template <class Stream, class Field>
 void transfer_tables(Stream& stream, Field& field) {
+    Representation representation = representation_of(field);
+    transfer(stream, representation);
+    if constexpr (!std::is_const_v<Field>) {
+        if (representation > Representation::SdTree)
+            stream.fail(
+                fmt::format("representation: expected 0 or 1, got {}", static_cast<std::uint32_t>(representation)));
+        clear_to(field, representation);
+    }
     std::visit(
         [&](auto& arrays) { zip(arrays, arrays, [&](const auto&, auto& array) { transfer_array(stream, array); }); },
         field);

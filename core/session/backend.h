@@ -130,6 +130,8 @@ public:
     /// Copy of a method's field; empty arrays if it has none.
     virtual HostField download_field(MethodId method) const = 0;
     virtual bool has_field(MethodId method) const = 0;
+    /// Bytes of the arrays of a method's field.
+    virtual std::size_t field_bytes(MethodId method) const { return pl::field_bytes(download_field(method)); }
 
     /// Allocates the film in this size and clears it.
     virtual void reset_film(FilmSlot slot, int width, int height) = 0;

@@ -22,9 +22,14 @@ void fit_to_run(LearnedField& field, const FieldSettings& settings) {
 }
 
 std::string summary_of(const LearnedField& field) {
-    return fmt::format("{}, {} volumes, {} directions, {} passes, {} records", info_of(field.method).name,
-                       field.volumes->normals.size(), field.shape.cells.count(), field.progress.passes,
-                       field.progress.records);
+    const auto text = [&](const std::string& what) {
+        return fmt::format("{}, {} volumes, {}, {} passes, {} records", info_of(field.method).name,
+                           field.volumes->normals.size(), what, field.progress.passes, field.progress.records);
+    };
+    if (const auto* tree = std::get_if<HostSdTree>(&field.field))
+        return text(
+            fmt::format("SD-tree of {} leaves and {} nodes", tree->first_node.size(), tree->energy.size() / 4));
+    return text(fmt::format("{} directions", field.shape.cells.count()));
 }
 
 }  // namespace pl

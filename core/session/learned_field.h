@@ -51,13 +51,18 @@ struct LearnedField {
     FieldProgress progress;
 };
 
+/// The representation of a method's field by these settings: probes fill tables only.
+inline Representation representation_of(const FieldSettings& settings, MethodId method) {
+    return info_of(method).learns ? settings.representation : Representation::Table;
+}
+
 /// Throws Error(Input) if the field was learned in another scene.
 void require_learned_in(const SceneDescription& scene, const LearnedField& field);
 
 /// Adapts a field of an earlier run to this one: clocks start at zero, and the lookup is that of `settings`.
 void fit_to_run(LearnedField& field, const FieldSettings& settings);
 
-/// "reinforcement, 1000 volumes, 256 directions, 12 passes, 34567 records"
+/// "reinforcement, 1000 volumes, 256 directions, 12 passes, 34567 records"; of an SD-tree its leaves and nodes in place of directions.
 std::string summary_of(const LearnedField& field);
 
 }  // namespace pl

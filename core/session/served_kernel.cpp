@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/kernel_row.h"
+#include "core/kernel/methods/host_method_list.h"
 #include "core/scene/needed_effects.h"
 
 namespace pl {
@@ -12,6 +13,11 @@ namespace {
 KernelRange range_of(const RenderSettings& settings) {
     if (settings.view != View::Beauty) return kViewRange;
     KernelRange range = KernelRange::Full;
+    if (settings.field.representation == Representation::SdTree &&
+        with_host_kernel<SdTreeField>(
+            settings.method, settings.field.learning, settings.next_event,
+            [&]<int kEntry>() { range = TypeAt<kEntry, HostMethodList>::Integrator::kKernelRange; }))
+        return range;
     with_method_kernel(settings.method, settings.field.learning, settings.next_event,
                        [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::Integrator::kKernelRange; });
     return range;

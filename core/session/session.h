@@ -113,6 +113,7 @@ public:
 private:
     std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(settings_.width * settings_.height); }
     std::uint32_t probe_count() const;
+    std::size_t stored_bytes(MethodId method) const;
     FieldProgress& field(MethodId method) { return fields_[static_cast<std::size_t>(method)]; }
     const FieldProgress& field(MethodId method) const { return fields_[static_cast<std::size_t>(method)]; }
 

@@ -14,7 +14,9 @@ bool fits_together(const LearnedField& field, const HostScene& scene) {
     if (field.shape.light_clusters != scene.light_clusters.size()) return false;
     const std::size_t volumes = field.volumes->normals.size();
     return field.volumes->sites.size() == volumes && field.volumes->kd_nodes.size() <= volumes &&
-           field.refinement.added <= volumes && fits(field.shape, field.field, volumes);
+           field.refinement.added <= volumes &&
+           representation_of(field.field) == representation_of(field.settings, field.method) &&
+           fits(field.shape, field.field, volumes);
 }
 
 }  // namespace
@@ -23,7 +25,8 @@ void Session::ensure_tables(MethodId method) {
     ensure_volumes();
     const MethodId owner = field_owner(method);
     if (!backend_->has_field(owner))
-        backend_->upload_field(owner, make_field(placement_.shape(), placement_.count()));
+        backend_->upload_field(
+            owner, make_field(placement_.shape(), placement_.count(), representation_of(settings_.field, owner)));
 }
 
 void Session::clear_tables() {

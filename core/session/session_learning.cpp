@@ -70,7 +70,7 @@ void Session::forget_due_volumes(MethodId method) {
     if (learned.forgotten.empty()) return;
     HostField arrays = backend_->download_field(method);
     for (const std::int32_t volume : learned.forgotten)
-        pl::forget_volume(placement_.shape(), arrays, static_cast<std::size_t>(volume));
+        pl::forget_volume(placement_.shape(), *placement_.volumes(), arrays, static_cast<std::size_t>(volume));
     backend_->upload_field(method, std::move(arrays));
     learned.forgotten.clear();
 }

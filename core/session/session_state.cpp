@@ -27,6 +27,10 @@ void require_fit(const SessionState& state, const HostScene& scene, std::size_t 
     for (const SavedFilm& film : state.films)
         fits = fits && film.pixels.size() == (film.progress.is_allocated ? pixels : 0) &&
                film.progress.next_pixel <= pixels;
+    for (const SavedField& field : state.fields)
+        fits = fits && (field_bytes(field.arrays) == 0 ||
+                        (state.placement && representation_of(field.arrays) ==
+                                                representation_of(state.placement->settings, field.method)));
     if (!fits) throw Error(ErrorKind::Input, "the checkpoint's films and volumes do not have the sizes of this run");
 }
 

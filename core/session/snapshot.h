@@ -39,6 +39,7 @@ struct FieldStatus {
     int volumes = 0;
     int added_volumes = 0;  ///< of these, by refining
     int bins = 0;
+    Representation representation = Representation::Table;
     std::size_t bytes = 0;
     std::uint64_t passes = 0;  ///< that trained it
     std::uint64_t records = 0;

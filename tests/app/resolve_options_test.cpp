@@ -1,5 +1,6 @@
 // Refused options, and their messages.
 #include "tests/app/parsing.h"
+#include "tests/support/files/input_error.h"
 #include "tests/support/program/run_program.h"
 
 namespace pl::test {
@@ -70,6 +71,11 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--refine", "half"}, "--refine: expected"},
         {{"--learning-rate", "means"},
          "--learning-rate: expected mean, forgetful, power or floor, got 'means' (nearest: 'mean')"},
+        {{"--field", "sdtree"}, "--field: expected table or sd-tree, got 'sdtree' (nearest: 'sd-tree')"},
+        {{"--iterations", "twice"}, "--iterations: expected updates or doubling, got 'twice'"},
+        {{"--iterations", "doubling"}, "--iterations doubling: expected --field sd-tree with it, got --field table"},
+        {{"--field", "sd-tree", "--method", "precomputed"},
+         "--field sd-tree: expected --field table with --method precomputed, whose probes fill tables"},
         {{"--learn-target", "montecarlo"},
          "--learn-target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo' (nearest: 'monte-carlo')"},
         {{"--learn-from", "direct"}, "--learn-from: expected all or indirect, got 'direct' (nearest: 'indirect')"},
@@ -119,6 +125,18 @@ TEST_CASE("unknown words name the nearest one") {
     CHECK_THAT(complaint({"devices", "--jsn"}), contains("nearest: '--json'"));
     CHECK_THAT(complaint({"info", "s", "--bins", "4"}), contains("unknown option '--bins' of 'info'"));
     CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), contains("unexpected argument 't'"));
+}
+
+TEST_CASE("an SD-tree takes the CPU and refuses CUDA") {
+    const std::vector<std::string> tree{"--method", "reinforcement", "--field", "sd-tree"};
+    const Options options = parse(render_with(tree));
+    CHECK(options.render.field.representation == Representation::SdTree);
+    CHECK(options.backend == "cpu");
+    CHECK(parse(render_with({"--method", "reinforcement"})).backend == "auto");
+    std::vector<std::string> on_cuda = tree;
+    on_cuda.insert(on_cuda.end(), {"--backend", "cuda"});
+    CHECK_THAT(error_message(ErrorKind::Unavailable, [&] { parse(render_with(on_cuda)); }),
+               contains("--field sd-tree: expected --backend cpu or auto, got cuda"));
 }
 
 TEST_CASE("views of the field need a method with a field") {

@@ -46,8 +46,8 @@ inline const std::vector<std::string> kStatsKeys{"schema",
 inline const std::vector<std::string> kSecondsKeys{"load",       "build", "upload", "place",
                                                    "precompute", "learn", "render", "total"};
 
-inline const std::vector<std::string> kFieldKeys{"volumes", "added_volumes", "bins",         "bytes",
-                                                 "passes",  "records",       "lookup_misses"};
+inline const std::vector<std::string> kFieldKeys{"representation", "volumes", "added_volumes", "bins",
+                                                 "bytes",          "passes",  "records",       "lookup_misses"};
 
 inline std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
     std::vector<std::string> keys;

@@ -139,7 +139,7 @@ TEST_CASE("A field that does not belong to the session is refused and changes no
     no_volumes.volumes.reset();
     LearnedField other_clusters = good;  // its arrays agree with its shape, but not with the scene's light tree
     other_clusters.shape.light_clusters = 2;
-    other_clusters.field = make_field(other_clusters.shape, good.volumes->normals.size());
+    other_clusters.field = make_field(other_clusters.shape, good.volumes->normals.size(), Representation::Table);
     CHECK_THAT(input_error([&] { session.import_field(other_scene); }),
                contains("another scene: expected scene hash " + good.scene_hash + ", got 0000000000000000"));
     for (const LearnedField& field : {short_table, default_method, no_volumes, other_clusters})

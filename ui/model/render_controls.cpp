@@ -85,7 +85,7 @@ void RenderControls::set_mixture(MixtureSettings mixture) {
 }
 
 void RenderControls::set_field(const FieldSettings& field) {
-    if (field == settings_.field) return;
+    if (field == settings_.field || !is_served(field, wanted_backend())) return;
     settings_.field = field;
     selection_.deselect();
     selection_.pins().clear();
@@ -163,6 +163,14 @@ void RenderControls::cancel_precomputation() {
 
 // --- back ends -------------------------------------------------------------------------------------------------
 
+/// Whether a back end serves the field; says so if it does not.
+bool RenderControls::is_served(const FieldSettings& field, const std::string& backend) {
+    if (field.representation == Representation::Table || backend == "cpu") return true;
+    messages_.say(MessageLevel::Warning,
+                  fmt::format("{} serves tables alone: the SD-tree needs the CPU", back_end_label(backend)));
+    return false;
+}
+
 void RenderControls::set_backend(const std::string& name) {
     const auto& choices = *link_.status().backends;
     const auto choice = std::ranges::find(choices, name, &BackendChoice::name);
@@ -172,6 +180,7 @@ void RenderControls::set_backend(const std::string& name) {
                       fmt::format("{} is unavailable: {}", back_end_label(name), choice->unavailable));
         return;
     }
+    if (!is_served(settings_.field, name)) return;
     backend_generation_ = worker_.switch_backend(name);
 }
 

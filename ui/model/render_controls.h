@@ -58,6 +58,7 @@ public:
 
 private:
     void submit_estimator();
+    bool is_served(const FieldSettings& field, const std::string& backend);
 
     Messages& messages_;
     RenderLink& link_;

@@ -84,6 +84,15 @@ void draw_field(ViewerModel& model) {
             &mixture.bsdf_fraction, {kMinBsdfFraction, 1.0f, MixtureSettings{}.bsdf_fraction, "%.2f"}))
         model.render().set_mixture(mixture);
     FieldSettings settings = model.render().settings().field;
+    int representation = static_cast<int>(settings.representation);
+    if (choice_row(
+            "Field",
+            "How a method that learns represents directions. Table: cells of each volume. SD-tree: quadtrees at the "
+            "leaves of a tree over space, on the CPU. Precomputed maps are tables.",
+            &representation, "Table\0SD-tree\0")) {
+        settings.representation = static_cast<Representation>(representation);
+        model.render().set_field(settings);
+    }
     int volumes = settings.volumes;
     if (int_row("Volumes",
                 "Number of radiance volumes; 0: as many as the memory holds, at most 1000. More volumes learn more "

@@ -76,6 +76,9 @@ void draw_field(const std::optional<FieldStatus>& field) {
     text_row("Volumes", fmt::format("{} x {} directions", field->volumes, field->bins));
     if (field->added_volumes > 0)
         text_row("Added", fmt::format("{} volumes", field->added_volumes), "By refinement after 8 and 16 passes.");
+    if (field->representation == Representation::SdTree)
+        text_row("Directions", "SD-tree",
+                 "Quadtrees at the leaves of a tree over space; volumes keep the irradiance.");
     text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");
     text_row("Passes", fmt::format("{}", field->passes), "Passes whose training samples the field has learned from.");
     text_row("Samples", count_text(field->records), "Training samples.");

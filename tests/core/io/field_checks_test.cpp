@@ -131,6 +131,40 @@ TEST_CASE("Whole field files with numbers that no session could have learned are
     }
 }
 
+TEST_CASE("Damaged SD-trees in files are refused, whole ones come back") {
+    const TemporaryFolder folder;
+    LearnedField field = small_field();
+    field.method = MethodId::Reinforcement;
+    field.settings.representation = field.shape.representation = Representation::SdTree;
+    field.field = make_field(field.shape, kVolumes, Representation::SdTree);
+    const auto refused = [&](const std::function<void(LearnedField&)>& change) {
+        LearnedField damaged = field;
+        change(damaged);
+        write_field(folder.path() / "field", damaged);
+        return input_error([&] { read_field(folder.path() / "field"); });
+    };
+    write_field(folder.path() / "field", field);
+    CHECK(std::get<HostSdTree>(read_field(folder.path() / "field").field).energy.size() == 4);
+    const auto tree = [](LearnedField& f) -> HostSdTree& { return std::get<HostSdTree>(f.field); };
+    CHECK_THAT(refused([&](LearnedField& f) { tree(f).spatial[0] = 0; }),
+               contains("damaged field: SD-tree: expected each node"));
+    CHECK_THAT(refused([&](LearnedField& f) { tree(f).child[2] = 7; }), contains("child of the quadrant 2: got 7"));
+    CHECK_THAT(refused([&](LearnedField& f) { tree(f).energy[1] = kNan; }),
+               contains("energy of quadrant 1: expected 0 or more, got nan"));
+    CHECK_THAT(refused([&](LearnedField& f) { tree(f).visits.clear(); }),
+               contains("visits: expected 1 values, got 0"));
+    CHECK_THAT(refused([&](LearnedField& f) { tree(f).bsdf_fraction[0] = 0.0f; }),
+               contains("BSDF share of leaf 0: expected 0.1 to 0.9, got 0"));
+    CHECK_THAT(refused([&](LearnedField& f) { f.shape.edge = 0.0f; }),
+               contains("edge of the cube: expected a length above 0"));
+    CHECK_THAT(refused([&](LearnedField& f) { f.shape.most_nodes = 0; }),
+               contains("nodes of quadtrees: expected 1 to"));
+    CHECK_THAT(refused([&](LearnedField& f) { f.method = MethodId::Precomputed; }),
+               contains("representation of the arrays: expected 0, got 1"));
+    CHECK_THAT(refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(2); }),
+               contains("representation: expected 0 or 1, got 2"));
+}
+
 // A table that is not monotonic would give a direction a negative probability; this takes at least four columns.
 TEST_CASE("Probabilities that fall are refused") {
     const TemporaryFolder folder;

@@ -12,26 +12,36 @@ bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocato
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// Every array of the tables, so that a new one is compared as well.
-inline bool same_bits(const HostTables& a, const HostTables& b) {
+/// Every array, so that a new one is compared as well.
+template <class Arrays>
+bool same_arrays(const Arrays& a, const Arrays& b) {
     bool same = true;
     zip(a, b, [&](const auto& x, const auto& y) { same = same && same_bits(x, y); });
     return same;
 }
+inline bool same_bits(const HostTables& a, const HostTables& b) { return same_arrays(a, b); }
+inline bool same_bits(const HostSdTree& a, const HostSdTree& b) { return same_arrays(a, b); }
 
 inline bool same_events(const PassCounters& a, const PassCounters& b) {
     static_assert(std::has_unique_object_representations_v<PassCounters>);
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// A film with its statistics, and the tables of its method.
+/// A film with its statistics, and the tables or the SD-tree of its method.
 struct State {
     Snapshot snapshot;
     HostTables tables;
+    HostSdTree tree{};
 };
 
 inline State state_of(Session& session, FilmSlot slot) {
-    return {session.snapshot_with_halves(slot), tables_of(session.backend_access().download_field(slot.method))};
+    HostField field = session.backend_access().download_field(slot.method);
+    State state{session.snapshot_with_halves(slot), {}};
+    if (auto* tree = std::get_if<HostSdTree>(&field))
+        state.tree = std::move(*tree);
+    else
+        state.tables = tables_of(std::move(field));
+    return state;
 }
 inline State state_of(Session& session) { return state_of(session, slot_of(session)); }
 
@@ -42,7 +52,8 @@ inline bool same_film(const State& a, const State& b) {
            x.weights == y.weights && same_bits(x.mean[0], y.mean[0]) && same_bits(x.mean[1], y.mean[1]);
 }
 inline bool same_state(const State& a, const State& b) {
-    return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) && same_bits(a.tables, b.tables);
+    return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) &&
+           same_bits(a.tables, b.tables) && same_bits(a.tree, b.tree);
 }
 
 }  // namespace pl::test

@@ -11,11 +11,13 @@ struct Variant {
     LearningRate rate = LearningRate::Forgetful;
     LearningSettings learning{};
     RouletteRule roulette = RouletteRule::Spare;
+    Representation representation = Representation::Table;
 
     RenderSettings of(RenderSettings settings) const {
         settings.field.rate = rate;
         settings.field.learning = learning;
         settings.roulette = roulette;
+        settings.field.representation = representation;
         return settings;
     }
 };
@@ -33,6 +35,20 @@ inline constexpr Variant kVariants[] = {
     {"Monte Carlo, indirect", true, LearningRate::Forgetful, {LearningTarget::MonteCarlo, LearnedLight::Indirect}},
     {"roulette by albedo", false, LearningRate::Forgetful, {}, RouletteRule::Albedo},
     {"roulette by field", false, LearningRate::Forgetful, {}, RouletteRule::Field},
+    {"SD-tree", false, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::SdTree},
+    {"SD-tree, light samples", true, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::SdTree},
+    {"SD-tree, Sarsa",
+     false,
+     LearningRate::Forgetful,
+     {LearningTarget::Sarsa, LearnedLight::All},
+     RouletteRule::Spare,
+     Representation::SdTree},
+    {"SD-tree, Monte Carlo",
+     true,
+     LearningRate::Forgetful,
+     {LearningTarget::MonteCarlo, LearnedLight::Indirect},
+     RouletteRule::Spare,
+     Representation::SdTree},
 };
 
 }  // namespace pl::test

@@ -59,6 +59,25 @@ TEST_CASE("Render controls: an unavailable back end is reported with its reason,
     CHECK(lonely.messages().toasts().back().text == "there is no other back end");
 }
 
+TEST_CASE("Render controls: an SD-tree is chosen on the CPU, and keeps the other back end away") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    FieldSettings tree = model.render().settings().field;
+    tree.representation = Representation::SdTree;
+    model.render().set_field(tree);
+    CHECK(model.render().settings().field.representation == Representation::SdTree);
+    model.render().set_backend("cuda");
+    CHECK(model.render().wanted_backend() == "cpu");
+    REQUIRE_FALSE(model.messages().toasts().empty());
+    CHECK(model.messages().toasts().back().text == "CUDA serves tables alone: the SD-tree needs the CPU");
+    model.render().set_field({});
+    model.render().set_backend("cuda");
+    CHECK(model.render().wanted_backend() == "cuda");
+    model.render().set_field(tree);
+    CHECK(model.render().settings().field.representation == Representation::Table);
+}
+
 TEST_CASE("Render controls: a failure of a back end is reported, and the CPU takes over") {
     FileBench bench;
     bench.options.first_backend = "cuda";
