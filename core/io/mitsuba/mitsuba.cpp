@@ -62,8 +62,7 @@ private:
             else if (target.element() == "emitter" || target.element() == "light")
                 radiance = radiance_of(target);
         }
-        const std::string at = surface ? surface.place() : std::string("standard");
-        const auto key = std::make_tuple(at, radiance.x, radiance.y, radiance.z);
+        const auto key = std::make_tuple(surface.identity(), radiance.x, radiance.y, radiance.z);
         const auto [known, is_new] = materials_.try_emplace(key, static_cast<std::uint32_t>(scene_.materials.size()));
         if (is_new) add_material(surface, radiance);
         return known->second;
@@ -155,7 +154,7 @@ private:
 
     MitsubaFile file_;
     SceneDescription scene_;
-    std::map<std::tuple<std::string, float, float, float>, std::uint32_t> materials_;
+    std::map<std::tuple<const void*, float, float, float>, std::uint32_t> materials_;
 };
 
 }  // namespace

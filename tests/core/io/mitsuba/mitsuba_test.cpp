@@ -279,3 +279,16 @@ TEST_CASE("mitsuba: broken files are refused with file and line", "[hard]") {
     CHECK_THAT(input_error([&] { load_scene(folder.write("c.xml", "<svg/>").string(), ""); }),
                contains("expected a scene of Mitsuba"));
 }
+
+TEST_CASE("mitsuba: surfaces that begin in the same line are different ones") {
+    const auto square = [](const std::string& color) {
+        return "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" + color +
+               "\"/></bsdf></shape>";
+    };
+    const SceneDescription scene = load(square("0.1") + square("0.2") + kSquare + kSquare);
+    REQUIRE(scene.materials.size() == 3);
+    CHECK(scene.materials[0].albedo == glm::vec3(0.1f));
+    CHECK(scene.materials[1].albedo == glm::vec3(0.2f));
+    CHECK(scene.triangles[2].material == 1);
+    CHECK(scene.triangles[6].material == 2);
+}
