@@ -128,7 +128,7 @@ TEST_CASE("write_scene: vertical axes that the camera does not tell are kept") {
     }
 }
 
-TEST_CASE("a scene file lists cameras; the first is shown unless it has one of its own") {
+TEST_CASE("a scene file lists cameras, of which the first is shown unless it has one of its own") {
     const TemporaryFolder folder;
     folder.write("a.obj", "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
     const auto load = [&](const std::string& members, const LoadSettings& asked = {}) {
