@@ -11,6 +11,7 @@ int run_view(const CommandLine& line, Console& console);
 int run_render(const CommandLine& line, Console& console);
 int run_replay(const CommandLine& line, Console& console);
 int run_info(const CommandLine& line, Console& console);
+int run_convert(const CommandLine& line, Console& console);
 int run_devices(const CommandLine& line, Console& console);
 int run_inspect(const CommandLine& line, Console& console);
 int run_trace(const CommandLine& line, Console& console);

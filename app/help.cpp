@@ -25,6 +25,10 @@ constexpr std::array kCommands{
         "same samples; what is learned stays from one to the next. An interrupted replay keeps its whole frames."},
     CommandInfo{Command::Info, "info", "SCENE",
                 "Prints the contents of a scene, the effects that it needs and the kernel that serves it."},
+    CommandInfo{Command::Convert, "convert", "SCENE -o FILE",
+                "Writes a scene in the program's own format: FILE, a .json, with mesh and images in the folder FILE-parts.\n"
+                "The new scene renders to the same bits as SCENE with the same options. Knobs are left out, their values\n"
+                "stay; a default light is written as an environment map. Nothing is overwritten: both names have to be new."},
     CommandInfo{Command::Devices, "devices", "", "Lists the back ends, and why one is unavailable.", Inputs::Nothing},
     CommandInfo{Command::Inspect, "inspect", "SCENE (--at X,Y,Z[,NX,NY,NZ] | --pixel X,Y) -o FILE",
                 "Trains, then writes the learned hemisphere at a point.\n"

@@ -32,6 +32,7 @@ int run(const std::vector<std::string>& arguments, Console& console) {
     case Command::Render: return run_render(line, console);
     case Command::Replay: return run_replay(line, console);
     case Command::Info: return run_info(line, console);
+    case Command::Convert: return run_convert(line, console);
     case Command::Devices: return run_devices(line, console);
     case Command::Inspect: return run_inspect(line, console);
     case Command::Trace: return run_trace(line, console);

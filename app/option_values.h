@@ -22,6 +22,7 @@ enum class Command : std::uint32_t {
     Render,
     Replay,
     Info,
+    Convert,
     Devices,
     Inspect,
     Trace,

@@ -133,7 +133,7 @@ std::optional<std::string> answer_to(Command command, const Found& found) {
 }
 
 void require_complete(Command command, const Options& options) {
-    const bool needs_file = command == Command::Render || command == Command::Inspect;
+    const bool needs_file = command == Command::Render || command == Command::Inspect || command == Command::Convert;
     const bool needs_folder =
         command == Command::Replay || command == Command::Reference || command == Command::Bench;
     if (options.scene.empty() && options.inputs.empty() &&

@@ -17,8 +17,8 @@ constexpr auto kCameraOptions = std::to_array<OptionSpec>({
              "below override both",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
     {.name = "scene-camera", .flags = "--scene-camera", .value = "NAME", .group = kCamera,
-     .help = "Camera that the scene's file lists (glTF), by its name or its number from 1, see 'info' (default: the first)",
-     .commands = kWithScene, .parse = [](Options& o, Text text) { o.load.camera = text; },
+     .help = "Camera that the scene's file lists, by its name or its number from 1, see 'info' (default: the first)",
+     .commands = kOpening, .parse = [](Options& o, Text text) { o.load.camera = text; },
      .print = [](const Options& o) { return o.load.camera; }},
     {.name = "path", .flags = "--path", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"schema\": \"pathlight.cameras/1\", \"cameras\": [{\"eye\": ...}, ...]}, such as the viewer's "
@@ -32,7 +32,7 @@ constexpr auto kCameraOptions = std::to_array<OptionSpec>({
     {.name = "up-axis", .flags = "--up-axis", .value = "NAME", .group = kCamera,
      .help = "Vertical axis of scenes without a camera, and of the default light: auto (default; y or z, guessed from "
              "the geometry), x, y, z",
-     .commands = kWithScene, .in_scene_files = true, .parse = parse_up_axis, .print = print_up_axis},
+     .commands = kOpening, .in_scene_files = true, .parse = parse_up_axis, .print = print_up_axis},
     {.name = "eye", .flags = "--eye", .value = "X,Y,Z", .group = kCamera, .help = "Position of the camera",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.eye = parse_vector(text); },
      .print = [](const Options& o) { return print_vector(o.render.camera.eye); }},

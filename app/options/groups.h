@@ -30,10 +30,14 @@ using Text = const std::string&;
 
 /// Subcommands that options have in common.
 inline constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Replay, Command::Info,
-                                        Command::Devices, Command::Inspect, Command::Trace, Command::Compare,
-                                        Command::Reference, Command::Bench, Command::Report, Command::SelfTest);
+                                        Command::Convert, Command::Devices, Command::Inspect, Command::Trace,
+                                        Command::Compare, Command::Reference, Command::Bench, Command::Report,
+                                        Command::SelfTest);
 inline constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Replay, Command::Info,
                                        Command::Inspect, Command::Trace, Command::Reference, Command::Bench);
+/// Choices for opening a scene.
+inline constexpr CommandSet kOpening(Command::View, Command::Render, Command::Replay, Command::Info, Command::Convert,
+                                     Command::Inspect, Command::Trace, Command::Reference, Command::Bench);
 inline constexpr CommandSet kThreaded(Command::View, Command::Render, Command::Replay, Command::Info,
                                       Command::Inspect, Command::Trace, Command::Reference, Command::Bench,
                                       Command::SelfTest);
@@ -44,9 +48,9 @@ inline constexpr CommandSet kPaths(Command::View, Command::Render, Command::Repl
 inline constexpr CommandSet kSampling(Command::View, Command::Render, Command::Replay, Command::Inspect,
                                       Command::Trace);
 inline constexpr CommandSet kPictures(Command::View, Command::Render, Command::Replay);
-inline constexpr CommandSet kHeadless(Command::Render, Command::Replay, Command::Info, Command::Devices,
-                                      Command::Inspect, Command::Trace, Command::Compare, Command::Reference,
-                                      Command::Bench, Command::Report, Command::SelfTest);
+inline constexpr CommandSet kHeadless(Command::Render, Command::Replay, Command::Info, Command::Convert,
+                                      Command::Devices, Command::Inspect, Command::Trace, Command::Compare,
+                                      Command::Reference, Command::Bench, Command::Report, Command::SelfTest);
 inline constexpr CommandSet kFiles(Command::Render, Command::Inspect);
 inline constexpr CommandSet kWithStats(Command::Render, Command::Replay, Command::Inspect);
 inline constexpr CommandSet kWorking(Command::Render, Command::Replay, Command::Inspect, Command::Trace,

@@ -1,17 +1,23 @@
 #include "core/io/camera_file.h"
 
+#include <array>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "core/io/files.h"
-#include "core/io/json_document.h"
 
 namespace pl {
 namespace {
 
-/// The camera in the object at `pointer`. Throws Error(Input).
-CameraChoice read_camera(const JsonDocument& file, const std::string& pointer) {
-    if (file.object(pointer, {"eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance"}) == nullptr)
-        file.fail(pointer, "expected a camera { ... }");
+constexpr std::array kMembers = {"eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance"};
+
+/// The camera in the object at `pointer`, which may have members of `others`, too. Throws Error(Input).
+CameraChoice read_camera(const JsonDocument& file, const std::string& pointer,
+                         const std::vector<std::string>& others = {}) {
+    std::vector<std::string> known(kMembers.begin(), kMembers.end());
+    known.insert(known.end(), others.begin(), others.end());
+    if (file.object(pointer, known) == nullptr) file.fail(pointer, "expected a camera { ... }");
     const CameraChoice camera{.eye = file.vector(pointer + "/eye"),
                               .target = file.vector(pointer + "/target"),
                               .up = file.vector(pointer + "/up"),
@@ -27,6 +33,16 @@ CameraChoice read_camera(const JsonDocument& file, const std::string& pointer) {
     return camera;
 }
 
+/// read_camera() with the missing members of `standard`. Throws Error(Input), also for a camera that looks nowhere.
+CameraDescription read_whole_camera(const JsonDocument& file, const std::string& pointer,
+                                    const CameraDescription& standard, const std::vector<std::string>& others = {}) {
+    const CameraDescription camera = replaced(standard, read_camera(file, pointer, others));
+    if (camera.eye == camera.target)
+        file.fail(pointer + "/eye", "expected an eye away from the target, got the same point for both");
+    if (camera.up == glm::vec3(0.0f)) file.fail(pointer + "/up", "expected a direction, got [0, 0, 0]");
+    return camera;
+}
+
 /// All cameras of a file; missing members are those of `standard`. Throws Error(Input).
 std::vector<CameraDescription> read_cameras(const JsonDocument& file, const CameraDescription& standard) {
     file.object("", {"schema", "cameras"});
@@ -34,14 +50,8 @@ std::vector<CameraDescription> read_cameras(const JsonDocument& file, const Came
     if (schema != kCamerasSchema)
         file.fail("/schema", fmt::format("expected \"{}\", got \"{}\"", kCamerasSchema, schema));
     std::vector<CameraDescription> cameras;
-    for (std::size_t i = 0; i < file.array_size("/cameras"); ++i) {
-        const std::string pointer = fmt::format("/cameras/{}", i);
-        const CameraDescription camera = replaced(standard, read_camera(file, pointer));
-        if (camera.eye == camera.target)
-            file.fail(pointer + "/eye", "expected an eye away from the target, got the same point for both");
-        if (camera.up == glm::vec3(0.0f)) file.fail(pointer + "/up", "expected a direction, got [0, 0, 0]");
-        cameras.push_back(camera);
-    }
+    for (std::size_t i = 0; i < file.array_size("/cameras"); ++i)
+        cameras.push_back(read_whole_camera(file, fmt::format("/cameras/{}", i), standard));
     return cameras;
 }
 
@@ -81,6 +91,27 @@ CameraPath load_camera_path(const std::filesystem::path& path, const CameraDescr
         file.fail("/cameras",
                   fmt::format("expected at least {} cameras, got {}", CameraPath::kFewest, cameras.size()));
     return CameraPath(std::move(cameras));
+}
+
+std::vector<NamedCamera> read_named_cameras(const JsonDocument& file, const CameraDescription& standard) {
+    std::vector<NamedCamera> cameras;
+    for (std::size_t i = 0; i < file.array_size("/cameras"); ++i) {
+        const std::string at = fmt::format("/cameras/{}", i);
+        const CameraDescription camera = read_whole_camera(file, at, standard, {"name", "aspect"});
+        const float aspect = file.number(at + "/aspect").value_or(0.0f);
+        if (!(aspect >= 0.0f)) file.fail(at + "/aspect", "expected width over height of the picture, or 0 for any");
+        cameras.push_back({.name = file.text(at + "/name").value_or(fmt::format("camera {}", i + 1)),
+                           .camera = camera,
+                           .aspect = aspect});
+    }
+    return cameras;
+}
+
+Json named_camera_json(const NamedCamera& camera) {
+    Json json{{"name", camera.name}};
+    json.update(camera_json(camera.camera));
+    if (camera.aspect > 0.0f) json["aspect"] = camera.aspect;
+    return json;
 }
 
 void save_cameras(const std::filesystem::path& path, std::span<const CameraDescription> cameras) {

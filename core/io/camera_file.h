@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/io/json_document.h"
 #include "core/io/json_file.h"
 #include "core/scene/camera_path.h"
 #include "core/scene/description.h"
@@ -39,6 +40,13 @@ std::vector<CameraDescription> load_cameras(const std::filesystem::path& path, c
 
 /// The path through the cameras of a file. Throws Error(Input) with file and line, also for fewer than CameraPath::kFewest.
 CameraPath load_camera_path(const std::filesystem::path& path, const CameraDescription& standard);
+
+/// The member "cameras" of a scene file: [camera_json() with "name" and "aspect", ...], each of which may be missing; members
+/// of a camera are then those of `standard`. Throws Error(Input) with file and line.
+std::vector<NamedCamera> read_named_cameras(const JsonDocument& file, const CameraDescription& standard);
+
+/// For read_named_cameras().
+Json named_camera_json(const NamedCamera& camera);
 
 /// Writes a file for load_cameras(), which reads the same bits. Throws Error(Runtime).
 void save_cameras(const std::filesystem::path& path, std::span<const CameraDescription> cameras);

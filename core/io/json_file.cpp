@@ -6,6 +6,14 @@
 
 namespace pl {
 
+bool is_utf8(const std::string& text) {
+    try {
+        return !Json(text).dump().empty();
+    } catch (const Json::type_error&) {
+        return false;
+    }
+}
+
 Json read_json_file(const std::filesystem::path& path, std::string_view schema) {
     const std::string text = read_text_file(path);
     return read_members(path, [&] {

@@ -18,6 +18,9 @@ using Json = nlohmann::ordered_json;
 /// [x, y, z].
 inline Json vector_json(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
 
+/// Whether JSON text can hold these bytes.
+bool is_utf8(const std::string& text);
+
 /// Throws Error(Input): missing, not JSON, not of this "schema".
 Json read_json_file(const std::filesystem::path& path, std::string_view schema);
 

@@ -38,6 +38,11 @@ std::size_t find_camera(const std::string& asked, const SceneDescription& scene)
 
 }  // namespace
 
+std::string size_of_aspect(float aspect) {
+    constexpr float kHeight = 512.0f;
+    return fmt::format("{:.0f}x{:.0f}", kHeight * std::clamp(aspect, 0.25f, 4.0f), kHeight);
+}
+
 void set_default_camera(SceneDescription& scene) {
     if (scene.cameras.empty())
         scene.camera = frame_camera(scene);
@@ -48,11 +53,7 @@ void set_default_camera(SceneDescription& scene) {
 void choose_camera(const std::string& asked, SceneDescription& scene) {
     if (!asked.empty()) use(find_camera(asked, scene), scene);
     const float aspect = scene.chosen_camera > 0 ? scene.cameras[scene.chosen_camera - 1].aspect : 0.0f;
-    if (aspect > 0.0f && scene.setting("size").empty()) {
-        constexpr float kHeight = 512.0f;
-        scene.settings.emplace_back("size",
-                                    fmt::format("{:.0f}x{:.0f}", kHeight * std::clamp(aspect, 0.25f, 4.0f), kHeight));
-    }
+    if (aspect > 0.0f && scene.setting("size").empty()) scene.settings.emplace_back("size", size_of_aspect(aspect));
 }
 
 }  // namespace pl

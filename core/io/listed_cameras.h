@@ -7,6 +7,9 @@
 
 namespace pl {
 
+/// Value of the setting `size` for pictures of this width over height.
+std::string size_of_aspect(float aspect);
+
 /// The first listed camera; without any that of frame_camera(). Expects SceneDescription::up and a triangle.
 void set_default_camera(SceneDescription& scene);
 

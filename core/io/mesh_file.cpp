@@ -16,8 +16,8 @@ bool is_scene_suffix(std::string_view suffix) {
     return suffix == ".obj" || suffix == ".json" || suffix == ".xml" || is_gltf_suffix(suffix);
 }
 
-SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd) {
-    return is_gltf(path) ? load_gltf(path, groups) : load_obj(path, groups, map_kd);
+SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd, ObjNormals normals) {
+    return is_gltf(path) ? load_gltf(path, groups) : load_obj(path, groups, map_kd, normals);
 }
 
 }  // namespace pl

@@ -19,9 +19,10 @@ ObjMesh read_obj_mesh(const std::filesystem::path& path) {
     return simple ? std::move(*simple) : read_any_obj(text, path);
 }
 
-SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd) {
+SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd, ObjNormals normals) {
     const int threads = usable_threads();
     ObjMesh mesh = read_obj_mesh(path);
+    mesh.lengths = normals;
     smooth_normals(mesh);
     SceneDescription scene;
     scene.source = path;

@@ -33,6 +33,6 @@ ObjMesh read_obj_mesh(const std::filesystem::path& path);
 /// - `mtllib` may only name files in the folder of the OBJ file or below.
 /// Throws Error(Input) with file and line for malformed statements; see check_obj() and load_mtl().
 SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups = nullptr,
-                          MapKd map_kd = MapKd::Multiplies);
+                          MapKd map_kd = MapKd::Multiplies, ObjNormals normals = ObjNormals::Any);
 
 }  // namespace pl

@@ -62,9 +62,16 @@ struct ObjName {
     int line = 0;
 };
 
+/// What becomes of the lengths of normals.
+enum class ObjNormals : std::uint8_t {
+    Any,   ///< all are made unit
+    Unit,  ///< those that are unit to within rounding keep their bits, which dividing by the length would change
+};
+
 struct ObjMesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  ///< of any length
+    ObjNormals lengths = ObjNormals::Any;
     std::vector<glm::vec2> uvs;
     std::vector<ObjFaces> parts;        ///< in the order of the file
     std::vector<ObjName> materials;     ///< of `usemtl`

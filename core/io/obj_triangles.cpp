@@ -15,10 +15,12 @@ namespace {
 
 static_assert(ObjCorner::kNone == TriangleDescription::kNoNormal && ObjCorner::kNone == TriangleDescription::kNoUv);
 
-void make_unit(std::vector<glm::vec3>& normals, int threads) {
+void make_unit(std::vector<glm::vec3>& normals, ObjNormals lengths, int threads) {
+    constexpr double kRounding = 1e-6;
     for_indices(static_cast<std::uint32_t>(normals.size()), threads, [&](std::uint32_t i) {
         const glm::dvec3 normal(normals[i]);
         const double length = glm::length(normal);
+        if (lengths == ObjNormals::Unit && std::abs(length - 1.0) < kRounding) return;
         normals[i] = length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f);
     });
 }
@@ -134,7 +136,7 @@ void warn(SceneDescription& scene, const std::vector<PartBuilder>& parts) {
 
 void add_obj_triangles(SceneDescription& scene, ObjMesh mesh, const MaterialTable& materials, MeshGroups* groups,
                        int threads) {
-    make_unit(mesh.normals, threads);
+    make_unit(mesh.normals, mesh.lengths, threads);
     scene.positions = std::move(mesh.positions);
     scene.normals = std::move(mesh.normals);
     scene.uvs = std::move(mesh.uvs);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/camera_file.h"
 #include "core/io/files.h"
 #include "core/io/frame_camera.h"
 #include "core/io/json_document.h"
@@ -34,8 +35,9 @@ const std::vector<std::string> kSettings = {
 void read_up(const JsonDocument& file, const LoadSettings& asked, SceneDescription& scene) {
     const std::optional<UpAxis> preset = up_axis_named(scene.setting("up-axis"));
     const UpAxis axis = asked.up_axis.value_or(preset.value_or(UpAxis::Auto));
-    const std::optional<glm::vec3> up = file.vector("/camera/up");
-    const bool places_camera = file.vector("/camera/eye") || file.vector("/camera/target");
+    const std::string at = file.has("/camera") ? "/camera" : "/cameras/0";
+    const std::optional<glm::vec3> up = file.vector(at + "/up");
+    const bool places_camera = file.vector(at + "/eye") || file.vector(at + "/target");
     if (axis == UpAxis::Auto && up && *up != glm::vec3(0.0f)) {
         scene.up = nearest_axis(*up);
     } else if (axis != UpAxis::Auto || !places_camera) {
@@ -47,6 +49,9 @@ void read_camera(const JsonDocument& file, const LoadSettings& asked, SceneDescr
     const bool given =
         file.object("/camera", {"eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance"});
     read_up(file, asked, scene);
+    if (file.has("/cameras")) {
+        scene.cameras = read_named_cameras(file, frame_camera(scene, CameraDescription{}.fov_deg));
+    }
     if (!given) {
         set_default_camera(scene);
         return;
@@ -74,6 +79,14 @@ void read_camera(const JsonDocument& file, const LoadSettings& asked, SceneDescr
     }
 }
 
+ObjNormals read_normals(const JsonDocument& file) {
+    const std::string lengths = file.text("/normals").value_or("any");
+    if (lengths != "any" && lengths != "unit") {
+        file.fail("/normals", fmt::format("expected any or unit, got '{}'", lengths));
+    }
+    return lengths == "unit" ? ObjNormals::Unit : ObjNormals::Any;
+}
+
 void read_settings(const JsonDocument& file, SceneDescription& scene) {
     const nlohmann::json* const settings = file.object("/settings", kSettings);
     if (settings == nullptr) {
@@ -96,7 +109,8 @@ void read_settings(const JsonDocument& file, SceneDescription& scene) {
 
 SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSettings& asked) {
     const JsonDocument file(read_text_file(path), path);
-    file.object("", {"schema", "name", "obj", "camera", "environment", "materials", "knobs", "settings"});
+    file.object("", {"schema", "name", "obj", "normals", "camera", "cameras", "environment", "materials", "knobs",
+                     "settings"});
     const std::optional<std::string> schema = file.text("/schema");
     if (schema != kSchema) {
         file.fail("/schema",
@@ -107,7 +121,7 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
         file.fail("/obj", "expected the name of an OBJ or glTF file");
     }
     MeshGroups groups;
-    SceneDescription scene = load_mesh(path.parent_path() / *obj, &groups, asked.map_kd);
+    SceneDescription scene = load_mesh(path.parent_path() / *obj, &groups, asked.map_kd, read_normals(file));
     scene.source = path;
     scene.files.push_back(path);
     scene.name = file.text("/name").value_or(path.stem().string());

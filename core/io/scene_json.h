@@ -12,6 +12,8 @@ namespace pl {
 ///   name         shown to people; default: the file's name
 ///   camera       eye, target, up, fov_deg (vertical); defaults frame the scene, level by the vertical axis. With
 ///                aperture_radius > 0 a thin lens focused at focus_distance, by default the distance of the target
+///   cameras      cameras to choose from, see read_named_cameras(); the first is shown unless there is a `camera`
+///   normals      "unit": those of the OBJ file that are unit to within rounding are taken to the bit; else "any"
 ///   environment  see read_environment()
 ///   materials    name of an MTL entry -> overrides, see read_materials()
 ///   knobs        see read_knobs()

@@ -83,11 +83,17 @@ void read_surface(const JsonDocument& file, const std::string& at, MaterialDescr
     material.transmission = read_share(file, at + "/transmission").value_or(material.transmission);
 }
 
-void read_images(const JsonDocument& file, const std::string& at, SceneDescription& scene, TextureUse& use) {
-    const std::string wrap = file.text(at + "/wrap").value_or("repeat");
+/// Whether an image repeats outside of [0, 1].
+bool read_wrap(const JsonDocument& file, const std::string& pointer, bool standard) {
+    const std::string wrap = file.text(pointer).value_or(standard ? "repeat" : "clamp");
     if (wrap != "repeat" && wrap != "clamp") {
-        file.fail(at + "/wrap", fmt::format("expected repeat or clamp, got '{}'", wrap));
+        file.fail(pointer, fmt::format("expected repeat or clamp, got '{}'", wrap));
     }
+    return wrap == "repeat";
+}
+
+void read_images(const JsonDocument& file, const std::string& at, SceneDescription& scene, TextureUse& use) {
+    const bool repeats = read_wrap(file, at + "/wrap", true);
     struct Slot {
         const char* key;
         std::uint32_t TextureUse::*index;
@@ -98,12 +104,13 @@ void read_images(const JsonDocument& file, const std::string& at, SceneDescripti
                              Slot{"/emission_map", &TextureUse::emission, TextureContent::Color},
                              Slot{"/opacity_map", &TextureUse::opacity, TextureContent::Opacity}}) {
         const std::optional<std::string> name = file.text(at + slot.key);
+        const bool own_repeats = read_wrap(file, at + slot.key + "_wrap", repeats);
         if (!name) {
             continue;
         }
         use.*slot.index = name->empty() ? kNoTexture
                                         : add_texture(scene, image_path(file, scene, at + slot.key, *name),
-                                                      slot.content, wrap == "repeat");
+                                                      slot.content, own_repeats);
     }
 }
 
@@ -146,7 +153,8 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
     for (const auto& [name, overrides] : all->items()) {
         const std::string at = "/materials" + pointer_step(name);
         file.object(at, {"albedo", "emission", "two_sided_emission", "surface", "roughness", "ior", "specular",
-                         "transmission", "albedo_map", "roughness_map", "emission_map", "opacity_map", "wrap"});
+                         "transmission", "albedo_map", "roughness_map", "emission_map", "opacity_map", "wrap",
+                         "albedo_map_wrap", "roughness_map_wrap", "emission_map_wrap", "opacity_map_wrap"});
         MaterialDescription& material = find_material(file, scene, name);
         material.albedo = read_share(file, at + "/albedo").value_or(material.albedo);
         material.emission = read_light(file, at + "/emission").value_or(material.emission);
@@ -168,17 +176,21 @@ void read_material_file(const std::filesystem::path& path, SceneDescription& sce
     scene.files.push_back(path);
 }
 
+Json material_json(const MaterialDescription& material) {
+    return {{"albedo", vector_json(material.albedo)},
+            {"emission", vector_json(material.emission)},
+            {"two_sided_emission", material.two_sided_emission},
+            {"surface", kSurfaceNames[static_cast<std::size_t>(material.kind)]},
+            {"roughness", material.roughness},
+            {"ior", material.ior},
+            {"specular", vector_json(material.specular)},
+            {"transmission", vector_json(material.transmission)}};
+}
+
 void write_material_file(const std::filesystem::path& path, const std::vector<MaterialDescription>& materials) {
     Json all = Json::object();
     for (const MaterialDescription& material : materials) {
-        all[material.name] = {{"albedo", vector_json(material.albedo)},
-                              {"emission", vector_json(material.emission)},
-                              {"two_sided_emission", material.two_sided_emission},
-                              {"surface", kSurfaceNames[static_cast<std::size_t>(material.kind)]},
-                              {"roughness", material.roughness},
-                              {"ior", material.ior},
-                              {"specular", vector_json(material.specular)},
-                              {"transmission", vector_json(material.transmission)}};
+        all[material.name] = material_json(material);
     }
     write_json_file(path, {{"schema", kMaterialsSchema}, {"materials", std::move(all)}});
 }

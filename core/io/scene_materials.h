@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/io/json_document.h"
+#include "core/io/json_file.h"
 #include "core/scene/description.h"
 
 namespace pl {
@@ -15,12 +16,16 @@ namespace pl {
 ///   roughness, ior                             numbers
 ///   albedo_map, roughness_map, emission_map, opacity_map    images in the folder of the scene or below; "" for none
 ///   wrap                                       "repeat" (default) or "clamp", for these images
+///   albedo_map_wrap and so on                  the same for one of them
 /// See MaterialDescription. Throws Error(Input) with file and line.
 void read_materials(const JsonDocument& file, SceneDescription& scene);
 
 /// Reads a file of the schema "pathlight.materials/1" with the member `materials` as in scene files, applied after it.
 /// Throws Error(Input) with file and line.
 void read_material_file(const std::filesystem::path& path, SceneDescription& scene);
+
+/// All values of a material but its images, for read_materials().
+Json material_json(const MaterialDescription& material);
 
 /// Writes such a file with all values of these materials but their images. Throws Error(Runtime).
 void write_material_file(const std::filesystem::path& path, const std::vector<MaterialDescription>& materials);

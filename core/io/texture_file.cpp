@@ -55,9 +55,6 @@ void require_size(const fs::path& path, long long width, long long height) {
     }
 }
 
-/// [IEC 61966-2-1]
-float decode_srgb(float code) { return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f); }
-
 template <class Sample>
 using StbPixels = std::unique_ptr<Sample, decltype(&stbi_image_free)>;
 
@@ -203,6 +200,8 @@ TextureDescription checkers(const fs::path& source, bool repeats) {
 }
 
 }  // namespace
+
+float decode_srgb(float code) { return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f); }
 
 TextureDescription read_texture(const fs::path& path, TextureContent content, bool repeats,
                                 std::vector<std::string>& warnings) {

@@ -14,6 +14,9 @@ namespace pl {
 inline constexpr std::uint32_t kMostTextureSide = 16384;
 inline constexpr std::size_t kMostTexels = std::size_t{1} << 26;
 
+/// Linear value of an sRGB value, both in [0, 1]. [IEC 61966-2-1]
+float decode_srgb(float code);
+
 /// Reads an image file, its kind by the suffix. LDR colors are decoded from sRGB [IEC 61966-2-1]; numbers and
 /// opacities are linear. Texels of HDR files that are NaN, infinite or negative become 0, with one counted warning.
 /// Throws Error(Input) for a file that is missing, of unknown kind, corrupt, or too large.

@@ -18,6 +18,7 @@
 #include "core/io/image.h"
 #include "core/io/load_scene.h"
 #include "core/io/mitsuba/ply.h"
+#include "core/io/mitsuba/serialized.h"
 #include "core/io/obj_library.h"
 #include "core/io/obj_simple.h"
 #include "core/io/texture_file.h"
@@ -141,6 +142,11 @@ void run_mitsuba(std::string_view bytes) {
     read_or_refuse([&] { load_and_pack(path); });
 }
 
+void run_serialized(std::string_view bytes) {
+    const fs::path path = folder().write("m.serialized", bytes);
+    read_or_refuse([&] { read_serialized(path, 0); });
+}
+
 void run_ply(std::string_view bytes) {
     const fs::path path = folder().write("m.ply", bytes);
     read_or_refuse([&] { read_ply(path); });
@@ -207,13 +213,10 @@ void run_script(std::string_view bytes) {
 #endif
 
 constexpr FuzzEntry kEntries[] = {
-    {"obj", run_obj},
-    {"json", run_json},
-    {"gltf", run_gltf},
-    {"mitsuba", run_mitsuba},
-    {"ply", run_ply},
-    {"field", run_field},
-    {"checkpoint", run_checkpoint},
+    {"obj", run_obj},       {"json", run_json},
+    {"gltf", run_gltf},     {"mitsuba", run_mitsuba},
+    {"ply", run_ply},       {"serialized", run_serialized},
+    {"field", run_field},   {"checkpoint", run_checkpoint},
     {"image", run_image},
 #if PL_FUZZ_SCRIPTS
     {"script", run_script},

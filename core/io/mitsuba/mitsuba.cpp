@@ -46,9 +46,43 @@ public:
 
 private:
     void read_shape(const MitsubaObject& shape) {
+        if (shape.type() == "shapegroup") return;  // read by its first instance
+        if (shape.type() == "instance") {
+            read_instance(shape);
+            return;
+        }
         const std::uint32_t material = material_of(shape);
         if (shape.child("interior_medium") || shape.property("interior")) shape.note("media are left out");
         add_mitsuba_shape(shape, material, scene_);
+    }
+
+    void read_instance(const MitsubaObject& instance) {
+        MitsubaObject group;
+        for (const MitsubaObject& child : instance.children()) {
+            const MitsubaObject target = mitsuba_target(file_, child);
+            if (target.type() == "shapegroup") group = target;
+        }
+        if (!group) instance.fail("expected the shapegroup of this instance, got none");
+        add_mitsuba_instance(instance, shapes_of(group), scene_);
+    }
+
+    /// The triangles of a group where it is described, with materials of the scene.
+    const SceneDescription& shapes_of(const MitsubaObject& group) {
+        const auto [known, is_new] = groups_.try_emplace(group.identity());
+        SceneDescription& part = known->second;
+        if (!is_new) return part;
+        part.source = scene_.source;
+        for (const MitsubaObject& child : group.children()) {
+            const MitsubaObject shape = mitsuba_target(file_, child);
+            if (shape.element() == "shape") add_mitsuba_shape(shape, material_of(shape), part);
+        }
+        const auto take = [](auto& from, auto& to) {
+            to.insert(to.end(), from.begin(), from.end());
+            from.clear();
+        };
+        take(part.warnings, scene_.warnings);
+        take(part.files, scene_.files);
+        return part;
     }
 
     /// The scene's material of a shape: one for each surface and radiance.
@@ -62,8 +96,7 @@ private:
             else if (target.element() == "emitter" || target.element() == "light")
                 radiance = radiance_of(target);
         }
-        const std::string at = surface ? surface.place() : std::string("standard");
-        const auto key = std::make_tuple(at, radiance.x, radiance.y, radiance.z);
+        const auto key = std::make_tuple(surface.identity(), radiance.x, radiance.y, radiance.z);
         const auto [known, is_new] = materials_.try_emplace(key, static_cast<std::uint32_t>(scene_.materials.size()));
         if (is_new) add_material(surface, radiance);
         return known->second;
@@ -155,7 +188,8 @@ private:
 
     MitsubaFile file_;
     SceneDescription scene_;
-    std::map<std::tuple<std::string, float, float, float>, std::uint32_t> materials_;
+    std::map<std::tuple<const void*, float, float, float>, std::uint32_t> materials_;
+    std::map<const void*, SceneDescription> groups_;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "core/io/mitsuba/shapes.h"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "core/base/parallel_chunks.h"
 #include "core/io/line_reader.h"
 #include "core/io/mitsuba/ply.h"
+#include "core/io/mitsuba/serialized.h"
 #include "core/io/obj.h"
 #include "core/io/obj_check.h"
 #include "core/io/obj_smooth.h"
@@ -44,25 +46,21 @@ ObjMesh rectangle() {
     return mesh;
 }
 
-/// [-1, 1]^3.
+/// [-1, 1]^3, with its corners and images as Mitsuba has them. [Mitsuba 3, cube]
 ObjMesh cube() {
+    // The corners of each face by the signs of x, y and z: bits 0 to 2.
+    constexpr std::array<std::array<int, 4>, 6> kFaces = {
+        {{1, 5, 4, 0}, {3, 2, 6, 7}, {1, 3, 7, 5}, {5, 7, 6, 4}, {4, 6, 2, 0}, {3, 1, 0, 2}}};
     ObjMesh mesh = empty_mesh();
-    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const float side : {-1.0f, 1.0f}) {
-            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-            for (const auto& [s, t] : {std::pair{-1.0f, -1.0f}, {1.0f, -1.0f}, {1.0f, 1.0f}, {-1.0f, 1.0f}}) {
-                glm::vec3 p(0.0f);
-                p[axis] = side;
-                p[(axis + 1) % 3] = side * s;
-                p[(axis + 2) % 3] = t;
-                mesh.positions.push_back(p);
-            }
-            add_face(mesh, {{first, ObjCorner::kNone, 0},
-                            {first + 1, ObjCorner::kNone, 1},
-                            {first + 2, ObjCorner::kNone, 2},
-                            {first + 3, ObjCorner::kNone, 3}});
-        }
+    mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    for (const std::array<int, 4>& face : kFaces) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const int bits : face)
+            mesh.positions.emplace_back((bits & 1) != 0 ? 1 : -1, (bits & 2) != 0 ? 1 : -1, (bits & 4) != 0 ? 1 : -1);
+        add_face(mesh, {{first, ObjCorner::kNone, 0},
+                        {first + 1, ObjCorner::kNone, 1},
+                        {first + 2, ObjCorner::kNone, 2},
+                        {first + 3, ObjCorner::kNone, 3}});
     }
     return mesh;
 }
@@ -109,8 +107,7 @@ ObjMesh sphere() {
     return mesh;
 }
 
-ObjMesh ply(const std::filesystem::path& path) {
-    PlyMesh read = read_ply(path);
+ObjMesh mesh_of(PlyMesh read) {
     ObjMesh mesh = empty_mesh();
     const bool has_normals = !read.normals.empty();
     const bool has_uvs = !read.uvs.empty();
@@ -126,6 +123,16 @@ ObjMesh ply(const std::filesystem::path& path) {
     return mesh;
 }
 
+/// The mesh of a file; sets `is_flat` if the file says so.
+ObjMesh read_file_mesh(const MitsubaObject& shape, const std::filesystem::path& path, bool& is_flat) {
+    if (shape.type() == "obj") return read_obj_mesh(path);
+    if (shape.type() == "ply") return mesh_of(read_ply(path));
+    SerializedMesh read =
+        read_serialized(path, static_cast<std::int64_t>(shape.number("shape_index").value_or(0.0f)));
+    is_flat = is_flat || read.is_flat;
+    return mesh_of(std::move(read.mesh));
+}
+
 /// Normals as Mitsuba has them: none, those of the file, or those of a smooth surface.
 void settle_normals(bool is_flat, ObjMesh& mesh) {
     for (ObjFaces& part : mesh.parts) {
@@ -135,7 +142,9 @@ void settle_normals(bool is_flat, ObjMesh& mesh) {
     smooth_normals(mesh);
 }
 
-void move(const MitsubaObject& shape, const glm::dmat4& to_world, ObjMesh& mesh) {
+/// `mesh` has positions and normals.
+template <class Mesh>
+void move(const MitsubaObject& shape, const glm::dmat4& to_world, Mesh& mesh) {
     const glm::dmat3 m(to_world);
     glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const bool is_mirrored = glm::dot(cofactors[0], m[0]) < 0.0;
@@ -153,6 +162,11 @@ void move(const MitsubaObject& shape, const glm::dmat4& to_world, ObjMesh& mesh)
         const double length = glm::length(turned);
         normal = length > 0.0 && std::isfinite(length) ? glm::vec3(turned / length) : glm::vec3(0.0f);
     }
+}
+
+/// The first row of an image is at v = 0 in Mitsuba, whose OBJ reader turns images over as this does; here it is at v = 1.
+void turn_images_over(ObjMesh& mesh) {
+    for (glm::vec2& uv : mesh.uvs) uv.y = 1.0f - uv.y;
 }
 
 /// Turns the front of all faces to their other side.
@@ -193,12 +207,12 @@ void add_mitsuba_shape(const MitsubaObject& shape, std::uint32_t material, Scene
     ObjMesh mesh;
     SceneDescription added;
     added.source = scene.source;
-    if (type == "obj" || type == "ply") {
-        const std::filesystem::path path = shape.file("filename");
-        scene.files.push_back(path);
-        added.source = path;
-        mesh = type == "obj" ? read_obj_mesh(path) : ply(path);
-        settle_normals(shape.boolean("face_normals").value_or(false), mesh);
+    if (type == "obj" || type == "ply" || type == "serialized") {
+        added.source = shape.file("filename");
+        scene.files.push_back(added.source);
+        bool is_flat = shape.boolean("face_normals").value_or(false);
+        mesh = read_file_mesh(shape, added.source, is_flat);
+        settle_normals(is_flat, mesh);
     } else if (type == "rectangle") {
         mesh = rectangle();
     } else if (type == "cube") {
@@ -215,6 +229,7 @@ void add_mitsuba_shape(const MitsubaObject& shape, std::uint32_t material, Scene
         shape.note(fmt::format("shapes of the type {} are left out", in_quotes(type)));
         return;
     }
+    if (!shape.boolean("flip_tex_coords").value_or(type == "obj")) turn_images_over(mesh);
     move(shape, to_world, mesh);
     const bool is_mirrored = glm::determinant(glm::dmat3(to_world)) < 0.0;
     if (is_mirrored != shape.boolean("flip_normals").value_or(false)) turn_over(mesh);
@@ -222,6 +237,29 @@ void add_mitsuba_shape(const MitsubaObject& shape, std::uint32_t material, Scene
                                   .fallback = material};
     add_obj_triangles(added, std::move(mesh), materials, nullptr, usable_threads());
     append(std::move(added), scene);
+}
+
+void add_mitsuba_instance(const MitsubaObject& instance, const SceneDescription& group, SceneDescription& scene) {
+    if (scene.triangles.size() + group.triangles.size() > kMostMitsubaTriangles ||
+        scene.positions.size() + group.positions.size() > kMostMitsubaVertices) {
+        instance.fail(fmt::format("expected at most {} triangles in the scene, with all copies of shapes, got more",
+                                  kMostMitsubaTriangles));
+    }
+    const glm::dmat4 to_world = instance.transform("to_world");
+    SceneDescription copy;
+    copy.positions = group.positions;
+    copy.normals = group.normals;
+    copy.uvs = group.uvs;
+    copy.triangles = group.triangles;
+    move(instance, to_world, copy);
+    if (glm::determinant(glm::dmat3(to_world)) < 0.0) {
+        for (TriangleDescription& triangle : copy.triangles) {
+            std::swap(triangle.vertex.y, triangle.vertex.z);
+            std::swap(triangle.normal.y, triangle.normal.z);
+            std::swap(triangle.uv.y, triangle.uv.z);
+        }
+    }
+    append(std::move(copy), scene);
 }
 
 }  // namespace pl

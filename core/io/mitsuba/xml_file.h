@@ -51,6 +51,8 @@ public:
     glm::vec3 own_color() const;
 
     std::string place() const;
+    /// The same for the same element of a file alone: several may begin in one line.
+    const void* identity() const { return node_.internal_object(); }
     [[noreturn]] void fail(const std::string& what) const;
     void note(const std::string& kind) const;
 

@@ -70,7 +70,15 @@ double volume(const SceneDescription& scene) {
 
 TEST_CASE("mitsuba: rectangle, cube, disk and sphere, with their fronts outwards") {
     CHECK(normal_and_area(load(kSquare)) == glm::dvec4(0, 0, 4, 4));
-    CHECK(volume(load("<shape type=\"cube\"/>")) == Approx(8.0));
+    const SceneDescription cube = load("<shape type=\"cube\"/>");
+    CHECK(volume(cube) == Approx(8.0));
+    // On the face towards +z images lie on their side: upwards in them is -x.
+    for (const TriangleDescription& t : cube.triangles)
+        for (int k = 0; k < 3; ++k)
+            if (t.vertex.x / 4 == 3) {
+                const glm::vec3& p = cube.positions[t.vertex[k]];
+                CHECK(cube.uvs[t.uv[k]] == 0.5f * (glm::vec2(p.y, -p.x) + 1.0f));
+            }
     const glm::dvec4 disk = normal_and_area(load("<shape type=\"disk\"/>"));
     CHECK(disk.z == Approx(3.14159).epsilon(0.01));
     const SceneDescription ball = load("<shape type=\"sphere\"><point name=\"center\" x=\"1\" y=\"2\" "
@@ -278,4 +286,106 @@ TEST_CASE("mitsuba: broken files are refused with file and line", "[hard]") {
     CHECK(load_scene(bomb.string(), "").triangles.size() == 2);
     CHECK_THAT(input_error([&] { load_scene(folder.write("c.xml", "<svg/>").string(), ""); }),
                contains("expected a scene of Mitsuba"));
+}
+
+TEST_CASE("mitsuba: surfaces that begin in the same line are different ones") {
+    const auto square = [](const std::string& color) {
+        return "<shape type=\"rectangle\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" + color +
+               "\"/></bsdf></shape>";
+    };
+    const SceneDescription scene = load(square("0.1") + square("0.2") + kSquare + kSquare);
+    REQUIRE(scene.materials.size() == 3);
+    CHECK(scene.materials[0].albedo == glm::vec3(0.1f));
+    CHECK(scene.materials[1].albedo == glm::vec3(0.2f));
+    CHECK(scene.triangles[2].material == 1);
+    CHECK(scene.triangles[6].material == 2);
+}
+
+namespace {
+
+std::string number_bytes(std::uint64_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xffu);
+    return text;
+}
+std::string float_bytes(const std::vector<float>& values) {
+    std::string text(values.size() * sizeof(float), '\0');
+    std::memcpy(text.data(), values.data(), text.size());
+    return text;
+}
+
+/// A stream of zlib of one block that is not compressed.
+std::string stored(const std::string& bytes) {
+    return std::string("\x78\x01\x01") + number_bytes(bytes.size(), 2) + number_bytes(0xffff - bytes.size(), 2) +
+           bytes + number_bytes(0, 4);
+}
+
+/// A mesh of version 4 of two triangles in the plane z, with texture coordinates.
+std::string serialized_square(float z, std::uint32_t last = 3) {
+    std::string mesh = number_bytes(0x1002, 4) + std::string("name") + '\0' + number_bytes(4, 8) +
+                       number_bytes(2, 8) + float_bytes({0, 0, z, 1, 0, z, 1, 1, z, 0, 1, z}) +
+                       float_bytes({0, 0, 1, 0, 1, 1, 0, 1});
+    for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, last}) mesh += number_bytes(corner, 4);
+    return number_bytes(0x041c, 2) + number_bytes(4, 2) + stored(mesh);
+}
+
+std::string serialized_file(const std::vector<std::string>& shapes) {
+    std::string file, places;
+    for (const std::string& shape : shapes) {
+        places += number_bytes(file.size(), 8);
+        file += shape;
+    }
+    return file + places + number_bytes(shapes.size(), 4);
+}
+
+std::string serialized_shape(const std::string& more = "") {
+    return "<shape type=\"serialized\"><string name=\"filename\" value=\"m.serialized\"/>" + more + "</shape>";
+}
+
+}  // namespace
+
+TEST_CASE("mitsuba: serialized meshes, by their number in the file") {
+    const TemporaryFolder folder;
+    folder.write("m.serialized", serialized_file({serialized_square(0), serialized_square(5)}));
+    const SceneDescription first = load(folder, serialized_shape());
+    CHECK(normal_and_area(first) == glm::dvec4(0, 0, 1, 1));
+    CHECK(first.positions[2] == glm::vec3(1, 1, 0));
+    CHECK(first.uvs[2] == glm::vec2(1, 0));  // the first row of an image is at v = 0
+    const SceneDescription second = load(folder, serialized_shape("<integer name=\"shape_index\" value=\"1\"/>"));
+    CHECK(second.positions[2] == glm::vec3(1, 1, 5));
+}
+
+TEST_CASE("mitsuba: damaged serialized meshes are refused with the byte") {
+    const TemporaryFolder folder;
+    const auto refused = [&](const std::string& bytes, const std::string& more = "") {
+        folder.write("m.serialized", bytes);
+        return input_error([&] { load(folder, serialized_shape(more)); });
+    };
+    const std::string good = serialized_file({serialized_square(0)});
+    CHECK_THAT(refused(""), contains("byte 0: expected 2 bytes"));
+    CHECK_THAT(refused("abcdefgh"), contains("expected a serialized mesh of version 3 or 4"));
+    CHECK_THAT(refused(good, "<integer name=\"shape_index\" value=\"1\"/>"), contains("one of 1 shapes"));
+    CHECK_THAT(refused(serialized_file({serialized_square(0, 4)})), contains("indices below 4"));
+    CHECK_THAT(refused(serialized_file({serialized_square(NAN)})), contains("a finite number"));
+    CHECK_THAT(refused(good.substr(0, 4) + "nothing packed" + good.substr(good.size() - 12)),
+               contains("a compressed mesh"));
+    for (std::size_t size = 0; size < good.size(); size += 7) CHECK_FALSE(refused(good.substr(0, size)).empty());
+}
+
+TEST_CASE("mitsuba: instances are copies of their group, which is not shown itself") {
+    const std::string group = "<shape type=\"shapegroup\" id=\"g\">" + kSquare +
+                              "<shape type=\"cube\"><bsdf type=\"diffuse\"><rgb name=\"reflectance\" "
+                              "value=\"0.2\"/></bsdf></shape></shape>";
+    const auto instance = [](const std::string& place) {
+        return "<shape type=\"instance\"><ref id=\"g\"/><transform name=\"to_world\">" + place +
+               "</transform></shape>";
+    };
+    const SceneDescription scene = load(group + instance("<translate x=\"5\"/>") + instance("<scale x=\"-2\"/>"));
+    CHECK(scene.triangles.size() == 2 * 14);
+    CHECK(scene.materials.size() == 2);
+    CHECK(scene.triangles[2].material == scene.triangles[16].material);
+    CHECK(volume(scene) == Approx(8.0 + 16.0));
+    CHECK_THAT(refusal(group + "<shape type=\"instance\"/>"), contains("expected the shapegroup"));
+    CHECK_THAT(refusal(group), contains("expected a shape with an area"));
+    CHECK_THAT(refusal(group + instance("<scale value=\"1e30\"/>")), contains("expected coordinates up to"));
 }

@@ -1,0 +1,185 @@
+#include "core/io/write_scene.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/io/camera_file.h"
+#include "core/io/files.h"
+#include "core/io/json_file.h"
+#include "core/io/listed_cameras.h"
+#include "core/io/scene_materials.h"
+#include "core/io/write_mesh.h"
+#include "core/io/write_texture.h"
+#include "core/scene/default_light.h"
+#include "core/scene/up_axis.h"
+
+namespace pl {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void require_free(const fs::path& path) {
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(path, ignored)))
+        throw Error(ErrorKind::Usage, fmt::format("{}: expected a new name, got one that is taken", path.string()));
+}
+
+/// A hidden folder beside its target; removed unless it has become the target.
+class HiddenFolder {
+public:
+    explicit HiddenFolder(fs::path target) : target_(std::move(target)) {
+        path_ = target_.parent_path() / fmt::format(".pathlight-{}.parts", ::getpid());
+        std::error_code error;
+        if (!fs::create_directory(path_, error))
+            fail_write(target_, error ? error.message() : path_.string() + " is in the way");
+    }
+    ~HiddenFolder() {
+        std::error_code ignored;
+        if (!path_.empty()) fs::remove_all(path_, ignored);
+    }
+    HiddenFolder(const HiddenFolder&) = delete;
+    HiddenFolder& operator=(const HiddenFolder&) = delete;
+
+    const fs::path& path() const { return path_; }
+    void become_target() {
+        std::error_code error;
+        fs::rename(path_, target_, error);
+        if (error) fail_write(target_, error.message());
+        path_.clear();
+    }
+
+private:
+    fs::path target_;
+    fs::path path_;
+};
+
+class SceneWriter {
+public:
+    /// Images and mesh go to `folder`; the document names them in `shown_folder`, relative to the scene file.
+    SceneWriter(const SceneDescription& scene, fs::path folder, std::string shown_folder)
+        : scene_(scene), folder_(std::move(folder)), shown_folder_(std::move(shown_folder)) {}
+
+    Json document() {
+        const std::vector<std::string> names = material_names(scene_);
+        write_mesh(scene_, names, folder_, "mesh");
+        Json document{{"schema", "pathlight.scene/1"}, {"name", scene_.name}, {"obj", shown("mesh.obj")}};
+        if (!scene_.normals.empty()) document["normals"] = "unit";
+        add_cameras(document);
+        add_environment(document);
+        for (std::size_t i = 0; i < names.size(); ++i)
+            document["materials"][names[i]] = material(scene_.materials[i]);
+        add_settings(document);
+        return document;
+    }
+
+    std::size_t images() const { return images_; }
+
+private:
+    std::string shown(const std::string& file) const { return shown_folder_ + "/" + file; }
+
+    /// A chosen one of the listed cameras comes first, which is the one that is shown.
+    void add_cameras(Json& document) const {
+        if (scene_.chosen_camera == 0) document["camera"] = camera_json(scene_.camera);
+        Json list = Json::array();
+        for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
+            NamedCamera camera = scene_.cameras[i];
+            const bool is_chosen = i + 1 == scene_.chosen_camera;
+            if (is_chosen) camera.camera = scene_.camera;
+            list.insert(is_chosen ? list.begin() : list.end(), named_camera_json(camera));
+        }
+        if (!list.empty()) document["cameras"] = std::move(list);
+    }
+
+    void add_environment(Json& document) {
+        Json environment = Json::object();
+        if (scene_.environment != glm::vec3(0.0f)) environment["radiance"] = vector_json(scene_.environment);
+        if (!scene_.environment_map.texels.empty()) {
+            write_environment_map(folder_ / "environment.exr", scene_.environment_map);
+            ++images_;
+            environment["map"] = shown("environment.exr");
+            environment["rotation_deg"] = scene_.environment_map.rotation_deg;
+        }
+        if (scene_.sun.radiance != glm::vec3(0.0f))
+            environment["sun"] = {{"direction", vector_json(scene_.sun.direction)},
+                                  {"radiance", vector_json(scene_.sun.radiance)},
+                                  {"angle_deg", scene_.sun.angle_deg}};
+        if (!environment.empty()) document["environment"] = std::move(environment);
+    }
+
+    Json material(const MaterialDescription& from) {
+        Json json = material_json(from);
+        add_image(json, "albedo_map", from.textures.albedo, TextureContent::Color);
+        add_image(json, "roughness_map", from.textures.roughness, TextureContent::Number);
+        add_image(json, "emission_map", from.textures.emission, TextureContent::Color);
+        add_image(json, "opacity_map", from.textures.opacity, TextureContent::Opacity);
+        return json;
+    }
+
+    void add_image(Json& json, const std::string& key, std::uint32_t texture, TextureContent use) {
+        if (texture == kNoTexture) return;
+        std::string& file = files_[{texture, use}];
+        if (file.empty()) {
+            file = write_texture(folder_, fmt::format("image-{}", files_.size()), scene_.textures[texture], use);
+            ++images_;
+        }
+        json[key] = shown(file);
+        if (!scene_.textures[texture].repeats) json[key + "_wrap"] = "clamp";
+    }
+
+    /// What follows from the chosen camera is left out: it is set again when the scene is opened.
+    void add_settings(Json& document) const {
+        const float aspect = scene_.chosen_camera > 0 ? scene_.cameras[scene_.chosen_camera - 1].aspect : 0.0f;
+        Json settings = Json::object();
+        for (const auto& [option, value] : scene_.settings) {
+            const bool follows = option == "size" && aspect > 0.0f && value == size_of_aspect(aspect);
+            if (!follows && option != "up-axis") settings[option] = value;
+        }
+        if (nearest_axis(scene_.camera.up) != scene_.up)
+            for (const UpAxis axis : {UpAxis::X, UpAxis::Y, UpAxis::Z})
+                if (up_direction(axis, scene_) == scene_.up)
+                    settings["up-axis"] = kUpAxisNames[static_cast<std::size_t>(axis)];
+        if (light_of(scene_) == SceneLight::None) settings["default-light"] = "off";
+        if (!settings.empty()) document["settings"] = std::move(settings);
+    }
+
+    const SceneDescription& scene_;
+    fs::path folder_;
+    std::string shown_folder_;
+    std::map<std::pair<std::uint32_t, TextureContent>, std::string> files_;
+    std::size_t images_ = 0;
+};
+
+}  // namespace
+
+SceneParts write_scene(const SceneDescription& scene, const fs::path& path) {
+    if (suffix_of(path) != ".json")
+        throw Error(ErrorKind::Usage, fmt::format("{}: expected a name that ends with .json", path.string()));
+    const fs::path folder = path.parent_path() / (path.stem().string() + "-parts");
+    if (!is_utf8(folder.filename().string()))
+        throw Error(ErrorKind::Usage, fmt::format("{}: expected a name in UTF-8", path.string()));
+    require_free(path);
+    require_free(folder);
+    HiddenFolder parts(folder);
+    SceneWriter writer(scene, parts.path(), folder.filename().string());
+    const Json document = writer.document();
+    parts.become_target();
+    try {
+        write_json_file(path, document);
+    } catch (const Error&) {
+        std::error_code ignored;
+        fs::remove_all(folder, ignored);
+        throw;
+    }
+    return {.folder = folder, .images = writer.images()};
+}
+
+}  // namespace pl

@@ -1,0 +1,25 @@
+// Writer of scene files: any scene as JSON, OBJ and images, from which load_scene() reads the same scene.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "core/scene/description.h"
+
+namespace pl {
+
+/// What write_scene() has written beside the scene file.
+struct SceneParts {
+    std::filesystem::path folder;
+    std::size_t images = 0;  ///< of materials, and the environment map
+};
+
+/// Writes PATH, a scene file, and the folder STEM-parts beside it with the mesh, its materials and images. A scene read from them
+/// renders to the same bits: mesh, normals, materials, texels, far lights, camera, listed cameras and settings are the same. Knobs are
+/// left out, the mesh has their values; a default light is written as the environment map that it is. All is there or
+/// nothing: the folder appears when it is complete, the scene file after it.
+/// Expects a valid scene. Throws Error(Usage) for a name that does not end with .json or is taken, Error(Runtime) if a
+/// file cannot be written.
+SceneParts write_scene(const SceneDescription& scene, const std::filesystem::path& path);
+
+}  // namespace pl

@@ -1,0 +1,151 @@
+// Scene files as written: what is read back is the same, value by value.
+#include "core/io/write_scene.h"
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/io/load_scene.h"
+#include "core/io/write_mesh.h"
+#include "core/scene/scene_hash.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/temporary_folder.h"
+
+using namespace pl;
+using pl::test::TemporaryFolder;
+
+namespace {
+
+const std::filesystem::path kAssets = PL_SOURCE_DIR "/assets";
+
+SceneDescription rewritten(const SceneDescription& scene) {
+    const TemporaryFolder folder;
+    write_scene(scene, folder.path() / "s.json");
+    return load_scene((folder.path() / "s.json").string(), "");
+}
+
+/// A lit triangle with a material.
+SceneDescription triangle_of(const MaterialDescription& material) {
+    SceneDescription scene;
+    scene.name = "one";
+    scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1e-7f, 1.0f / 3.0f}};
+    scene.uvs = {{0, 0}, {1, 0}, {0, 0.1f}};
+    scene.triangles = {{.vertex = {0, 1, 2}, .uv = {0, 1, 2}}};
+    scene.materials = {material};
+    scene.environment = glm::vec3(0.1f, 0.2f, 0.3f);
+    scene.camera = {.eye = {0, 0, 3}, .target = {0, 0, 0}};
+    return scene;
+}
+
+TextureDescription texture_of(std::vector<glm::vec4> texels, TextureContent content, bool repeats) {
+    return {.source = "x",
+            .content = content,
+            .width = static_cast<std::uint32_t>(texels.size()),
+            .height = 1,
+            .repeats = repeats,
+            .texels = std::move(texels)};
+}
+
+}  // namespace
+
+TEST_CASE("write_scene: shipped scenes without images have the same hash, camera and settings") {
+    for (const std::string& name : list_scenes(kAssets)) {
+        CAPTURE(name);
+        const SceneDescription scene = load_scene(name, kAssets);
+        if (!scene.textures.empty()) continue;
+        const SceneDescription read = rewritten(scene);
+        CHECK(read.warnings.empty());
+        CHECK(scene_hash(read) == scene_hash(scene));
+        CHECK(read.camera.eye == scene.camera.eye);
+        CHECK(read.camera.focus_distance == scene.camera.focus_distance);
+        CHECK(read.up == scene.up);
+        CHECK(read.settings.size() == scene.settings.size());
+        CHECK(read.name == scene.name);
+    }
+}
+
+TEST_CASE("write_scene: normals keep bits that dividing by the length would change") {
+    SceneDescription scene = triangle_of({.name = "wall", .albedo = glm::vec3(0.5f)});
+    for (int i = 0; i < 300; ++i) {
+        const double angle = 0.37 * i;
+        scene.normals.emplace_back(
+            glm::dvec3(std::cos(angle) * std::sin(0.1 * i), std::sin(angle) * std::sin(0.1 * i), std::cos(0.1 * i)));
+    }
+    scene.triangles[0].normal = {7, 8, 9};
+    const SceneDescription read = rewritten(scene);
+    CHECK(read.normals == scene.normals);
+    CHECK(read.triangles[0].normal == scene.triangles[0].normal);
+    CHECK(read.positions == scene.positions);
+    CHECK(read.uvs == scene.uvs);
+}
+
+TEST_CASE("write_scene: each use of an image has its channels, its bits and its border") {
+    MaterialDescription material{
+        .name = "m", .albedo = glm::vec3(0.8f), .kind = SurfaceKind::Plastic, .roughness = 0.5f};
+    material.emission = glm::vec3(2.0f);
+    material.textures = {.albedo = 0, .roughness = 1, .emission = 2, .opacity = 0};
+    SceneDescription scene = triangle_of(material);
+    // The opacity lies in the alpha channel of the color, as of glTF files.
+    scene.textures = {texture_of({{0.1f, 0.2f, 0.3f, 0.25f}, {1, 0, 1, 0.75f}}, TextureContent::Color, false),
+                      texture_of({{128.0f / 255.0f, 0, 0.5f, 1}, {1, 1, 1, 1}}, TextureContent::Number, true),
+                      texture_of({{100.0f, 0, 0, 1}, {0, 1e-5f, 0, 1}}, TextureContent::Color, true)};
+    const SceneDescription read = rewritten(scene);
+    const TextureUse& use = read.materials[0].textures;
+    REQUIRE(read.textures.size() == 4);
+    const auto texel = [&](std::uint32_t texture, std::size_t i) { return read.textures[texture].texels[i]; };
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK(glm::vec3(texel(use.albedo, i)) == glm::vec3(scene.textures[0].texels[i]));
+        CHECK(texel(use.opacity, i).w == scene.textures[0].texels[i].w);
+        CHECK(texel(use.roughness, i).x == scene.textures[1].texels[i].x);
+        CHECK(glm::vec3(texel(use.emission, i)) == glm::vec3(scene.textures[2].texels[i]));
+    }
+    CHECK_FALSE(read.textures[use.albedo].repeats);
+    CHECK_FALSE(read.textures[use.opacity].repeats);
+    CHECK(read.textures[use.roughness].repeats);
+    CHECK(read.textures[use.roughness].source.extension() == ".png");
+    CHECK(read.textures[use.emission].source.extension() == ".exr");
+}
+
+TEST_CASE("write_scene: names of materials become different, and fit for all three files") {
+    SceneDescription scene = triangle_of({.name = "a"});
+    for (const char* name : {"a", "", " two  blanks ", "#x\\", "line\nfeed", "latin \xe9", "Gr\xc3\xbcn"})
+        scene.materials.push_back({.name = name, .albedo = glm::vec3(0.5f)});
+    const std::vector<std::string> names = material_names(scene);
+    CHECK(names == std::vector<std::string>{"a", "a (2)", "material", "_two _blanks_", "_x_", "line_feed", "latin _",
+                                            "Gr\xc3\xbcn"});
+    const SceneDescription read = rewritten(scene);
+    REQUIRE(read.materials.size() == names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        CHECK(read.materials[i].name == names[i]);
+        CHECK(read.materials[i].albedo == scene.materials[i].albedo);
+    }
+}
+
+TEST_CASE("write_scene: vertical axes that the camera does not tell are kept") {
+    for (const glm::vec3 up : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)}) {
+        SceneDescription scene = triangle_of({.name = "a", .albedo = glm::vec3(0.5f)});
+        scene.up = up;
+        CHECK(rewritten(scene).up == up);
+    }
+}
+
+TEST_CASE("a scene file lists cameras, of which the first is shown unless it has one of its own") {
+    const TemporaryFolder folder;
+    folder.write("a.obj", "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    const auto load = [&](const std::string& members, const LoadSettings& asked = {}) {
+        const std::string text = "{\"schema\": \"pathlight.scene/1\", \"obj\": \"a.obj\"" + members + "}";
+        return load_scene(folder.write("s.json", text).string(), "", asked);
+    };
+    const std::string list = ", \"cameras\": [{\"name\": \"one\", \"eye\": [0, 1, 5], \"aspect\": 2}, {\"eye\": [0, "
+                             "1, 9], \"fov_deg\": 20}]";
+    const SceneDescription first = load(list);
+    CHECK(first.chosen_camera == 1);
+    CHECK(first.camera.eye == glm::vec3(0, 1, 5));
+    CHECK(first.setting("size") == "1024x512");
+    CHECK(first.cameras[1].name == "camera 2");
+    CHECK(load(list, {.camera = "2"}).camera.fov_deg == 20.0f);
+    CHECK(load(list + ", \"camera\": {\"eye\": [0, 1, 7]}").camera.eye == glm::vec3(0, 1, 7));
+    CHECK_THROWS_AS(load(", \"cameras\": [{\"eye\": [0, 0, 1], \"target\": [0, 0, 1]}]"), Error);
+    CHECK_THROWS_AS(load(", \"cameras\": [{\"aspect\": -1}]"), Error);
+    CHECK_THROWS_AS(load(", \"cameras\": [{\"nam\": \"x\"}]"), Error);
+    CHECK_THROWS_AS(load(", \"normals\": \"flat\""), Error);
+}
