@@ -1,0 +1,152 @@
+"""Scenes for Mitsuba 3 as XML, which pathlight opens as it is. Each is a function of a folder: it writes the files that the scene
+names, and returns its XML."""
+import math
+import struct
+import zlib
+
+from pictures import write_pfm
+
+WIDTH, HEIGHT = 64, 48
+WHITE, RED, GREEN = "0.73, 0.71, 0.68", "0.63, 0.065, 0.05", "0.14, 0.45, 0.091"
+
+
+def diffuse(color):
+    return f'<bsdf type="diffuse"><rgb name="reflectance" value="{color}"/></bsdf>'
+
+
+def shape(kind, place, surface, more=""):
+    """All surfaces of pathlight have two sides; `surface` with its own sides begins with '<bsdf type="dielectric"' or the like."""
+    has_sides = "dielectric" in surface.split(">")[0]
+    bsdf = surface if has_sides else f'<bsdf type="twosided">{surface}</bsdf>'
+    return f'<shape type="{kind}">{more}<transform name="to_world">{place}</transform>{bsdf}</shape>'
+
+
+def scaled(x, y, z):
+    return f'<scale x="{x}" y="{y}" z="{z}"/>'
+
+
+def turned(axis, degrees):
+    return f'<rotate {axis}="1" angle="{degrees}"/>'
+
+
+def moved(x, y, z):
+    return f'<translate x="{x}" y="{y}" z="{z}"/>'
+
+
+def box(surface, center, half, degrees=0):
+    return shape("cube", scaled(*half) + turned("y", degrees) + moved(*center), surface)
+
+
+def scene(content, eye=(0, 1, 3.6), target=(0, 1, 0), fov=40):
+    return f"""<scene version="3.0.0">
+<integrator type="path"><integer name="max_depth" value="65"/><integer name="rr_depth" value="8"/></integrator>
+<sensor type="perspective"><string name="fov_axis" value="y"/><float name="fov" value="{fov}"/>
+<transform name="to_world"><lookat origin="{eye[0]}, {eye[1]}, {eye[2]}" target="{target[0]}, {target[1]}, {target[2]}" up="0, 1, 0"/></transform>
+<sampler type="independent"/>
+<film type="hdrfilm"><integer name="width" value="{WIDTH}"/><integer name="height" value="{HEIGHT}"/>
+<rfilter type="box"/><string name="pixel_format" value="rgb"/><string name="component_format" value="float32"/></film></sensor>
+{content}
+</scene>
+"""
+
+
+def room():
+    """2 x 2 x 2 meters, open towards the camera, with a lamp of 0.5 x 0.5 below its ceiling."""
+    lamp = ('<shape type="rectangle"><transform name="to_world">' + scaled(0.25, 0.25, 1) + turned("x", 90) +
+            moved(0, 1.98, 0) + '</transform>' + diffuse("0, 0, 0") +
+            '<emitter type="area"><rgb name="radiance" value="17, 12, 4"/></emitter></shape>')
+    return "\n".join((shape("rectangle", turned("x", -90), diffuse(WHITE)),
+                      shape("rectangle", turned("x", 90) + moved(0, 2, 0), diffuse(WHITE)),
+                      shape("rectangle", moved(0, 1, -1), diffuse(WHITE)),
+                      shape("rectangle", turned("y", 90) + moved(-1, 1, 0), diffuse(RED)),
+                      shape("rectangle", turned("y", -90) + moved(1, 1, 0), diffuse(GREEN)), lamp))
+
+
+def ground(surface):
+    return shape("rectangle", scaled(4, 4, 1) + turned("x", -90), surface)
+
+
+def sky(color="0.5, 0.65, 0.9"):
+    return f'<emitter type="constant"><rgb name="radiance" value="{color}"/></emitter>'
+
+
+def in_room(tall, short):
+    return scene(room() + box(tall, (-0.35, 0.59, -0.3), (0.3, 0.6, 0.3), 18) +
+                 box(short, (0.35, 0.29, 0.3), (0.3, 0.3, 0.3), -17))
+
+
+def outside(light, tall, short, floor=None):
+    content = ground(floor or diffuse(WHITE)) + light
+    content += box(tall, (-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25) + box(short, (0.5, 0.39, 0.3), (0.4, 0.4, 0.4), -20)
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
+
+
+def map_radiance(u, v):
+    """A sky of three soft patches of light; u, v in [0, 1], v from the top. Periodic in u, so that no seam shows."""
+    up = math.cos(math.pi * v)
+    total = [0.15 + 0.1 * up, 0.2 + 0.1 * up, 0.3 + 0.15 * up]
+    for at, height, color in ((0.2, 0.6, (9, 7, 4)), (0.55, 0.35, (2, 5, 8)), (0.85, 0.8, (5, 5, 5))):
+        near = 6 * (math.cos(2 * math.pi * (u - at)) * math.sin(math.pi * v) * math.sqrt(1 - height * height) +
+                    up * height - 1)
+        for k in range(3):
+            total[k] += color[k] * math.exp(near)
+    return total
+
+
+def environment_map(folder):
+    width, height = 1024, 512
+    values = [c for y in range(height) for x in range(width)
+              for c in map_radiance((x + 0.5) / width, (y + 0.5) / height)]
+    write_pfm(folder / "map.pfm", width, height, values)
+    return ('<emitter type="envmap"><string name="filename" value="map.pfm"/>'
+            '<transform name="to_world"><rotate y="1" angle="40"/></transform></emitter>')
+
+
+def png(width, height, texel):
+    rows = b"".join(b"\0" + bytes(c for x in range(width) for c in texel(x, y)) for y in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def stripes(x, y):
+    return (40 + 6 * x, 200 - 5 * y, 90 + 60 * ((x // 4 + y // 4) % 2))
+
+
+def textured(folder):
+    (folder / "stripes.png").write_bytes(png(32, 32, stripes))
+    (folder / "ground.obj").write_text("v -4 0 4\nv 4 0 4\nv 4 0 -4\nv -4 0 -4\nvt 0 0\nvt 6 0\nvt 6 4\nvt 0 4\n"
+                                       "f 1/1 2/2 3/3 4/4\n")
+    image = ('<bsdf type="diffuse"><texture type="bitmap" name="reflectance"><string name="filename" value="stripes.png"/>'
+             '</texture></bsdf>')
+    content = (f'<shape type="obj"><string name="filename" value="ground.obj"/><bsdf type="twosided">{image}</bsdf></shape>' +
+               sky() + box(image, (-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25) +
+               shape("rectangle", scaled(0.4, 0.4, 1) + turned("y", -20) + moved(0.5, 0.45, 0.3), image))
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
+
+
+MIRROR = '<bsdf type="conductor"><string name="material" value="none"/></bsdf>'
+GOLD = ('<bsdf type="conductor"><rgb name="eta" value="0.143, 0.375, 1.442"/><rgb name="k" value="3.983, 2.386, 1.603"/></bsdf>')
+GLASS = '<bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>'
+
+
+def rough_metal(alpha):
+    return ('<bsdf type="roughconductor"><string name="material" value="none"/><string name="distribution" value="ggx"/>'
+            f'<float name="alpha" value="{alpha}"/></bsdf>')
+
+
+def rough_glass(alpha):
+    return ('<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><float name="int_ior" value="1.5"/>'
+            f'<float name="ext_ior" value="1"/><float name="alpha" value="{alpha}"/></bsdf>')
+
+
+def plastic(more="", kind="plastic"):
+    return (f'<bsdf type="{kind}"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/>'
+            f'<rgb name="diffuse_reflectance" value="0.2, 0.5, 0.7"/>{more}</bsdf>')
+
+
+NONLINEAR = '<boolean name="nonlinear" value="true"/>'
+ROUGH = '<string name="distribution" value="ggx"/><float name="alpha" value="0.2"/>'
