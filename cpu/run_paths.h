@@ -76,6 +76,7 @@ public:
 
 private:
     static constexpr bool kSamplesLights = F.has(Feature::NextEventEstimation);
+
     [[gnu::flatten, gnu::noinline]] void fill(PathSource& source) {
         while (active_ < setup_.batch_paths && start(source, active_)) ++active_;
     }
