@@ -49,8 +49,9 @@ void read_cells(const PlacementRows& scene, PointGroup* points, std::uint32_t gr
 }
 
 void find_nearest(const PlacementRows& scene, PointGroup* points, std::uint32_t groups) {
-    for_lookup_lanes(scene, groups,
-                     [&](const LookupLanes& lanes, std::uint32_t group) { lanes.find_nearest(points[group]); });
+    for_lookup_lanes(scene, groups, [&](const LookupLanes& lanes, std::uint32_t group) {
+        if (points[group].cells != 0) lanes.find_nearest(points[group]);
+    });
 }
 
 void sample_rows(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,

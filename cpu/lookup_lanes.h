@@ -142,6 +142,7 @@ PL_INLINE void for_lookup_lanes(const PlacementRows& scene, std::uint32_t groups
 
 PL_INLINE void read_cells_of_groups(const PlacementRows& scene, PointGroup* points, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group) {
+        if (points[group].cells == 0) continue;  // there may be no cells at all
         std::uint32_t with_nodes = 0;
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
             LookupLanes(scene, first).read_cells(points[group], with_nodes);

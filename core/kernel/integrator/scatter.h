@@ -1,4 +1,5 @@
-// Scattering at a vertex: by a delta lobe, or into a direction that the method samples; and the end of a path there.
+// Scattering at a vertex: by a delta lobe, or into a direction that the method samples; and the end of a path there. Inlined into the
+// kernels of a device: apart, the functions would take the path's state in memory.
 #pragma once
 
 #include "core/kernel/integrator/path.h"
@@ -78,8 +79,8 @@ PL_HD inline PathStatus terminate_black(const M& method, PathState<F, M>& state,
 
 /// The path leaves a vertex that may have a location. event.weight and event.albedo are those of this vertex alone.
 template <FeatureSet F, Method M>
-PL_HD inline void leave_vertex(const M& method, const typename M::Vertex& vertex, const ScatterEvent& event,
-                               PathState<F, M>& state, PathCounters& counters) {
+PL_HD_INLINED void leave_vertex(const M& method, const typename M::Vertex& vertex, const ScatterEvent& event,
+                                PathState<F, M>& state, PathCounters& counters) {
     Vec3f chain_weight{1.0f};
     if constexpr (F.has_any(kLobeFeatures)) {
         chain_weight = state.chain.weight;
@@ -91,8 +92,8 @@ PL_HD inline void leave_vertex(const M& method, const typename M::Vertex& vertex
 
 /// Sends the path into `direction` with weight f cos / pdf. direction.pdf_sa is that of scatter_pdf_sa(), 0 for a delta lobe.
 template <FeatureSet F, Method M>
-PL_HD inline PathStatus send_path(const M& method, const ScatterPoint<F, M>& from, const DirectionSample& direction,
-                                  Vec3f weight, PathState<F, M>& state, PathCounters& counters) {
+PL_HD_INLINED PathStatus send_path(const M& method, const ScatterPoint<F, M>& from, const DirectionSample& direction,
+                                   Vec3f weight, PathState<F, M>& state, PathCounters& counters) {
     state.throughput *= weight;
     state.ray = spawn_ray(from.surface, direction.wi);
     if constexpr (F.has_any(kLobeFeatures)) {
@@ -108,9 +109,9 @@ PL_HD inline PathStatus send_path(const M& method, const ScatterPoint<F, M>& fro
 
 /// Scatters a path at a Lambert reflector into a direction that the method sampled.
 template <FeatureSet F, Method M>
-PL_HD inline PathStatus scatter_lambert(const M& method, const ScatterPoint<F, M>& from,
-                                        const DirectionSample& direction, PathState<F, M>& state,
-                                        const StepOutput<M>& out) {
+PL_HD_INLINED PathStatus scatter_lambert(const M& method, const ScatterPoint<F, M>& from,
+                                         const DirectionSample& direction, PathState<F, M>& state,
+                                         const StepOutput<M>& out) {
     const float cos_i = from.bsdf.cosine(from.surface, direction.wi);
     if (!(direction.pdf_sa > 0.0f) || cos_i == 0.0f) return terminate_black(method, state, out);
     const Vec3f weight = from.bsdf.eval(from.surface, direction.wi, cos_i) * (1.0f / direction.pdf_sa);
@@ -121,8 +122,8 @@ PL_HD inline PathStatus scatter_lambert(const M& method, const ScatterPoint<F, M
 
 /// Scatters a path at any other surface: first chooses between the delta lobes and the others. `numbers.lobe` is drawn here.
 template <FeatureSet F, Method M>
-PL_HD inline PathStatus scatter_layered(const M& method, const ScatterPoint<F, M>& from, ScatterNumbers numbers,
-                                        PathState<F, M>& state, const StepOutput<M>& out) {
+PL_HD_INLINED PathStatus scatter_layered(const M& method, const ScatterPoint<F, M>& from, ScatterNumbers numbers,
+                                         PathState<F, M>& state, const StepOutput<M>& out) {
     const Vec4f choice = numbers.rng.draw(numbers.index, Purpose::Lobe);
     const float p = from.bsdf.delta_probability();
     if (choice.x < p) {
@@ -145,8 +146,8 @@ PL_HD inline PathStatus scatter_layered(const M& method, const ScatterPoint<F, M
 
 /// Samples the next direction of one path and scatters it.
 template <FeatureSet F, Method M>
-PL_HD inline PathStatus scatter(const M& method, const ScatterPoint<F, M>& from, const ScatterNumbers& numbers,
-                                PathState<F, M>& state, const StepOutput<M>& out) {
+PL_HD_INLINED PathStatus scatter(const M& method, const ScatterPoint<F, M>& from, const ScatterNumbers& numbers,
+                                 PathState<F, M>& state, const StepOutput<M>& out) {
     if constexpr (F.has_any(kLobeFeatures)) {
         if (!from.bsdf.is_lambert()) return scatter_layered(method, from, numbers, state, out);
     }

@@ -258,6 +258,18 @@ PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit
     return PathStatus::Continues;
 }
 
+/// The surface point at a hit, for shade_hit(). A class: a lambda is not inlined into the largest kernels of a device.
+template <FeatureSet F>
+struct SurfaceAtHit {
+    const SceneView& scene;
+    const Hit& hit;
+    const Ray& ray;
+
+    PL_HD_INLINED void operator()(SurfacePoint& surface) const {
+        surface = make_surface_point<F>(scene, hit, -ray.direction);
+    }
+};
+
 /// Shades the end of a segment and scatters the path: its ray is then the next segment. `request_light(from)` is called at a vertex
 /// that reflects, before the roulette there.
 template <FeatureSet F, Method M, class RequestLight>
@@ -267,10 +279,8 @@ PL_HD_INLINED PathStatus extend_path(const PathContext<M>& context, const Hit& h
     ScatterPoint<F, M> from;
     typename M::Sample sample{};
     const StepOutput<M> out{sample, counters};
-    const auto find_surface = [&](SurfacePoint& surface) {
-        surface = make_surface_point<F>(context.scene, hit, -state.ray.direction);
-    };
-    PathStatus status = shade_hit<F, M>(context, hit, find_surface, state, {out, from});
+    PathStatus status =
+        shade_hit<F, M>(context, hit, SurfaceAtHit<F>{context.scene, hit, state.ray}, state, {out, from});
     if (status == PathStatus::Continues) {
         request_light(from);
         status = continue_path(context, hit, numbers.scatter.w, state, from, out);
