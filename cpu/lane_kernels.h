@@ -169,7 +169,6 @@ struct LightColumns {
 
 /// A light sample for each of a VertexGroup: members as in DirectLight, and the results of weighing it.
 struct alignas(64) LightSampleGroup {
-    std::int32_t light[kGroupSize] = {};      ///< its number
     std::int32_t is_near[kGroupSize] = {};    ///< not 0: the light may be sampled by solid angle, this sample is none
     std::int32_t is_behind[kGroupSize] = {};  ///< not 0: its back is seen
     VectorGroup weights;                      ///< barycentric, on the light

@@ -37,7 +37,6 @@ public:
         const LaneInt reflects = (distance2 > 0.0f) & (cos_i > 0.0f) & is_other;
         const RaySegment<Lanes> shadow = spawn_segment(from, point);
 
-        store(light, samples.light);
         store(is_near, samples.is_near);
         store(behind, samples.is_behind);
         store(cos_i, samples.cos_i);

@@ -140,21 +140,22 @@ private:
         const StepOutput<M> out{sample, counters_.path};
         const Hit hit = rays_.hit(i);
         ScatterPoint<F, M> from;
-        const auto find_surface = [&](SurfacePoint& surface) { construct_surface(i, hit, surface); };
+        const auto find_surface = [&](SurfacePoint& surface) {
+            ::new (static_cast<void*>(&surface)) SurfacePoint(surface_at(i, hit));  // in place, as in start()
+        };
         statuses_[i] = shade_hit<F, M>(context_, hit, find_surface, states_[i], {out, from});
         if (statuses_[i] == PathStatus::Continues) statuses_[i] = leave(i, hit, from, out);
         guided_.record(sample);
     }
 
-    void construct_surface(std::uint32_t i, const Hit& hit, SurfacePoint& surface) {
+    SurfacePoint surface_at(std::uint32_t i, const Hit& hit) {
         if constexpr (TableGuided<M>) {
             const LookupsAhead& lookups = lookups_of(i);
             method_.is_found = lookups.is_found(i);
             method_.found = lookups.found(i);
-            ::new (static_cast<void*>(&surface)) SurfacePoint(lookups.template surface<F>(setup_.scene, hit, i));
+            return lookups.template surface<F>(setup_.scene, hit, i);
         } else {
-            ::new (static_cast<void*>(&surface))
-                SurfacePoint(make_surface_point<F>(setup_.scene, hit, -states_[i].ray.direction));
+            return make_surface_point<F>(setup_.scene, hit, -states_[i].ray.direction);
         }
     }
 
@@ -164,16 +165,16 @@ private:
         if constexpr (F.has_any(kLobeFeatures)) {
             if (!from.bsdf.is_lambert()) return leave_alone(i, hit, numbers, from, out);
         }
-        vertices_.add(i, from, states_[i].throughput, numbers);
-        if (samples_lights()) directions_.add(vertices_, from, numbers.scatter);
+        if (samples_lights()) add_vertex(i, from, numbers);
         const PathStatus status = continue_path(context_, hit, numbers.scatter.w, states_[i], from, out);
-        if (status == PathStatus::Continues) {
-            if (!samples_lights()) directions_.add(vertices_, from, numbers.scatter);
-            vertices_.keep_last(from.roulette_weight);
-        } else if (!samples_lights()) {
-            vertices_.drop_last();
-        }
+        if (status == PathStatus::Finished) return status;
+        if (!samples_lights()) add_vertex(i, from, numbers);
+        vertices_.keep_last(from.roulette_weight);
         return status;
+    }
+    void add_vertex(std::uint32_t i, const ScatterPoint<F, M>& from, const VertexNumbers& numbers) {
+        vertices_.add(i, from, states_[i].throughput, numbers);
+        directions_.add(vertices_, from, numbers.scatter);
     }
     /// The same at another surface: path i is scattered at once.
     PathStatus leave_alone(std::uint32_t i, const Hit& hit, const VertexNumbers& numbers, ScatterPoint<F, M>& from,

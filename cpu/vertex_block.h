@@ -45,7 +45,6 @@ public:
         roulette_weights_[count_ - 1] = roulette_weight;
         continuing_ |= std::uint64_t{1} << (count_ - 1);
     }
-    void drop_last() { --count_; }
 
     const VertexGroup* groups() const { return groups_; }
     std::uint32_t path(std::uint32_t i) const { return paths_[i]; }

@@ -15,22 +15,24 @@ using PendingSums = std::variant<std::span<std::int64_t>, std::span<std::uint32_
 template <class T>
 concept PendingValue = std::same_as<T, std::int64_t> || std::same_as<T, std::uint32_t>;
 
-/// Calls fn(array) for every array of pending sums, in the order of files: the arrays that a split clears.
+/// A function of the description of an array that calls fn(array of `field`) if the array holds pending sums, which a split clears.
+template <class Field, class Fn>
+auto of_pending_array(Field& field, Fn& fn) {
+    return [&](const auto& spec) {
+        using Value = std::remove_cvref_t<decltype(spec.get(field)[0])>;
+        if constexpr (PendingValue<Value>)
+            if (spec.on_split == OnSplit::Clear) fn(spec.get(field));
+    };
+}
+
+/// Calls fn(array) for every array of pending sums, in the order of files.
 template <template <class> class Array, class Fn>
 void for_each_pending_array(TableStorage<Array>& tables, Fn&& fn) {
-    for_each_table_array([&](const auto& spec) {
-        using Value = std::remove_cvref_t<decltype(spec.get(std::declval<HostTables&>())[0])>;
-        if constexpr (PendingValue<Value>)
-            if (spec.on_split == OnSplit::Clear) fn(spec.get(tables));
-    });
+    for_each_table_array(of_pending_array(tables, fn));
 }
 template <template <class> class Array, class Fn>
 void for_each_pending_array(SdTreeStorage<Array>& tree, Fn&& fn) {
-    for_each_sd_tree_array([&](const auto& spec) {
-        using Value = std::remove_cvref_t<decltype(spec.get(std::declval<HostSdTree&>())[0])>;
-        if constexpr (PendingValue<Value>)
-            if (spec.part == SdTreePart::Pending) fn(spec.get(tree));
-    });
+    for_each_sd_tree_array(of_pending_array(tree, fn));
 }
 
 }  // namespace pl

@@ -24,8 +24,8 @@ void for_each_slot(const SdTreeView& field, std::uint32_t leaf, Visit&& visit) {
     }
 }
 
-std::string wrong(const char* what, std::size_t i, std::size_t got) {
-    return std::string(what) + " " + std::to_string(i) + ": got " + std::to_string(got);
+std::string wrong(const char* part, std::size_t i, std::size_t got) {
+    return std::string(part) + " " + std::to_string(i) + ": got " + std::to_string(got);
 }
 
 /// Follows the tree over space from its root; every node and every leaf has to be met once.

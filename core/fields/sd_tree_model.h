@@ -16,8 +16,8 @@ using HostSdTree = SdTreeStorage<LargeArray>;
 /// What the values of an array belong to.
 enum class SdTreeExtent { SpatialNode, Leaf, Slot, Volume, LightCluster };
 
-/// The part of an array: the trees, what they have learned, or sums between two updates.
-enum class SdTreePart { Structure, Learned, Pending };
+/// The part of an array: the shape of the trees, or values of their nodes and of volumes.
+enum class SdTreePart { Structure, Values };
 
 /// Description of one array of SdTreeArrays.
 template <class Get>
@@ -46,29 +46,29 @@ using enum ValidRange;
 inline constexpr std::tuple kAll{
     SdTreeSpec{"nodes of space", "node of space", SpatialNode, Structure, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.spatial; }},
     SdTreeSpec{"roots of quadtrees", "root of a quadtree", Leaf, Structure, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.first_node; }},
-    SdTreeSpec{"energies", "energy", Slot, Learned, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.energy; }},
+    SdTreeSpec{"energies", "energy", Slot, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.energy; }},
     SdTreeSpec{"children", "child", Slot, Structure, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.child; }},
-    SdTreeSpec{"sums of energies", "sum of energies", Slot, Pending, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_energy; }},
-    SdTreeSpec{"visits", "visits", Leaf, Learned, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.visits; }},
-    SdTreeSpec{"counts", "count", Leaf, Pending, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_count; }},
-    SdTreeSpec{"slopes of the mixture", "slope of the mixture", Leaf, Pending, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_slope; }},
-    SdTreeSpec{"curvatures of the mixture", "curvature of the mixture", Leaf, Pending, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_curvature; }},
-    SdTreeSpec{"targets of the mixture", "target of the mixture", Leaf, Learned, Copy, Finite, 0.0f, [](auto& t) -> auto& { return t.mixture_target; }},
-    SdTreeSpec{"weights of the mixture", "weight of the mixture", Leaf, Learned, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.mixture_weight; }},
-    SdTreeSpec{"BSDF shares", "BSDF share", Leaf, Learned, Copy, BsdfFraction, kInitialBsdfFraction, [](auto& t) -> auto& { return t.bsdf_fraction; }},
-    SdTreeSpec{"mean radiance", "mean radiance", Volume, Learned, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.mean_radiance; }},
-    SdTreeSpec{"samples", "samples", Volume, Learned, Divide, Any, 0.0f, [](auto& t) -> auto& { return t.samples; }},
-    SdTreeSpec{"sums of values", "sum of values", Volume, Pending, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_value; }},
-    SdTreeSpec{"sums of weights", "sum of weights", Volume, Pending, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_weight; }},
-    SdTreeSpec{"new samples", "new samples", Volume, Pending, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_samples; }},
-    SdTreeSpec{"changes", "change", Volume, Learned, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.change; }},
-    SdTreeSpec{"sums of direct light", "sum of direct light", Volume, Pending, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_direct; }},
-    SdTreeSpec{"counts of light samples", "count of light samples", Volume, Pending, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_direct_count; }},
-    SdTreeSpec{"direct light", "direct light", Volume, Learned, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.direct; }},
-    SdTreeSpec{"light samples", "light samples", Volume, Learned, Divide, Any, 0.0f, [](auto& t) -> auto& { return t.direct_count; }},
-    SdTreeSpec{"sums of light by clusters", "sum of light by a cluster", LightCluster, Pending, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_cluster; }},
-    SdTreeSpec{"light by clusters", "light by a cluster", LightCluster, Learned, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.cluster_light; }},
-    SdTreeSpec{"choices of lights", "choice of lights", LightCluster, Learned, Copy, Choice, 0.0f, [](auto& t) -> auto& { return t.light_cdf; }},
+    SdTreeSpec{"sums of energies", "sum of energies", Slot, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_energy; }},
+    SdTreeSpec{"visits", "visits", Leaf, Values, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.visits; }},
+    SdTreeSpec{"counts", "count", Leaf, Values, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_count; }},
+    SdTreeSpec{"slopes of the mixture", "slope of the mixture", Leaf, Values, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_slope; }},
+    SdTreeSpec{"curvatures of the mixture", "curvature of the mixture", Leaf, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_curvature; }},
+    SdTreeSpec{"targets of the mixture", "target of the mixture", Leaf, Values, Copy, Finite, 0.0f, [](auto& t) -> auto& { return t.mixture_target; }},
+    SdTreeSpec{"weights of the mixture", "weight of the mixture", Leaf, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.mixture_weight; }},
+    SdTreeSpec{"BSDF shares", "BSDF share", Leaf, Values, Copy, BsdfFraction, kInitialBsdfFraction, [](auto& t) -> auto& { return t.bsdf_fraction; }},
+    SdTreeSpec{"mean radiance", "mean radiance", Volume, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.mean_radiance; }},
+    SdTreeSpec{"samples", "samples", Volume, Values, Divide, Any, 0.0f, [](auto& t) -> auto& { return t.samples; }},
+    SdTreeSpec{"sums of values", "sum of values", Volume, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_value; }},
+    SdTreeSpec{"sums of weights", "sum of weights", Volume, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_weight; }},
+    SdTreeSpec{"new samples", "new samples", Volume, Values, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_samples; }},
+    SdTreeSpec{"changes", "change", Volume, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.change; }},
+    SdTreeSpec{"sums of direct light", "sum of direct light", Volume, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_direct; }},
+    SdTreeSpec{"counts of light samples", "count of light samples", Volume, Values, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_direct_count; }},
+    SdTreeSpec{"direct light", "direct light", Volume, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.direct; }},
+    SdTreeSpec{"light samples", "light samples", Volume, Values, Divide, Any, 0.0f, [](auto& t) -> auto& { return t.direct_count; }},
+    SdTreeSpec{"sums of light by clusters", "sum of light by a cluster", LightCluster, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_cluster; }},
+    SdTreeSpec{"light by clusters", "light by a cluster", LightCluster, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.cluster_light; }},
+    SdTreeSpec{"choices of lights", "choice of lights", LightCluster, Values, Copy, Choice, 0.0f, [](auto& t) -> auto& { return t.light_cdf; }},
 };
 // clang-format on
 

@@ -22,9 +22,9 @@ void fit_to_run(LearnedField& field, const FieldSettings& settings) {
 }
 
 std::string summary_of(const LearnedField& field) {
-    const auto text = [&](const std::string& what) {
+    const auto text = [&](const std::string& directions) {
         return fmt::format("{}, {} volumes, {}, {} passes, {} records", info_of(field.method).name,
-                           field.volumes->normals.size(), what, field.progress.passes, field.progress.records);
+                           field.volumes->normals.size(), directions, field.progress.passes, field.progress.records);
     };
     if (const auto* tree = std::get_if<HostSdTree>(&field.field))
         return text(

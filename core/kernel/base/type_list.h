@@ -2,6 +2,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 namespace pl {
 
@@ -26,6 +27,15 @@ using TypeAt = typename TypeAtIndex<kIndex, List>::Type;
 template <class Visit, class... Types>
 constexpr bool any_of_types(TypeList<Types...>, Visit&& visit) {
     return (visit.template operator()<Types>() || ...);
+}
+
+/// Calls visit.operator()<kIndex>() for the index of every entry in order, until one returns true. Returns whether one did.
+template <class List, class Visit>
+constexpr bool any_entry(Visit&& visit) {
+    return [&]<int... kIndex>(std::integer_sequence<int, kIndex...>) {
+        return (visit.template operator()<kIndex>() || ...);
+    }
+    (std::make_integer_sequence<int, List::kCount>{});
 }
 
 }  // namespace pl

@@ -5,6 +5,7 @@
 #include "core/kernel/guiding/guiding_field.h"
 #include "core/kernel/guiding/mixture.h"
 #include "core/kernel/guiding/sd_tree_view.h"
+#include "core/kernel/guiding/volume_lights.h"
 
 namespace pl {
 
@@ -99,18 +100,8 @@ struct SdTreeField : SdTreeView {
         atomic_add(pending_value[volume], to_fixed_point(target * entry.cosine_weight, radiance_unit), writers);
         if (learns_fraction) record_fraction(sample);
     }
-    PL_HD LearnedLights lights_at(const Location& location) const {
-        if (light_clusters == 0) return {};
-        const float* cdf = light_cdf.data + static_cast<std::uint32_t>(location.volume) * light_clusters;
-        return cdf[light_clusters - 1] > 0.0f ? LearnedLights{cdf} : LearnedLights{};
-    }
-    PL_HD void record_light(const LightSample<SdTreeField>& light) const {
-        const auto volume = static_cast<std::uint32_t>(light.location.volume);
-        const std::int64_t steps = to_fixed_point(light.irradiance, radiance_unit);
-        atomic_add_counted(pending_direct[volume], steps, pending_direct_count[volume], writers);
-        if (light.cluster < light_clusters && steps != 0)
-            atomic_add(pending_cluster[volume * light_clusters + light.cluster], steps, writers);
-    }
+    PL_HD LearnedLights lights_at(const Location& location) const { return lights_of_volume(*this, location.volume); }
+    PL_HD void record_light(const LightSample<SdTreeField>& light) const { record_at_volume(*this, light); }
     PL_HD bool is_clamped(float target) const { return pl::is_clamped(target, radiance_unit); }
 
 private:

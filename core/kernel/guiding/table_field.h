@@ -5,6 +5,7 @@
 #include "core/kernel/guiding/mixture.h"
 #include "core/kernel/guiding/reach.h"
 #include "core/kernel/guiding/table_sampler.h"
+#include "core/kernel/guiding/volume_lights.h"
 
 namespace pl {
 
@@ -74,18 +75,8 @@ struct TableField : TableView {
         atomic_add(pending_sum[index], to_fixed_point(sample.target, radiance_unit), writers);
         record_light(sample, learns_fraction);
     }
-    PL_HD LearnedLights lights_at(const Location& location) const {
-        if (light_clusters == 0) return {};
-        const float* cdf = light_cdf.data + static_cast<std::uint32_t>(location.volume) * light_clusters;
-        return cdf[light_clusters - 1] > 0.0f ? LearnedLights{cdf} : LearnedLights{};
-    }
-    PL_HD void record_light(const LightSample<TableField>& light) const {
-        const auto index = static_cast<std::uint32_t>(light.location.volume);
-        const std::int64_t steps = to_fixed_point(light.irradiance, radiance_unit);
-        atomic_add_counted(pending_direct[index], steps, pending_direct_count[index], writers);
-        if (light.cluster < light_clusters && steps != 0)
-            atomic_add(pending_cluster[index * light_clusters + light.cluster], steps, writers);
-    }
+    PL_HD LearnedLights lights_at(const Location& location) const { return lights_of_volume(*this, location.volume); }
+    PL_HD void record_light(const LightSample<TableField>& light) const { record_at_volume(*this, light); }
     PL_HD bool is_clamped(float target) const { return pl::is_clamped(target, radiance_unit); }
 
     /// Of a field with volumes.

@@ -26,21 +26,20 @@ constexpr MethodId id_of() {
 }
 
 /// Calls visit.operator()<kEntry>() for the first entry of HostMethodList with a field of type F that serves a method and its settings.
-template <class F, int kEntry = 0, class Visit>
+template <class F, class Visit>
 constexpr bool with_host_kernel(MethodId method, const LearningSettings& learning, bool samples_lights,
                                 Visit&& visit) {
-    if constexpr (kEntry == HostMethodList::kCount) {
-        return false;
-    } else {
+    return any_entry<HostMethodList>([&]<int kEntry>() {
         using Kernel = TypeAt<kEntry, HostMethodList>;
         if constexpr (std::is_same_v<typename Kernel::Integrator::Field, F>) {
-            if (id_of<typename Kernel::Info>() == method && Kernel::Integrator::serves(learning, samples_lights)) {
-                visit.template operator()<kEntry>();
-                return true;
-            }
+            if (id_of<typename Kernel::Info>() != method || !Kernel::Integrator::serves(learning, samples_lights))
+                return false;
+            visit.template operator()<kEntry>();
+            return true;
+        } else {
+            return false;
         }
-        return with_host_kernel<F, kEntry + 1>(method, learning, samples_lights, visit);
-    }
+    });
 }
 
 }  // namespace pl

@@ -45,14 +45,9 @@ inline constexpr int kMethodCount = static_cast<int>(method_index<MethodList::kC
 
 /// Calls visit.operator()<kEntry>() for the entries of the list in order until one returns true. Returns whether one
 /// did.
-template <int kEntry = 0, class Visit>
+template <class Visit>
 constexpr bool any_method_kernel(Visit&& visit) {
-    if constexpr (kEntry == MethodList::kCount) {
-        return false;
-    } else {
-        if (visit.template operator()<kEntry>()) return true;
-        return any_method_kernel<kEntry + 1>(visit);
-    }
+    return any_entry<MethodList>(visit);
 }
 
 /// Calls the same for the first entry that serves a method and its settings.
