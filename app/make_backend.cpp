@@ -42,14 +42,16 @@ std::string backend_name(const std::string& name) {
 void share_over(Communicator* ranks) { job = ranks; }
 Communicator* shared_ranks() { return job; }
 
-std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads) {
-    if (job != nullptr) return make_mpi_backend(*job, make_own_backend, name, threads);
-    return make_own_backend(name, threads);
+std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads,
+                                            const RankBackendFactory& make_own) {
+    if (job != nullptr) return make_mpi_backend(*job, make_own, name, threads);
+    return make_own(name, threads);
 }
 
+int usable_share() { return std::max(1, usable_threads() / std::max(1, ranks_on_this_machine())); }
+
 std::unique_ptr<RenderBackend> make_own_backend(const std::string& name, int threads) {
-    if (threads == 0 && ranks_on_this_machine() > 1)
-        threads = std::max(1, usable_threads() / ranks_on_this_machine());
+    if (threads == 0 && ranks_on_this_machine() > 1) threads = usable_share();
     if (backend_name(name) == "cuda") {
         if (name == "cuda") return make_cuda_backend();
         if (auto cuda = cuda_if_possible()) return cuda;

@@ -7,6 +7,7 @@
 
 #include "core/session/backend.h"
 #include "mpi/communicator.h"
+#include "mpi/mpi_backend.h"
 
 namespace pl {
 
@@ -14,11 +15,15 @@ namespace pl {
 /// device, not by whether it works. Throws as make_backend().
 std::string backend_name(const std::string& name);
 
-/// "auto" takes CUDA if it is available, else the CPU; "cpu" and "cuda" insist. `threads` 0: all. In a job of mpirun all ranks share
-/// its work. Throws Error(Unavailable) with the reason.
-std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads);
-/// The same for this process alone. `threads` 0: all, shared with the other ranks of this machine.
+/// The same for this process alone. `threads` 0: all of usable_share().
 std::unique_ptr<RenderBackend> make_own_backend(const std::string& name, int threads);
+/// "auto" takes CUDA if it is available, else the CPU; "cpu" and "cuda" insist. `threads` 0: all. In a job of mpirun all ranks share
+/// its work, and it belongs to one thread; `make_own` makes the part of this rank. Throws Error(Unavailable) with the reason.
+std::unique_ptr<RenderBackend> make_backend(const std::string& name, int threads,
+                                            const RankBackendFactory& make_own = make_own_backend);
+
+/// Hardware threads of this process: ranks of one machine share them. At least 1.
+int usable_share();
 
 /// The ranks that make_backend() shares the work of later back ends over; null: none. They outlive the back ends.
 void share_over(Communicator* ranks);

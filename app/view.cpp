@@ -11,7 +11,6 @@
 #include "app/field_files.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
-#include "core/base/work_queue.h"
 #include "core/io/load_scene.h"
 #include "cuda/availability.h"
 #include "ui/viewer.h"
@@ -19,8 +18,10 @@
 namespace pl {
 namespace {
 
-/// Leaves one core to the window where there are several.
-int viewer_threads(int asked) { return asked > 0 ? asked : std::max(1, usable_threads() - 1); }
+/// Leaves one core to the window where there are several. Throws Error(Unavailable).
+std::unique_ptr<RenderBackend> make_beside_window(const std::string& name, int threads) {
+    return make_own_backend(name, threads > 0 ? threads : std::max(1, usable_share() - 1));
+}
 
 /// Vertical axis, camera, materials and their reading, by the command line, belong to the scene that it names, not to scenes opened later.
 LoadSettings load_settings_of(const SceneRequest& scene, const Options& opened) {
@@ -97,14 +98,20 @@ ViewerOptions viewer_options(const CommandLine& line, const Options& options, co
 class ViewerBackends {
 public:
     explicit ViewerBackends(const Options& options)
-        : threads_(viewer_threads(options.threads)), first_name_(backend_name(options.backend)) {}
+        : threads_(options.threads), first_name_(backend_name(options.backend)) {}
 
     const std::string& first_name() const { return first_name_; }
-    std::unique_ptr<RenderBackend> make(const std::string& name) const { return make_own_backend(name, threads_); }
+    /// For the picture of the window, which all ranks of a job share.
+    std::unique_ptr<RenderBackend> make_shared(const std::string& name) const {
+        return make_backend(name, threads_, make_beside_window);
+    }
+    std::unique_ptr<RenderBackend> make_own(const std::string& name) const {
+        return make_beside_window(name, threads_);
+    }
     BackendChoices choices() const {
         BackendChoice cuda{.name = "cuda", .device = "", .unavailable = cuda_unavailable_reason()};
         if (cuda.unavailable.empty()) cuda.device = cuda_devices().front().name;
-        return {{.name = "cpu", .device = make_own_backend("cpu", threads_)->info().device, .unavailable = ""}, cuda};
+        return {{.name = "cpu", .device = make_own("cpu")->info().device, .unavailable = ""}, cuda};
     }
 
 private:
@@ -114,7 +121,8 @@ private:
 
 /// The viewer's calls into the program. All arguments outlive it.
 void add_functions(ViewerOptions& viewer, ViewerBackends& backends, const Options& options) {
-    viewer.make_backend = [&](const std::string& name) { return backends.make(name); };
+    viewer.make_backend = [&](const std::string& name) { return backends.make_shared(name); };
+    viewer.make_side_backend = [&](const std::string& name) { return backends.make_own(name); };
     viewer.load_scene = [&](const SceneRequest& request) {
         return std::make_shared<const SceneDescription>(
             load_scene(request.name, find_assets_dir(), load_settings_of(request, options)));

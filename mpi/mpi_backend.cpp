@@ -47,7 +47,11 @@ public:
     MpiBackend(const MpiBackend&) = delete;
     MpiBackend& operator=(const MpiBackend&) = delete;
 
-    BackendInfo info() const override { return local().info(); }
+    BackendInfo info() const override {
+        BackendInfo info = local().info();
+        info.ranks = ranks_.size();
+        return info;
+    }
 
     void upload_scene(std::shared_ptr<const HostScene> scene) override {
         Payload payload{.scene = std::move(scene)};

@@ -22,7 +22,11 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 /// Polls of a wait before it sleeps between them: a few tenths of a millisecond.
 constexpr int kPollsAwake = 2000;
-constexpr long kNap = 50'000;  // nanoseconds
+/// Seconds of sleep between two polls. Naps grow with the wait: ranks take next to no time while a window is at rest, and are late by a
+/// fraction of what they have waited.
+constexpr double kShortestNap = 50e-6;
+constexpr double kLongestNap = 1e-3;
+constexpr double kNapOfWait = 1.0 / 64.0;
 /// Seconds between two looks at whether the processes of this machine still run.
 constexpr double kLookInterval = 0.05;
 
@@ -208,12 +212,16 @@ private:
                 ::sched_yield();
                 continue;
             }
-            const timespec nap{0, kNap};
-            ::nanosleep(&nap, nullptr);
+            sleep(std::clamp(watch.seconds() * kNapOfWait, kShortestNap, kLongestNap));
             if (watch.seconds() < next_look) continue;
             next_look += kLookInterval;
             require_alive();
         }
+    }
+
+    static void sleep(double seconds) {
+        const timespec nap{0, static_cast<long>(seconds * 1e9)};
+        ::nanosleep(&nap, nullptr);
     }
 
     void drop_sent() {

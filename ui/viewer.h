@@ -134,9 +134,11 @@ struct ViewerOptions {
     /// In the order of the key that steps through them. One should be "cpu": it takes over when another fails.
     BackendChoices backends{{"cpu", "", ""}};
     std::string first_backend = "cpu";
-    /// Called on the render thread when a back end is first selected, and on other threads for references and the
-    /// self test. Throws Error(Unavailable). Should leave one hardware thread to the window if there are several.
+    /// Called on the render thread when a back end is first selected; no other uses it while that one runs. Throws
+    /// Error(Unavailable). Should leave one hardware thread to the window if there are several.
     BackendFactory make_backend;
+    /// The same for any thread: for references, thumbnails and the self test, beside the picture of the window.
+    BackendFactory make_side_backend;
     /// A scene by name. Throws Error: Input with file and line, Usage for an unknown knob or a value out of its range.
     /// Called on helper threads after the start.
     std::function<std::shared_ptr<const SceneDescription>(const SceneRequest& request)> load_scene;

@@ -19,7 +19,7 @@ concept PendingValue = std::same_as<T, std::int64_t> || std::same_as<T, std::uin
 template <class Field, class Fn>
 auto of_pending_array(Field& field, Fn& fn) {
     return [&](const auto& spec) {
-        using Value = std::remove_cvref_t<decltype(spec.get(field)[0])>;
+        using Value = std::remove_cvref_t<decltype(*spec.get(field).data())>;
         if constexpr (PendingValue<Value>)
             if (spec.on_split == OnSplit::Clear) fn(spec.get(field));
     };

@@ -35,6 +35,7 @@ struct BackendInfo {
     std::string device;       ///< name of the processor
     std::string intersector;  ///< acceleration structure of the uploaded scene
     int threads = 0;
+    int ranks = 1;  ///< processes that share its work
 };
 
 /// Stop flag: a running pass starts no further paths. Paths under way are finished: dropping them would drop long

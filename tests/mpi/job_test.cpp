@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/io/image.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/program/joined_arguments.h"
 
@@ -254,5 +255,32 @@ TEST_CASE("a refused option is told once", "[merge]") {
     CHECK(result.code == 2);
     CHECK(errors_in(result.err) == 1);
 }
+
+#if PL_VIEWER
+TEST_CASE("all ranks render the picture of a window, which follows its keys and has the bits of one process") {
+    const TempDir folder;
+    // The camera moves before anything is learned, so that the field depends on no time.
+    write_all(folder / "script", "0 wait shown_device ~ 2 ranks\n1 key W\n4 keyup W\n5 wait moving == no\n"
+                                 "6 tap Home\n7 wait at_home == yes\n8 wait shown_divider == 1\n9 tap 3\n"
+                                 "10 wait shown_method == reinforcement\n11 wait shown_spp == 6\n"
+                                 "12 tap s ctrl\n13 wait message ~ saved\n14 quit\n");
+    const Arguments settings{"cornell", "--size", "48x40", "--volumes", "60", "--spp", "6", "-t", "1"};
+    const Arguments window =
+        joined({"view"}, joined(settings, {"--script", folder / "script", "--software", "--window", "800x600"}));
+    ProgramSetup setup = kSetup;
+    setup.folder = folder.path();
+    setup.unset = {"DISPLAY"};
+    setup.set.push_back("SDL_VIDEODRIVER=dummy");
+    const ProgramResult result = RunningProgram(on_ranks(2, window), setup).wait();
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    run_well(program(joined({"render"}, joined(settings, {"--method", "reinforcement", "-o", folder / "one.exr"}))));
+    std::string saved;
+    for (const std::string& name : folder.names())
+        if (name.ends_with(".exr") && name != "one.exr") saved = name;
+    REQUIRE_FALSE(saved.empty());
+    CHECK((read_exr(folder / saved).pixels == read_exr(folder / "one.exr").pixels));
+}
+#endif
 
 }  // namespace pl::test

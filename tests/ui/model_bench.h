@@ -20,6 +20,7 @@ struct ModelBench {
         options.settings.camera = small_scene()->camera;
         options.settings.next_event = false;
         options.make_backend = devices.maker();
+        options.make_side_backend = options.make_backend;
         devices.cpu->pass_microseconds = 200;
     }
     template <class Condition>

@@ -158,6 +158,7 @@ std::vector<Mark> run(const std::string& scene_name, const MethodInfo& method, c
     options.ui_trace = bench_folder() / fmt::format("{}-{}.jsonl", script, method.name);
     options.backends = {{"cpu", "", ""}, {"second", "", ""}};
     options.make_backend = [threads](const std::string&) { return make_cpu_backend({.threads = threads}); };
+    options.make_side_backend = options.make_backend;
     options.load_scene = [](const SceneRequest& request) {
         return std::make_shared<const SceneDescription>(load_scene(request.name, find_assets_dir()));
     };

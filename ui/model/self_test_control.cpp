@@ -10,7 +10,7 @@ void SelfTestControl::start() {
     std::vector<std::string> backends;
     for (const BackendChoice& choice : options_.backends)
         if (choice.unavailable.empty()) backends.push_back(choice.name);
-    run_.start([backends, make = options_.make_backend](const JobMonitor& monitor, const auto& told) {
+    run_.start([backends, make = options_.make_side_backend](const JobMonitor& monitor, const auto& told) {
         (void)run_self_test(backends, make, told, monitor.stop);
     });
     link_.hold(RenderLink::Hold::SelfTest, true);

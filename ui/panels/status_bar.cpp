@@ -5,6 +5,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/draw/words.h"
 #include "ui/panels/panels.h"
+#include "ui/worker/backend_switch.h"
 
 namespace pl {
 namespace {
@@ -103,7 +104,7 @@ void draw_status_bar(ViewerModel& model, const Layout& layout) {
     line.add(light_samples_text(model.render().settings().next_event),
              "Key L: whether each path vertex samples a point on a light.");
     if (model.frame() != nullptr)
-        line.add(back_end_label(model.status().backend), model.frame()->backend.device.c_str());
+        line.add(back_end_label(model.status().backend), device_text(model.frame()->backend).c_str());
     line.add(fmt::format("{}x{}", model.render().settings().width, model.render().settings().height),
              "Size of the picture.");
     line.add(samples_text(model),

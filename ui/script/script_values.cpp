@@ -11,6 +11,7 @@
 #include "ui/model/viewer_model.h"
 #include "ui/model/window_memory.h"
 #include "ui/script/overlay_values.h"
+#include "ui/worker/backend_switch.h"
 
 namespace pl {
 namespace {
@@ -198,6 +199,10 @@ constexpr std::array kValues{
           }},
     Value{"shown_backend",
           [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.backend.name; }); }},
+    Value{"shown_device",
+          [](const ViewerModel& m) {
+              return shown(m, [](const PublishedFrame& f) { return device_text(f.backend); });
+          }},
     Value{"shown_preview",
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return std::string(name_of(f.preview)); });

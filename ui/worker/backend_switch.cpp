@@ -50,8 +50,10 @@ std::string reason_of(const std::exception& error, const std::string& backend) {
 }
 
 std::string device_text(const BackendInfo& info) {
-    if (info.threads < 1) return info.device;
-    return fmt::format("{}, {} {}", info.device, info.threads, info.threads == 1 ? "thread" : "threads");
+    std::string text = info.device;
+    if (info.threads > 0) text += fmt::format(", {} {}", info.threads, info.threads == 1 ? "thread" : "threads");
+    if (info.ranks > 1) text += fmt::format(", {} ranks", info.ranks);
+    return text;
 }
 
 BackendSwitch::BackendSwitch(Make make, BackendChoices choices, std::string first)
