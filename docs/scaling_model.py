@@ -28,6 +28,8 @@ MOST_PASSES_WITHOUT_UPDATE = 16
 ENOUGH_SAMPLES_PER_VOLUME = 16384
 TRAINING_INTERVAL = 4
 PIXELS_OF_SHARE = 1 << 16
+EAGER_BYTES = 1 << 16      # a longer message waits for an answer to its announcement
+LATENCIES_OF_LARGE = 3
 # A list is as long as if so many times more or fewer training samples were spread evenly over cells and ranks.
 FACTOR_OF_SAMPLES = 8
 
@@ -197,12 +199,12 @@ class Run:
         samples = self.records_per_path * paths / ranks
         least, most = self.list_bytes(samples / FACTOR_OF_SAMPLES), self.list_bytes(samples * FACTOR_OF_SAMPLES)
         if ranks * least >= 2 * self.update_bytes:
-            traffic.add(ARRAYS_OF_PENDING, self.update_bytes)
+            traffic.add(1, self.update_bytes)
         elif ranks * most < 2 * self.update_bytes:
             traffic.add(1, least, 1, most)
         else:
             longest_list = min(most, 2 * self.update_bytes)
-            traffic.add(1, min(least, self.update_bytes), ARRAYS_OF_PENDING, max(longest_list, self.update_bytes))
+            traffic.add(1, min(least, self.update_bytes), 1, max(longest_list, self.update_bytes))
 
     def paths_before_updates(self, pixels, passes):
         """For each update, the paths since the one before."""
@@ -229,14 +231,16 @@ class Run:
         of_command = steps * (2 * latency + (BYTES_OF_COMMAND + BYTES_OF_REPORT) / bandwidth)
         blocks = len(blocks_of([self.pixels], ranks))
         of_pass = of_command + (blocks - 1) * steps * latency
+        commands = self.passes - 1 + len(ends_of_parts(self.pixels, self.volumes))
         # Reduce-scatter and allgather [Rabenseifner 2004], of the length of the lists and of the sums.
-        of_update = of_command + 2 * 2 * steps * latency
-        sums = sum(self.summed_bytes(ranks, paths) for paths in self.updates)
+        lengths = [self.summed_bytes(ranks, paths) for paths in self.updates]
+        waits = sum(1 + (LATENCIES_OF_LARGE if length > EAGER_BYTES else 1) for length in lengths)
+        updates = len(lengths) * of_command + 2 * steps * waits * latency
         # Scatter and allgather.
         of_field = 2 * share * self.field_bytes / bandwidth
         of_film = share * self.pixels * BYTES_OF_PIXEL / bandwidth + (ranks - 1) * latency if ranks > 1 else 0.0
         work = (self.render + self.precompute) / (ranks * threads) + self.learn / threads + self.serial
-        return work + of_field + self.passes * of_pass + len(self.updates) * of_update + sums / bandwidth + of_film
+        return work + of_field + commands * of_pass + updates + sum(lengths) / bandwidth + of_film
 
 
 def rows(run, threads, ranks, latency, bandwidth):

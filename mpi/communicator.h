@@ -38,9 +38,8 @@ public:
     virtual Bytes gather(std::span<const std::byte> own) = 0;
     /// The bytes of all ranks, in any number, to all.
     virtual std::vector<Bytes> exchange(std::span<const std::byte> own) = 0;
-    /// Sums over all ranks, in place.
-    virtual void sum(std::span<std::int64_t> values) = 0;
-    virtual void sum(std::span<std::uint32_t> values) = 0;
+    /// Sums over all ranks, in place, of both arrays at once: each message of its own would wait for the network again.
+    virtual void sum(std::span<std::int64_t> values, std::span<std::uint32_t> counts) = 0;
 
     /// From one rank to another, in the order of sending. send() may return before the bytes are received; they are copied.
     virtual void send(int to, std::span<const std::byte> bytes) = 0;

@@ -106,8 +106,13 @@ public:
         return all;
     }
 
-    void sum(std::span<std::int64_t> values) override { sum_all(values, MPI_INT64_T); }
-    void sum(std::span<std::uint32_t> values) override { sum_all(values, MPI_UINT32_T); }
+    void sum(std::span<std::int64_t> values, std::span<std::uint32_t> counts) override {
+        const Call call(*this, values.size_bytes() + counts.size_bytes());
+        std::vector<MPI_Request> requests;
+        begin_sums(values, MPI_INT64_T, requests);
+        begin_sums(counts, MPI_UINT32_T, requests);
+        for (MPI_Request& request : requests) wait(request);
+    }
 
     void send(int to, std::span<const std::byte> bytes) override {
         const Call call(*this, bytes.size());
@@ -178,16 +183,13 @@ private:
         }
     }
 
-    template <class Values>
-    void sum_all(std::span<Values> values, MPI_Datatype type) {
-        const Call call(*this, values.size_bytes());
-        constexpr std::size_t kMost = kMostBytes / sizeof(Values);
+    template <class Value>
+    void begin_sums(std::span<Value> values, MPI_Datatype type, std::vector<MPI_Request>& requests) {
+        constexpr std::size_t kMost = kMostBytes / sizeof(Value);
         for (std::size_t begin = 0; begin < values.size(); begin += kMost) {
             const auto count = static_cast<int>(std::min(kMost, values.size() - begin));
-            MPI_Request request;
-            require(
-                MPI_Iallreduce(MPI_IN_PLACE, values.data() + begin, count, type, MPI_SUM, MPI_COMM_WORLD, &request));
-            wait(request);
+            require(MPI_Iallreduce(MPI_IN_PLACE, values.data() + begin, count, type, MPI_SUM, MPI_COMM_WORLD,
+                                   &requests.emplace_back()));
         }
     }
 

@@ -83,6 +83,36 @@ void add_others(Communicator& ranks, ExactBackend& backend, MethodId method, con
     });
 }
 
+/// All arrays in a row.
+struct JoinedSums {
+    std::vector<std::int64_t> values;
+    std::vector<std::uint32_t> counts;
+
+    std::vector<std::int64_t>& row(std::span<std::int64_t>) { return values; }
+    std::vector<std::uint32_t>& row(std::span<std::uint32_t>) { return counts; }
+};
+
+void sum_arrays(Communicator& ranks, ExactBackend& backend, MethodId method) {
+    JoinedSums all;
+    backend.change_pending(method, [&](PendingSums sums) {
+        std::visit([&](auto array) { all.row(array).insert(all.row(array).end(), array.begin(), array.end()); },
+                   sums);
+    });
+    ranks.sum(all.values, all.counts);
+    auto value = all.values.cbegin();
+    auto count = all.counts.cbegin();
+    const auto take = [](auto array, auto& from) {
+        std::copy_n(from, array.size(), array.begin());
+        from += static_cast<std::ptrdiff_t>(array.size());
+    };
+    backend.change_pending(method, [&](PendingSums sums) {
+        if (const auto* array = std::get_if<std::span<std::int64_t>>(&sums))
+            take(*array, value);
+        else
+            take(std::get<std::span<std::uint32_t>>(sums), count);
+    });
+}
+
 }  // namespace
 
 void sum_pending(Communicator& ranks, ExactBackend& backend, MethodId method) {
@@ -92,12 +122,11 @@ void sum_pending(Communicator& ranks, ExactBackend& backend, MethodId method) {
                    sums);
     });
     auto bytes = static_cast<std::int64_t>(own.bytes().size());
-    ranks.sum(std::span(&bytes, 1));
+    ranks.sum(std::span(&bytes, 1), {});
     // Along a ring each rank passes on the lists of all others; or the arrays twice, to sum them and to spread the sums.
     if (static_cast<std::uint64_t>(bytes) < 2 * own.dense_bytes())
         return add_others(ranks, backend, method, own.bytes());
-    backend.change_pending(method,
-                           [&](PendingSums sums) { std::visit([&](auto values) { ranks.sum(values); }, sums); });
+    sum_arrays(ranks, backend, method);
 }
 
 void clear_pending(ExactBackend& backend, MethodId method) {

@@ -59,8 +59,10 @@ public:
         job_->all_here.arrive_and_wait();
         return all;
     }
-    void sum(std::span<std::int64_t> values) override { sum_all(values); }
-    void sum(std::span<std::uint32_t> values) override { sum_all(values); }
+    void sum(std::span<std::int64_t> values, std::span<std::uint32_t> counts) override {
+        sum_all(values);
+        sum_all(counts);
+    }
 
     void send(int to, std::span<const std::byte> bytes) override {
         const std::lock_guard lock(job_->mutex);
