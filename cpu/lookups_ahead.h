@@ -37,7 +37,7 @@ public:
     template <FeatureSet F>
     SurfacePoint surface(const SceneView& scene, const Hit& hit, std::uint32_t ray) const {
         // Not copied without need: the wide loads of a copy would stall, since narrower stores do not forward to them.
-        if constexpr (F.has(Feature::SmoothNormals))
+        if constexpr (F.has_any(kNormalFeatures))
             return with_shading_normal<F>(scene, flat_point(ray - first_, hit.primitive), hit_weights(hit));
         else
             return flat_point(ray - first_, hit.primitive);

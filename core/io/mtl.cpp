@@ -1,5 +1,8 @@
 #include "core/io/mtl.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/io/files.h"
@@ -14,12 +17,30 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Whether a texel is not gray, but for the rounding of lossy images.
+bool has_colors(const TextureDescription& texture) {
+    constexpr float kRounding = 0.02f;
+    return std::any_of(texture.texels.begin(), texture.texels.end(), [](const glm::vec4& texel) {
+        return std::abs(texel.x - texel.y) > kRounding || std::abs(texel.x - texel.z) > kRounding;
+    });
+}
+
 class TextureAdder {
 public:
     TextureAdder(SceneDescription& scene, const fs::path& mtl) : scene_(scene), folder_(mtl.parent_path()) {}
 
     std::uint32_t add(const MtlMap& map, TextureContent content) {
         return map ? add_texture(scene_, path_of(map.name), content, !map.clamps) : kNoTexture;
+    }
+
+    /// Exporters write images of normals as `map_Bump`, too; an image without colors is one of heights, which is left out with a note.
+    std::uint32_t add_normals(const MtlEntry& entry, std::vector<std::string>& notes) {
+        const std::size_t before = scene_.textures.size();
+        const std::uint32_t texture = add(entry.norm ? entry.norm : entry.bump, TextureContent::Normal);
+        if (entry.norm || texture == kNoTexture || has_colors(scene_.textures[texture])) return texture;
+        notes.emplace_back("has heights in its bump map, which are not supported: the surface is smooth");
+        scene_.textures.resize(before);
+        return kNoTexture;
     }
 
 private:
@@ -57,10 +78,6 @@ void load_mtl(const fs::path& path, SceneDescription& scene, MapKd map_kd) {
         if (entry.map_kd && entry.kd == glm::vec3(0.0f)) {
             notes.emplace_back("multiplies its map_Kd with a black Kd");
         }
-        for (const std::string& note : notes) {
-            scene.warnings.push_back(
-                fmt::format("{}: material {} {}", place(path, entry.line), in_quotes(entry.name), note));
-        }
         const bool is_smooth = material.kind == SurfaceKind::Diffuse || material.roughness == 0.0f;
         material.textures = {
             .albedo = textures.add(entry.map_kd, TextureContent::Color),
@@ -68,6 +85,12 @@ void load_mtl(const fs::path& path, SceneDescription& scene, MapKd map_kd) {
                                    : textures.add(entry.map_pr ? entry.map_pr : entry.map_ns, TextureContent::Number),
             .emission = textures.add(entry.map_ke, TextureContent::Color),
             .opacity = textures.add(entry.map_d, TextureContent::Opacity)};
+        material.textures.normal = textures.add_normals(entry, notes);
+        material.normal_strength = entry.norm ? entry.norm.strength : entry.bump.strength;
+        for (const std::string& note : notes) {
+            scene.warnings.push_back(
+                fmt::format("{}: material {} {}", place(path, entry.line), in_quotes(entry.name), note));
+        }
         scene.materials.push_back(std::move(material));
     }
     dimmed.tell(

@@ -14,6 +14,7 @@ namespace pl {
 struct MtlMap {
     std::string name{};  ///< of the image file; empty: no image
     bool clamps = false;
+    float strength = 1.0f;  ///< of -bm: factor of the slopes of normals
 
     explicit operator bool() const { return !name.empty(); }
 };
@@ -29,6 +30,7 @@ struct MtlEntry {
     std::optional<float> pr, pm, pc;  ///< in [0, 1]
     std::optional<int> illum;
     MtlMap map_kd, map_ke, map_pr, map_ns, map_d;
+    MtlMap norm, bump;  ///< normals; normals or heights
     bool two_sided = false;
     std::optional<SurfaceKind> surface;       ///< Pl_surface
     std::optional<float> roughness, own_ior;  ///< Pl_roughness, Pl_ior

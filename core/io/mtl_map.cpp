@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/io/line_reader.h"
+#include "core/scene/description.h"
 
 namespace pl {
 
@@ -58,7 +59,11 @@ ParsedMap parse_map(std::string_view arguments) {
         if (option == "-clamp") {
             result.map.clamps = !values.empty() && values[0] == "on";
         }
-        if (!is_silent(option, values)) {
+        const std::optional<double> strength =
+            option == "-bm" && !values.empty() ? parse_number(values[0]) : std::nullopt;
+        if (strength && *strength >= 0.0 && *strength <= static_cast<double>(kMostNormalStrength)) {
+            result.map.strength = static_cast<float>(*strength);
+        } else if (!is_silent(option, values)) {
             result.unsupported.emplace_back(option);
         }
     }

@@ -46,17 +46,21 @@ struct MapKey {
     std::string_view name;
     MtlMap MtlEntry::*map;
 };
-constexpr std::array<MapKey, 5> kMaps = {{
+constexpr std::array<MapKey, 9> kMaps = {{
     {"map_Kd", &MtlEntry::map_kd},
     {"map_Ke", &MtlEntry::map_ke},
     {"map_Pr", &MtlEntry::map_pr},
     {"map_Ns", &MtlEntry::map_ns},
     {"map_d", &MtlEntry::map_d},
+    {"norm", &MtlEntry::norm},
+    {"bump", &MtlEntry::bump},
+    {"map_bump", &MtlEntry::bump},
+    {"map_Bump", &MtlEntry::bump},
 }};
 
 /// Ignored with a warning, because they would change the picture.
-constexpr std::array<std::string_view, 11> kUnsupported = {
-    "bump", "norm", "disp", "decal", "refl", "map_Ks", "map_Pm", "map_bump", "map_Bump", "map_Tr", "map_refl"};
+constexpr std::array<std::string_view, 7> kUnsupported = {"disp",   "decal",  "refl",    "map_Ks",
+                                                          "map_Pm", "map_Tr", "map_refl"};
 
 template <class Keys>
 const typename Keys::value_type* find_key(const Keys& keys, std::string_view name) {

@@ -1,5 +1,6 @@
 #include "core/io/scene_materials.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,7 @@ void read_surface(const JsonDocument& file, const std::string& at, MaterialDescr
     }
     material.ior = read_within(file, at + "/ior", kLeastIor, kMostIor).value_or(material.ior);
     material.specular = read_share(file, at + "/specular").value_or(material.specular);
+    material.edge_tint = read_share(file, at + "/edge_tint").value_or(material.edge_tint);
     material.transmission = read_share(file, at + "/transmission").value_or(material.transmission);
 }
 
@@ -102,7 +104,8 @@ void read_images(const JsonDocument& file, const std::string& at, SceneDescripti
     for (const Slot& slot : {Slot{"/albedo_map", &TextureUse::albedo, TextureContent::Color},
                              Slot{"/roughness_map", &TextureUse::roughness, TextureContent::Number},
                              Slot{"/emission_map", &TextureUse::emission, TextureContent::Color},
-                             Slot{"/opacity_map", &TextureUse::opacity, TextureContent::Opacity}}) {
+                             Slot{"/opacity_map", &TextureUse::opacity, TextureContent::Opacity},
+                             Slot{"/normal_map", &TextureUse::normal, TextureContent::Normal}}) {
         const std::optional<std::string> name = file.text(at + slot.key);
         const bool own_repeats = read_wrap(file, at + slot.key + "_wrap", repeats);
         if (!name) {
@@ -112,6 +115,18 @@ void read_images(const JsonDocument& file, const std::string& at, SceneDescripti
                                         : add_texture(scene, image_path(file, scene, at + slot.key, *name),
                                                       slot.content, own_repeats);
     }
+}
+
+NormalGreen read_green(const JsonDocument& file, const std::string& pointer, NormalGreen standard) {
+    const std::optional<std::string> name = file.text(pointer);
+    if (!name) {
+        return standard;
+    }
+    const auto known = std::find(kNormalGreenNames.begin(), kNormalGreenNames.end(), *name);
+    if (known == kNormalGreenNames.end()) {
+        file.fail(pointer, fmt::format("expected one of {}, got '{}'", fmt::join(kNormalGreenNames, ", "), *name));
+    }
+    return static_cast<NormalGreen>(known - kNormalGreenNames.begin());
 }
 
 void read_sun(const JsonDocument& file, SunDescription& sun) {
@@ -152,15 +167,23 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
     }
     for (const auto& [name, overrides] : all->items()) {
         const std::string at = "/materials" + pointer_step(name);
-        file.object(at, {"albedo", "emission", "two_sided_emission", "surface", "roughness", "ior", "specular",
-                         "transmission", "albedo_map", "roughness_map", "emission_map", "opacity_map", "wrap",
-                         "albedo_map_wrap", "roughness_map_wrap", "emission_map_wrap", "opacity_map_wrap"});
+        file.object(at, {"albedo",           "emission",           "two_sided_emission",
+                         "surface",          "roughness",          "ior",
+                         "specular",         "edge_tint",          "transmission",
+                         "albedo_map",       "roughness_map",      "emission_map",
+                         "opacity_map",      "normal_map",         "wrap",
+                         "albedo_map_wrap",  "roughness_map_wrap", "emission_map_wrap",
+                         "opacity_map_wrap", "normal_map_wrap",    "normal_strength",
+                         "normal_green"});
         MaterialDescription& material = find_material(file, scene, name);
         material.albedo = read_share(file, at + "/albedo").value_or(material.albedo);
         material.emission = read_light(file, at + "/emission").value_or(material.emission);
         material.two_sided_emission = file.boolean(at + "/two_sided_emission").value_or(material.two_sided_emission);
         read_surface(file, at, material);
         read_images(file, at, scene, material.textures);
+        material.normal_strength =
+            read_within(file, at + "/normal_strength", 0.0f, kMostNormalStrength).value_or(material.normal_strength);
+        material.normal_green = read_green(file, at + "/normal_green", material.normal_green);
     }
 }
 
@@ -177,14 +200,16 @@ void read_material_file(const std::filesystem::path& path, SceneDescription& sce
 }
 
 Json material_json(const MaterialDescription& material) {
-    return {{"albedo", vector_json(material.albedo)},
-            {"emission", vector_json(material.emission)},
-            {"two_sided_emission", material.two_sided_emission},
-            {"surface", kSurfaceNames[static_cast<std::size_t>(material.kind)]},
-            {"roughness", material.roughness},
-            {"ior", material.ior},
-            {"specular", vector_json(material.specular)},
-            {"transmission", vector_json(material.transmission)}};
+    Json json{{"albedo", vector_json(material.albedo)},
+              {"emission", vector_json(material.emission)},
+              {"two_sided_emission", material.two_sided_emission},
+              {"surface", kSurfaceNames[static_cast<std::size_t>(material.kind)]},
+              {"roughness", material.roughness},
+              {"ior", material.ior},
+              {"specular", vector_json(material.specular)},
+              {"transmission", vector_json(material.transmission)}};
+    if (material.edge_tint != glm::vec3(1.0f)) json["edge_tint"] = vector_json(material.edge_tint);
+    return json;
 }
 
 void write_material_file(const std::filesystem::path& path, const std::vector<MaterialDescription>& materials) {

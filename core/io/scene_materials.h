@@ -10,11 +10,12 @@
 namespace pl {
 
 /// Reads `materials`: overrides of MTL entries, name -> any of
-///   albedo, emission, specular, transmission   [r, g, b]
+///   albedo, emission, specular, edge_tint, transmission   [r, g, b]
 ///   two_sided_emission                         true, false
 ///   surface                                    "diffuse", "conductor", "dielectric", "plastic"
-///   roughness, ior                             numbers
-///   albedo_map, roughness_map, emission_map, opacity_map    images in the folder of the scene or below; "" for none
+///   roughness, ior, normal_strength            numbers
+///   normal_green                               "up", "down", "left"
+///   albedo_map, roughness_map, emission_map, opacity_map, normal_map    images in the folder of the scene or below; "" for none
 ///   wrap                                       "repeat" (default) or "clamp", for these images
 ///   albedo_map_wrap and so on                  the same for one of them
 /// See MaterialDescription. Throws Error(Input) with file and line.

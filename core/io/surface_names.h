@@ -1,4 +1,4 @@
-// Names of surface kinds in files.
+// Names of surface kinds, and of other choices of materials, in files.
 #pragma once
 
 #include <array>
@@ -11,6 +11,9 @@ namespace pl {
 
 /// [SurfaceKind]
 inline constexpr std::array<std::string_view, 4> kSurfaceNames = {"diffuse", "conductor", "dielectric", "plastic"};
+
+/// [NormalGreen]
+inline constexpr std::array<std::string_view, 3> kNormalGreenNames = {"up", "down", "left"};
 
 inline std::optional<SurfaceKind> surface_kind(std::string_view name) {
     for (std::size_t i = 0; i < kSurfaceNames.size(); ++i) {

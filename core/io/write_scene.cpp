@@ -16,6 +16,7 @@
 #include "core/io/json_file.h"
 #include "core/io/listed_cameras.h"
 #include "core/io/scene_materials.h"
+#include "core/io/surface_names.h"
 #include "core/io/write_mesh.h"
 #include "core/io/write_texture.h"
 #include "core/scene/default_light.h"
@@ -121,6 +122,11 @@ private:
         add_image(json, "roughness_map", from.textures.roughness, TextureContent::Number);
         add_image(json, "emission_map", from.textures.emission, TextureContent::Color);
         add_image(json, "opacity_map", from.textures.opacity, TextureContent::Opacity);
+        add_image(json, "normal_map", from.textures.normal, TextureContent::Normal);
+        if (from.textures.normal != kNoTexture) {
+            json["normal_strength"] = from.normal_strength;
+            json["normal_green"] = kNormalGreenNames[static_cast<std::size_t>(from.normal_green)];
+        }
         return json;
     }
 

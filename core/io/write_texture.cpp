@@ -14,7 +14,8 @@ namespace {
 /// The channels in use; one channel as gray.
 glm::vec3 used_channels(const glm::vec4& texel, TextureContent use) {
     switch (use) {
-    case TextureContent::Color: break;
+    case TextureContent::Color:
+    case TextureContent::Normal: break;
     case TextureContent::Number: return glm::vec3(texel.x);
     case TextureContent::Opacity: return glm::vec3(texel.w);
     }

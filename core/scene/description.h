@@ -18,14 +18,15 @@ namespace pl {
 /// No texture.
 inline constexpr std::uint32_t kNoTexture = 0xffffffffu;
 
-/// Indices into SceneDescription::textures, or kNoTexture. A texture multiplies its parameter.
+/// Indices into SceneDescription::textures, or kNoTexture. A texture multiplies its parameter, unless it says otherwise.
 struct TextureUse {
     std::uint32_t albedo = kNoTexture;
     std::uint32_t roughness = kNoTexture;  ///< first channel
     std::uint32_t emission = kNoTexture;
     std::uint32_t opacity = kNoTexture;  ///< alpha channel; a hole below one half
+    std::uint32_t normal = kNoTexture;   ///< normals, which replace those of the surface: see normal_map.h
 
-    bool any() const { return (albedo & roughness & emission & opacity) != kNoTexture; }
+    bool any() const { return (albedo & roughness & emission & opacity & normal) != kNoTexture; }
     friend bool operator==(const TextureUse&, const TextureUse&) = default;
 };
 
@@ -33,9 +34,19 @@ struct TextureUse {
 inline constexpr float kLeastIor = 1.0f;
 inline constexpr float kMostIor = 4.0f;
 
+/// Largest factor of the slopes of a normal map.
+inline constexpr float kMostNormalStrength = 100.0f;
+
 /// Valid angular diameters of the sun, in degrees: from the resolution of floats to half of the sky.
 inline constexpr float kLeastSunAngle = 0.01f;
 inline constexpr float kMostSunAngle = 180.0f;
+
+/// The direction that green has in an image of normals.
+enum class NormalGreen : std::uint32_t {
+    Up,    ///< along v, up the image
+    Down,  ///< down the image
+    Left,  ///< to the left of u, seen from the front; on mirrored images down
+};
 
 /// Reflection, transmission and emission of a surface. Colors are linear RGB.
 struct MaterialDescription {
@@ -47,8 +58,11 @@ struct MaterialDescription {
     float roughness = 0.0f;        ///< in [0, 1]: sqrt(alpha) of GGX; 0: smooth
     float ior = 1.5f;              ///< dielectric and plastic: index of refraction, inside over outside
     glm::vec3 specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of the reflection
+    glm::vec3 edge_tint{1.0f};     ///< conductor: reflectance at 82 degrees over that of Schlick's approximation
     glm::vec3 transmission{1.0f};  ///< dielectric: tint of the transmission
     TextureUse textures{};
+    float normal_strength = 1.0f;  ///< factor of the slopes in textures.normal, at least 0
+    NormalGreen normal_green = NormalGreen::Up;
 
     friend bool operator==(const MaterialDescription&, const MaterialDescription&) = default;
 };
@@ -58,6 +72,7 @@ enum class TextureContent : std::uint32_t {
     Color,    ///< LDR files are decoded from sRGB
     Number,   ///< linear; first channel
     Opacity,  ///< linear; alpha channel unless it is constant 1, else the first channel
+    Normal,   ///< linear; the first three channels
 };
 
 /// An image texture. Texels are linear (colors of LDR files are decoded from sRGB), [row][column] from the top; u to
@@ -143,8 +158,8 @@ struct SceneDescription {
     CameraDescription camera;
     std::vector<NamedCamera> cameras;  ///< to choose from; of some kinds of files
     std::uint32_t chosen_camera = 0;   ///< number of `camera` among them, from 1; 0: none of them
-    glm::vec3 up{0.0f, 1.0f, 0.0f};  ///< vertical axis, of default camera and default light: x, y or z, +-1
-    glm::vec3 environment{0.0f};     ///< constant radiance of escaped rays
+    glm::vec3 up{0.0f, 1.0f, 0.0f};    ///< vertical axis, of default camera and default light: x, y or z, +-1
+    glm::vec3 environment{0.0f};       ///< constant radiance of escaped rays
     EnvironmentMapDescription environment_map;  ///< added to `environment`; no map without texels
     SunDescription sun;                         ///< added to both
     bool default_light = false;                 ///< the map is that of add_default_light()

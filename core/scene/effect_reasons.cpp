@@ -68,6 +68,8 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::EnvironmentMap: return far_lights_of(scene);
     case Feature::ThinLens: return fmt::format("the camera's lens has a radius of {}", camera.aperture_radius);
     case Feature::ManyLights: return many_lights_of(scene);
+    case Feature::NormalMaps:
+        return materials_that(scene, [](const auto& m) { return m.textures.normal != kNoTexture; });
     }
     return "";
 }

@@ -26,6 +26,7 @@ std::string_view name_of(Feature feature) {
     case Feature::EnvironmentMap: return "environment-map";
     case Feature::ThinLens: return "thin-lens";
     case Feature::ManyLights: return "many-lights";
+    case Feature::NormalMaps: return "normal-maps";
     }
     return "";
 }
@@ -39,6 +40,7 @@ FeatureSet needed_effects(const HostScene& scene) {
     for (const SurfaceLobes& lobes : scene.lobes) set = set.with(effects_of(lobes));
     if (!scene.images.empty()) set = set.with(Feature::Textures);
     if (scene.has_holes != 0) set = set.with(Feature::CutOuts);
+    if (!scene.normal_maps.empty()) set = set.with(Feature::NormalMaps);
     if (!scene.light_nodes.empty()) set = set.with(Feature::ManyLights);
     if (scene.far_probability > 0.0f) set = set.with(Feature::EnvironmentMap);
     return set;

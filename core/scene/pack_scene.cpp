@@ -118,14 +118,16 @@ void pack_lobes(const SceneDescription& scene, HostScene& packed) {
     AlbedoTables tables(packed.directional_albedo);
     packed.lobes.reserve(scene.materials.size());
     for (const MaterialDescription& m : scene.materials) {
+        const bool is_metal = m.kind == SurfaceKind::Conductor;
         SurfaceLobes lobes{.kind = m.kind,
                            .roughness = usable_roughness(m),
                            .ior = m.ior,
                            .specular = m.specular,
-                           .transmission = m.transmission};
+                           .transmission =
+                               is_metal ? Vec3f{1.0f} - edge_loss_of(m.specular, m.edge_tint) : m.transmission};
         const bool uses_table = lobes.kind == SurfaceKind::Plastic || lobes.roughness > 0.0f;
         // The table of a conductor does not depend on an index of refraction.
-        if (uses_table) lobes.table = tables.first_for(m.kind, m.kind == SurfaceKind::Conductor ? 1.0f : m.ior);
+        if (uses_table) lobes.table = tables.first_for(m.kind, is_metal ? 1.0f : m.ior);
         packed.lobes.push_back(lobes);
     }
 }

@@ -52,6 +52,14 @@ public:
         return images;
     }
 
+    NormalMap pack_normals(const MaterialDescription& material) {
+        if (material.textures.normal == kNoTexture || material.normal_strength == 0.0f) return {};
+        const float strength = material.normal_strength;
+        return {image(material.textures.normal), strength,
+                material.normal_green == NormalGreen::Down ? -strength : strength,
+                material.normal_green == NormalGreen::Left ? 0u : 1u};
+    }
+
 private:
     /// Index of the packed image of a texture; each is packed once.
     std::uint32_t image(std::uint32_t texture) {
@@ -95,11 +103,17 @@ void pack_textures(const SceneDescription& scene, HostScene& packed) {
     for (const TriangleDescription& t : scene.triangles) used[t.material] = true;
     ImagePacker packer(scene, packed);
     std::vector<MaterialImages> of_material(scene.materials.size());
-    for (std::size_t m = 0; m < scene.materials.size(); ++m)
-        if (used[m] && scene.materials[m].textures.any())
-            of_material[m] = packer.pack(scene.materials[m], packed.materials[m]);
+    std::vector<NormalMap> normal_maps(scene.materials.size());
+    bool has_normals = false;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        if (!used[m] || !scene.materials[m].textures.any()) continue;
+        of_material[m] = packer.pack(scene.materials[m], packed.materials[m]);
+        normal_maps[m] = packer.pack_normals(scene.materials[m]);
+        has_normals = has_normals || normal_maps[m].image != kNoImage;
+    }
     if (packed.images.empty()) return;
     packed.material_images = std::move(of_material);
+    if (has_normals) packed.normal_maps = std::move(normal_maps);
     pack_uvs(scene, packed);
 }
 

@@ -38,6 +38,9 @@ public:
             hash_.add(m.ior);
             add(hash_, m.specular);
             add(hash_, m.transmission);
+            if (m.edge_tint == glm::vec3(1.0f)) continue;
+            begin("edge tint", i);
+            add(hash_, m.edge_tint);
         }
     }
 
@@ -50,6 +53,10 @@ public:
             begin("textures of material", i);
             for (const std::uint32_t index : {use.albedo, use.roughness, use.emission, use.opacity})
                 hash_.add(std::uint64_t{index});
+            if (use.normal == kNoTexture) continue;
+            begin("normal map", use.normal);
+            hash_.add(scene.materials[i].normal_strength);
+            hash_.add(std::uint64_t{static_cast<std::uint32_t>(scene.materials[i].normal_green)});
         }
         if (!any) return;
         for (std::size_t i = 0; i < scene.textures.size(); ++i) add_texture(scene.textures[i], i);

@@ -21,6 +21,7 @@ struct SceneStorage {
     Array<Image> images;
     Array<Texel> texels;
     Array<MaterialImages> material_images;
+    Array<NormalMap> normal_maps;
     Array<Light> lights;
     Array<LightNode> light_nodes;
     Array<LightPlace> light_places;
@@ -56,6 +57,7 @@ struct SceneStorage {
                          .images = view_of(images),
                          .texels = view_of(texels),
                          .of_material = view_of(material_images),
+                         .normal_maps = view_of(normal_maps),
                          .has_holes = has_holes},
             .lights = view_of(lights),
             .light_tree = {.nodes = view_of(light_nodes),
@@ -87,6 +89,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.images, to.images);
     fn(from.texels, to.texels);
     fn(from.material_images, to.material_images);
+    fn(from.normal_maps, to.normal_maps);
     fn(from.lights, to.lights);
     fn(from.light_nodes, to.light_nodes);
     fn(from.light_places, to.light_places);

@@ -117,7 +117,8 @@ void check_surfaces(std::string& list, std::span<const MaterialDescription> mate
                                    kLeastIor, kMostIor);
             });
         }
-        for (const auto& [what, value] : {std::pair{"specular", m.specular}, {"transmission", m.transmission}}) {
+        for (const auto& [what, value] :
+             {std::pair{"specular", m.specular}, {"edge tint", m.edge_tint}, {"transmission", m.transmission}}) {
             if (!is_albedo(value)) {
                 color.add([&, what = what, value = value] {
                     return fmt::format("material '{}': {} {} is not within [0, 1]", m.name, what, show(value));
@@ -159,7 +160,7 @@ void check_texture_uses(std::string& list, std::span<const MaterialDescription> 
     Complaint light(list);
     for (const MaterialDescription& m : materials) {
         const TextureUse& use = m.textures;
-        for (const std::uint32_t texture : {use.albedo, use.roughness, use.emission, use.opacity}) {
+        for (const std::uint32_t texture : {use.albedo, use.roughness, use.emission, use.opacity, use.normal}) {
             if (texture != kNoTexture && texture >= textures.size()) {
                 index.add([&] { return fmt::format("material '{}': there is no texture {}", m.name, texture); });
             }

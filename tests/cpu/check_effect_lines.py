@@ -25,6 +25,7 @@ EFFECTS = {
     "shading/environment_map.h": "textured-room",
     "shading/far_lights.h": "textured-room",
     "scene/texture.h": "textured-room",
+    "scene/normal_map.h": str(Path(__file__).with_name("relief.obj")),
     "shading/light_tree.h": "gallery",
 }
 PLAIN = (["cornell", "--nee", "off"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinforcement", "--nee", "on"],

@@ -128,8 +128,34 @@ def textured(folder):
     return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
 
 
+def relief(x, y):
+    """Normals of soft waves with a slant: the directions of red and green show, and turned over green. Few face away from a viewer,
+    which makes them black in Mitsuba."""
+    normal = [0.1 * math.sin(math.pi * x / 8) + 0.06, 0.07 * math.cos(math.pi * y / 8) - 0.05, 1.0]
+    length = math.sqrt(sum(c * c for c in normal))
+    return tuple(round(127.5 * (c / length + 1)) for c in normal)
+
+
+def normal_mapped(folder, inside):
+    (folder / "relief.png").write_bytes(png(32, 32, relief))
+    (folder / "ground.obj").write_text("v -4 0 4\nv 4 0 4\nv 4 0 -4\nv -4 0 -4\nvt 0 0\nvt 6 0\nvt 6 4\nvt 0 4\n"
+                                       "f 1/1 2/2 3/3 4/4\n")
+    bumpy = ('<bsdf type="normalmap"><texture type="bitmap" name="normalmap"><boolean name="raw" value="true"/>'
+             '<string name="filename" value="relief.png"/></texture><boolean name="use_shadowing_function" value="false"/>'
+             f'<boolean name="flip_invalid_normals" value="false"/>{inside}</bsdf>')
+    sun = ('<shape type="rectangle"><transform name="to_world">' + scaled(0.5, 0.5, 1) + turned("x", 90) + turned("z", -40) +
+           moved(-2, 3, 1) + '</transform>' + diffuse("0, 0, 0") +
+           '<emitter type="area"><rgb name="radiance" value="17, 12, 4"/></emitter></shape>')
+    content = (f'<shape type="obj"><string name="filename" value="ground.obj"/><bsdf type="twosided">{bumpy}</bsdf></shape>' +
+               sky("0.1, 0.15, 0.2") + sun + box(bumpy, (-0.55, 0.29, -0.4), (0.35, 0.3, 0.35), 25) +
+               shape("rectangle", scaled(0.4, 0.4, 1) + turned("y", -20) + moved(0.5, 0.45, 0.3), bumpy))
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
+
+
 MIRROR = '<bsdf type="conductor"><string name="material" value="none"/></bsdf>'
 GOLD = ('<bsdf type="conductor"><rgb name="eta" value="0.143, 0.375, 1.442"/><rgb name="k" value="3.983, 2.386, 1.603"/></bsdf>')
+# Of a high index: Schlick's approximation is 15 % too bright near the edge.
+CHROME = ('<bsdf type="conductor"><rgb name="eta" value="3.1, 3.2, 2.33"/><rgb name="k" value="3.3, 3.33, 3.14"/></bsdf>')
 GLASS = '<bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>'
 
 

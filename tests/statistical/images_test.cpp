@@ -76,6 +76,26 @@ TEST_CASE("A plane under a linear sky shows its closed form by every method") {
     }
 }
 
+// Of the hemisphere around a normal that is tilted by 45 degrees the part below the plane is lost: (1 + cos 45) / 2 are left of an even sky.
+// The sky is both sampled as a light and not.
+TEST_CASE("A plane with a slanted normal map under an even sky shows its closed form by every method") {
+    SceneDescription scene = plane_scene(0.5f);
+    scene.textures.push_back(
+        {.content = TextureContent::Normal,
+         .width = 1,
+         .height = 1,
+         .texels = {glm::vec4(0.5f + 0.5f * std::sqrt(0.5f), 0.5f, 0.5f + 0.5f * std::sqrt(0.5f), 1)}});
+    scene.materials[0].textures.normal = 0;
+    scene.uvs = {{0, 0}, {1, 0}, {0, 1}};
+    scene.triangles[0].uv = {0, 1, 2};
+    scene.environment_map = linear_sky(1.0f, 0.0f);
+    scene.environment = glm::vec3(0.25f);
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        CHECK(shows(scene, estimator, 0.5 * 1.25 * 0.5 * (1.0 + std::sqrt(0.5)), 0.02));
+    }
+}
+
 // A cone of half angle 30 degrees around 45 degrees: irradiance pi sin(30)^2 cos(45) L. Light samples alone find it well.
 TEST_CASE("A plane under a large sun shows its closed form by every method") {
     SceneDescription scene = plane_scene(0.5f);

@@ -35,8 +35,11 @@ bool draw_reflection(MaterialDescription& m, const MaterialDescription& file) {
     bool changed = false;
     if (m.kind == SurfaceKind::Diffuse || m.kind == SurfaceKind::Plastic)
         changed |= share_row("Color", "Diffuse reflectance.", m.albedo);
-    if (m.kind == SurfaceKind::Conductor)
+    if (m.kind == SurfaceKind::Conductor) {
         changed |= share_row("Reflectance", "Of the metal at normal incidence.", m.specular);
+        changed |=
+            share_row("Edge tint", "Reflectance at 82 degrees over that of Schlick's approximation.", m.edge_tint);
+    }
     if (m.kind == SurfaceKind::Dielectric || m.kind == SurfaceKind::Plastic)
         changed |= share_row("Reflected", "Tint of the light that glass or coat reflects.", m.specular);
     if (m.kind == SurfaceKind::Dielectric)
@@ -73,12 +76,13 @@ void draw_textures(const TextureUse& use, const SceneDescription& scene) {
     const auto row = [&](const char* label, std::uint32_t texture) {
         if (texture == kNoTexture) return;
         text_row(label, scene.textures[texture].source.filename().string(),
-                 "A texture that multiplies the value above.");
+                 "A texture: multiplies the value above, or bends the normals.");
     };
     row("Color map", use.albedo);
     row("Rough map", use.roughness);
     row("Light map", use.emission);
     row("Holes", use.opacity);
+    row("Normal map", use.normal);
 }
 
 void draw_restore(ViewerModel& model, std::uint32_t index) {

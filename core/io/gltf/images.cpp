@@ -26,6 +26,8 @@ std::uint32_t GltfImages::color(const std::string& info, float alpha_scale) {
 
 std::uint32_t GltfImages::roughness(const std::string& info) { return add(info, Use::Roughness, 1.0f); }
 
+std::uint32_t GltfImages::normals(const std::string& info) { return add(info, Use::Normals, 1.0f); }
+
 std::uint32_t GltfImages::roughness_of_gloss(const std::string& info, float factor) {
     return add(info, Use::Gloss, factor);
 }
@@ -37,6 +39,16 @@ std::uint32_t GltfImages::add(const std::string& info, Use use, float factor) {
     const auto [known, is_new] = known_.try_emplace({source.image, use, factor, source.repeats}, kNoTexture);
     if (is_new) known->second = make(source, use, factor);
     return known->second;
+}
+
+TextureContent GltfImages::content_of(Use use) {
+    switch (use) {
+    case Use::Color: return TextureContent::Color;
+    case Use::Normals: return TextureContent::Normal;
+    case Use::Roughness:
+    case Use::Gloss: break;
+    }
+    return TextureContent::Number;
 }
 
 GltfImages::Source GltfImages::source_of(const std::string& texture) {
@@ -67,8 +79,7 @@ bool GltfImages::repeats(const std::string& texture) {
 }
 
 std::uint32_t GltfImages::make(const Source& source, Use use, float factor) {
-    const bool is_color = use == Use::Color;
-    const TextureContent content = is_color ? TextureContent::Color : TextureContent::Number;
+    const TextureContent content = content_of(use);
     const std::filesystem::path path = image_path(source.image);
     const std::uint32_t index = add_texture_by(scene_, path, content, source.repeats, [&] {
         return decode_texture(image_bytes(source.image), path, content, source.repeats, scene_.warnings);
@@ -79,6 +90,7 @@ std::uint32_t GltfImages::make(const Source& source, Use use, float factor) {
         case Use::Color: texel.w = std::min(texel.w * factor, 1.0f); break;
         case Use::Roughness: texel.x = texel.y; break;
         case Use::Gloss: texel.x = 1.0f - factor * texel.w; break;
+        case Use::Normals: break;
         }
     }
     return index;

@@ -21,11 +21,13 @@ public:
     std::uint32_t color(const std::string& info, float alpha_scale = 1.0f);
     /// Numbers; the first channel is that of roughness, the third that of metalness.
     std::uint32_t roughness(const std::string& info);
+    /// Normals.
+    std::uint32_t normals(const std::string& info);
     /// Glossiness from the alpha channel, as roughness.
     std::uint32_t roughness_of_gloss(const std::string& info, float factor);
 
 private:
-    enum class Use { Color, Roughness, Gloss };
+    enum class Use { Color, Roughness, Gloss, Normals };
     using Key = std::tuple<std::uint32_t, Use, float, bool>;
 
     struct Source {
@@ -33,6 +35,7 @@ private:
         bool repeats = true;
     };
 
+    static TextureContent content_of(Use use);
     std::uint32_t add(const std::string& info, Use use, float factor);
     Source source_of(const std::string& texture);
     bool repeats(const std::string& texture);

@@ -13,8 +13,7 @@ namespace pl {
 namespace {
 
 /// Extensions and members that change the picture and are not supported, with the words for them.
-constexpr std::array<std::pair<const char*, const char*>, 13> kLeftOut = {{
-    {"/normalTexture", "normal maps are left out"},
+constexpr std::array<std::pair<const char*, const char*>, 12> kLeftOut = {{
     {"/occlusionTexture", "occlusion images are left out: the light itself is traced"},
     {"/extensions/KHR_materials_sheen", "sheen is left out"},
     {"/extensions/KHR_materials_iridescence", "iridescence is left out"},
@@ -26,7 +25,7 @@ constexpr std::array<std::pair<const char*, const char*>, 13> kLeftOut = {{
     {"/extensions/KHR_materials_transmission/transmissionTexture", "images of transmission are left out"},
     {"/extensions/KHR_materials_specular/specularTexture", "images of the specular amount are left out"},
     {"/extensions/KHR_materials_specular/specularColorTexture", "images of the specular color are left out"},
-    {"/extensions/KHR_materials_clearcoat/clearcoatNormalTexture", "normal maps are left out"},
+    {"/extensions/KHR_materials_clearcoat/clearcoatNormalTexture", "normal maps of a clear coat are left out"},
 }};
 
 float strongest(const glm::vec3& color) { return std::max(color.x, std::max(color.y, color.z)); }
@@ -49,6 +48,7 @@ public:
         read_unlit();
         read_emission();
         read_alpha();
+        read_normals();
         note_left_out();
         add(std::move(name));
         return surface_;
@@ -206,6 +206,13 @@ private:
         material_.transmission = glm::mix(glm::vec3(1.0f), base_, alpha_);
         surface_.metalness = 0.0f;
         note("an even opacity below one half is shown as a clear pane of its tint");
+    }
+
+    void read_normals() {
+        const std::string at = at_ + "/normalTexture";
+        if (!json_.has(at)) return;
+        material_.textures.normal = images_.normals(placed(at));
+        material_.normal_strength = number(at + "/scale", 1.0f, 0.0f, kMostNormalStrength);
     }
 
     void note_left_out() {

@@ -11,6 +11,7 @@
 #include "core/io/line_reader.h"
 #include "core/io/mtl_surface.h"
 #include "core/io/texture_file.h"
+#include "core/kernel/shading/fresnel.h"
 
 namespace pl {
 namespace {
@@ -26,13 +27,31 @@ constexpr std::array<std::pair<std::string_view, float>, 9> kIndices = {{{"vacuu
                                                                          {"amber", 1.55f},
                                                                          {"diamond", 2.419f}}};
 
-/// Reflectances at normal incidence of metals by name.
-constexpr std::array<std::pair<std::string_view, glm::vec3>, 6> kMetals = {{{"none", {1.0f, 1.0f, 1.0f}},
-                                                                            {"Ag", {0.972f, 0.960f, 0.915f}},
-                                                                            {"Al", {0.913f, 0.922f, 0.924f}},
-                                                                            {"Au", {1.0f, 0.766f, 0.336f}},
-                                                                            {"Cu", {0.955f, 0.638f, 0.538f}},
-                                                                            {"Cr", {0.550f, 0.556f, 0.554f}}}};
+/// Complex indices of refraction of metals in red, green and blue. [Johnson and Christy 1972, 1974; Rakic 1995]
+struct MetalIndex {
+    std::string_view name;
+    glm::vec3 eta, k;
+};
+constexpr std::array<MetalIndex, 5> kMetals = {{{"Ag", {0.155f, 0.117f, 0.138f}, {4.83f, 3.12f, 2.15f}},
+                                                {"Al", {1.66f, 0.880f, 0.521f}, {9.22f, 6.27f, 4.84f}},
+                                                {"Au", {0.143f, 0.375f, 1.44f}, {3.98f, 2.39f, 1.60f}},
+                                                {"Cu", {0.200f, 0.924f, 1.10f}, {3.91f, 2.45f, 2.14f}},
+                                                {"Cr", {3.10f, 3.20f, 2.33f}, {3.30f, 3.33f, 3.14f}}}};
+
+struct Metal {
+    glm::vec3 specular{1.0f}, edge_tint{1.0f};
+};
+
+/// Reflectance at normal incidence and edge tint by the complex index of refraction.
+Metal metal_of(const glm::vec3& eta, const glm::vec3& k) {
+    Metal metal;
+    for (int i = 0; i < 3; ++i) {
+        metal.specular[i] = fresnel_complex(1.0f, eta[i], k[i]);
+        const float schlick = fresnel_conductor(kEdgeCosine, glm::vec3(metal.specular[i]), glm::vec3(0.0f)).x;
+        metal.edge_tint[i] = std::min(fresnel_complex(kEdgeCosine, eta[i], k[i]) / schlick, 1.0f);
+    }
+    return metal;
+}
 
 /// Share of diffuse light that a smooth interface reflects from inside. [d'Eon and Irving 2011]
 double internal_reflectance(double eta) { return -1.4399 / (eta * eta) + 0.7099 / eta + 0.6681 + 0.0636 * eta; }
@@ -113,28 +132,26 @@ private:
         return ior >= kLeastIor ? std::min(ior, kMostIor) : kLeastIor;
     }
 
-    /// Reflectance at normal incidence by eta and k. [Born and Wolf, section 14.2]
     void read_conductor() {
         material_.kind = SurfaceKind::Conductor;
-        glm::vec3 reflectance(1.0f);
-        if (const auto eta = bsdf_.color("eta")) {
-            const glm::vec3 n = *eta / std::max(bsdf_.number("ext_eta").value_or(1.0f), 1e-3f);
-            const glm::vec3 k = bsdf_.color("k").value_or(glm::vec3(0.0f));
-            reflectance = ((n - 1.0f) * (n - 1.0f) + k * k) / ((n + 1.0f) * (n + 1.0f) + k * k);
-        } else {
-            reflectance = metal(bsdf_.text("material").value_or("Cu"));
-        }
+        const Metal metal = read_metal();
         glm::vec3 tint(1.0f);
         color("specular_reflectance", tint, 1.0f);
-        material_.specular = within_one(reflectance * tint);
-        bsdf_.note("metals rise to white at grazing angles by Schlick's approximation");
+        material_.specular = within_one(metal.specular * tint);
+        material_.edge_tint = metal.edge_tint;
     }
 
-    glm::vec3 metal(const std::string& name) {
-        for (const auto& [known, reflectance] : kMetals)
-            if (known == name) return reflectance;
+    Metal read_metal() {
+        if (const auto eta = bsdf_.color("eta")) {
+            const float outside = std::max(bsdf_.number("ext_eta").value_or(1.0f), 1e-3f);
+            return metal_of(*eta / outside, bsdf_.color("k").value_or(glm::vec3(0.0f)) / outside);
+        }
+        const std::string name = bsdf_.text("material").value_or("Cu");
+        if (name == "none") return {};
+        const auto known = std::ranges::find(kMetals, name, &MetalIndex::name);
+        if (known != kMetals.end()) return metal_of(known->eta, known->k);
         bsdf_.note(fmt::format("the metal {} is not known: shown as chrome", in_quotes(name)));
-        return kMetals.back().second;
+        return metal_of(kMetals.back().eta, kMetals.back().k);
     }
 
     void read_dielectric(bool is_thin) {
@@ -212,25 +229,51 @@ MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& objec
     return target;
 }
 
+namespace {
+
+/// The image of an adapter of the type normalmap.
+std::uint32_t normals_of(const MitsubaFile& file, const MitsubaObject& adapter, SceneDescription& scene) {
+    const MitsubaObject texture = mitsuba_target(file, adapter.property("normalmap"));
+    if (texture.element() != "texture" || texture.type() != "bitmap") {
+        adapter.note("normals that are no image are left out");
+        return kNoTexture;
+    }
+    const std::string wrap = texture.text("wrap_mode").value_or("repeat");
+    return add_texture(scene, texture.file("filename"), TextureContent::Normal, wrap != "clamp");
+}
+
+/// The surface inside of an adapter.
+MitsubaObject inside_of(const MitsubaFile& file, const MitsubaObject& adapter) {
+    for (const MitsubaObject& child : adapter.children()) {
+        const MitsubaObject target = mitsuba_target(file, child);
+        if (target.element() == "bsdf") return target;
+    }
+    return {};
+}
+
+}  // namespace
+
 MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
     MitsubaObject inner = bsdf;
+    std::uint32_t normals = kNoTexture;
     for (int depth = 0; is_adapter(mitsuba_name(inner.type())); ++depth) {
-        if (inner.type() != "twosided") {
+        if (inner.type() == "normalmap") {
+            normals = normals_of(file, inner, scene);
+        } else if (inner.type() != "twosided") {
             inner.note(fmt::format("the effect of {} is left out: the surface inside of it is shown",
                                    in_quotes(inner.type())));
         }
-        MitsubaObject next;
-        for (const MitsubaObject& child : inner.children()) {
-            const MitsubaObject target = mitsuba_target(file, child);
-            if (!next && target.element() == "bsdf") next = target;
-        }
+        const MitsubaObject next = inside_of(file, inner);
         if (!next || depth > 16) {
             inner.fail(
                 fmt::format("{}: expected a surface inside, got {}", inner.type(), next ? "a circle" : "none"));
         }
         inner = next;
     }
-    return MitsubaSurface(file, inner, scene).run();
+    MaterialDescription material = MitsubaSurface(file, inner, scene).run();
+    material.textures.normal = normals;
+    if (normals != kNoTexture) material.normal_green = NormalGreen::Left;
+    return material;
 }
 
 }  // namespace pl

@@ -20,12 +20,13 @@ enum class Feature : std::uint32_t {
     EnvironmentMap = 1u << 8,       ///< infinitely distant light that depends on the direction: an image, a sun
     ThinLens = 1u << 9,             ///< a camera with a finite aperture
     ManyLights = 1u << 10,          ///< light samples choose lights by a light tree instead of by power alone
+    NormalMaps = 1u << 11,          ///< images of shading normals
 };
 
 inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
                                            Feature::Specular,      Feature::Rough,       Feature::Plastic,
                                            Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
-                                           Feature::ThinLens,      Feature::ManyLights};
+                                           Feature::ThinLens,      Feature::ManyLights,  Feature::NormalMaps};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {
@@ -49,6 +50,9 @@ PL_HD constexpr FeatureSet features(Features... list) {
 
 /// Effects of surfaces that have other lobes than Lambert's.
 inline constexpr FeatureSet kLobeFeatures = features(Feature::Specular, Feature::Rough, Feature::Plastic);
+
+/// Effects by which shading normals differ from geometric ones.
+inline constexpr FeatureSet kNormalFeatures = features(Feature::SmoothNormals, Feature::NormalMaps);
 
 inline constexpr FeatureSet kEveryFeature = [] {
     FeatureSet all;

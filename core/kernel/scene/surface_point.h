@@ -3,6 +3,7 @@
 
 #include "core/kernel/base/features.h"
 #include "core/kernel/base/numbers.h"
+#include "core/kernel/scene/normal_map.h"
 #include "core/kernel/scene/scene_view.h"
 
 namespace pl {
@@ -69,8 +70,8 @@ PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t prim
     return fallback;
 }
 
-/// The point with its interpolated shading normal, if F has SmoothNormals; `attributes` are the barycentric weights
-/// of the normals.
+/// The point with its shading normal: interpolated if F has SmoothNormals, by the normal map if F has NormalMaps; `attributes` are the
+/// barycentric weights of both.
 template <FeatureSet F>
 PL_HD inline SurfacePoint with_shading_normal(const SceneView& scene, SurfacePoint point, Vec3f attributes) {
     if constexpr (F.has(Feature::SmoothNormals)) {
@@ -79,6 +80,10 @@ PL_HD inline SurfacePoint with_shading_normal(const SceneView& scene, SurfacePoi
         const Vec3f plane_normal = scene.planes[point.primitive].normal;
         const Vec3f smooth = interpolate_normal<F>(scene, point.primitive, attributes, plane_normal);
         point.shading_normal = (glm::dot(smooth, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f) * smooth;
+    }
+    if constexpr (F.has(Feature::NormalMaps)) {
+        const float side = point.front ? 1.0f : -1.0f;
+        point.shading_normal = side * mapped_normal(scene, point.primitive, attributes, side * point.shading_normal);
     }
     return point;
 }
@@ -112,7 +117,7 @@ PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, const Hit& hit
 }
 template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
-    if constexpr (F.has(Feature::SmoothNormals))
+    if constexpr (F.has_any(kNormalFeatures))
         return with_shading_normal<F>(scene, make_flat_point(scene, hit, wo), hit_weights(hit));
     else
         return make_flat_point(scene, hit, wo);

@@ -35,6 +35,14 @@ struct MaterialImages {
     Vec3f emission_scale{1.0f};  ///< 1 / mean of the image, because Material::emission includes the mean
 };
 
+/// Of a material: an image of normals, see normal_map.h.
+struct NormalMap {
+    std::uint32_t image = kNoImage;  ///< index into Textures::images, or kNoImage
+    float u_strength = 1.0f;         ///< factor of the slopes along u
+    float v_strength = 1.0f;         ///< and along v; negative where green is down
+    std::uint32_t follows_v = 1;     ///< 0: green is to the left of u, on mirrored images too
+};
+
 /// Texture coordinates of a triangle's corners: indices into Textures::uvs.
 struct TriangleUvs {
     std::uint32_t t0, t1, t2;
@@ -47,6 +55,7 @@ struct Textures {
     Span<const Image> images;
     Span<const Texel> texels;
     Span<const MaterialImages> of_material;  ///< [material]
+    Span<const NormalMap> normal_maps;       ///< [material]; empty unless a material in use has one
     std::uint32_t has_holes = 0;             ///< 1: some material has an opacity image
 };
 

@@ -77,7 +77,7 @@ public:
         const Vec3f up{0.0f, 0.0f, 1.0f};
         DeltaDirection delta{reflect_at(wo_, up), Vec3f{0.0f}};
         if (lobes_.kind == SurfaceKind::Conductor) {
-            delta.weight = fresnel_conductor(wo_.z, lobes_.specular);
+            delta.weight = fresnel_conductor(wo_.z, lobes_.specular, lobes_.edge_loss());
         } else if (lobes_.kind == SurfaceKind::Plastic) {
             delta.weight = lobes_.specular * fresnel_dielectric(wo_.z, eta_);
         } else if (u < fresnel_dielectric(min_of(wo_.z, 1.0f), eta_)) {
@@ -141,7 +141,7 @@ private:
     PL_HD Ggx ggx() const { return {square(lobes_.roughness)}; }
 
     PL_HD RoughConductor conductor() const {
-        return {ggx(), lobes_.specular, {tables_}, lobes_.roughness, wo_, returned_};
+        return {ggx(), lobes_.specular, lobes_.edge_loss(), {tables_}, lobes_.roughness, wo_, returned_};
     }
     PL_HD RoughDielectric dielectric() const {
         return {ggx(), eta_, lobes_.specular, lobes_.transmission, wo_, returned_};
@@ -153,7 +153,7 @@ private:
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return reflectance_;
         case SurfaceKind::Conductor:
-            return smooth() ? fresnel_conductor(wo_.z, lobes_.specular) : conductor().albedo();
+            return smooth() ? fresnel_conductor(wo_.z, lobes_.specular, lobes_.edge_loss()) : conductor().albedo();
         case SurfaceKind::Dielectric: return glm::max(lobes_.specular, lobes_.transmission);
         case SurfaceKind::Plastic: return plastic().albedo();
         }
@@ -179,6 +179,13 @@ PL_HD inline Bsdf<F> make_bsdf(const SceneView& scene, const SurfacePoint& surfa
     const Vec3f albedo = albedo_at<F>(scene, surface, b);
     if constexpr (F.has_any(kLobeFeatures)) {
         const SurfaceLobes lobes = scene.lobes.empty() ? SurfaceLobes{} : lobes_at<F>(scene, surface, b);
+        if constexpr (F.has(Feature::NormalMaps)) {
+            if (has_normal_map(scene.textures, surface.material)) {
+                SurfacePoint bent = surface;
+                bent.shading_normal = reflecting_normal(surface.shading_normal, surface.geometric_normal, wo);
+                return {bent, wo, albedo, lobes, scene.directional_albedo};
+            }
+        }
         return {surface, wo, albedo, lobes, scene.directional_albedo};
     } else {
         return {albedo};

@@ -12,7 +12,8 @@ namespace pl {
 /// Physically Based Shading at Imageworks"; Turquin 2019 for its tint]
 struct RoughConductor {
     Ggx ggx;
-    Vec3f f0;  ///< reflectance at normal incidence
+    Vec3f f0;         ///< reflectance at normal incidence
+    Vec3f edge_loss;  ///< see fresnel_conductor()
     AlbedoTable lossless;
     float roughness;
     Vec3f wo;
@@ -20,7 +21,7 @@ struct RoughConductor {
 
     /// Directional albedo for wo.
     PL_HD Vec3f albedo() const {
-        const Vec3f single = fresnel_conductor(wo.z, f0) * returned;
+        const Vec3f single = fresnel_conductor(wo.z, f0, edge_loss) * returned;
         return single + (1.0f - returned) * several_tint();
     }
 
@@ -28,7 +29,7 @@ struct RoughConductor {
     PL_HD Vec3f eval(Vec3f wi) const {
         if (!(wi.z > 0.0f)) return Vec3f{0.0f};
         const Vec3f m = half_vector(wo, wi);
-        const Vec3f single = fresnel_conductor(glm::dot(wo, m), f0) * ggx.reflection(wo, wi, m);
+        const Vec3f single = fresnel_conductor(glm::dot(wo, m), f0, edge_loss) * ggx.reflection(wo, wi, m);
         const float missing = max_of(1.0f - lossless.mean(roughness), 1e-6f);
         const float several = (1.0f - returned) * (1.0f - lossless.at(roughness, wi.z)) / missing;
         return single + several_tint() * (several * wi.z * kInvPi);
@@ -45,7 +46,7 @@ struct RoughConductor {
 
 private:
     PL_HD Vec3f several_tint() const {
-        const Vec3f f = mean_fresnel_conductor(f0);
+        const Vec3f f = mean_fresnel_conductor(f0, edge_loss);
         const float mean = lossless.mean(roughness);
         return f * f * mean / (Vec3f{1.0f} - f * (1.0f - mean));
     }

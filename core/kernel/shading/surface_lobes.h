@@ -20,7 +20,10 @@ struct SurfaceLobes {
     float ior = 1.5f;          ///< index of refraction, inside over outside
     std::uint32_t table = 0;   ///< offset in SceneView::directional_albedo, see AlbedoTable
     Vec3f specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of the reflection
-    Vec3f transmission{1.0f};  ///< dielectric: tint of the transmission
+    Vec3f transmission{1.0f};  ///< dielectric: tint of the transmission; conductor: 1 - edge_loss()
+
+    /// Of a conductor, see fresnel_conductor(); 0: none. Shares the place of the transmission, so that no surface pays for both.
+    PL_HD Vec3f edge_loss() const { return Vec3f{1.0f} - transmission; }
 };
 
 }  // namespace pl

@@ -67,10 +67,10 @@ TEST_CASE("Of two materials with one name the first counts") {
 
 TEST_CASE("Unsupported entries that change the picture are told once, the rest is silent") {
     const SceneDescription loaded =
-        load("newmtl a\nKd 0.5 0.5 0.5\nbump c.png\nmap_Ks d.png\nmap_Ka e.png\nKa 1 1 1\n"
-             "newmtl b\nKd 0.5 0.5 0.5\nbump f.png\n");
+        load("newmtl a\nKd 0.5 0.5 0.5\ndisp c.png\nmap_Ks d.png\nmap_Ka e.png\nKa 1 1 1\n"
+             "newmtl b\nKd 0.5 0.5 0.5\ndisp f.png\n");
     REQUIRE(loaded.warnings.size() == 1);
-    CHECK_THAT(loaded.warnings[0], contains("not supported: bump, map_Ks"));
+    CHECK_THAT(loaded.warnings[0], contains("not supported: disp, map_Ks"));
     CHECK(load("newmtl a\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 10\nd 1\nTr 0\nillum 2\n").warnings.empty());
 }
 
@@ -196,4 +196,28 @@ TEST_CASE("Images of a material: loaded once, missing ones shown as checkers") {
     for (const std::string& warning : scene.warnings) all += warning + "\n";
     CHECK_THAT(all, contains("gone.png: cannot be read") && contains("shown as checkers") && contains("left out") &&
                         contains("-o of map_Kd") && contains("'map_Kd': an implausible value"));
+}
+
+TEST_CASE("Normal maps by norm and by the map_Bump of exporters, heights are told") {
+    const TemporaryFolder folder;
+    write_png8(folder.path() / "n.png", {.width = 2, .height = 1, .rgb = {128, 128, 255, 255, 128, 128}});
+    write_png8(folder.path() / "h.png", {.width = 2, .height = 1, .rgb = {10, 10, 10, 200, 199, 200}});
+    SceneDescription scene;
+    load_mtl(folder.write("m.mtl", "newmtl a\nKd 0.5\nmap_Bump -bm 0.25 n.png\nnewmtl b\nKd 0.5\nnorm n.png\n"
+                                   "newmtl c\nKd 0.5\nbump h.png\nnewmtl d\nKd 0.5\nnorm h.png\nmap_bump n.png\n"
+                                   "newmtl e\nKd 0.5\nmap_bump -bm -1 n.png\n"),
+             scene);
+    const std::vector<MaterialDescription>& m = scene.materials;
+    REQUIRE(scene.textures.size() == 2);
+    CHECK(m[0].textures.normal == 0);
+    CHECK(m[0].normal_strength == 0.25f);
+    CHECK(scene.textures[0].texels[0].x == Approx(128.0 / 255.0));
+    CHECK(m[1].textures.normal == 0);
+    CHECK(m[1].normal_strength == 1.0f);
+    CHECK(m[2].textures.normal == kNoTexture);
+    CHECK(m[3].textures.normal == 1);
+    CHECK(m[4].normal_strength == 1.0f);
+    REQUIRE(scene.warnings.size() == 2);
+    CHECK_THAT(scene.warnings[0], contains("-bm of map_bump"));
+    CHECK_THAT(scene.warnings[1], contains("m.mtl:7: material 'c' has heights in its bump map"));
 }

@@ -105,6 +105,23 @@ TEST_CASE("write_scene: each use of an image has its channels, its bits and its 
     CHECK(read.textures[use.emission].source.extension() == ".exr");
 }
 
+TEST_CASE("write_scene: normal maps keep all channels and their strength") {
+    MaterialDescription material{.name = "m", .albedo = glm::vec3(0.8f)};
+    material.textures.normal = 0;
+    material.normal_strength = 0.3f;
+    material.normal_green = NormalGreen::Left;
+    SceneDescription scene = triangle_of(material);
+    scene.textures = {
+        texture_of({{128.0f / 255.0f, 0, 1, 1}, {1, 51.0f / 255.0f, 0, 1}}, TextureContent::Normal, true)};
+    const SceneDescription read = rewritten(scene);
+    REQUIRE(read.materials[0].textures.normal == 0);
+    CHECK(read.materials[0].normal_strength == 0.3f);
+    CHECK(read.materials[0].normal_green == NormalGreen::Left);
+    CHECK(read.textures[0].content == TextureContent::Normal);
+    CHECK(read.textures[0].texels == scene.textures[0].texels);
+    CHECK(read.textures[0].source.extension() == ".png");
+}
+
 TEST_CASE("write_scene: names of materials become different, and fit for all three files") {
     SceneDescription scene = triangle_of({.name = "a"});
     for (const char* name : {"a", "", " two  blanks ", "#x\\", "line\nfeed", "latin \xe9", "Gr\xc3\xbcn"})

@@ -98,7 +98,7 @@ inline SceneDescription every_effect() {
     TextureDescription image{.width = 5, .height = 3};
     for (int i = 0; i < 15; ++i) image.texels.emplace_back(random.next(), random.next(), random.next(), 1.0f);
     scene.textures = {image};
-    scene.materials[kFloor].textures = {.albedo = 0};
+    scene.materials[kFloor].textures = {.albedo = 0, .normal = 0};
     scene.materials[kCeiling].textures = {.emission = 0};
     scene.materials[kWallX0].kind = SurfaceKind::Plastic;
     scene.materials[kWallX0].roughness = 0.4f;

@@ -308,3 +308,19 @@ TEST_CASE("gltf images: one that cannot be read is shown as checkers, one outsid
     file.root["textures"][0]["source"] = 5;
     CHECK_THAT(test::input_error([&] { load(file); }), contains("expected an index into the 1 images, got 5"));
 }
+
+TEST_CASE("gltf images: normal maps are linear, with their scale") {
+    Json material = metal_rough({{"metallicFactor", 0}});
+    material["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
+    const SceneDescription scene = load(with_image(material, {255, 51, 0, 255, 0, 255, 255, 0}));
+    REQUIRE(scene.textures.size() == 1);
+    CHECK(scene.materials[0].textures.normal == 0);
+    CHECK(scene.materials[0].normal_strength == 0.5f);
+    CHECK(scene.textures[0].texels[0].y == Approx(0.2));
+    CHECK(scene.textures[0].content == TextureContent::Normal);
+    CHECK_FALSE(is_told(scene, "normal"));
+    material["normalTexture"]["scale"] = -1;
+    const SceneDescription odd = load(with_image(material, {255, 51, 0, 255, 0, 255, 255, 0}));
+    CHECK(odd.materials[0].normal_strength == 0.0f);
+    CHECK(is_told(odd, "out of the range"));
+}

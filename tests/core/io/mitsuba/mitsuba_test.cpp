@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/io/image.h"
 #include "core/io/load_scene.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
@@ -187,6 +188,25 @@ TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the val
         load("<shape type=\"rectangle\"><bsdf type=\"bumpmap\"><bsdf type=\"hair\"/></bsdf></shape>");
     CHECK(is_told(odd, "the effect of 'bumpmap' is left out"));
     CHECK(is_told(odd, "surfaces of the type 'hair' are shown as gray"));
+    const SceneDescription plain = load("<shape type=\"rectangle\"><bsdf type=\"normalmap\"><rgb name=\"normalmap\" "
+                                        "value=\"1\"/><bsdf type=\"diffuse\"/></bsdf></shape>");
+    CHECK(is_told(plain, "normals that are no image are left out"));
+}
+
+TEST_CASE("mitsuba: a normal map is that of the surface inside") {
+    const TemporaryFolder folder;
+    write_png8(folder.path() / "n.png", {.width = 1, .height = 1, .rgb = {255, 51, 0}});
+    const SceneDescription scene = load(
+        folder, "<shape type=\"rectangle\"><bsdf type=\"twosided\"><bsdf type=\"normalmap\">"
+                "<texture name=\"normalmap\" type=\"bitmap\"><string name=\"filename\" value=\"n.png\"/></texture>"
+                "<bsdf type=\"diffuse\"/></bsdf></bsdf></shape>" +
+                    kSquare);
+    CHECK(scene.materials[scene.triangles.front().material].textures.normal == 0);
+    CHECK(scene.materials[scene.triangles.front().material].normal_green == NormalGreen::Left);
+    CHECK(scene.materials[scene.triangles.back().material].textures.normal == kNoTexture);
+    REQUIRE(scene.textures.size() == 1);
+    CHECK(scene.textures[0].texels[0].y == Approx(0.2));
+    CHECK_FALSE(is_told(scene, "normalmap"));
 }
 
 TEST_CASE("mitsuba: area and constant emitters, others are told") {

@@ -51,8 +51,40 @@ TEST_CASE("Fresnel reflectances at their limits") {
     }
     for (const float cos_i : {0.0f, 0.3f, 1.0f})
         CHECK(fresnel_dielectric(cos_i, 1.0f) == Approx(cos_i == 0.0f ? 1.0 : 0.0).margin(1e-12));
-    CHECK(fresnel_conductor(1.0f, Vec3f{0.2f, 0.5f, 1.0f}) == Vec3f{0.2f, 0.5f, 1.0f});
-    CHECK(fresnel_conductor(0.0f, Vec3f{0.2f}) == Vec3f{1.0f});
+    CHECK(fresnel_conductor(1.0f, Vec3f{0.2f, 0.5f, 1.0f}, Vec3f{0.0f}) == Vec3f{0.2f, 0.5f, 1.0f});
+    CHECK(fresnel_conductor(0.0f, Vec3f{0.2f}, Vec3f{0.0f}) == Vec3f{1.0f});
+    for (const float eta : {1.1f, 1.5f, 2.4f})
+        for (const float cos_i : {0.01f, 0.3f, 0.8f, 1.0f})
+            CHECK(fresnel_complex(cos_i, eta, 0.0f) == Approx(fresnel_dielectric(cos_i, eta)).epsilon(1e-4));
+}
+
+// Gold, copper, aluminum and chromium, red and blue each, and a metal of high index, which Schlick's approximation makes brightest.
+TEST_CASE("The reflectance of metals follows their complex index of refraction") {
+    const Vec2f metals[] = {{0.143f, 3.98f}, {1.44f, 1.60f}, {0.2f, 3.91f},  {1.10f, 2.14f}, {1.66f, 9.22f},
+                            {0.52f, 4.84f},  {3.1f, 3.3f},   {2.33f, 3.14f}, {4.37f, 5.21f}};
+    float largest = 0.0f, largest_of_schlick = 0.0f;
+    for (const Vec2f metal : metals) {
+        const auto exact = [&](float cos_i) { return fresnel_complex(cos_i, metal.x, metal.y); };
+        const Vec3f f0{exact(1.0f)};
+        const float schlick_at_edge = fresnel_conductor(kEdgeCosine, f0, Vec3f{0.0f}).x;
+        const Vec3f loss = edge_loss_of(f0, Vec3f{exact(kEdgeCosine) / schlick_at_edge});
+        CHECK(fresnel_conductor(kEdgeCosine, f0, loss).x == Approx(exact(kEdgeCosine)).epsilon(1e-5));
+        double mean = 0.0;
+        constexpr int kSteps = 1000;
+        for (int i = 0; i < kSteps; ++i) {
+            const float cos_i = (static_cast<float>(i) + 0.5f) / kSteps;
+            largest = max_of(largest, std::fabs(fresnel_conductor(cos_i, f0, loss).x - exact(cos_i)));
+            largest_of_schlick =
+                max_of(largest_of_schlick, std::fabs(fresnel_conductor(cos_i, f0, Vec3f{0.0f}).x - exact(cos_i)));
+            mean += 2.0 * static_cast<double>(cos_i * fresnel_conductor(cos_i, f0, loss).x) / kSteps;
+        }
+        CHECK(static_cast<double>(mean_fresnel_conductor(f0, loss).x) == Approx(mean).epsilon(1e-4));
+    }
+    CHECK(largest < 0.06f);
+    CHECK(largest_of_schlick > 0.25f);
+    CHECK(edge_loss_of(Vec3f{0.7f}, Vec3f{1.0f}) == Vec3f{0.0f});
+    const Vec3f black = fresnel_conductor(kEdgeCosine, Vec3f{0.0f}, edge_loss_of(Vec3f{0.0f}, Vec3f{0.0f}));
+    CHECK((black.x >= 0.0f && black.x < 1e-6f));
 }
 
 TEST_CASE("Refraction obeys Snell's law, there and back") {

@@ -1,0 +1,81 @@
+// Normal maps: shading normals from an image. Its red, green and blue are the components of a unit normal along the texture coordinates
+// u and v and along the surface's own normal, [-1, 1] as [0, 1].
+#pragma once
+
+#include "core/kernel/base/frame.h"
+#include "core/kernel/base/numbers.h"
+#include "core/kernel/scene/scene_view.h"
+
+namespace pl {
+
+/// Least cosine of a mapped normal with the surface's own one and with the geometric one.
+inline constexpr float kLeastMappedCosine = 0.01f;
+
+/// Axes along u and to its left around a unit normal. [Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., 6.5.2, equation 6.7]
+struct TangentFrame {
+    Frame frame{};
+    float side =
+        0.0f;  ///< 1: v is to the left of u; -1: the image is mirrored; 0: u does not differ between the corners
+};
+PL_HD inline TangentFrame tangent_frame(const SceneView& scene, std::uint32_t primitive, Vec3f normal) {
+    const Triangle triangle = scene.triangles[primitive];
+    const TriangleUvs corners = scene.textures.triangle_uvs[primitive];
+    const Vec2f origin = scene.textures.uvs[corners.t0];
+    const Vec2f uv1 = scene.textures.uvs[corners.t1] - origin;
+    const Vec2f uv2 = scene.textures.uvs[corners.t2] - origin;
+    const float side = uv1.x * uv2.y - uv2.x * uv1.y < 0.0f ? -1.0f : 1.0f;
+    const Vec3f p0 = scene.positions[triangle.v0];
+    const Vec3f dp1 = scene.positions[triangle.v1] - p0;
+    const Vec3f dp2 = scene.positions[triangle.v2] - p0;
+    const Vec3f along_u = side * (uv2.y * dp1 - uv1.y * dp2);
+    const Vec3f tangent = along_u - glm::dot(along_u, normal) * normal;
+    const float length2 = glm::dot(tangent, tangent);
+    if (!(length2 > 0.0f && length2 < kInfinity)) return {};
+    const Vec3f x = tangent * (1.0f / std::sqrt(length2));
+    return {{x, glm::cross(normal, x), normal}, side};
+}
+
+/// Components of the normal that a texel holds, in the TangentFrame; z is positive.
+PL_HD inline Vec3f mapped_components(Vec4f texel, const NormalMap& map, float side) {
+    const Vec3f n = 2.0f * glm::clamp(Vec3f{texel.x, texel.y, texel.z}, Vec3f{0.0f}, Vec3f{1.0f}) - Vec3f{1.0f};
+    return glm::normalize(Vec3f{map.u_strength * n.x, (map.follows_v != 0 ? side : 1.0f) * map.v_strength * n.y,
+                                max_of(n.z, kLeastMappedCosine)});
+}
+
+/// The nearest normal to `normal`, roughly, whose cosine with `plane_normal` is not below the least one. Both are unit.
+PL_HD inline Vec3f above_plane(Vec3f normal, Vec3f plane_normal) {
+    const float above = glm::dot(normal, plane_normal);
+    if (above >= kLeastMappedCosine) return normal;
+    return glm::normalize(normal + (kLeastMappedCosine - above) * plane_normal);
+}
+
+PL_HD inline bool has_normal_map(const Textures& textures, std::uint32_t material) {
+    return !textures.normal_maps.empty() && textures.normal_maps[material].image != kNoImage;
+}
+
+/// The unit shading normal of the front side by the material's normal map; `normal` without one, or where the triangle has no texture
+/// coordinates. `normal`: the unit normal of the front side without the map; `b`: barycentric weights.
+PL_HD inline Vec3f mapped_normal(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f normal) {
+    const Textures& textures = scene.textures;
+    const std::uint32_t material = scene.triangles[primitive].material;
+    if (!has_normal_map(textures, material)) return normal;
+    const TangentFrame tangents = tangent_frame(scene, primitive, normal);
+    if (tangents.side == 0.0f) return normal;
+    const NormalMap map = textures.normal_maps[material];
+    const Vec4f texel = sample_image(textures, map.image, uv_at(textures, primitive, b));
+    const Vec3f mapped = glm::normalize(tangents.frame.to_world(mapped_components(texel, map, tangents.side)));
+    return above_plane(mapped, scene.planes[primitive].normal);
+}
+
+/// The shading normal for lobes that reflect towards wo: bent as far as it takes that the mirror direction of wo leaves the surface,
+/// since below it all light would be lost. All are unit; wo and `normal` are on the side of `plane_normal`.   [Keller et al. 2017, "The
+/// Iray Light Transport Simulation and Rendering System", appendix A.3]
+PL_HD inline Vec3f reflecting_normal(Vec3f normal, Vec3f plane_normal, Vec3f wo) {
+    const Vec3f mirrored = 2.0f * glm::dot(wo, normal) * normal - wo;
+    const float above = glm::dot(mirrored, plane_normal);
+    if (above >= kLeastMappedCosine) return normal;
+    const Vec3f raised = glm::normalize(mirrored + (kLeastMappedCosine - above) * plane_normal);
+    return glm::normalize(wo + raised);
+}
+
+}  // namespace pl
