@@ -5,6 +5,7 @@
 #include <span>
 #include <variant>
 
+#include "core/fields/lobe_model.h"
 #include "core/fields/sd_tree_model.h"
 
 namespace pl {
@@ -19,7 +20,7 @@ concept PendingValue = std::same_as<T, std::int64_t> || std::same_as<T, std::uin
 template <class Field, class Fn>
 auto of_pending_array(Field& field, Fn& fn) {
     return [&](const auto& spec) {
-        using Value = std::remove_cvref_t<decltype(spec.get(field)[0])>;
+        using Value = std::remove_cvref_t<decltype(*spec.get(field).data())>;
         if constexpr (PendingValue<Value>)
             if (spec.on_split == OnSplit::Clear) fn(spec.get(field));
     };
@@ -33,6 +34,10 @@ void for_each_pending_array(TableStorage<Array>& tables, Fn&& fn) {
 template <template <class> class Array, class Fn>
 void for_each_pending_array(SdTreeStorage<Array>& tree, Fn&& fn) {
     for_each_sd_tree_array(of_pending_array(tree, fn));
+}
+template <template <class> class Array, class Fn>
+void for_each_pending_array(LobeStorage<Array>& lobes, Fn&& fn) {
+    for_each_lobe_array(of_pending_array(lobes, fn));
 }
 
 }  // namespace pl
