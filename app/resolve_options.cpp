@@ -107,10 +107,10 @@ void check_combinations(Command command, const Options& options) {
     if (!options.save_field.empty()) require_learning(options);
 }
 
-/// An SD-tree is learned, and on the CPU: "auto" then takes that.
+/// SD-trees and lobes are learned, and on the CPU: "auto" then takes that.
 void settle_representation(Options& options) {
     const FieldSettings& field = options.render.field;
-    if (field.representation == Representation::Table && field.iterations != Iterations::Updates)
+    if (field.representation != Representation::SdTree && field.iterations != Iterations::Updates)
         throw Error(ErrorKind::Usage, fmt::format("--iterations {}: expected --field {} with it, got --field {}",
                                                   name_of(field.iterations), name_of(Representation::SdTree),
                                                   name_of(field.representation)));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/fields/lobe_update.h"
 #include "core/fields/sd_tree_update.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/scene/pack_scene.h"
@@ -26,9 +27,11 @@ namespace {
 const PassKernels<PicturePass>& kernels_for(const PassRequest& request, const AnyFieldView& field) {
     const PassKernels<PicturePass>* kernels = nullptr;
     const bool samples_lights = request.path.next_event != 0;
+    const auto take_host_kernel = [&]<int kEntry>() { kernels = &host_picture_kernels<kEntry>(); };
     if (std::holds_alternative<SdTreeField>(field))
-        with_host_kernel<SdTreeField>(request.kernel_method(), request.learning, samples_lights,
-                                      [&]<int kEntry>() { kernels = &host_picture_kernels<kEntry>(); });
+        with_host_kernel<SdTreeField>(request.kernel_method(), request.learning, samples_lights, take_host_kernel);
+    else if (std::holds_alternative<LobeField>(field))
+        with_host_kernel<LobeField>(request.kernel_method(), request.learning, samples_lights, take_host_kernel);
     else
         with_method_kernel(request.kernel_method(), request.learning, samples_lights,
                            [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); });
@@ -167,6 +170,7 @@ private:
         });
     }
     void update(HostSdTree& tree, bool) const { update_sd_tree(shape_, tree, settings_.threads); }
+    void update(HostLobes& lobes, bool) const { update_lobes(shape_, lobes, settings_.threads); }
 
     StoredField& existing_field(MethodId method) {
         std::optional<StoredField>& field = fields_[index_of(method)];

@@ -49,8 +49,11 @@ public:
             throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
         if (representation_of(field) != Representation::Table)
             throw Error(ErrorKind::Unavailable,
-                        "CUDA back end: expected a field of tables, got an SD-tree, which the CPU serves: take "
-                        "--backend cpu or --field table");
+                        representation_of(field) == Representation::SdTree
+                            ? "CUDA back end: expected a field of tables, got an SD-tree, which the CPU serves: take "
+                              "--backend cpu or --field table"
+                            : "CUDA back end: expected a field of tables, got lobes, which the CPU serves: take "
+                              "--backend cpu or --field table");
         launcher_.forget();
         DeviceField uploaded;
         zip_fields(field, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });

@@ -12,8 +12,9 @@ void refuse_save_field(Options&, const std::string&) {
 // clang-format off
 constexpr auto kFieldOptions = std::to_array<OptionSpec>({
     {.name = "field", .flags = "--field", .value = "NAME", .group = kField,
-     .help = "How reinforcement represents what it learns: table (default), cells of each radiance volume, or sd-tree, quadtrees "
-             "over directions at the leaves of a binary tree over space, on the CPU",
+     .help = "How reinforcement represents what it learns: table (default), cells of each radiance volume; sd-tree, quadtrees "
+             "over directions at the leaves of a binary tree over space; or lobes, a mixture of von Mises-Fisher lobes in each "
+             "radiance volume; the last two on the CPU",
      .commands = kSampling, .in_scene_files = true, .parse = parse_representation,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.representation)); }},
     {.name = "iterations", .flags = "--iterations", .value = "NAME", .group = kField,

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/kernel/guiding/lobe_field.h"
 #include "core/kernel/guiding/sd_tree_field.h"
 #include "core/kernel/guiding/table_field.h"
 
@@ -30,5 +31,7 @@ double hellinger2(const TableField& field, std::int32_t volume, std::int32_t oth
 std::vector<std::uint32_t> volumes_to_split(const TableField& field, std::size_t most, int threads);
 /// None: an SD-tree is refined by its updates.
 inline std::vector<std::uint32_t> volumes_to_split(const SdTreeField&, std::size_t, int) { return {}; }
+/// None: mixtures are refined by lobes, not by volumes.
+inline std::vector<std::uint32_t> volumes_to_split(const LobeField&, std::size_t, int) { return {}; }
 
 }  // namespace pl

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/fields/lobe_model.h"
 #include "core/fields/sd_tree_model.h"
 #include "core/kernel/methods/method.h"
 
@@ -13,11 +14,11 @@ namespace pl {
 
 /// The arrays of a field in memory of one kind, by representation.
 template <template <class> class Array>
-using FieldArrays = std::variant<TableStorage<Array>, SdTreeStorage<Array>>;
+using FieldArrays = std::variant<TableStorage<Array>, SdTreeStorage<Array>, LobeStorage<Array>>;
 using HostField = FieldArrays<LargeArray>;
 
 /// A field as kernels see it, by representation; std::monostate for methods without one.
-using AnyFieldView = std::variant<std::monostate, TableField, SdTreeField>;
+using AnyFieldView = std::variant<std::monostate, TableField, SdTreeField, LobeField>;
 
 /// The representation of a field's arrays: their place in the variant.
 template <class Field>
@@ -31,12 +32,14 @@ void clear_to(FieldArrays<Array>& field, Representation representation) {
     switch (representation) {
     case Representation::Table: field = TableStorage<Array>{}; return;
     case Representation::SdTree: field = SdTreeStorage<Array>{}; return;
+    case Representation::Lobes: field = LobeStorage<Array>{}; return;
     }
 }
 
 /// A field without training samples.
 inline HostField make_field(const FieldShape& shape, std::size_t volumes, Representation representation) {
     if (representation == Representation::SdTree) return make_sd_tree(shape, volumes);
+    if (representation == Representation::Lobes) return make_lobes(shape, volumes);
     return make_tables(shape, volumes);
 }
 
@@ -55,6 +58,8 @@ void zip_fields(const FieldArrays<From>& from, FieldArrays<To>& to, Fn&& fn) {
     clear_to(to, representation_of(from));
     if (const auto* tree = std::get_if<SdTreeStorage<From>>(&from))
         zip(*tree, std::get<SdTreeStorage<To>>(to), fn);
+    else if (const auto* lobes = std::get_if<LobeStorage<From>>(&from))
+        zip(*lobes, std::get<LobeStorage<To>>(to), fn);
     else
         zip(std::get<TableStorage<From>>(from), std::get<TableStorage<To>>(to), fn);
 }
@@ -79,6 +84,7 @@ AnyFieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& vol
 template <class Any, class Visit>
 decltype(auto) visit_field(Any& field, Visit&& visit) {
     if (auto* tree = std::get_if<SdTreeField>(&field)) return visit(*tree);
+    if (auto* lobes = std::get_if<LobeField>(&field)) return visit(*lobes);
     return visit(std::get<TableField>(field));
 }
 

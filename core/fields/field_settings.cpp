@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fields/lobe_model.h"
 #include "core/fields/sd_tree_model.h"
 #include "core/fields/volume_grid.h"
 #include "core/scene/pack_scene.h"
@@ -14,10 +15,13 @@ constexpr double kBytesPerMegabyte = 1.0e6;
 
 int side_of(int bins) { return static_cast<int>(std::lround(std::sqrt(static_cast<double>(bins)))); }
 
-/// Number of volumes within the budget.
+/// Number of volumes within the budget. The methods of a session share its placement, so that it holds tables too.
 double affordable(const FieldSettings& settings, std::size_t light_clusters) {
-    return settings.budget_megabytes * kBytesPerMegabyte /
-           static_cast<double>(bytes_per_volume(settings.bins, light_clusters));
+    std::size_t bytes = bytes_per_volume(settings.bins, light_clusters);
+    if (settings.representation == Representation::Lobes)
+        bytes += std::max(lobe_bytes(light_clusters), table_bytes(settings.bins, light_clusters)) -
+                 table_bytes(settings.bins, light_clusters);
+    return settings.budget_megabytes * kBytesPerMegabyte / static_cast<double>(bytes);
 }
 
 /// Nodes of an SD-tree within the budget, which its volumes share.

@@ -15,6 +15,11 @@ void for_each_point_of(const DirectionCells& cells, int cell, Visit&& visit) {
 
 constexpr float kPointWeight = 1.0f / static_cast<float>(kFinePoints * kFinePoints);
 
+/// The samples of a volume that fall to a cell of this probability.
+std::uint32_t spread_samples(std::uint32_t all, float probability) {
+    return static_cast<std::uint32_t>(all * std::min(1.0, static_cast<double>(probability)));
+}
+
 }  // namespace
 
 float SdTreeInspector::radiance(std::int32_t volume, int cell) const {
@@ -34,14 +39,38 @@ float SdTreeInspector::probability(std::int32_t volume, int cell) const {
 }
 
 std::uint32_t SdTreeInspector::samples(std::int32_t volume, int cell) const {
-    const auto all = static_cast<double>(field.samples[static_cast<std::uint32_t>(volume)]);
-    return static_cast<std::uint32_t>(all * std::min(1.0, static_cast<double>(probability(volume, cell))));
+    return spread_samples(field.samples[static_cast<std::uint32_t>(volume)], probability(volume, cell));
 }
 
 float SdTreeInspector::density(std::int32_t volume, Vec2f square) const {
     const Vec3f local = square_to_cosine_hemisphere(square);
     const float cosine = std::max(local.z, 1.0e-4f);  // of the outermost points: rounding noise below
     return field.direction_pdf_sa(leaf_of(volume), field.frame(volume).to_world(local)) * kPi / cosine;
+}
+
+float LobeInspector::radiance(std::int32_t volume, int cell) const {
+    const auto index = static_cast<std::uint32_t>(volume);
+    float sum = 0.0f;
+    for_each_point_of(field.cells, cell, [&](Vec2f square) {
+        sum += field.radiance_pdf_sa(index, Vec3f{0.0f}, square_to_cosine_hemisphere(square));
+    });
+    return kPointWeight * sum * field.total[index];
+}
+
+float LobeInspector::probability(std::int32_t volume, int cell) const {
+    const LobeMixture mixture = mixture_of(volume);
+    float sum = 0.0f;
+    for_each_point_of(field.cells, cell,
+                      [&](Vec2f square) { sum += relative_density(mixture, square_to_cosine_hemisphere(square)); });
+    return kPointWeight * sum / static_cast<float>(field.cells.count());
+}
+
+std::uint32_t LobeInspector::samples(std::int32_t volume, int cell) const {
+    return spread_samples(field.samples[static_cast<std::uint32_t>(volume)], probability(volume, cell));
+}
+
+float LobeInspector::density(std::int32_t volume, Vec2f square) const {
+    return relative_density(mixture_of(volume), square_to_cosine_hemisphere(square));
 }
 
 std::uint32_t fine_cell_of(int side, Vec2f square) {

@@ -66,6 +66,27 @@ static_assert(FieldInspector<SdTreeInspector>);
 
 inline SdTreeInspector inspector_of(const SdTreeField& field) { return {field}; }
 
+/// Mixtures of lobes as the sites of volumes see them, by the cells that tables have; samples as those of an SD-tree.
+struct LobeInspector {
+    LobeField field;
+
+    DirectionCells cells() const { return field.cells; }
+    float radiance(std::int32_t volume, int cell) const;
+    float probability(std::int32_t volume, int cell) const;
+    std::uint32_t samples(std::int32_t volume, int cell) const;
+    float mean_radiance(std::int32_t volume) const { return field.mean_radiance[static_cast<std::uint32_t>(volume)]; }
+    float density(std::int32_t volume, Vec2f square) const;
+    float bsdf_fraction(std::int32_t volume) const { return field.bsdf_fraction[static_cast<std::uint32_t>(volume)]; }
+
+private:
+    LobeMixture mixture_of(std::int32_t volume) const {
+        return field.product_at(static_cast<std::uint32_t>(volume), Vec3f{0.0f}, {0.0f, 0.0f, 1.0f});
+    }
+};
+static_assert(FieldInspector<LobeInspector>);
+
+inline LobeInspector inspector_of(const LobeField& field) { return {field}; }
+
 /// Points per side of a cell at which densities are taken.
 inline constexpr int kFinePoints = 4;
 

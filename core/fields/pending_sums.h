@@ -5,6 +5,7 @@
 #include <span>
 #include <variant>
 
+#include "core/fields/lobe_model.h"
 #include "core/fields/sd_tree_model.h"
 
 namespace pl {
@@ -33,6 +34,10 @@ void for_each_pending_array(TableStorage<Array>& tables, Fn&& fn) {
 template <template <class> class Array, class Fn>
 void for_each_pending_array(SdTreeStorage<Array>& tree, Fn&& fn) {
     for_each_sd_tree_array(of_pending_array(tree, fn));
+}
+template <template <class> class Array, class Fn>
+void for_each_pending_array(LobeStorage<Array>& lobes, Fn&& fn) {
+    for_each_lobe_array(of_pending_array(lobes, fn));
 }
 
 }  // namespace pl

@@ -24,6 +24,10 @@ void forget(const FieldShape& shape, const HostVolumes&, HostTables& tables, std
     });
 }
 
+void forget(const FieldShape& shape, const HostVolumes&, HostLobes& lobes, std::size_t volume) {
+    reset_lobes(shape, lobes, volume);
+}
+
 /// The shape of the quadtree stays: the next update joins its quadrants.
 void forget(const FieldShape& shape, const HostVolumes& volumes, HostSdTree& tree, std::size_t volume) {
     const SdTreeField field = field_view(shape, volumes, tree);

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "core/base/parallel_chunks.h"
-#include "core/kernel/guiding/direct_light.h"
-#include "core/kernel/guiding/mixture.h"
+#include "core/fields/volume_irradiance_update.h"
 
 namespace pl {
 namespace {
@@ -24,58 +23,6 @@ struct QuadNode {
     std::uint32_t child[4];
 };
 using Quadtree = std::vector<QuadNode>;
-
-/// The views by which the mixture of a leaf and the light samples of a volume are updated as those of tables are.
-TableUpdateView mixture_view(HostSdTree& tree) {
-    TableUpdateView view;
-    view.pending_slope = view_of(tree.pending_slope);
-    view.pending_curvature = view_of(tree.pending_curvature);
-    view.mixture_target = view_of(tree.mixture_target);
-    view.mixture_weight = view_of(tree.mixture_weight);
-    view.bsdf_fraction = view_of(tree.bsdf_fraction);
-    return view;
-}
-TableUpdateView light_view(const FieldShape& shape, HostSdTree& tree) {
-    TableUpdateView view;
-    view.light_clusters = shape.light_clusters;
-    view.radiance_unit = shape.radiance_unit;
-    view.rate = shape.rate;
-    view.pending_direct = view_of(tree.pending_direct);
-    view.pending_direct_count = view_of(tree.pending_direct_count);
-    view.direct = view_of(tree.direct);
-    view.direct_count = view_of(tree.direct_count);
-    view.pending_cluster = view_of(tree.pending_cluster);
-    view.cluster_light = view_of(tree.cluster_light);
-    view.light_cdf = view_of(tree.light_cdf);
-    return view;
-}
-
-/// The learned value moved towards a new one; 0 for values that no update can produce.
-float moved(float old, float to, float step) {
-    const float value = old + step * (to - old);
-    return value > 0.0f && value < kInfinity ? value : 0.0f;
-}
-
-/// Moves the irradiance of a volume towards the mean target of its new samples, weighted by cos / (pi q). Divided by the sum of
-/// these weights, whose mean is 1: a ratio that no single sample can exceed.
-void absorb_volume(const FieldShape& shape, HostSdTree& tree, const TableUpdateView& lights, std::uint32_t volume) {
-    absorb_light_samples(lights, volume);
-    const std::uint32_t fresh = tree.pending_samples[volume];
-    if (fresh == 0) return;
-    const std::int64_t weight = tree.pending_weight[volume];
-    if (weight > 0) {
-        const double sum = static_cast<double>(tree.pending_value[volume]) / kStepsPerUnit;
-        const double mean = sum / (static_cast<double>(weight) / kWeightSteps) * shape.radiance_unit;
-        const float step = learning_step(tree.samples[volume], fresh, shape.rate);
-        const float old = tree.mean_radiance[volume];
-        tree.mean_radiance[volume] = moved(old, static_cast<float>(mean), step);
-        tree.change[volume] = std::fabs(tree.mean_radiance[volume] - old);
-    }
-    tree.samples[volume] = add_visits<One>(tree.samples[volume], fresh);
-    tree.pending_value[volume] = 0;
-    tree.pending_weight[volume] = 0;
-    tree.pending_samples[volume] = 0;
-}
 
 /// Moves the energies of a leaf, of nodes [first, end), towards those of its new samples; quadrants with children get their sums.
 void absorb_leaf(const FieldShape& shape, HostSdTree& tree, std::uint32_t leaf, std::uint32_t first,

@@ -68,7 +68,7 @@ private:
         require(s.precompute_samples > 0 && is_square(s.precompute_samples), "precomputed samples",
                 "a square number above 0", s.precompute_samples);
         require(s.lookup <= Lookup::Grid, "lookup", "0 to 2", static_cast<std::uint32_t>(s.lookup));
-        require(s.representation <= Representation::SdTree, "representation", "0 or 1",
+        require(s.representation <= Representation::Lobes, "representation", "0 to 2",
                 static_cast<std::uint32_t>(s.representation));
         require(s.iterations <= Iterations::Doubling, "iterations", "0 or 1",
                 static_cast<std::uint32_t>(s.iterations));
@@ -126,6 +126,14 @@ private:
         const std::size_t volumes = volumes_.normals.size();
         for_each_table_array([&](const auto& spec) {
             size(spec.name, spec.get(tables), extent_of(spec.extent, field_.shape, volumes));
+        });
+    }
+
+    template <class Size>
+    void lengths_of(const HostLobes& lobes, const Size& size) const {
+        const std::size_t volumes = volumes_.normals.size();
+        for_each_lobe_array([&](const auto& spec) {
+            size(spec.name, spec.get(lobes), extent_of(spec.extent, field_.shape, volumes));
         });
     }
 
@@ -191,6 +199,12 @@ private:
             fail("SD-tree", "each node and each leaf once, children behind their parents", *damage);
     }
 
+    void arrays_of(const HostLobes& lobes) const {
+        for_each_lobe_array([&](const auto& spec) { values_of(spec, spec.get(lobes)); });
+        if (const std::optional<std::string> damage = damage_of(lobes))
+            fail("lobes", fmt::format("mixtures of 1 to {} lobes", kMostLobes), *damage);
+    }
+
     static const char* word_of(ArrayExtent extent) { return extent == ArrayExtent::Cell ? "cell" : "volume"; }
     static const char* word_of(SdTreeExtent extent) {
         switch (extent) {
@@ -199,6 +213,17 @@ private:
         case SdTreeExtent::Slot: return "quadrant";
         case SdTreeExtent::Volume:
         case SdTreeExtent::LightCluster: break;
+        }
+        return "volume";
+    }
+
+    static const char* word_of(LobeExtent extent) {
+        switch (extent) {
+        case LobeExtent::Lobe: return "lobe";
+        case LobeExtent::LobeAxis:
+        case LobeExtent::LobeStatistic: return "place";
+        case LobeExtent::Volume:
+        case LobeExtent::LightCluster: break;
         }
         return "volume";
     }

@@ -29,6 +29,7 @@ std::string summary_of(const LearnedField& field) {
     if (const auto* tree = std::get_if<HostSdTree>(&field.field))
         return text(
             fmt::format("SD-tree of {} leaves and {} nodes", tree->first_node.size(), tree->energy.size() / 4));
+    if (std::holds_alternative<HostLobes>(field.field)) return text(fmt::format("up to {} lobes", kMostLobes));
     return text(fmt::format("{} directions", field.shape.cells.count()));
 }
 

@@ -13,11 +13,13 @@ namespace {
 KernelRange range_of(const RenderSettings& settings) {
     if (settings.view != View::Beauty) return kViewRange;
     KernelRange range = KernelRange::Full;
-    if (settings.field.representation == Representation::SdTree &&
-        with_host_kernel<SdTreeField>(
-            settings.method, settings.field.learning, settings.next_event,
-            [&]<int kEntry>() { range = TypeAt<kEntry, HostMethodList>::Integrator::kKernelRange; }))
-        return range;
+    const auto take_range = [&]<int kEntry>() { range = TypeAt<kEntry, HostMethodList>::Integrator::kKernelRange; };
+    const auto is_served_by = [&]<class Field>() {
+        return with_host_kernel<Field>(settings.method, settings.field.learning, settings.next_event, take_range);
+    };
+    const Representation representation = settings.field.representation;
+    if (representation == Representation::SdTree && is_served_by.template operator()<SdTreeField>()) return range;
+    if (representation == Representation::Lobes && is_served_by.template operator()<LobeField>()) return range;
     with_method_kernel(settings.method, settings.field.learning, settings.next_event,
                        [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::Integrator::kKernelRange; });
     return range;

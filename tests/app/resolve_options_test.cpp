@@ -71,11 +71,15 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--refine", "half"}, "--refine: expected"},
         {{"--learning-rate", "means"},
          "--learning-rate: expected mean, forgetful, power or floor, got 'means' (nearest: 'mean')"},
-        {{"--field", "sdtree"}, "--field: expected table or sd-tree, got 'sdtree' (nearest: 'sd-tree')"},
+        {{"--field", "sdtree"}, "--field: expected table, sd-tree or lobes, got 'sdtree' (nearest: 'sd-tree')"},
         {{"--iterations", "twice"}, "--iterations: expected updates or doubling, got 'twice'"},
         {{"--iterations", "doubling"}, "--iterations doubling: expected --field sd-tree with it, got --field table"},
         {{"--field", "sd-tree", "--method", "precomputed"},
          "--field sd-tree: expected --field table with --method precomputed, whose probes fill tables"},
+        {{"--field", "lobes", "--method", "precomputed"},
+         "--field lobes: expected --field table with --method precomputed, whose probes fill tables"},
+        {{"--field", "lobes", "--iterations", "doubling"},
+         "--iterations doubling: expected --field sd-tree with it, got --field lobes"},
         {{"--learn-target", "montecarlo"},
          "--learn-target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo' (nearest: 'monte-carlo')"},
         {{"--learn-from", "direct"}, "--learn-from: expected all or indirect, got 'direct' (nearest: 'indirect')"},
@@ -127,16 +131,20 @@ TEST_CASE("unknown words name the nearest one") {
     CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), contains("unexpected argument 't'"));
 }
 
-TEST_CASE("an SD-tree takes the CPU and refuses CUDA") {
-    const std::vector<std::string> tree{"--method", "reinforcement", "--field", "sd-tree"};
-    const Options options = parse(render_with(tree));
-    CHECK(options.render.field.representation == Representation::SdTree);
-    CHECK(options.backend == "cpu");
+TEST_CASE("SD-trees and lobes take the CPU and refuse CUDA") {
     CHECK(parse(render_with({"--method", "reinforcement"})).backend == "auto");
-    std::vector<std::string> on_cuda = tree;
-    on_cuda.insert(on_cuda.end(), {"--backend", "cuda"});
-    CHECK_THAT(error_message(ErrorKind::Unavailable, [&] { parse(render_with(on_cuda)); }),
-               contains("--field sd-tree: expected --backend cpu or auto, got cuda"));
+    for (const auto& [name, representation] :
+         {std::pair<std::string, Representation>{"sd-tree", Representation::SdTree},
+          {"lobes", Representation::Lobes}}) {
+        const std::vector<std::string> given{"--method", "reinforcement", "--field", name};
+        const Options options = parse(render_with(given));
+        CHECK(options.render.field.representation == representation);
+        CHECK(options.backend == "cpu");
+        std::vector<std::string> on_cuda = given;
+        on_cuda.insert(on_cuda.end(), {"--backend", "cuda"});
+        CHECK_THAT(error_message(ErrorKind::Unavailable, [&] { parse(render_with(on_cuda)); }),
+                   contains("--field " + name + ": expected --backend cpu or auto, got cuda"));
+    }
 }
 
 TEST_CASE("views of the field need a method with a field") {

@@ -167,7 +167,8 @@ void RenderControls::cancel_precomputation() {
 bool RenderControls::is_served(const FieldSettings& field, const std::string& backend) {
     if (field.representation == Representation::Table || backend == "cpu") return true;
     messages_.say(MessageLevel::Warning,
-                  fmt::format("{} serves tables alone: the SD-tree needs the CPU", back_end_label(backend)));
+                  fmt::format("{} serves tables alone: {} the CPU", back_end_label(backend),
+                              field.representation == Representation::SdTree ? "the SD-tree needs" : "lobes need"));
     return false;
 }
 

@@ -79,6 +79,8 @@ void draw_field(const std::optional<FieldStatus>& field) {
     if (field->representation == Representation::SdTree)
         text_row("Directions", "SD-tree",
                  "Quadtrees at the leaves of a tree over space; volumes keep the irradiance.");
+    if (field->representation == Representation::Lobes)
+        text_row("Directions", "lobes", "A mixture of von Mises-Fisher lobes in each volume.");
     text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");
     text_row("Passes", fmt::format("{}", field->passes), "Passes whose training samples the field has learned from.");
     text_row("Samples", count_text(field->records), "Training samples.");

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/kernel/guiding/guiding_field.h"
-#include "core/kernel/guiding/mixture.h"
 #include "core/kernel/guiding/sd_tree_view.h"
+#include "core/kernel/guiding/volume_irradiance.h"
 #include "core/kernel/guiding/volume_lights.h"
 
 namespace pl {
@@ -28,13 +28,6 @@ struct SdTreeEntry {
 
     PL_HD bool is_trained() const { return volume != kNoVolume; }
 };
-
-/// Bounds of the weights of one training sample: q is at least a tenth of the BSDF's density, so that only grazing directions meet
-/// them. They limit what is learned, never a picture.
-inline constexpr float kMostInverseDensity = 1024.0f;
-inline constexpr float kMostCosineWeight = 16.0f;
-/// Steps per unit of the sums of cosine weights.
-inline constexpr float kWeightSteps = 16777216.0f;
 
 struct SdTreeField : SdTreeView {
     using Location = SdTreeLocation;
@@ -78,17 +71,13 @@ struct SdTreeField : SdTreeView {
         const Philox random = filter_bits(location.in_cube, direction.wi);
         const std::uint32_t leaf = leaf_at(filtered_point(location, random)).leaf;
         const float cosine = glm::dot(normals[static_cast<std::uint32_t>(location.volume)], direction.wi);
-        return {location.volume, leaf, filtered_slot(leaf, direction, random.v[3]),
-                min_of(1.0f / direction.pdf_sa, kMostInverseDensity),
-                clamp_to(cosine * kInvPi / direction.pdf_sa, 0.0f, kMostCosineWeight)};
+        return {location.volume, leaf, filtered_slot(leaf, direction, random.v[3]), inverse_density(direction.pdf_sa),
+                cosine_weight_of(cosine, direction.pdf_sa)};
     }
     PL_HD void record(const TrainingSample<SdTreeField>& sample, bool learns_fraction) const {
         const Entry& entry = sample.entry;
-        const auto volume = static_cast<std::uint32_t>(entry.volume);
-        const auto weight = static_cast<std::int64_t>(entry.cosine_weight * kWeightSteps);
         atomic_add(pending_count[entry.leaf], 1u, writers);
-        atomic_add(pending_weight[volume], weight, writers);
-        atomic_add(pending_samples[volume], 1u, writers);
+        count_irradiance(*this, static_cast<std::uint32_t>(entry.volume), entry.cosine_weight);
         add(sample, learns_fraction);
     }
     PL_HD void add(const TrainingSample<SdTreeField>& sample, bool learns_fraction) const {
@@ -98,7 +87,7 @@ struct SdTreeField : SdTreeView {
         const float target = min_of(sample.target, kMaxRecordedUnits * radiance_unit);
         atomic_add(pending_energy[entry.slot], to_fixed_point(target * entry.inverse_pdf, radiance_unit), writers);
         atomic_add(pending_value[volume], to_fixed_point(target * entry.cosine_weight, radiance_unit), writers);
-        if (learns_fraction) record_fraction(sample);
+        if (learns_fraction) record_fraction(*this, entry.leaf, volume, sample.bsdf_ratio, sample.target);
     }
     PL_HD LearnedLights lights_at(const Location& location) const { return lights_of_volume(*this, location.volume); }
     PL_HD void record_light(const LightSample<SdTreeField>& light) const { record_at_volume(*this, light); }
@@ -133,17 +122,6 @@ private:
         square.y += side * (to_unit_float(random & 0xffff0000u) - 0.5f);
         square.y -= std::floor(square.y);
         return slot_at(leaf, {clamp_to(square.x, 0.0f, kBelowOne), clamp_to(square.y, 0.0f, kBelowOne)}).slot;
-    }
-    /// Adds to the sums of the Newton step of the BSDF fraction, see record_mixture().
-    PL_HD void record_fraction(const TrainingSample<SdTreeField>& sample) const {
-        const float expected = mean_radiance[static_cast<std::uint32_t>(sample.entry.volume)];
-        if (!(expected > 0.0f)) return;
-        TableView sums;
-        sums.pending_slope = pending_slope;
-        sums.pending_curvature = pending_curvature;
-        sums.writers = writers;
-        const float weight = min_of(sample.target / expected, kMaxMixtureWeight) * sample.bsdf_ratio;
-        record_mixture(sums, static_cast<std::int32_t>(sample.entry.leaf), sample.bsdf_ratio, weight);
     }
 };
 static_assert(RadianceField<SdTreeField>);

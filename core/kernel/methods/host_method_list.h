@@ -1,6 +1,7 @@
 // The integrators of representations that run on the host alone: the same methods as in method_list.h, with other fields.
 #pragma once
 
+#include "core/kernel/guiding/lobe_field.h"
 #include "core/kernel/guiding/sd_tree_field.h"
 #include "core/kernel/methods/method_list.h"
 
@@ -12,7 +13,11 @@ using HostMethodList = TypeList<
     MethodKernel<Precomputed, Guided<SdTreeField, FrozenField>>,
     MethodKernel<Reinforcement, Guided<SdTreeField, ExpectedSarsa>>,
     MethodKernel<Reinforcement, Guided<SdTreeField, Sarsa>>,
-    MethodKernel<Reinforcement, Guided<SdTreeField, MonteCarlo>>
+    MethodKernel<Reinforcement, Guided<SdTreeField, MonteCarlo>>,
+    MethodKernel<Precomputed, Guided<LobeField, FrozenField>>,
+    MethodKernel<Reinforcement, Guided<LobeField, ExpectedSarsa>>,
+    MethodKernel<Reinforcement, Guided<LobeField, Sarsa>>,
+    MethodKernel<Reinforcement, Guided<LobeField, MonteCarlo>>
 >;
 // clang-format on
 

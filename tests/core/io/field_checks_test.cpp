@@ -161,8 +161,34 @@ TEST_CASE("Damaged SD-trees in files are refused, whole ones come back") {
                contains("nodes of quadtrees: expected 1 to"));
     CHECK_THAT(refused([&](LearnedField& f) { f.method = MethodId::Precomputed; }),
                contains("representation of the arrays: expected 0, got 1"));
-    CHECK_THAT(refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(2); }),
-               contains("representation: expected 0 or 1, got 2"));
+    CHECK_THAT(refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(3); }),
+               contains("representation: expected 0 to 2, got 3"));
+}
+
+TEST_CASE("Damaged lobes in files are refused, whole ones come back") {
+    const TemporaryFolder folder;
+    LearnedField field = small_field();
+    field.method = MethodId::Reinforcement;
+    field.settings.representation = field.shape.representation = Representation::Lobes;
+    field.field = make_field(field.shape, kVolumes, Representation::Lobes);
+    const auto refused = [&](const std::function<void(HostLobes&)>& change) {
+        LearnedField damaged = field;
+        change(std::get<HostLobes>(damaged.field));
+        write_field(folder.path() / "field", damaged);
+        return input_error([&] { read_field(folder.path() / "field"); });
+    };
+    write_field(folder.path() / "field", field);
+    CHECK(std::get<HostLobes>(read_field(folder.path() / "field").field).lobe_count[0] == kFirstLobes);
+    CHECK_THAT(refused([](HostLobes& lobes) { lobes.lobe_count[0] = kMostLobes + 1; }),
+               contains("damaged field: lobes: expected mixtures of 1 to 16 lobes, got lobes of volume 0: got 17"));
+    CHECK_THAT(refused([](HostLobes& lobes) { lobes.weight[1] = 0.5f; }), contains("weights of volume 0: got 1.37"));
+    CHECK_THAT(refused([](HostLobes& lobes) { lobes.kappa[2] = -1.0f; }),
+               contains("concentration of lobe 2: expected 0 or more, got -1"));
+    CHECK_THAT(refused([](HostLobes& lobes) { lobes.mean[3] = kNan; }),
+               contains("mean of a lobe of place 3: expected a finite number, got nan"));
+    CHECK_THAT(refused([](HostLobes& lobes) { lobes.moments.clear(); }), contains("moments: expected"));
+    CHECK_THAT(refused([](HostLobes& lobes) { lobes.bsdf_fraction[0] = 0.0f; }),
+               contains("BSDF share of volume 0: expected 0.1 to 0.9, got 0"));
 }
 
 // A table that is not monotonic would give a direction a negative probability; this takes at least four columns.

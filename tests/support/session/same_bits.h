@@ -21,17 +21,19 @@ bool same_arrays(const Arrays& a, const Arrays& b) {
 }
 inline bool same_bits(const HostTables& a, const HostTables& b) { return same_arrays(a, b); }
 inline bool same_bits(const HostSdTree& a, const HostSdTree& b) { return same_arrays(a, b); }
+inline bool same_bits(const HostLobes& a, const HostLobes& b) { return same_arrays(a, b); }
 
 inline bool same_events(const PassCounters& a, const PassCounters& b) {
     static_assert(std::has_unique_object_representations_v<PassCounters>);
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// A film with its statistics, and the tables or the SD-tree of its method.
+/// A film with its statistics, and the tables, the SD-tree or the lobes of its method.
 struct State {
     Snapshot snapshot;
     HostTables tables;
     HostSdTree tree{};
+    HostLobes lobes{};
 };
 
 inline State state_of(Session& session, FilmSlot slot) {
@@ -39,6 +41,8 @@ inline State state_of(Session& session, FilmSlot slot) {
     State state{session.snapshot_with_halves(slot), {}};
     if (auto* tree = std::get_if<HostSdTree>(&field))
         state.tree = std::move(*tree);
+    else if (auto* lobes = std::get_if<HostLobes>(&field))
+        state.lobes = std::move(*lobes);
     else
         state.tables = tables_of(std::move(field));
     return state;
@@ -53,7 +57,7 @@ inline bool same_film(const State& a, const State& b) {
 }
 inline bool same_state(const State& a, const State& b) {
     return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) &&
-           same_bits(a.tables, b.tables) && same_bits(a.tree, b.tree);
+           same_bits(a.tables, b.tables) && same_bits(a.tree, b.tree) && same_bits(a.lobes, b.lobes);
 }
 
 }  // namespace pl::test

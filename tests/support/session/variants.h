@@ -49,6 +49,20 @@ inline constexpr Variant kVariants[] = {
      {LearningTarget::MonteCarlo, LearnedLight::Indirect},
      RouletteRule::Spare,
      Representation::SdTree},
+    {"lobes", false, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::Lobes},
+    {"lobes, light samples", true, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::Lobes},
+    {"lobes, Sarsa",
+     false,
+     LearningRate::Forgetful,
+     {LearningTarget::Sarsa, LearnedLight::All},
+     RouletteRule::Spare,
+     Representation::Lobes},
+    {"lobes, Monte Carlo",
+     true,
+     LearningRate::Forgetful,
+     {LearningTarget::MonteCarlo, LearnedLight::Indirect},
+     RouletteRule::Spare,
+     Representation::Lobes},
 };
 
 }  // namespace pl::test

@@ -71,6 +71,12 @@ TEST_CASE("Render controls: an SD-tree is chosen on the CPU, and keeps the other
     CHECK(model.render().wanted_backend() == "cpu");
     REQUIRE_FALSE(model.messages().toasts().empty());
     CHECK(model.messages().toasts().back().text == "CUDA serves tables alone: the SD-tree needs the CPU");
+    FieldSettings lobes = tree;
+    lobes.representation = Representation::Lobes;
+    model.render().set_field(lobes);
+    CHECK(model.render().settings().field.representation == Representation::Lobes);
+    model.render().set_backend("cuda");
+    CHECK(model.messages().toasts().back().text == "CUDA serves tables alone: lobes need the CPU");
     model.render().set_field({});
     model.render().set_backend("cuda");
     CHECK(model.render().wanted_backend() == "cuda");
