@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/scene/pack_light_tree.h"
+#include "core/scene/punctual_lights.h"
 
 namespace pl {
 namespace {
@@ -68,6 +69,7 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::EnvironmentMap: return far_lights_of(scene);
     case Feature::ThinLens: return fmt::format("the camera's lens has a radius of {}", camera.aperture_radius);
     case Feature::ManyLights: return many_lights_of(scene);
+    case Feature::DeltaLights: return count_text(scene.punctual_lights);
     }
     return "";
 }

@@ -26,6 +26,7 @@ std::string_view name_of(Feature feature) {
     case Feature::EnvironmentMap: return "environment-map";
     case Feature::ThinLens: return "thin-lens";
     case Feature::ManyLights: return "many-lights";
+    case Feature::DeltaLights: return "delta-lights";
     }
     return "";
 }
@@ -40,6 +41,7 @@ FeatureSet needed_effects(const HostScene& scene) {
     if (!scene.images.empty()) set = set.with(Feature::Textures);
     if (scene.has_holes != 0) set = set.with(Feature::CutOuts);
     if (!scene.light_nodes.empty()) set = set.with(Feature::ManyLights);
+    if (!scene.delta_lights.empty()) set = set.with(Feature::DeltaLights);
     if (scene.far_probability > 0.0f) set = set.with(Feature::EnvironmentMap);
     return set;
 }

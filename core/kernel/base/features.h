@@ -20,12 +20,13 @@ enum class Feature : std::uint32_t {
     EnvironmentMap = 1u << 8,       ///< infinitely distant light that depends on the direction: an image, a sun
     ThinLens = 1u << 9,             ///< a camera with a finite aperture
     ManyLights = 1u << 10,          ///< light samples choose lights by a light tree instead of by power alone
+    DeltaLights = 1u << 11,         ///< lights without extent: points, spots, directions
 };
 
 inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
                                            Feature::Specular,      Feature::Rough,       Feature::Plastic,
                                            Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
-                                           Feature::ThinLens,      Feature::ManyLights};
+                                           Feature::ThinLens,      Feature::ManyLights,  Feature::DeltaLights};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {
