@@ -255,10 +255,10 @@ TEST_CASE("gltf: punctual lights, in watts if Blender wrote them in lumens") {
     CHECK(scene.punctual_lights[2].kind == PunctualKind::Spot);
     CHECK(scene.punctual_lights[2].outer_deg == Approx(0.5f * 57.29578f));
     lights[3]["spot"]["innerConeAngle"] = 0.5;
-    CHECK(contains(input_error([&] { load(file); }), "innerConeAngle < outerConeAngle"));
+    CHECK_THAT(input_error([&] { load(file); }), contains("innerConeAngle < outerConeAngle"));
     lights[3]["spot"]["innerConeAngle"] = 0.1;
     lights[1]["intensity"] = -1;
-    CHECK(contains(input_error([&] { load(file); }), "an intensity of at least 0"));
+    CHECK_THAT(input_error([&] { load(file); }), contains("an intensity of at least 0"));
     lights[1]["intensity"] = 683;
     file.root["asset"]["generator"] = "Khronos glTF Blender I/O v4.2.70";
     CHECK(load(file).punctual_lights[0].intensity.x == Approx(1.0));

@@ -226,7 +226,7 @@ TEST_CASE("mitsuba: point, spot and directional emitters") {
     CHECK(scene.punctual_lights[2].kind == PunctualKind::Directional);
     CHECK(scene.punctual_lights[2].direction == glm::vec3(0, -1, 0));
     CHECK(scene.punctual_lights[2].intensity == glm::vec3(7.0f));
-    CHECK(contains(input_error([&] { load(kSquare + spot + "0\"/></emitter>"); }), "beam_width < cutoff_angle"));
+    CHECK_THAT(input_error([&] { load(kSquare + spot + "0\"/></emitter>"); }), contains("beam_width < cutoff_angle"));
 }
 
 TEST_CASE("mitsuba: the camera, its angle across or upwards, and the size of the picture") {
