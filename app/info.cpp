@@ -12,6 +12,7 @@
 #include "core/scene/effect_reasons.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
+#include "core/scene/punctual_lights.h"
 #include "core/scene/scene_hash.h"
 #include "core/session/session.h"
 
@@ -79,6 +80,7 @@ std::string report_text(const SceneReport& report) {
         text += fmt::format("           {}: {}, emits {}{}\n", material.name, surface_text(material),
                             print_vector(material.emission), material.two_sided_emission ? " on both sides" : "");
     text += fmt::format("light      {}\n", light_text(scene));
+    if (!scene.punctual_lights.empty()) text += fmt::format("           {}\n", count_text(scene.punctual_lights));
     text += fmt::format("memory     {} bytes, {:.0f} per triangle\n", bytes_of(report.packed),
                         bytes_per_triangle(report.packed));
     text += fmt::format("knobs      {}\n", scene.knobs.empty() ? "none" : "");
@@ -130,6 +132,7 @@ Json json_of(const SceneReport& report) {
             {"triangles", scene.triangles.size()},
             {"lights", report.packed.lights.size()},
             {"light", name_of(light_of(scene))},
+            {"punctual_lights", scene.punctual_lights.size()},
             {"materials", materials},
             {"bytes", bytes_of(report.packed)},
             {"bytes_per_triangle", bytes_per_triangle(report.packed)},

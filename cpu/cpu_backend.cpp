@@ -9,6 +9,7 @@
 #include "core/fields/lobe_update.h"
 #include "core/fields/sd_tree_update.h"
 #include "core/kernel/inspect/heat_map.h"
+#include "core/kernel/integrator/sampled_lights.h"
 #include "core/scene/pack_scene.h"
 #include "core/session/exact_backend.h"
 #include "cpu/batch_tracer.h"
@@ -153,8 +154,9 @@ private:
 
     PassSetup make_setup(const PathSettings& path, IndexRange paths, const StopFlag* stop) const {
         if (!tracer_) throw Error(ErrorKind::Runtime, "CPU back end: expected a scene, got none");
-        return {.scene = scene_->view(),
-                .path = path,
+        const SampledScene sampled = with_delta_lights(scene_->view(), path);
+        return {.scene = sampled.scene,
+                .path = sampled.path,
                 .paths = paths,
                 .stop = stop,
                 .threads = settings_.threads,

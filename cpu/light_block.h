@@ -108,6 +108,9 @@ private:
         if constexpr (F.has(Feature::EnvironmentMap)) {
             if (block.light_numbers(i).w < context_.scene.far_probability) return false;
         }
+        if constexpr (F.has(Feature::DeltaLights)) {
+            if (context_.scene.delta_probability > 0.0f) return false;
+        }
         clusters_.set(i, kNoCluster);
         return true;
     }

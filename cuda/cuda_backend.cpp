@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/kernel/integrator/sampled_lights.h"
 #include "core/session/exact_backend.h"
 #include "cuda/availability.h"
 #include "cuda/device_films.h"
@@ -123,7 +124,8 @@ private:
     template <class M, class Paths>
     void launch_paths(void (*kernel)(TraceSetup, M, Paths), const PathSettings& path, const M& method,
                       const Paths& paths) {
-        launcher_.launch_paths(kernel, {.scene = existing_scene().view(), .path = path}, method, paths);
+        const SampledScene sampled = with_delta_lights(existing_scene().view(), path);
+        launcher_.launch_paths(kernel, {.scene = sampled.scene, .path = sampled.path}, method, paths);
     }
     void launch_picture(const PassRequest& request, const PixelPaths& pixels);
     void launch_view(const PassRequest& request, const ViewContext& context, PathRange range);

@@ -25,6 +25,7 @@ struct SceneScalars {
     std::uint32_t has_holes = 0;
     FarLights far_lights;
     float far_probability = 0.0f;
+    float delta_probability = 0.0f;
 };
 
 bool is_power_of_two(std::uint32_t n) { return n >= 2 && (n & (n - 1)) == 0; }
@@ -101,7 +102,8 @@ void RankWork::take_scene(Payload& payload) {
     auto received = std::make_shared<HostScene>();
     const HostScene none;
     const HostScene& sent = payload.scene ? *payload.scene : none;
-    SceneScalars scalars{sent.light_power, sent.environment, sent.has_holes, sent.far_lights, sent.far_probability};
+    SceneScalars scalars{sent.light_power, sent.environment,     sent.has_holes,
+                         sent.far_lights,  sent.far_probability, sent.delta_probability};
     zip(sent, *received, [&](const auto& from, auto& to) { broadcast_array(ranks_, from, to); });
     ranks_.broadcast(bytes_of_value(scalars));
     received->light_power = scalars.light_power;
@@ -109,6 +111,7 @@ void RankWork::take_scene(Payload& payload) {
     received->has_holes = scalars.has_holes;
     received->far_lights = scalars.far_lights;
     received->far_probability = scalars.far_probability;
+    received->delta_probability = scalars.delta_probability;
     scene_ = payload.scene ? payload.scene : std::move(received);
     locally([&] { backend_->upload_scene(scene_); });
 }

@@ -3,6 +3,7 @@
 #include "core/diagnose/observed_method.h"
 #include "core/diagnose/replayed_method.h"
 #include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/sampled_lights.h"
 #include "core/kernel/integrator/trace_path.h"
 
 namespace pl {
@@ -253,14 +254,14 @@ AnyFieldView field_of(PassReplay& passes) {
 
 PathRecord record_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel, std::uint32_t pass) {
     const std::uint32_t sample = passes.first_sample + pass;
-    const SceneView scene = passes.scene->view();
     const PixelGrid grid{static_cast<std::uint32_t>(passes.width), static_cast<std::uint32_t>(passes.height), sample};
     const auto trace = [&](const auto& method, const PathSettings& path) {
         using M = Observed<std::remove_cvref_t<decltype(method)>>;
         ObservedChoices choices;
         const M observed(method, choices);
         auto state = begin_path<kAll, M>(passes.camera, path, grid, pixel);
-        return Recorder<M>({scene, observed, path}, choices).run(state);
+        const SampledScene sampled = with_delta_lights(passes.scene->view(), path);
+        return Recorder<M>({sampled.scene, observed, sampled.path}, choices).run(state);
     };
     PathRecord record = with_replayed_method<ObservedGuided>(passes, field, sample, trace);
     record.is_guided = is_guided_path(passes, sample);

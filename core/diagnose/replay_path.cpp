@@ -2,6 +2,7 @@
 
 #include "core/diagnose/replayed_method.h"
 #include "core/kernel/geometry/intersector.h"
+#include "core/kernel/integrator/sampled_lights.h"
 #include "core/kernel/integrator/trace_path.h"
 
 namespace pl {
@@ -23,11 +24,12 @@ struct CountingMethod : Guided<Field, ExpectedSarsa> {
 template <class M>
 PathDefects trace_again(const PassReplay& passes, const PathSettings& path, const M& method, std::uint32_t pixel,
                         std::uint32_t sample) {
-    const SceneView scene = passes.scene->view();
+    const SampledScene sampled = with_delta_lights(passes.scene->view(), path);
     const PixelGrid grid{static_cast<std::uint32_t>(passes.width), static_cast<std::uint32_t>(passes.height), sample};
     auto state = begin_path<kEveryFeature, M>(passes.camera, path, grid, pixel);
     PathCounters counters;
-    trace_path<kEveryFeature>(PathContext<M>{scene, method, path}, BvhIntersector{scene}, state, counters);
+    trace_path<kEveryFeature>(PathContext<M>{sampled.scene, method, sampled.path}, BvhIntersector{sampled.scene},
+                              state, counters);
     return {.escapes = static_cast<std::uint32_t>(counters.escaped),
             .lookup_misses = static_cast<std::uint32_t>(counters.method.lookup_misses)};
 }

@@ -45,6 +45,20 @@ float power_of_two_above(float value) {
     return std::ldexp(1.0f, std::clamp(exponent, -kMaxExponent, kMaxExponent));
 }
 
+/// Irradiance / pi by the brightest of the delta lights, of points and spots at this share of the scene's diagonal: closer surfaces are so
+/// small that their light adds little.
+float brightest_by_delta_lights(const HostScene& scene, float diagonal) {
+    constexpr float kNearShare = 0.05f;
+    const float distance = kNearShare * diagonal;
+    float brightest = 0.0f;
+    for (const DeltaLight& light : scene.delta_lights) {
+        const bool is_far = light.kind == DeltaLightKind::Directional || !(distance > 0.0f);
+        const float irradiance = luminance(light.intensity) / (is_far ? 1.0f : distance * distance);
+        brightest = std::max(brightest, kInvPi * irradiance);
+    }
+    return brightest;
+}
+
 }  // namespace
 
 std::size_t bytes_per_volume(int bins, std::size_t light_clusters) {
@@ -79,6 +93,7 @@ FieldShape make_field_shape(const HostScene& scene, const FieldSettings& setting
         brightest = std::max(brightest, luminance(material.emission));
     }
     const Bounds bounds = bounds_of(scene);
+    brightest = std::max(brightest, brightest_by_delta_lights(scene, bounds.diagonal()));
     const auto light_clusters = static_cast<std::uint32_t>(scene.light_clusters.size());
     const float edge = bounds.empty() ? 0.0f : max_component(bounds.high - bounds.low);
     return {.cells = {side_of(settings.bins)},

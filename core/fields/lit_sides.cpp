@@ -1,5 +1,7 @@
 // A light walk through the scene: paths from the lights find the sides of surfaces that light reaches.
+#include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "core/fields/surfaces.h"
 #include "core/fields/walk.h"
@@ -44,20 +46,41 @@ Ray leave_light(const HostScene& scene, const SceneView& view, Vec4f u, Vec4f v)
     return spawn_ray(point, lambert_sample(point, {v.y, v.z}));
 }
 
-/// Starts from the environment: a uniform direction, through a uniform point of the bounding sphere's disk
-/// perpendicular to it.
-Ray enter_from_environment(const BoundingSphere& sphere, Vec4f u, Vec4f v) {
+/// Uniform over the sphere.
+Vec3f uniform_direction(Vec3f u) {
     const float cos_theta = 1.0f - 2.0f * u.x;
     const Vec2f circle = square_to_disk({u.y, u.z});
     // A uniform point of the disk, lifted to the sphere by its projection on a cylinder.   [Archimedes]
     const float radius2 = circle.x * circle.x + circle.y * circle.y;
     const float stretch = radius2 > 0.0f ? safe_sqrt((1.0f - cos_theta * cos_theta) / radius2) : 0.0f;
-    const Vec3f direction = glm::normalize(Vec3f{circle.x * stretch, circle.y * stretch, cos_theta});
-    const Vec2f disk = sphere.radius * square_to_disk({v.x, v.y});
+    return glm::normalize(Vec3f{circle.x * stretch, circle.y * stretch, cos_theta});
+}
+
+/// From outside, through a uniform point of the bounding sphere's disk perpendicular to a direction.
+Ray enter_along(Vec3f direction, const BoundingSphere& sphere, Vec2f u) {
+    const Vec2f disk = sphere.radius * square_to_disk(u);
     const Frame frame = make_frame(direction);
     const Vec3f origin = sphere.center + disk.x * frame.x + disk.y * frame.y - 2.0f * sphere.radius * direction;
     return {.origin = origin, .direction = direction};
 }
+
+/// Starts from the environment, in a uniform direction.
+Ray enter_from_environment(const BoundingSphere& sphere, Vec4f u, Vec4f v) {
+    return enter_along(uniform_direction(Vec3f{u}), sphere, {v.x, v.y});
+}
+
+/// Starts at one of the delta lights, all alike; at spots in any direction, of which those outside of the cone hit surfaces that bounces
+/// may light.
+Ray leave_delta_light(const HostScene& scene, const BoundingSphere& sphere, Vec4f u, Vec4f v) {
+    const auto count = static_cast<std::uint32_t>(scene.delta_lights.size());
+    const auto number = static_cast<std::uint32_t>(u.w * static_cast<float>(count));
+    const DeltaLight& light = scene.delta_lights[std::min(number, count - 1)];
+    if (light.kind == DeltaLightKind::Directional) return enter_along(light.axis, sphere, {v.x, v.y});
+    return {.origin = light.position, .direction = uniform_direction(Vec3f{u})};
+}
+
+/// Where light walks start.
+enum class Source { Environment, Lights, DeltaLights };
 
 class LightWalker {
 public:
@@ -67,19 +90,29 @@ public:
 
     std::vector<Arrivals> walk_all() {
         const bool sky = !is_black(scene_.environment) || !view_.far_lights.empty();
-        const bool lights = !scene_.lights.empty();
-        if (!sky && !lights) return arrivals_;
+        std::vector<Source> sources;
+        if (sky) sources.push_back(Source::Environment);
+        if (!scene_.lights.empty()) sources.push_back(Source::Lights);
+        if (!scene_.delta_lights.empty()) sources.push_back(Source::DeltaLights);
+        if (sources.empty()) return arrivals_;
         for (std::uint32_t i = 0; i < kWalks; ++i) {
             const Rng rng{kPlacementSeed, Stream::Placement, i, kLightWalk};
             const Vec4f u = rng.draw(0, Purpose::Placement);
             const Vec4f v = rng.draw(1, Purpose::Placement);
-            const bool from_sky = sky && (!lights || i % 2 == 0);
-            walk(from_sky ? enter_from_environment(sphere_, u, v) : leave_light(scene_, view_, u, v), rng);
+            walk(start(sources[i % sources.size()], u, v), rng);
         }
         return arrivals_;
     }
 
 private:
+    Ray start(Source source, Vec4f u, Vec4f v) const {
+        switch (source) {
+        case Source::Environment: return enter_from_environment(sphere_, u, v);
+        case Source::Lights: return leave_light(scene_, view_, u, v);
+        case Source::DeltaLights: break;
+        }
+        return leave_delta_light(scene_, sphere_, u, v);
+    }
     void walk(Ray ray, const Rng& rng) {
         for (std::uint32_t vertex = 0; vertex < kMaxVertices; ++vertex) {
             const Hit hit = closest_solid_hit<features(Feature::CutOuts)>(view_, intersector_, ray);

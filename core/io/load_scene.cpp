@@ -67,7 +67,7 @@ bool only_glows(const fs::path& path, const SceneDescription& scene) {
         return glm::all(glm::lessThanEqual(material.emission, glm::vec3(1.0f)));
     };
     return is_gltf(path) && scene.environment == glm::vec3(0.0f) && scene.environment_map.texels.empty() &&
-           scene.sun.radiance == glm::vec3(0.0f) &&
+           scene.sun.radiance == glm::vec3(0.0f) && scene.punctual_lights.empty() &&
            std::all_of(scene.materials.begin(), scene.materials.end(), glows);
 }
 

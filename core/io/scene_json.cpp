@@ -15,6 +15,7 @@
 #include "core/io/listed_cameras.h"
 #include "core/io/mesh_file.h"
 #include "core/io/scene_knobs.h"
+#include "core/io/scene_lights.h"
 #include "core/io/scene_materials.h"
 
 namespace pl {
@@ -109,8 +110,8 @@ void read_settings(const JsonDocument& file, SceneDescription& scene) {
 
 SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSettings& asked) {
     const JsonDocument file(read_text_file(path), path);
-    file.object("", {"schema", "name", "obj", "normals", "camera", "cameras", "environment", "materials", "knobs",
-                     "settings"});
+    file.object("", {"schema", "name", "obj", "normals", "camera", "cameras", "environment", "lights", "materials",
+                     "knobs", "settings"});
     const std::optional<std::string> schema = file.text("/schema");
     if (schema != kSchema) {
         file.fail("/schema",
@@ -128,6 +129,7 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     read_materials(file, scene);
     read_knobs(file, scene, groups, asked.knobs);
     read_environment(file, scene);
+    read_punctual_lights(file, scene);
     read_settings(file, scene);
     read_camera(file, asked, scene);
     return scene;

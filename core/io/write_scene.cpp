@@ -15,6 +15,7 @@
 #include "core/io/files.h"
 #include "core/io/json_file.h"
 #include "core/io/listed_cameras.h"
+#include "core/io/scene_lights.h"
 #include "core/io/scene_materials.h"
 #include "core/io/surface_names.h"
 #include "core/io/write_mesh.h"
@@ -76,6 +77,8 @@ public:
         if (!scene_.normals.empty()) document["normals"] = "unit";
         add_cameras(document);
         add_environment(document);
+        for (const PunctualLightDescription& light : scene_.punctual_lights)
+            document["lights"].push_back(punctual_light_json(light));
         for (std::size_t i = 0; i < names.size(); ++i)
             document["materials"][names[i]] = material(scene_.materials[i]);
         add_settings(document);

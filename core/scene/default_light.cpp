@@ -27,6 +27,9 @@ bool has_own_light(const SceneDescription& scene) {
     const std::vector<glm::vec3>& map = scene.environment_map.texels;
     if (shines(scene.environment) || shines(scene.sun.radiance) || std::any_of(map.begin(), map.end(), shines))
         return true;
+    if (std::any_of(scene.punctual_lights.begin(), scene.punctual_lights.end(),
+                    [](const PunctualLightDescription& light) { return shines(light.intensity); }))
+        return true;
     std::vector<bool> emitting;
     for (const MaterialDescription& material : scene.materials) emitting.push_back(emits(material, scene.textures));
     return std::any_of(scene.triangles.begin(), scene.triangles.end(),

@@ -15,7 +15,7 @@ enum class SceneLight {
 };
 
 /// The light of a scene. Its own is emitted by a triangle, with regard to the texels of its emission map, by the
-/// environment, its map, or the sun; a material that no triangle has emits nothing.
+/// environment, its map, the sun, or a light without extent; a material that no triangle has emits nothing.
 SceneLight light_of(const SceneDescription& scene);
 
 /// Its name in files: "scene", "default", "none".

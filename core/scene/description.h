@@ -102,6 +102,30 @@ struct SunDescription {
     float angle_deg = 0.533f;               ///< angular diameter
 };
 
+/// Kinds of lights without extent.
+enum class PunctualKind : std::uint32_t { Point, Spot, Directional };
+/// Fall of a spot from its inner to its outer cone.
+enum class SpotFalloff : std::uint32_t {
+    Cosine,  ///< the square of a linear function of the cosine   [glTF 2.0, KHR_lights_punctual]
+    Angle,   ///< a linear function of the angle   [Mitsuba 3, spot]
+};
+/// Widest outer cone of a spot, in degrees from its axis.
+inline constexpr float kMostSpotAngle = 180.0f;
+
+/// A light without extent. Paths never hit it.
+struct PunctualLightDescription {
+    PunctualKind kind = PunctualKind::Point;
+    glm::vec3 position{0.0f};                ///< of points and spots
+    glm::vec3 direction{0.0f, 0.0f, -1.0f};  ///< in which the light of spots and directional lights travels
+    /// Radiant intensity, W/sr, of a spot on its axis; directional: irradiance of a surface that faces the light, W/m^2.
+    glm::vec3 intensity{0.0f};
+    float inner_deg = 0.0f;   ///< half angle of the cone in which a spot has its full intensity
+    float outer_deg = 45.0f;  ///< of the one outside of which it has none; above the inner one
+    SpotFalloff falloff = SpotFalloff::Cosine;
+
+    friend bool operator==(const PunctualLightDescription&, const PunctualLightDescription&) = default;
+};
+
 /// Three corners, counter-clockwise seen from the front, and a material.
 struct TriangleDescription {
     glm::uvec3 vertex{0};                                ///< indices into SceneDescription::positions
@@ -162,7 +186,8 @@ struct SceneDescription {
     glm::vec3 environment{0.0f};       ///< constant radiance of escaped rays
     EnvironmentMapDescription environment_map;  ///< added to `environment`; no map without texels
     SunDescription sun;                         ///< added to both
-    bool default_light = false;                 ///< the map is that of add_default_light()
+    std::vector<PunctualLightDescription> punctual_lights;
+    bool default_light = false;  ///< the map is that of add_default_light()
     std::vector<KnobDescription> knobs;
     std::vector<std::pair<std::string, std::string>> settings;  ///< presets: option name and value
     std::vector<std::string> warnings;                          ///< of the loaders, for the caller to report

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/scene/pack_light_tree.h"
+#include "core/scene/punctual_lights.h"
 
 namespace pl {
 namespace {
@@ -70,6 +71,7 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::ManyLights: return many_lights_of(scene);
     case Feature::NormalMaps:
         return materials_that(scene, [](const auto& m) { return m.textures.normal != kNoTexture; });
+    case Feature::DeltaLights: return count_text(scene.punctual_lights);
     }
     return "";
 }

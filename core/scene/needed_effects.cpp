@@ -27,6 +27,7 @@ std::string_view name_of(Feature feature) {
     case Feature::ThinLens: return "thin-lens";
     case Feature::ManyLights: return "many-lights";
     case Feature::NormalMaps: return "normal-maps";
+    case Feature::DeltaLights: return "delta-lights";
     }
     return "";
 }
@@ -42,6 +43,7 @@ FeatureSet needed_effects(const HostScene& scene) {
     if (scene.has_holes != 0) set = set.with(Feature::CutOuts);
     if (!scene.normal_maps.empty()) set = set.with(Feature::NormalMaps);
     if (!scene.light_nodes.empty()) set = set.with(Feature::ManyLights);
+    if (!scene.delta_lights.empty()) set = set.with(Feature::DeltaLights);
     if (scene.far_probability > 0.0f) set = set.with(Feature::EnvironmentMap);
     return set;
 }

@@ -20,6 +20,43 @@ float share_of(double first, double second) {
     return clamp_to(static_cast<float>(first / (first + second)), kLeastShare, 1.0f - kLeastShare);
 }
 
+double degrees(double angle) { return angle * kPiExact / 180.0; }
+
+/// Falloff as a line through 1 at the inner cone and 0 at the outer one.
+void set_falloff(const PunctualLightDescription& light, DeltaLight& packed) {
+    const bool is_cosine = light.falloff == SpotFalloff::Cosine;
+    packed.kind = is_cosine ? DeltaLightKind::CosineSpot : DeltaLightKind::AngleSpot;
+    const auto along = [&](float angle_deg) {
+        const double angle = degrees(static_cast<double>(angle_deg));
+        return is_cosine ? std::cos(angle) : angle;
+    };
+    const double slope = 1.0 / (along(light.inner_deg) - along(light.outer_deg));
+    packed.slope = static_cast<float>(slope);
+    packed.offset = static_cast<float>(-slope * along(light.outer_deg));
+}
+
+DeltaLight delta_light(const PunctualLightDescription& light) {
+    DeltaLight packed{.intensity = light.intensity, .position = light.position};
+    if (light.kind == PunctualKind::Point) return packed;
+    packed.axis = Vec3f{glm::normalize(Vec3d{light.direction})};
+    packed.kind = DeltaLightKind::Directional;
+    if (light.kind == PunctualKind::Spot) set_falloff(light, packed);
+    return packed;
+}
+
+/// Luminous power divided by pi; of a spot, of a cone half way between its cones; of a directional light, through a disk of this
+/// radius.
+double power_of(const PunctualLightDescription& light, double radius) {
+    const auto intensity = static_cast<double>(luminance(light.intensity));
+    switch (light.kind) {
+    case PunctualKind::Point: return 4.0 * intensity;
+    case PunctualKind::Directional: return radius * radius * intensity;
+    case PunctualKind::Spot: break;
+    }
+    const double angle = degrees(0.5 * (static_cast<double>(light.inner_deg) + static_cast<double>(light.outer_deg)));
+    return 2.0 * (1.0 - std::cos(angle)) * intensity;
+}
+
 /// Appends cumulative probabilities. They are multiples of 2^-24, as random numbers are, so the tabulated probability
 /// of an entry is exact. Weights with a sum of 0 give a uniform distribution.
 void append_cdf(const std::vector<double>& weights, double sum, std::vector<float>& cdf) {
@@ -70,14 +107,33 @@ double pack_sun(const SunDescription& sun, HostScene& packed) {
 
 }  // namespace
 
-void pack_far_lights(const SceneDescription& scene, HostScene& packed) {
+double pack_far_lights(const SceneDescription& scene, HostScene& packed) {
     const double map = scene.environment_map.texels.empty() ? 0.0 : pack_map(scene.environment_map, packed);
     const double sun = pack_sun(scene.sun, packed);
     packed.far_lights.map_probability = share_of(map, sun);
     const double radius = 0.5 * static_cast<double>(bounds_of(scene).diagonal());
     // Power: pi x area x radiance for emissive triangles, pi r^2 x the integral over the sphere for far lights.
-    packed.far_probability = share_of(radius * radius * (map + sun), static_cast<double>(packed.light_power));
+    const double power = radius * radius * (map + sun);
+    packed.far_probability = share_of(power, static_cast<double>(packed.light_power));
     if (packed.far_probability < 1.0f) packed.light_power /= 1.0f - packed.far_probability;
+    return power;
+}
+
+void pack_delta_lights(const SceneDescription& scene, double far_power, HostScene& packed) {
+    const double radius = 0.5 * static_cast<double>(bounds_of(scene).diagonal());
+    double power = 0.0;
+    for (const PunctualLightDescription& light : scene.punctual_lights) {
+        if (is_black(light.intensity)) continue;
+        packed.delta_lights.push_back(delta_light(light));
+        power += power_of(light, radius);
+    }
+    if (packed.delta_lights.empty()) return;
+    // By as many bits that one minus the probability is exact.
+    const double others = far_power + static_cast<double>(packed.light_power * (1.0f - packed.far_probability));
+    const float probability = std::round(share_of(power, others) * 0x1p10f) * 0x1p-10f;
+    packed.delta_probability = probability;
+    packed.far_probability *= 1.0f - probability;
+    if (probability < 1.0f) packed.light_power /= 1.0f - probability;
 }
 
 }  // namespace pl

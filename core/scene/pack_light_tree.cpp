@@ -260,7 +260,8 @@ void pack_light_tree(HostScene& packed) {
         items.push_back(item_of(packed, light));
         total += items.back().bounds.power;
     }
-    const double share = 1.0 - static_cast<double>(packed.far_probability);
+    const double share =
+        1.0 - static_cast<double>(packed.far_probability) - static_cast<double>(packed.delta_probability);
     for (LightItem& item : items) {
         item.bounds.power /= total;
         packed.light_places.push_back({.pdf_area = static_cast<float>(share / item.area)});

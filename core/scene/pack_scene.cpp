@@ -160,7 +160,7 @@ void pack_looks(const SceneDescription& scene, HostScene& packed) {
     pack_textures(scene, packed);  // replaces textured emission by its mean
     pack_lights(packed);
     packed.environment = scene.environment;
-    pack_far_lights(scene, packed);
+    pack_delta_lights(scene, pack_far_lights(scene, packed), packed);
     pack_light_tree(packed);
 }
 

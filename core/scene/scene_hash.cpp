@@ -22,7 +22,7 @@ void add(Fnv1a& hash, const glm::uvec3& v) {
     hash.add(std::uint64_t{v.z});
 }
 
-/// Adds the optional parts of a scene (textures, lobes, far lights), each preceded by its name. Absent parts add
+/// Adds the optional parts of a scene (textures, lobes, far lights, lights without extent), each preceded by its name. Absent parts add
 /// nothing, so that a new kind of part does not change the hashes of existing scenes.
 class PartHasher {
 public:
@@ -80,6 +80,18 @@ public:
         }
     }
 
+    void add_punctual_lights(const std::vector<PunctualLightDescription>& lights) {
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            const PunctualLightDescription& light = lights[i];
+            begin("punctual light", i);
+            hash_.add(std::uint64_t{static_cast<std::uint32_t>(light.kind)});
+            for (const glm::vec3& vector : {light.position, light.direction, light.intensity}) add(hash_, vector);
+            hash_.add(light.inner_deg);
+            hash_.add(light.outer_deg);
+            hash_.add(std::uint64_t{static_cast<std::uint32_t>(light.falloff)});
+        }
+    }
+
 private:
     void begin(std::string_view part, std::size_t number) {
         hash_.add(part);
@@ -128,6 +140,7 @@ std::string scene_hash(const SceneDescription& scene) {
     parts.add_surfaces(scene.materials);
     parts.add_textures(scene);
     parts.add_far_lights(scene);
+    parts.add_punctual_lights(scene.punctual_lights);
     return fmt::format("{:016x}", hash.value());
 }
 

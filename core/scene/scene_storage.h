@@ -26,6 +26,7 @@ struct SceneStorage {
     Array<LightNode> light_nodes;
     Array<LightPlace> light_places;
     Array<std::uint32_t> light_clusters;
+    Array<DeltaLight> delta_lights;
     Array<Vec3f> map_texels;
     Array<float> map_row_cdf;
     Array<float> map_column_cdf;
@@ -37,6 +38,7 @@ struct SceneStorage {
     std::uint32_t has_holes = 0;
     FarLights far_lights;  ///< without its arrays
     float far_probability = 0.0f;
+    float delta_probability = 0.0f;
 
     SceneView view() const {
         FarLights far = far_lights;
@@ -67,7 +69,9 @@ struct SceneStorage {
             .light_power = light_power,
             .environment = environment,
             .far_lights = far,
-            .far_probability = far_probability};
+            .far_probability = far_probability,
+            .delta_lights = view_of(delta_lights),
+            .delta_probability = delta_probability};
     }
 };
 
@@ -94,6 +98,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.light_nodes, to.light_nodes);
     fn(from.light_places, to.light_places);
     fn(from.light_clusters, to.light_clusters);
+    fn(from.delta_lights, to.delta_lights);
     fn(from.map_texels, to.map_texels);
     fn(from.map_row_cdf, to.map_row_cdf);
     fn(from.map_column_cdf, to.map_column_cdf);
@@ -105,6 +110,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     to.has_holes = from.has_holes;
     to.far_lights = from.far_lights;
     to.far_probability = from.far_probability;
+    to.delta_probability = from.delta_probability;
 }
 
 /// Total size of all arrays.

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/kernel/base/math.h"
+#include "core/scene/punctual_lights.h"
 
 namespace pl {
 
@@ -233,6 +234,7 @@ void validate_scene(const SceneDescription& scene) {
     check_textures(list, scene.textures);
     check_texture_uses(list, scene.materials, scene.textures);
     check_far_lights(list, scene);
+    list += complaints_about(scene.punctual_lights);
     check_camera(list, scene.camera);
     if (!is_light(scene.environment)) {
         list += fmt::format("\n  environment radiance {} is not finite and at least 0", show(scene.environment));

@@ -30,9 +30,11 @@ KernelRange range_of(const RenderSettings& settings) {
 FeatureSet needed_features(const HostScene& scene, const RenderSettings& settings) {
     const FeatureSet needed = needed_effects(scene).with(needed_effects(settings.camera));
     const bool is_picture = settings.view == View::Beauty;
-    if (is_picture && settings.next_event) return needed.with(Feature::NextEventEstimation);
-    // Without light sampling there is no choice among many lights.
-    return settings.view == View::Direct ? needed : needed.without(Feature::ManyLights);
+    const FeatureSet sampled = needed.with(Feature::NextEventEstimation);
+    if (is_picture && settings.next_event) return sampled;
+    if (settings.view == View::Direct) return needed;
+    // Without light sampling there is no choice among many lights. Delta lights are sampled nevertheless.
+    return (is_picture && needed.has(Feature::DeltaLights) ? sampled : needed).without(Feature::ManyLights);
 }
 
 ServedKernel served_kernel(std::string_view backend, const HostScene& scene, const RenderSettings& settings) {

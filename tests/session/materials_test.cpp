@@ -108,7 +108,7 @@ bool same_scene(const HostScene& a, HostScene b) {
     bool same = true;
     zip(a, b, [&](const auto& x, const auto& y) { same = same && same_bits(x, y); });
     return same && a.light_power == b.light_power && a.environment == b.environment && a.has_holes == b.has_holes &&
-           a.far_probability == b.far_probability;
+           a.far_probability == b.far_probability && a.delta_probability == b.delta_probability;
 }
 
 }  // namespace

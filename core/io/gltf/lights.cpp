@@ -1,10 +1,11 @@
 #include "core/io/gltf/lights.h"
 
-#include <algorithm>
-#include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
+
+#include "core/scene/punctual_lights.h"
 
 namespace pl {
 namespace {
@@ -12,28 +13,49 @@ namespace {
 /// Lumens of a watt in files of Blender's exporter, in its default unit.
 constexpr double kLumensPerWatt = 683.0;
 
-/// Irradiance on a surface that faces a directional light.
-glm::dvec3 irradiance_of(GltfFile& file, const std::string& at) {
+/// Radiant intensity of points and spots, irradiance of directional lights.
+glm::vec3 intensity_of(GltfFile& file, const std::string& at) {
     const double intensity = static_cast<double>(file.json().number(at + "/intensity").value_or(1.0f));
     const auto color = file.json().numbers(at + "/color", 3);
     const glm::dvec3 tint = color ? glm::dvec3((*color)[0], (*color)[1], (*color)[2]) : glm::dvec3(1.0);
     if (!(intensity >= 0.0) || glm::any(glm::lessThan(tint, glm::dvec3(0.0))))
         file.fail(at, "expected a color and an intensity of at least 0");
     const bool is_of_blender = file.json().text("/asset/generator").value_or("").find("Blender") != std::string::npos;
-    return tint * intensity / (is_of_blender ? kLumensPerWatt : 1.0);
+    return glm::vec3(tint * intensity / (is_of_blender ? kLumensPerWatt : 1.0));
+}
+
+void read_cones(GltfFile& file, const std::string& at, PunctualLightDescription& light) {
+    const float inner = file.json().number(at + "/spot/innerConeAngle").value_or(0.0f);
+    const float outer = file.json().number(at + "/spot/outerConeAngle").value_or(glm::quarter_pi<float>());
+    if (!(inner >= 0.0f && inner < outer && outer <= glm::half_pi<float>()))
+        file.fail(at,
+                  fmt::format("expected 0 <= innerConeAngle < outerConeAngle <= pi/2, got {} and {}", inner, outer));
+    light.inner_deg = glm::degrees(inner);
+    light.outer_deg = glm::degrees(outer);
+    light.falloff = SpotFalloff::Cosine;
+}
+
+std::optional<PunctualKind> kind_of(const std::string& type) {
+    for (const PunctualKind kind : {PunctualKind::Point, PunctualKind::Spot, PunctualKind::Directional})
+        if (type == name_of(kind)) return kind;
+    return std::nullopt;
 }
 
 /// A light shines along -z of its node.
-void set_sun(GltfFile& file, const GltfNode& node, const std::string& at, SunDescription& sun) {
-    const glm::dvec3 towards(node.to_world[2]);
-    if (!(glm::length(towards) > 0.0)) {
-        file.note("lights whose node has no extent are left out", at);
-        return;
-    }
-    const double half_angle = 0.5 * static_cast<double>(sun.angle_deg) * glm::pi<double>() / 180.0;
-    const double projected_solid_angle = glm::pi<double>() * std::sin(half_angle) * std::sin(half_angle);
-    sun.direction = glm::vec3(glm::normalize(towards));
-    sun.radiance = glm::vec3(irradiance_of(file, at) / projected_solid_angle);
+void add_light(GltfFile& file, const GltfNode& node, const std::string& at, SceneDescription& scene) {
+    const std::string type = file.json().text(at + "/type").value_or("none");
+    const std::optional<PunctualKind> kind = kind_of(type);
+    if (!kind) return file.note(fmt::format("lights of the type {} are left out", type), at);
+    const glm::dvec3 back(node.to_world[2]);
+    if (*kind != PunctualKind::Point && !(glm::length(back) > 0.0))
+        return file.note("lights whose node has no extent are left out", at);
+    PunctualLightDescription light{.kind = *kind, .position = glm::vec3(node.to_world[3])};
+    light.intensity = intensity_of(file, at);
+    if (*kind != PunctualKind::Point) light.direction = glm::vec3(-glm::normalize(back));
+    if (*kind == PunctualKind::Spot) read_cones(file, at, light);
+    if (*kind != PunctualKind::Directional && file.json().number(at + "/range"))
+        file.note("ranges of lights are left out: light falls off by the square of the distance alone", at);
+    scene.punctual_lights.push_back(light);
 }
 
 }  // namespace
@@ -41,15 +63,8 @@ void set_sun(GltfFile& file, const GltfNode& node, const std::string& at, SunDes
 void add_gltf_lights(GltfFile& file, const GltfNodes& nodes, SceneDescription& scene) {
     for (const std::uint32_t number : nodes.shown) {
         const GltfNode& node = nodes.all[number];
-        if (!node.light) continue;
-        const std::string at = fmt::format("/extensions/KHR_lights_punctual/lights/{}", *node.light);
-        const std::string type = file.json().text(at + "/type").value_or("none");
-        if (type != "directional")
-            file.note(fmt::format("lights of the type {} are left out", type), at);
-        else if (scene.sun.radiance != glm::vec3(0.0f))
-            file.note("directional lights after the first one, the sun, are left out", at);
-        else
-            set_sun(file, node, at, scene.sun);
+        if (node.light)
+            add_light(file, node, fmt::format("/extensions/KHR_lights_punctual/lights/{}", *node.light), scene);
     }
 }
 

@@ -6,8 +6,8 @@
 
 namespace pl {
 
-/// The first directional light of shown nodes becomes the sun; others are noted. Files of Blender's exporter give light in
-/// lumens, 683 to a watt.
+/// The lights of shown nodes. Candela count as W/sr and lux as W/m^2, as the radiance of emissive surfaces does; files of Blender's
+/// exporter give light in lumens, 683 to a watt. Ranges are noted: the light of points and spots has none.
 void add_gltf_lights(GltfFile& file, const GltfNodes& nodes, SceneDescription& scene);
 
 }  // namespace pl

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/io/line_reader.h"
+#include "core/io/mitsuba/lights.h"
 #include "core/io/mitsuba/shapes.h"
 #include "core/io/mitsuba/surfaces.h"
 #include "core/io/texture_file.h"
@@ -131,7 +132,7 @@ private:
             scene_.environment = emitter.color("radiance").value_or(glm::vec3(1.0f));
         else if (type == "envmap" && scale >= 0.0f)
             read_map(emitter, scale);
-        else
+        else if (!add_mitsuba_light(emitter, scene_))
             emitter.note(fmt::format("emitters of the type {} are left out", in_quotes(type)));
     }
 

@@ -21,12 +21,14 @@ enum class Feature : std::uint32_t {
     ThinLens = 1u << 9,             ///< a camera with a finite aperture
     ManyLights = 1u << 10,          ///< light samples choose lights by a light tree instead of by power alone
     NormalMaps = 1u << 11,          ///< images of shading normals
+    DeltaLights = 1u << 12,         ///< lights without extent: points, spots, directions
 };
 
 inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
                                            Feature::Specular,      Feature::Rough,       Feature::Plastic,
                                            Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
-                                           Feature::ThinLens,      Feature::ManyLights,  Feature::NormalMaps};
+                                           Feature::ThinLens,      Feature::ManyLights,  Feature::NormalMaps,
+                                           Feature::DeltaLights};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {

@@ -5,6 +5,7 @@
 #include "core/kernel/base/span.h"
 #include "core/kernel/geometry/bvh_view.h"
 #include "core/kernel/scene/texture.h"
+#include "core/kernel/shading/delta_lights.h"
 #include "core/kernel/shading/far_lights.h"
 #include "core/kernel/shading/light_tree.h"
 #include "core/kernel/shading/material.h"
@@ -52,10 +53,13 @@ struct SceneView {
     Span<const Light> lights;  ///< sorted by primitive
     LightTree light_tree;      ///< over `lights`; empty if they are few
     BvhView bvh;
-    float light_power = 0.0f;      ///< sum of area x luminance of the emission, divided by 1 - far_probability
+    /// Sum of area x luminance of the emission, divided by the probability that a light sample chooses `lights`.
+    float light_power = 0.0f;
     Vec3f environment{0.0f};       ///< constant radiance of escaped rays
     FarLights far_lights;          ///< added to `environment`
     float far_probability = 0.0f;  ///< probability that a light sample chooses `far_lights` instead of `lights`
+    Span<const DeltaLight> delta_lights;
+    float delta_probability = 0.0f;  ///< that it chooses `delta_lights`; a multiple of 2^-10
 };
 
 }  // namespace pl

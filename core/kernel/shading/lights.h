@@ -152,7 +152,7 @@ PL_HD inline LightPoint sample_light(const SceneView& scene, const Receiver& rec
 
 /// A light sample at a surface point (next-event estimation), without visibility.
 struct DirectLight {
-    SurfacePoint light;   ///< without a primitive: a far light
+    SurfacePoint light;   ///< without a primitive: a far light, or a directional one
     Vec3f wi{0.0f};       ///< unit, from the surface to the light
     Vec3f emitted{0.0f};  ///< radiance of the light towards the surface
     float cos_i = 0.0f;
@@ -181,11 +181,58 @@ PL_HD inline DirectLight sample_far_light(const SceneView& scene, const SurfaceP
     return sample;
 }
 
+/// A sample of the delta lights: of at most kMostComparedLights neighbors in their list, one in proportion to the irradiance that it
+/// brings if nothing occludes it.   [Chao 1982, weighted reservoir sampling with one number]
+template <class B>
+PL_HD inline DirectLight sample_delta_light(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
+                                            Vec2f u) {
+    const std::uint32_t count = scene.delta_lights.count;
+    const std::uint32_t groups = (count + kMostComparedLights - 1) / kMostComparedLights;
+    const std::uint32_t group = min_of(static_cast<std::uint32_t>(u.x * static_cast<float>(groups)), groups - 1);
+    const std::uint32_t begin = group * kMostComparedLights;
+    DirectLight sample;
+    WayByNumber way{u.y};
+    float total = 0.0f;
+    float chosen = 0.0f;
+    for (std::uint32_t i = begin; i < min_of(begin + kMostComparedLights, count); ++i) {
+        const DeltaIllumination seen = illuminate(scene.delta_lights[i], surface.position);
+        const float cos_i = bsdf.cosine(surface, seen.wi);
+        const float irradiance = luminance(seen.irradiance) * cos_i;
+        if (!(irradiance > 0.0f && kDeltaDensity * luminance(seen.irradiance) < kInfinity)) continue;
+        total += irradiance;
+        if (!way.takes_second(1.0f - irradiance / total)) continue;
+        chosen = irradiance;
+        sample.wi = seen.wi;
+        sample.emitted = kDeltaDensity * seen.irradiance;
+        sample.cos_i = cos_i;
+        const bool has_position = scene.delta_lights[i].kind != DeltaLightKind::Directional;
+        sample.light.position = scene.delta_lights[i].position;
+        sample.light.primitive = has_position ? kDeltaLightTarget : kNoPrimitive;
+    }
+    // Without a normal shadow rays end in the very position.
+    sample.light.geometric_normal = Vec3f{0.0f};
+    if (total > 0.0f) {
+        const float probability = scene.delta_probability / static_cast<float>(groups) * (chosen / total);
+        sample.pdf_sa = kDeltaDensity * probability;
+    }
+    return sample;
+}
+
 /// Light sample for a surface point; u.x, u.y, u.z in [0,1), u.w in [0, 1) selects far lights or emissive triangles. `learned`: of
 /// the point. The caller traces the shadow ray.
 template <FeatureSet F = FeatureSet{}, class B>
 PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
                                              Vec4f u, LearnedLights learned = {}) {
+    if constexpr (F.has(Feature::DeltaLights)) {
+        if (scene.delta_probability > 0.0f) {
+            // By z, which is spread evenly over the passes, as w is not: no other estimator makes up for missing samples.
+            const float others = 1.0f - scene.delta_probability;
+            WayByNumber way{u.z};
+            if (way.takes_second(others)) return sample_delta_light(scene, surface, bsdf, {u.x, u.y});
+            u.z = way.u;
+            u.w *= others;
+        }
+    }
     if constexpr (F.has(Feature::EnvironmentMap)) {
         if (u.w < scene.far_probability) return sample_far_light(scene, surface, bsdf, Vec3f{u});
     }
@@ -205,7 +252,7 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
 /// The shadow ray of a light sample.
 template <FeatureSet F>
 PL_HD inline Ray shadow_ray_to(const SurfacePoint& surface, const DirectLight& sample) {
-    if constexpr (F.has(Feature::EnvironmentMap)) {
+    if constexpr (F.has_any(features(Feature::EnvironmentMap, Feature::DeltaLights))) {
         if (sample.light.primitive == kNoPrimitive) return spawn_ray(surface, sample.wi);
     }
     return spawn_shadow_ray(surface, sample.light);

@@ -63,6 +63,29 @@ TEST_CASE("write_scene: shipped scenes without images have the same hash, camera
     }
 }
 
+TEST_CASE("write_scene: lights without extent, and lights that are refused") {
+    SceneDescription scene = triangle_of({.name = "wall", .albedo = glm::vec3(0.5f)});
+    scene.punctual_lights = {{.kind = PunctualKind::Point, .position = {1, 2, 3}, .intensity = {4, 5, 6}},
+                             {.kind = PunctualKind::Spot,
+                              .position = {1, 2, 3},
+                              .direction = {0, -1, 0.5f},
+                              .intensity = {4, 5, 6},
+                              .inner_deg = 10,
+                              .outer_deg = 20.5f,
+                              .falloff = SpotFalloff::Angle},
+                             {.kind = PunctualKind::Directional, .direction = {0, 0, -1}, .intensity = {0, 0.1f, 0}}};
+    const SceneDescription read = rewritten(scene);
+    CHECK(read.punctual_lights == scene.punctual_lights);
+    CHECK(scene_hash(read) == scene_hash(scene));
+    for (int wrong = 0; wrong < 3; ++wrong) {
+        SceneDescription bad = scene;
+        if (wrong == 0) bad.punctual_lights[0].intensity.x = -1.0f;
+        if (wrong == 1) bad.punctual_lights[1].inner_deg = 20.5f;
+        if (wrong == 2) bad.punctual_lights[2].direction = glm::vec3(0.0f);
+        CHECK_THROWS_AS(rewritten(bad), Error);
+    }
+}
+
 TEST_CASE("write_scene: normals keep bits that dividing by the length would change") {
     SceneDescription scene = triangle_of({.name = "wall", .albedo = glm::vec3(0.5f)});
     for (int i = 0; i < 300; ++i) {

@@ -124,8 +124,8 @@ TEST_CASE("An environment is an effect") {
     for (const Feature feature : kAllFeatures) all = all.with(feature);
     CHECK(effect_names(all) == std::vector<std::string>{"smooth-normals", "environment", "next-event-estimation",
                                                         "specular", "rough", "plastic", "textures", "cut-outs",
-                                                        "environment-map", "thin-lens", "many-lights",
-                                                        "normal-maps"});
+                                                        "environment-map", "thin-lens", "many-lights", "normal-maps",
+                                                        "delta-lights"});
     CHECK(effect_names(FeatureSet{}).empty());
 }
 

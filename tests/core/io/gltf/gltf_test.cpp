@@ -227,25 +227,41 @@ TEST_CASE("gltf: cameras can be chosen by name and number, and set the shape of 
     CHECK_THAT(refusal(file), contains("cameras/0/perspective/yfov") && contains("got 4"));
 }
 
-TEST_CASE("gltf: the first directional light is the sun, in watts if Blender wrote it in lumens") {
+TEST_CASE("gltf: punctual lights, in watts if Blender wrote them in lumens") {
     GltfMaker file;
     file.triangle();
-    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-        {{"type", "point"}}, {{"type", "directional"}, {"intensity", 683}, {"color", {1, 0.5, 0}}}};
-    file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    Json& lights = file.root["extensions"]["KHR_lights_punctual"]["lights"];
+    lights = {{{"type", "area"}},
+              {{"type", "directional"}, {"intensity", 683}, {"color", {1, 0.5, 0}}},
+              {{"type", "point"}, {"range", 3}},
+              {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}}};
+    const auto shown = [](int light) {
+        return Json{{"translation", {1, 2, 3}}, {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}};
+    };
+    file.node(shown(0));
     CHECK(load(file).default_light);
-    file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+    for (const int light : {1, 2, 3}) file.node(shown(light));
     const SceneDescription scene = load(file);
     CHECK_FALSE(scene.default_light);
-    CHECK(is_told(scene, "lights of the type point are left out (1 in all)"));
-    CHECK(scene.sun.direction == glm::vec3(0, 0, 1));
-    const double half = 0.5 * 0.533 * 3.14159265358979 / 180.0;
-    const double projected = 3.14159265358979 * std::sin(half) * std::sin(half);
-    CHECK(scene.sun.radiance.x * projected == Approx(683.0).epsilon(1e-4));
-    CHECK(scene.sun.radiance.y * projected == Approx(341.5).epsilon(1e-4));
-    CHECK(scene.sun.radiance.z == 0.0f);
+    CHECK(is_told(scene, "lights of the type area are left out (1 in all)"));
+    CHECK(is_told(scene, "ranges of lights are left out"));
+    REQUIRE(scene.punctual_lights.size() == 3);
+    CHECK(scene.punctual_lights[0].kind == PunctualKind::Directional);
+    CHECK(scene.punctual_lights[0].direction == glm::vec3(0, 0, -1));
+    CHECK(scene.punctual_lights[0].intensity == glm::vec3(683.0f, 341.5f, 0.0f));
+    CHECK(scene.punctual_lights[1].kind == PunctualKind::Point);
+    CHECK(scene.punctual_lights[1].position == glm::vec3(1, 2, 3));
+    CHECK(scene.punctual_lights[1].intensity == glm::vec3(1.0f));
+    CHECK(scene.punctual_lights[2].kind == PunctualKind::Spot);
+    CHECK(scene.punctual_lights[2].outer_deg == Approx(0.5f * 57.29578f));
+    lights[3]["spot"]["innerConeAngle"] = 0.5;
+    CHECK_THAT(input_error([&] { load(file); }), contains("innerConeAngle < outerConeAngle"));
+    lights[3]["spot"]["innerConeAngle"] = 0.1;
+    lights[1]["intensity"] = -1;
+    CHECK_THAT(input_error([&] { load(file); }), contains("an intensity of at least 0"));
+    lights[1]["intensity"] = 683;
     file.root["asset"]["generator"] = "Khronos glTF Blender I/O v4.2.70";
-    CHECK(load(file).sun.radiance.x * projected == Approx(1.0).epsilon(1e-4));
+    CHECK(load(file).punctual_lights[0].intensity.x == Approx(1.0));
 }
 
 TEST_CASE("gltf: content without a counterpart is told once for each kind") {

@@ -214,12 +214,39 @@ TEST_CASE("mitsuba: area and constant emitters, others are told") {
         load("<shape type=\"rectangle\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"20, 3, "
              "3\"/></emitter></shape>" +
              kSquare +
-             "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.3\"/></emitter><emitter type=\"point\"/>");
+             "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.3\"/></emitter><emitter type=\"sunsky\"/>");
     CHECK(scene.materials[scene.triangles[0].material].emission == glm::vec3(20, 3, 3));
     CHECK(scene.materials[scene.triangles[0].material].albedo == glm::vec3(0.0f));
     CHECK(scene.materials[scene.triangles[2].material].emission == glm::vec3(0.0f));
     CHECK(scene.environment == glm::vec3(0.3f));
-    CHECK(is_told(scene, "emitters of the type 'point' are left out"));
+    CHECK(is_told(scene, "emitters of the type 'sunsky' are left out"));
+}
+
+TEST_CASE("mitsuba: point, spot and directional emitters") {
+    const std::string place = "<transform name=\"to_world\"><lookat origin=\"1, 2, 3\" target=\"1, 0, 3\" up=\"1, 0, "
+                              "0\"/></transform>";
+    const std::string spot = "<emitter type=\"spot\">" + place + "<float name=\"cutoff_angle\" value=\"";
+    const SceneDescription scene =
+        load(kSquare +
+             "<emitter type=\"point\"><point name=\"position\" x=\"4\" y=\"5\" z=\"6\"/><rgb name=\"intensity\" "
+             "value=\"1, 2, 3\"/></emitter>" +
+             spot + "40\"/></emitter>" +
+             "<emitter type=\"directional\"><vector name=\"direction\" x=\"0\" y=\"-2\" z=\"0\"/><rgb "
+             "name=\"irradiance\" value=\"7\"/></emitter>");
+    REQUIRE(scene.punctual_lights.size() == 3);
+    CHECK(scene.punctual_lights[0].kind == PunctualKind::Point);
+    CHECK(scene.punctual_lights[0].position == glm::vec3(4, 5, 6));
+    CHECK(scene.punctual_lights[0].intensity == glm::vec3(1, 2, 3));
+    CHECK(scene.punctual_lights[1].kind == PunctualKind::Spot);
+    CHECK(scene.punctual_lights[1].falloff == SpotFalloff::Angle);
+    CHECK(scene.punctual_lights[1].position == glm::vec3(1, 2, 3));
+    CHECK(glm::length(scene.punctual_lights[1].direction - glm::vec3(0, -1, 0)) < 1e-6f);
+    CHECK(scene.punctual_lights[1].inner_deg == 30.0f);
+    CHECK(scene.punctual_lights[1].outer_deg == 40.0f);
+    CHECK(scene.punctual_lights[2].kind == PunctualKind::Directional);
+    CHECK(scene.punctual_lights[2].direction == glm::vec3(0, -1, 0));
+    CHECK(scene.punctual_lights[2].intensity == glm::vec3(7.0f));
+    CHECK_THAT(input_error([&] { load(kSquare + spot + "0\"/></emitter>"); }), contains("beam_width < cutoff_angle"));
 }
 
 TEST_CASE("mitsuba: the camera, its angle across or upwards, and the size of the picture") {
