@@ -19,9 +19,9 @@ PL_INLINE Word sequence_seed(std::uint64_t seed, Word pixel, Word sequence, Purp
     return mixed_bits(pixel + mixed_bits(which + low));
 }
 
-/// Member number `steps` of a sequence, as random bits. Members x, and y and z together, are Owen-scrambled Sobol points in an order
-/// shuffled for each of the two, so that x does not depend on y and z [Burley 2020, "Practical Hash-based Owen Scrambling"]; w is
-/// left as it is. `shift` is uniform and independent of `seed`: it makes every member exactly uniform.
+/// Member number `steps` of a sequence, as random bits. Members x, w, and y and z together, are Owen-scrambled Sobol points in an
+/// order shuffled for each of the three, so that none depends on another [Burley 2020, "Practical Hash-based Owen Scrambling"].
+/// `shift` is uniform and independent of `seed`: it makes every member exactly uniform.
 template <class Word>
 PL_INLINE PhiloxWords<Word> spread_bits(const PhiloxWords<Word>& shift, Word seed, Word steps) {
     const Word other = mixed_bits(seed + 0x9e3779b9u);
@@ -30,9 +30,12 @@ PL_INLINE PhiloxWords<Word> spread_bits(const PhiloxWords<Word>& shift, Word see
     const Word index_yz = reversed_bits(scramble_reversed(reversed, other));
     const Word scramble = mixed_bits(other + 0x9e3779b9u);
     const Word scramble_z = scramble * 0x2c1b3c6du + 0x297a2d39u;
+    const Word last = mixed_bits(scramble + 0x9e3779b9u);
+    const Word index_w = reversed_bits(scramble_reversed(reversed, last));
     return {{shift.v[0] ^ reversed_bits(scramble_reversed(index_x, scramble)),
              shift.v[1] ^ reversed_bits(scramble_reversed(index_yz, scramble)),
-             shift.v[2] ^ reversed_bits(scramble_reversed(sobol_second_reversed(index_yz), scramble_z)), shift.v[3]}};
+             shift.v[2] ^ reversed_bits(scramble_reversed(sobol_second_reversed(index_yz), scramble_z)),
+             shift.v[3] ^ reversed_bits(scramble_reversed(index_w, scramble))}};
 }
 
 /// The numbers of a path for a vertex and purpose: Rng::draw(), or a member of a sequence.

@@ -60,15 +60,17 @@ TEST_CASE("The passes of a half form nets: 64 numbers in 64 intervals") {
     for (std::uint32_t pixel = 0; pixel < 200; ++pixel)
         for (const std::uint32_t half : {0u, 1u})
             for (std::uint32_t a = 0; a <= 6; ++a) {
-                std::set<int> intervals, of_choice;
+                std::set<int> intervals, of_choice, of_kind;
                 for (std::uint32_t i = 0; i < 64; ++i) {
                     const Vec4f u = numbers_of(pixel, 2 * i + half);
                     intervals.insert(static_cast<int>(std::ldexp(u.y, static_cast<int>(a))) * 64 +
                                      static_cast<int>(std::ldexp(u.z, static_cast<int>(6 - a))));
                     of_choice.insert(static_cast<int>(64.0f * u.x));
+                    of_kind.insert(static_cast<int>(64.0f * u.w));
                 }
                 REQUIRE(intervals.size() == 64);
                 REQUIRE(of_choice.size() == 64);
+                REQUIRE(of_kind.size() == 64);
             }
 }
 
@@ -76,6 +78,11 @@ TEST_CASE("The passes of a half form nets: 64 numbers in 64 intervals") {
 TEST_CASE("Means over the passes have a fraction of the deviation of independent numbers") {
     CHECK(spread_of(in_disk) < 0.051 / 3.0);
     CHECK(spread_of([](Vec4f u) { return static_cast<double>(u.x) - 0.5; }) < 0.036 / 10.0);
+    CHECK(spread_of([](Vec4f u) { return static_cast<double>(u.w) - 0.5; }) < 0.036 / 10.0);
+    // Members that depended on one another would be off by their covariance, a quarter of an eighth and more.
+    CHECK(spread_of([](Vec4f u) { return (u.x < 0.5f) == (u.w < 0.5f) ? 0.5 : -0.5; }) < 0.063);
+    CHECK(spread_of([](Vec4f u) { return (u.y < 0.5f) == (u.w < 0.5f) ? 0.5 : -0.5; }) < 0.063);
+    CHECK(spread_of([](Vec4f u) { return (u.z < 0.5f) == (u.w < 0.5f) ? 0.5 : -0.5; }) < 0.063);
     const double p = 0.125 * static_cast<double>(kPi);
     CHECK(spread_of([=](Vec4f u) { return (u.x < 0.5f && u.y * u.y + u.z * u.z < 1.0f ? 1.0 : 0.0) - p; }) < 0.061);
 }
