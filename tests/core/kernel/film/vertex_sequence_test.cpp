@@ -79,10 +79,11 @@ TEST_CASE("Means over the passes have a fraction of the deviation of independent
     CHECK(spread_of(in_disk) < 0.051 / 3.0);
     CHECK(spread_of([](Vec4f u) { return static_cast<double>(u.x) - 0.5; }) < 0.036 / 10.0);
     CHECK(spread_of([](Vec4f u) { return static_cast<double>(u.w) - 0.5; }) < 0.036 / 10.0);
-    // Members that depended on one another would be off by their covariance, a quarter of an eighth and more.
-    CHECK(spread_of([](Vec4f u) { return (u.x < 0.5f) == (u.w < 0.5f) ? 0.5 : -0.5; }) < 0.063);
-    CHECK(spread_of([](Vec4f u) { return (u.y < 0.5f) == (u.w < 0.5f) ? 0.5 : -0.5; }) < 0.063);
-    CHECK(spread_of([](Vec4f u) { return (u.z < 0.5f) == (u.w < 0.5f) ? 0.5 : -0.5; }) < 0.063);
+    // Of halves: 0.063 for independent numbers, 0.088 for shuffled sequences, whose blocks of powers of two stay together, 0.5 for one
+    // member that follows another.
+    CHECK(spread_of([](Vec4f u) { return (u.x < 0.5f) == (u.w < 0.5f) ? 0.5 : -0.5; }) < 0.1);
+    CHECK(spread_of([](Vec4f u) { return (u.y < 0.5f) == (u.w < 0.5f) ? 0.5 : -0.5; }) < 0.1);
+    CHECK(spread_of([](Vec4f u) { return (u.z < 0.5f) == (u.w < 0.5f) ? 0.5 : -0.5; }) < 0.1);
     const double p = 0.125 * static_cast<double>(kPi);
     CHECK(spread_of([=](Vec4f u) { return (u.x < 0.5f && u.y * u.y + u.z * u.z < 1.0f ? 1.0 : 0.0) - p; }) < 0.061);
 }
