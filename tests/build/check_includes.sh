@@ -16,7 +16,7 @@ breach() {
 # NAME: the files that NAME may include with quotes, besides its own. NAME is a folder or a file; the longest NAME that
 # matches a path governs it. An item is the NAME of another rule: the files that it governs; a file; or a folder with a
 # slash at its end: everything below it. Every list names only rules further up, so that there is no circle.
-shading_data='core/kernel/shading/environment_map.h core/kernel/shading/far_lights.h core/kernel/shading/light_tree.h
+shading_data='core/kernel/shading/delta_lights.h core/kernel/shading/environment_map.h core/kernel/shading/far_lights.h core/kernel/shading/light_tree.h
     core/kernel/shading/material.h core/kernel/shading/surface_lobes.h'
 kernel_data="core/kernel/base core/kernel/geometry $shading_data"
 kernel_scene="$kernel_data core/kernel/scene core/kernel/geometry/intersector.h core/kernel/shading"
@@ -29,6 +29,7 @@ below_app='core/ cpu/ cuda/ mpi/ ui/'
 arrows="
 core/kernel/base:
 core/kernel/geometry:   core/kernel/base
+core/kernel/shading/delta_lights.h:    core/kernel/base
 core/kernel/shading/environment_map.h: core/kernel/base
 core/kernel/shading/far_lights.h:      core/kernel/base core/kernel/shading/environment_map.h
 core/kernel/shading/light_tree.h:      core/kernel/base
@@ -94,7 +95,7 @@ tinyexr.h:         core/io
 stb_*:             core/io
 '
 
-kernel_headers=' cstdint cmath concepts type_traits atomic limits bit cstring string_view '
+kernel_headers=' cstdint cmath concepts type_traits atomic limits bit cstring string_view utility '
 
 # Where kernels may use double: sums over samples, and the edge functions that come out as zero in float, which the
 # watertight triangle test has to decide exactly.

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
+#include "core/session/backend_text.h"
 #include "ui/draw/method_keys.h"
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/draw/words.h"
 #include "ui/panels/panels.h"
-#include "ui/worker/backend_switch.h"
 
 namespace pl {
 namespace {

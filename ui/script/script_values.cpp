@@ -7,11 +7,11 @@
 #include <fmt/ranges.h>
 
 #include "core/scene/needed_effects.h"
+#include "core/session/backend_text.h"
 #include "ui/draw/imgui_compat.h"
 #include "ui/model/viewer_model.h"
 #include "ui/model/window_memory.h"
 #include "ui/script/overlay_values.h"
-#include "ui/worker/backend_switch.h"
 
 namespace pl {
 namespace {

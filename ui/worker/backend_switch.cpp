@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/session/backend_text.h"
 
 namespace pl {
 namespace {
@@ -47,13 +48,6 @@ std::string reason_of(const std::exception& error, const std::string& backend) {
     const std::string text = error.what();
     const std::string label = back_end_label(backend) + ": ";
     return text.starts_with(label) ? text.substr(label.size()) : text;
-}
-
-std::string device_text(const BackendInfo& info) {
-    std::string text = info.device;
-    if (info.threads > 0) text += fmt::format(", {} {}", info.threads, info.threads == 1 ? "thread" : "threads");
-    if (info.ranks > 1) text += fmt::format(", {} ranks", info.ranks);
-    return text;
 }
 
 BackendSwitch::BackendSwitch(Make make, BackendChoices choices, std::string first)

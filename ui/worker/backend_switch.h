@@ -63,7 +63,5 @@ bool is_fault_of_backend(const std::exception& error);
 std::string back_end_label(const std::string& name);
 /// The text of an error without the name of the back end, which some errors begin with.
 std::string reason_of(const std::exception& error, const std::string& backend);
-/// "Xeon, 15 threads", and of a job ", 4 ranks"; without the threads where the back end has none.
-std::string device_text(const BackendInfo& info);
 
 }  // namespace pl
