@@ -58,10 +58,10 @@ void References::make() {
         return;
     }
     link_.end_turns(render_.method());
-    job_ = std::make_unique<ReferenceJob>(
-        [this, scene = scene_.rendered(), settings = render_.settings()](const JobMonitor& monitor) {
-            return make_stored_reference(options_.reference_dir, scene, settings, options_.make_side_backend, monitor);
-        });
+    job_ = std::make_unique<ReferenceJob>([this, scene = scene_.rendered(),
+                                           settings = render_.settings()](const JobMonitor& monitor) {
+        return make_stored_reference(options_.reference_dir, scene, settings, options_.make_side_backend, monitor);
+    });
     link_.hold(RenderLink::Hold::Reference, true);
     messages_.say(MessageLevel::Info, "rendering the reference: Esc ends it and keeps its samples");
 }
