@@ -79,7 +79,10 @@ TEST_CASE("A field with enough samples makes training samples in one pass of fou
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true}, 150, 120);
     Session session = make_session(scene, settings, 2);
-    const auto records = [&] { return session.field_status(MethodId::Reinforcement)->records; };
+    const auto records = [&] {
+        const auto status = session.field_status(MethodId::Reinforcement);  // none before the first pass
+        return status ? status->records : 0;
+    };
     const auto is_well_trained = [&] {
         return session.export_field(MethodId::Reinforcement).progress.is_well_trained;
     };
