@@ -15,7 +15,7 @@ namespace pl {
 /// device, not by whether it works. Throws as make_backend().
 std::string backend_name(const std::string& name);
 
-/// The same for this process alone. `threads` 0: all of usable_share().
+/// A back end of this process alone, see make_backend(). `threads` 0: all of usable_share().
 std::unique_ptr<RenderBackend> make_own_backend(const std::string& name, int threads);
 /// "auto" takes CUDA if it is available, else the CPU; "cpu" and "cuda" insist. `threads` 0: all. In a job of mpirun all ranks share
 /// its work, and it belongs to one thread; `make_own` makes the part of this rank. Throws Error(Unavailable) with the reason.
