@@ -5,7 +5,9 @@ set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG -g0")
 find_program(PL_CCACHE ccache)
 mark_as_advanced(PL_CCACHE)
 if(PL_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${PL_CCACHE}")
+    # Sloppiness: else ccache takes no file with a precompiled header.
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+        "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime "${PL_CCACHE}")
 endif()
 if(PL_CCACHE AND NOT DEFINED CMAKE_CUDA_COMPILER_LAUNCHER)
     set(CMAKE_CUDA_COMPILER_LAUNCHER "${PL_CCACHE}")

@@ -2,13 +2,14 @@
 # [nightly] (or [.merge] and [.nightly]). Tests with [.] alone run only by hand.
 include(Catch)
 
-# pl_add_test(NAME SOURCES a.cpp... [LIBS target...] [LABELS label...] [PROCESSORS n])
+# pl_add_test(NAME SOURCES a.cpp... [LIBS target...] [LABELS label...] [PROCESSORS n] [COMPILE_FAST])
 # One Catch2 program build/<preset>/bin/NAME; its cases become tests called "NAME.case".
 # The time limit of a case is a guard against hangs, far beyond its time on a busy machine: no verdict depends on speed.
 # PROCESSORS: how many cores a case needs for itself (default 1). Threads that wait do so asleep: tests run side by side,
 # some with more threads than there are cores, and each spinning thread would keep a working one from its core.
+# COMPILE_FAST: with -O1, for tests whose time is spent in the libraries and programs that they call.
 function(pl_add_test name)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "PROCESSORS" "SOURCES;LIBS;LABELS")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "COMPILE_FAST" "PROCESSORS" "SOURCES;LIBS;LABELS")
     pl_check_arguments(pl_add_test "${name}" "${arg_SOURCES}" "${arg_UNPARSED_ARGUMENTS}")
     if(NOT arg_PROCESSORS)
         set(arg_PROCESSORS 1)
@@ -17,6 +18,10 @@ function(pl_add_test name)
     target_link_libraries(${name} PRIVATE ${arg_LIBS} pl_margins pl_options pl_warnings dep::catch2)
     target_compile_definitions(${name} PRIVATE PL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+    if(arg_COMPILE_FAST)
+        target_compile_options(${name} PRIVATE -O1)
+    endif()
+    pl_precompile_headers(${name} ${arg_SOURCES})
 
     pl_discover(${name} push "~[merge]~[nightly]~[.]" 1200)
     pl_has_tag(in_merge merge ${arg_SOURCES})
@@ -27,6 +32,21 @@ function(pl_add_test name)
     if(in_nightly)
         pl_discover(${name} nightly "[nightly]" 7200)
     endif()
+endfunction()
+
+# Parsing Catch2, GLM and the standard library is a fifth of the time of a test's source: programs of many sources share it.
+# Headers of the project are not among them, so that an edit compiles only what includes it.
+function(pl_precompile_headers name)
+    list(LENGTH ARGN sources)
+    if(sources LESS 6)
+        return()
+    endif()
+    target_precompile_headers(${name} PRIVATE
+        <catch2/catch.hpp> <fmt/format.h> <glm/glm.hpp> <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional>
+        <map> <memory> <mutex> <optional> <set> <sstream> <string> <thread> <variant> <vector>)
+    target_link_libraries(${name} PRIVATE dep::fmt)
+    # ccache asks for it where a header is precompiled.
+    target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
 # pl_add_bench(NAME SOURCES a.cpp... [LIBS target...]): a program build/<preset>/bench/NAME, not a test.
