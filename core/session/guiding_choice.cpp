@@ -13,7 +13,7 @@ namespace {
 constexpr double kYoung = 190.0;
 constexpr double kMature = 640.0;
 /// The least gains that are guided. Below 1 at first, since guided paths make a field better; above 1 in the end, since even numbers
-/// take more noise from the baseline's first vertices than the variance of a sample shows.
+/// take more noise from the baseline's first vertices than the variance of a sample shows (docs/notebook/2026-11-26-both-errors.md).
 constexpr double kLeastGainOfYoung = 0.1;
 constexpr double kLeastGainOfLearning = 0.9;
 constexpr double kLeastGain = 1.04;
@@ -39,7 +39,8 @@ constexpr double kLeastCertainGain = 0.6;
 /// Rounds after which a field that another film interrupts is trusted.
 constexpr std::uint32_t kRoundsOfTrust = 4;
 
-/// Passes before which the baseline is measured in every film; the second is the first pass after which a film decides.
+/// Passes before which the baseline is measured in every film. It decides first after the pass that follows the second of them, or
+/// after the pass behind the first if a warm-up has measured the baseline before.
 constexpr std::uint32_t kFirstTrial = kFewestBeforeVariance;
 constexpr std::uint32_t kSecondTrial = kFirstTrial + 2;
 /// Samples of the baseline that tell its variance well enough.
@@ -74,6 +75,7 @@ void PathEfficiency::add(const PassCounters& counters, const PathCosts& costs) {
     const auto samples = static_cast<double>(counters.variance.samples);
     const auto paths = static_cast<double>(counters.paths);
     variance_ += counters.variance.mean() * samples;
+    relative_ += counters.variance.relative_mean() * samples;
     samples_ += samples;
     cost_ += costs.of_path(counters) * paths;
     paths_ += paths;
@@ -82,6 +84,7 @@ void PathEfficiency::add(const PassCounters& counters, const PathCosts& costs) {
 
 void PathEfficiency::fade(double share) {
     variance_ *= share;
+    relative_ *= share;
     samples_ *= share;
     cost_ *= share;
     paths_ *= share;
@@ -136,7 +139,7 @@ void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& guided
     }
     spend(guided, baseline, terms);
     predict();
-    if (pass > kSecondTrial || !pays()) decide();
+    if (!pays() || decides_after(pass - 1)) decide();
 }
 
 void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms) {
@@ -147,7 +150,7 @@ void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counter
     else
         baseline_.add(counters, terms.costs);
     predict();
-    if (pass > kSecondTrial) decide();
+    if (decides_after(pass)) decide();
 }
 
 void GuidingChoice::measure_guided(const PassCounters& counters, const GuidingTerms& terms) {
@@ -169,9 +172,12 @@ void GuidingChoice::learn(const PassCounters& guided, const GuidingTerms& terms)
 
 void GuidingChoice::predict() {
     if (!guided_.is_measured() || !baseline_.is_measured()) return;
-    const double gain = baseline_.variance() * baseline_.cost() / (guided_.variance() * guided_.cost());
+    const double costs = baseline_.cost() / guided_.cost();
+    const double gain = costs * baseline_.variance() / guided_.variance();
     if (!(gain > 0.0) || !std::isfinite(gain)) return;
     gain_ = gain;
+    const double relative = costs * baseline_.relative_variance() / guided_.relative_variance();
+    gain_of_both_ = relative > 0.0 && std::isfinite(relative) ? std::sqrt(gain * relative) : gain;
     if (!first_gain_) first_gain_ = gain;
 }
 
@@ -187,8 +193,12 @@ double GuidingChoice::least_gain() const {
     return is_open ? kLeastGainOfYoung : kLeastGainOfLearning;
 }
 
+bool GuidingChoice::decides_after(std::uint32_t pass) const {
+    return pass >= (rounds_ > 0 ? kFirstTrial : kSecondTrial + 1);
+}
+
 void GuidingChoice::decide() {
-    if (gain_) belief_ = *gain_ >= (pays() || finds_hidden_light() ? least_gain() : kReturningGain);
+    if (gain_) belief_ = gain_of_both_ >= (pays() || finds_hidden_light() ? least_gain() : kReturningGain);
 }
 
 void GuidingChoice::trust_field() {

@@ -40,8 +40,9 @@ public:
 
     bool is_measured() const { return samples_ > 0.0; }
     double samples() const { return samples_; }
-    double variance() const { return variance_ / samples_; }  ///< of a path's sample; NaN before the first
-    double cost() const { return cost_ / paths_; }            ///< of a path; NaN before the first
+    double variance() const { return variance_ / samples_; }           ///< of a path's sample; NaN before the first
+    double relative_variance() const { return relative_ / samples_; }  ///< over the squared mean; likewise
+    double cost() const { return cost_ / paths_; }                     ///< of a path; NaN before the first
     /// Of the paths: those that bring light; NaN before the first.
     double lit_share() const { return lit_ / paths_; }
 
@@ -49,6 +50,7 @@ public:
     template <class Efficiency, class Fn>
     static void each_value(Efficiency& efficiency, Fn&& fn) {
         fn(efficiency.variance_);
+        fn(efficiency.relative_);
         fn(efficiency.samples_);
         fn(efficiency.cost_);
         fn(efficiency.paths_);
@@ -57,6 +59,7 @@ public:
 
 private:
     double variance_ = 0.0;
+    double relative_ = 0.0;
     double samples_ = 0.0;  ///< measured ones
     double cost_ = 0.0;
     double paths_ = 0.0;
@@ -114,10 +117,10 @@ public:
         PathEfficiency::each_value(choice.baseline_, fn);
         all(choice.first_variance_, choice.guided_measurements_, choice.learned_, choice.rounds_,
             choice.baseline_trials_, choice.last_trial_, choice.spent_, choice.trial_cost_, choice.gain_,
-            choice.first_gain_, choice.belief_);
+            choice.gain_of_both_, choice.first_gain_, choice.belief_);
     }
 
-    /// Predicted equal-time factor of guiding over the baseline. Empty before the first decision of this film.
+    /// Predicted equal-time factor of guiding over the baseline, by variance. Empty before the first decision of this film.
     std::optional<double> gain() const { return belief_ ? gain_ : std::nullopt; }
 
 private:
@@ -133,6 +136,7 @@ private:
     double least_gain() const;
     /// Whether a warm-up measures a reliable loss that has hardly shrunk since its first measurement.
     bool is_flat() const;
+    bool decides_after(std::uint32_t pass) const;
     void decide();
 
     PathEfficiency guided_;
@@ -146,6 +150,7 @@ private:
     double spent_ = 0.0;                       ///< on rounds and trials, in passes of the baseline
     double trial_cost_ = 0.0;                  ///< likewise, on the last one
     std::optional<double> gain_;
+    double gain_of_both_ = 0.0;  ///< geometric mean of gain_ and that by relative variance
     std::optional<double> first_gain_;
     std::optional<bool> belief_;  ///< whether guiding pays
 };

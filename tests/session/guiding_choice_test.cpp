@@ -1,6 +1,7 @@
 // The choice between guided passes and those of the baseline, from measurements made up here.
 #include "core/session/guiding_choice.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,14 +14,16 @@ namespace {
 
 constexpr PathCosts kCosts{.segment = 100.0, .guidance = 50.0};
 
-/// 100 paths of two segments each, with this mean variance.
-PassCounters counters_of(double variance, bool is_guided) {
+/// 100 paths of two segments each, with this mean variance, and the same relative one where none is given.
+PassCounters counters_of(double variance, bool is_guided, std::optional<double> relative = std::nullopt) {
     PassCounters counters;
     counters.paths = 100;
     counters.path.segments = 200;
     counters.path.method.lookups = is_guided ? 200 : 0;
     counters.variance.samples = 100;
     counters.variance.sum = static_cast<std::uint64_t>(variance * 100.0 * VarianceSums::kSteps);
+    counters.variance.relative =
+        static_cast<std::uint64_t>(relative.value_or(variance) * 100.0 * VarianceSums::kSteps);
     return counters;
 }
 
@@ -258,6 +261,37 @@ TEST_CASE("Guiding choice: a film that begins guided gives up once its field has
     CHECK(guided_passes(0.9) == 19);    // 0.74
     CHECK(guided_passes(0.7) == 64);    // 0.95
     CHECK(guided_passes(0.63) == 100);  // 1.06
+}
+
+// A gain of 1.02 by variance: lens and two-lights, which differ by relative variance.
+TEST_CASE("Guiding choice: both variances decide, right after the first measured pass behind a warm-up") {
+    const auto guided_passes = [](double relative, bool warms_up) {
+        GuidingChoice choice = warms_up ? GuidingChoice{} : beginning();
+        constexpr double kVariance = 1.0 / (1.02 * 1.5);
+        const GuidingTerms terms = terms_of(100.0);  // mature after a pass
+        if (warms_up)
+            warm_up(
+                choice, [](std::uint32_t) { return 0.6; }, terms);
+        std::size_t passes = 0;
+        for (std::uint32_t pass = 0; pass < 20; ++pass) {
+            const Trial trial = choice.trial_before(pass);
+            const PassCounters guided = counters_of(kVariance, true, relative);
+            const PassCounters baseline = counters_of(1.0, false);
+            if (trial.is_due())
+                choice.measure_trial(pass, trial.is_guided ? guided : PassCounters{},
+                                     trial.is_baseline ? baseline : PassCounters{}, terms);
+            const bool is_guided = choice.pays();
+            passes += is_guided ? 1 : 0;
+            choice.measure_pass(pass, is_guided ? guided : baseline, terms);
+        }
+        return passes;
+    };
+    const double more = 1.0 / (0.9 * 1.5);  // a gain of 0.9 by relative variance, 0.96 by both
+    const double less = 1.0 / (1.3 * 1.5);  // of 1.3, 1.15 by both
+    CHECK(guided_passes(more, false) == 7);
+    CHECK(guided_passes(less, false) == 20);
+    CHECK(guided_passes(less, true) == 20);
+    CHECK(guided_passes(more, true) < 7);
 }
 
 TEST_CASE("Guiding choice: without a gain trials cost a few per cent of the time") {

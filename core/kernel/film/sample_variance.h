@@ -6,27 +6,47 @@
 
 namespace pl {
 
-/// Sum over pixels of the variance of one sample: the integrand of an MSE. Signed fixed point in two's complement: the same for
-/// every order of the samples.
+/// Sums over pixels of the variance of one sample: the integrand of an MSE, and that of a relMSE. Signed fixed point in two's
+/// complement: the same for every order of the samples.
 struct VarianceSums {
-    std::uint64_t sum = 0;      ///< in steps
-    std::uint64_t samples = 0;  ///< measured ones
+    std::uint64_t sum = 0;       ///< in steps
+    std::uint64_t relative = 0;  ///< in steps, over the squared mean of the pixel
+    std::uint64_t samples = 0;   ///< measured ones
 
     /// Contributions of one sample are clamped here, so that a single path decides nothing: far above white, because rare bright
     /// paths are most of the variance that guiding can take away (docs/notebook/2026-11-25-choice-at-512.md).
     static constexpr float kMost = 4096.0f;
     static constexpr double kSteps = 0x1p24;  ///< per unit: 2^26 samples of the largest size do not overflow
+    /// Added to the squared mean, as in relMSE (core/measure).
+    static constexpr float kLeastSquare = 0.01f;
 
     VarianceSums& operator+=(const VarianceSums& other) {
         sum += other.sum;
+        relative += other.relative;
         samples += other.samples;
         return *this;
     }
 
     /// Over the measured samples; 0 without any.
-    double mean() const {
+    double mean() const { return mean_of(sum); }
+    double relative_mean() const { return mean_of(relative); }
+
+    PL_HD void add(float variance, float mean) {
+        sum += steps_of(variance);
+        relative += steps_of(variance / (mean * mean + kLeastSquare));
+        ++samples;
+    }
+
+private:
+    double mean_of(std::uint64_t steps) const {
         if (samples == 0) return 0.0;
-        return static_cast<double>(static_cast<std::int64_t>(sum)) / (kSteps * static_cast<double>(samples));
+        return static_cast<double>(static_cast<std::int64_t>(steps)) / (kSteps * static_cast<double>(samples));
+    }
+
+    /// The largest one for the difference of two infinities, too.
+    PL_HD static std::uint64_t steps_of(float value) {
+        const float bounded = value < kMost ? max_of(value, -kMost) : kMost;
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(static_cast<double>(bounded) * kSteps));
     }
 };
 
@@ -63,13 +83,7 @@ PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, std::
     if (!has_both_halves || sees_lamp || !is_valid_radiance(radiance)) return;
     const float value = luminance(radiance);
     const float mean = luminance(half_mean(pixel, !in_second_half(pass)));
-    const float variance = value * (value - mean);
-    // The largest one for the difference of two infinities, too.
-    const float bounded =
-        variance < VarianceSums::kMost ? max_of(variance, -VarianceSums::kMost) : VarianceSums::kMost;
-    sums.sum +=
-        static_cast<std::uint64_t>(static_cast<std::int64_t>(static_cast<double>(bounded) * VarianceSums::kSteps));
-    ++sums.samples;
+    sums.add(value * (value - mean), mean);
 }
 
 /// Puts the sample of a pass to its use. Returns false if it is invalid.

@@ -34,6 +34,7 @@ inline Checkpoint small_checkpoint() {
     film.progress.switches = {1, 3};
     film.progress.counters.path.method.lookup_misses = 77;
     film.progress.counters.variance.sum = 5;
+    film.progress.counters.variance.relative = 6;
     film.progress.guiding.begin_guided();
     film.pixels[4].second_sum = Vec3d{0.1, 0.2, 1.0e300};
     film.pixels[5].emission = {.value = 9, .varies = 3, .at_border = 1};

@@ -37,6 +37,20 @@ TEST_CASE("Sample variance: unbiased whatever the number of earlier samples") {
     CHECK(sums.mean() == Approx(0.04).epsilon(0.02));
 }
 
+// Over the squared mean of two samples of the other half: 0.2 or 0.6 in one case of four each, else 0.4. Seed 7, 200000 pixels: the
+// standard error is 1.1 %; over the squared true mean the sum would be 32 % less.
+TEST_CASE("Sample variance: the relative one is over the squared mean of the other half") {
+    std::mt19937 random(7);
+    std::vector<FilmPixel> pixels(200000);
+    const FilmView film = view_of_film(pixels);
+    VarianceSums sums;
+    for (std::uint32_t i = 0; i < film.pixels.count; ++i) {
+        for (std::uint32_t pass = 0; pass < 4; ++pass) accumulate(film, i, either(random), pass);
+        use_sample(film, i, either(random), 4, SampleUse::Trial, sums);
+    }
+    CHECK(sums.relative_mean() == Approx(0.04 * (0.25 / 0.05 + 0.5 / 0.17 + 0.25 / 0.37)).epsilon(0.03));
+}
+
 // Samples of one half take turns between two values: the last one is that which the half lacks. Measured by their own half, the
 // variance of 0.04 would be 0.08.
 TEST_CASE("Sample variance: unbiased though the samples of a half are spread evenly") {
@@ -90,6 +104,7 @@ TEST_CASE("Sample variance: pixels with samples in one half alone, lamps and inv
     measure_variance(pixels[0], Vec3f{2.0f}, 3, sums);
     CHECK(sums.samples == 0);
     CHECK(sums.mean() == 0.0);
+    CHECK(sums.relative_mean() == 0.0);
     pixels[0].emission.at_border = 0;
     measure_variance(pixels[0], Vec3f{2.0f}, 3, sums);
     CHECK(sums.samples == 1);
@@ -107,6 +122,7 @@ TEST_CASE("Sample variance: one path of any radiance adds a bounded share") {
             INFO(earlier << ", " << radiance << ": " << sums.mean());
             CHECK(sums.samples == 1);
             CHECK(std::fabs(sums.mean()) <= VarianceSums::kMost);
+            CHECK(std::fabs(sums.relative_mean()) <= VarianceSums::kMost);
         }
     }
 }
