@@ -4,6 +4,7 @@
 #include <cstring>
 #include <memory>
 
+#include "core/kernel/integrator/sampled_lights.h"
 #include "core/kernel/methods/default.h"
 #include "core/scene/pack_scene.h"
 #include "tests/support/catch.hpp"
@@ -14,7 +15,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);
+constexpr FeatureSet kLights = features(Feature::NextEventEstimation, Feature::DeltaLights);
 
 /// Default path tracing that keeps the estimates it is told of.
 struct KeepsEstimates : DefaultMethod {
@@ -26,9 +27,18 @@ struct KeepsEstimates : DefaultMethod {
 using Context = PathContext<KeepsEstimates>;
 using Point = ScatterPoint<kLights, KeepsEstimates>;
 
+/// A point, a spot and a directional light.
+std::vector<PunctualLightDescription> delta_lights() {
+    return {
+        {.kind = PunctualKind::Point, .position = {0.2f, 0.4f, -0.3f}, .intensity = {3, 2, 1}},
+        {.kind = PunctualKind::Spot, .position = {0, 0.9f, 0}, .direction = {0.1f, -1, 0.2f}, .intensity = {1, 2, 3}},
+        {.kind = PunctualKind::Directional, .direction = {1, -2, 0.5f}, .intensity = {0.5f, 1, 0.2f}}};
+}
+
 /// A room with triangles that shine: small, large, edge-on, and one without area.
-HostScene room_of_lights(int lights) {
+HostScene room_of_lights(int lights, std::vector<PunctualLightDescription> without_extent = {}) {
     SceneDescription scene;
+    scene.punctual_lights = std::move(without_extent);
     scene.materials = {gray(), gray(0.3f)};
     scene.materials[1].emission = glm::vec3{3.0f, 2.0f, 1.0f};
     add_box(scene, Vec3f{-1.0f}, Vec3f{1.0f}, true);
@@ -87,9 +97,15 @@ bool same_light(const LightBlock<kLights, KeepsEstimates>& block, std::uint32_t 
 
 struct Comparison {
     int different = 0;
-    int lit = 0;   ///< vertices whose sample can contribute
-    int near = 0;  ///< vertices whose light may be sampled by solid angle
+    int lit = 0;    ///< vertices whose sample can contribute
+    int near = 0;   ///< vertices whose light may be sampled by solid angle
+    int delta = 0;  ///< vertices whose sample of a delta light can contribute
 };
+
+/// In rooms without an environment.
+bool is_of_delta_light(const Ray& shadow) {
+    return shadow.target == kDeltaLightTarget || shadow.target == kNoPrimitive;
+}
 
 /// Blocks of every size up to the largest one.
 Comparison compare(const Context& context, const LaneKernels& kernels) {
@@ -115,6 +131,7 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
         for (std::uint32_t i = 0; i < size; ++i) {
             result.different += same_light(*lights, i, points[i], expected[i]) ? 0 : 1;
             result.lit += expected[i].wanted ? 1 : 0;
+            result.delta += expected[i].wanted && is_of_delta_light(expected[i].ray) ? 1 : 0;
             result.near += lights->groups()[i / kGroupSize].is_near[i % kGroupSize] != 0 ? 1 : 0;
         }
     }
@@ -137,6 +154,28 @@ TEST_CASE("Every instruction set samples the lights of the scalar code, bit for 
             CHECK(result.different == 0);
             CHECK(result.lit > 150);
             CHECK(result.near > 50);
+            CHECK(result.delta == 0);
+        }
+    }
+}
+
+TEST_CASE("Delta lights beside those in the lanes are sampled as by one path alone") {
+    for (const int lights : {0, 3, 20}) {
+        const HostScene scene = room_of_lights(lights, delta_lights());
+        for (const bool next_event : {false, true}) {
+            const SampledScene sampled = with_delta_lights(scene.view(), {.next_event = next_event ? 1u : 0u});
+            const KeepsEstimates method;
+            const Context context{sampled.scene, method, sampled.path};
+            for (const LaneKernels& kernels : usable_lane_kernels()) {
+                INFO(kernels.isa << ", " << lights << " lights, next event " << next_event);
+                const Comparison result = compare(context, kernels);
+                CHECK(result.different == 0);
+                CHECK(result.delta > 150);
+                if (lights == 0 || !next_event)
+                    CHECK(result.lit == result.delta);
+                else
+                    CHECK(result.lit > result.delta + 50);
+            }
         }
     }
 }

@@ -62,6 +62,14 @@ def room():
                       shape("rectangle", turned("y", -90) + moved(1, 1, 0), diffuse(GREEN)), lamp))
 
 
+def delta_lights():
+    """A point and a spot inside of the room, and a direction through its open side."""
+    return ('<emitter type="point"><point name="position" x="-0.7" y="1.5" z="0.3"/><rgb name="intensity" value="1.2, 0.6, 0.3"/></emitter>'
+            '<emitter type="spot"><transform name="to_world"><lookat origin="0.6, 1.8, 0.8" target="-0.2, 0.3, -0.4" up="0, 1, 0"/></transform>'
+            '<rgb name="intensity" value="2, 6, 4"/><float name="cutoff_angle" value="30"/><float name="beam_width" value="12"/></emitter>'
+            '<emitter type="directional"><vector name="direction" x="0.4" y="-0.5" z="-1"/><rgb name="irradiance" value="1, 1, 3"/></emitter>')
+
+
 def ground(surface):
     return shape("rectangle", scaled(4, 4, 1) + turned("x", -90), surface)
 
@@ -73,6 +81,11 @@ def sky(color="0.5, 0.65, 0.9"):
 def in_room(tall, short):
     return scene(room() + box(tall, (-0.35, 0.59, -0.3), (0.3, 0.6, 0.3), 18) +
                  box(short, (0.35, 0.29, 0.3), (0.3, 0.3, 0.3), -17))
+
+
+def in_lit_room(tall, short):
+    """With lights without extent beside the lamp."""
+    return in_room(tall, short).replace("</scene>", delta_lights() + "</scene>")
 
 
 def outside(light, tall, short, floor=None):

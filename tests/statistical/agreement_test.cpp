@@ -56,32 +56,52 @@ Picture first_passes(const SceneDescription& scene, Estimator estimator, int run
 /// Default path tracing with light samples: the least noisy estimator without a learned field.
 constexpr Estimator kReference{MethodId::Default, true};
 
+/// The Cornell box with its lamp, and lights without extent: a point and a spot inside, a direction through the open front.
+SceneDescription cornell_with_delta_lights() {
+    SceneDescription scene = shipped_scene("cornell");
+    scene.name = "lights without extent";
+    scene.punctual_lights = {
+        {.kind = PunctualKind::Point, .position = {90, 400, 300}, .intensity = {1e5f, 4e4f, 2e4f}},
+        {.kind = PunctualKind::Spot,
+         .position = {278, 500, 60},
+         .direction = {-0.3f, -1, 0.9f},
+         .intensity = {1e5f, 3e5f, 2e5f},
+         .inner_deg = 10,
+         .outer_deg = 35},
+        {.kind = PunctualKind::Directional, .direction = {0.4f, -0.5f, 1}, .intensity = {1, 1, 3}}};
+    return scene;
+}
+
 /// `noise`: by how much the scene is noisier than those that passes_for() was measured on.
-void check_agreement(const std::string& name, double resolution, double noise = 1.0) {
-    const SceneDescription scene = shipped_scene(name);
+void check_agreement(const SceneDescription& scene, double resolution, double noise = 1.0) {
     const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution, noise);
     for (const Estimator estimator : kEstimators) {
-        INFO(name << ", " << estimator);
+        INFO(scene.name << ", " << estimator);
         CHECK(same_picture(one_run(scene, estimator, kSeed, resolution, noise), expected, resolution));
     }
 }
+void check_agreement(const std::string& name, double resolution, double noise = 1.0) {
+    check_agreement(shipped_scene(name), resolution, noise);
+}
 
-void check_first_passes(const std::string& name, int runs, double resolution) {
-    const SceneDescription scene = shipped_scene(name);
+void check_first_passes(const SceneDescription& scene, int runs, double resolution) {
     const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution);
     for (const bool next_event : {false, true}) {
         const Estimator estimator{MethodId::Reinforcement, next_event};
-        INFO(name << ", first passes of " << estimator);
+        INFO(scene.name << ", first passes of " << estimator);
         CHECK(same_picture(first_passes(scene, estimator, runs), expected, resolution));
     }
 }
 
+void check_first_passes(const std::string& name, int runs, double resolution) {
+    check_first_passes(shipped_scene(name), runs, resolution);
+}
+
 /// Every way of learning against default path tracing.
-void check_variants(const std::string& name, double resolution) {
-    const SceneDescription scene = shipped_scene(name);
+void check_variants(const SceneDescription& scene, double resolution) {
     const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution);
     for (const Variant& variant : kVariants) {
-        INFO(name << ", " << variant.name);
+        INFO(scene.name << ", " << variant.name);
         const Estimator estimator{MethodId::Reinforcement, variant.next_event};
         Session session = make_session(scene, variant.of(quick_learner(scene, estimator, kSide, kSeed)));
         Picture picture(kSide, kSide);
@@ -89,6 +109,8 @@ void check_variants(const std::string& name, double resolution) {
         CHECK(same_picture(picture, expected, resolution));
     }
 }
+
+void check_variants(const std::string& name, double resolution) { check_variants(shipped_scene(name), resolution); }
 
 /// With passes that are not guided wherever guiding does not pay.
 void check_paying(const std::string& name, double resolution, double noise) {
@@ -148,6 +170,8 @@ TEST_CASE("All methods agree on the door ajar") { check_agreement("door", 0.12);
 TEST_CASE("The first passes of learning agree on the door ajar") { check_first_passes("door", 64, 0.06); }
 TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") { check_variants("cornell", 0.15); }
 
+TEST_CASE("All methods agree on lights without extent") { check_agreement(cornell_with_delta_lights(), 0.12); }
+
 // Caustics are found by chance alone: with light samples, too, pictures are noisier than those of diffuse scenes.
 TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.2); }
 TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.2); }
@@ -173,6 +197,15 @@ TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box wit
 }
 TEST_CASE("All targets, rates and rules of roulette agree on the door ajar within 2 %", "[merge]") {
     check_variants("door", 0.02);
+}
+TEST_CASE("All methods agree on lights without extent within 2 %", "[merge]") {
+    check_agreement(cornell_with_delta_lights(), 0.02);
+}
+TEST_CASE("The first passes of learning agree on lights without extent", "[merge]") {
+    check_first_passes(cornell_with_delta_lights(), 64, 0.06);
+}
+TEST_CASE("All targets, rates and rules of roulette agree on lights without extent", "[merge]") {
+    check_variants(cornell_with_delta_lights(), 0.15);
 }
 TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03, 1.15); }
 TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
