@@ -60,10 +60,12 @@ struct MaterialDescription {
     glm::vec3 specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of the reflection
     glm::vec3 edge_tint{1.0f};     ///< conductor: reflectance at 82 degrees over that of Schlick's approximation
     glm::vec3 transmission{1.0f};  ///< dielectric: tint of the transmission
+    glm::vec3 absorption{0.0f};    ///< dielectric: share of light that its inside absorbs per length, at least 0
     TextureUse textures{};
     float normal_strength = 1.0f;  ///< factor of the slopes in textures.normal, at least 0
     NormalGreen normal_green = NormalGreen::Up;
 
+    bool absorbs() const { return kind == SurfaceKind::Dielectric && absorption != glm::vec3(0.0f); }
     friend bool operator==(const MaterialDescription&, const MaterialDescription&) = default;
 };
 

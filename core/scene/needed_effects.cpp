@@ -28,6 +28,7 @@ std::string_view name_of(Feature feature) {
     case Feature::ManyLights: return "many-lights";
     case Feature::NormalMaps: return "normal-maps";
     case Feature::DeltaLights: return "delta-lights";
+    case Feature::Absorption: return "absorption";
     }
     return "";
 }
@@ -44,6 +45,7 @@ FeatureSet needed_effects(const HostScene& scene) {
     if (!scene.normal_maps.empty()) set = set.with(Feature::NormalMaps);
     if (!scene.light_nodes.empty()) set = set.with(Feature::ManyLights);
     if (!scene.delta_lights.empty()) set = set.with(Feature::DeltaLights);
+    if (!scene.absorption.empty()) set = set.with(Feature::Absorption);
     if (scene.far_probability > 0.0f) set = set.with(Feature::EnvironmentMap);
     return set;
 }

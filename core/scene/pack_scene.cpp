@@ -132,6 +132,13 @@ void pack_lobes(const SceneDescription& scene, HostScene& packed) {
     }
 }
 
+void pack_absorption(const SceneDescription& scene, HostScene& packed) {
+    if (std::ranges::none_of(scene.materials, &MaterialDescription::absorbs)) return;
+    packed.absorption.reserve(scene.materials.size());
+    for (const MaterialDescription& m : scene.materials)
+        packed.absorption.push_back(m.absorbs() ? Vec3f{m.absorption} : Vec3f{0.0f});
+}
+
 /// Collects the emissive triangles. Sums are in double and rounded once.
 void pack_lights(HostScene& packed) {
     std::vector<double> running;
@@ -157,6 +164,7 @@ void pack_lights(HostScene& packed) {
 void pack_looks(const SceneDescription& scene, HostScene& packed) {
     pack_materials(scene, packed);
     pack_lobes(scene, packed);
+    pack_absorption(scene, packed);
     pack_textures(scene, packed);  // replaces textured emission by its mean
     pack_lights(packed);
     packed.environment = scene.environment;

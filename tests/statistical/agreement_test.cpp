@@ -1,5 +1,6 @@
 // All methods, with and without light samples, make the same picture: rule S2 on scenes without a closed form.
 #include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/sessions.h"
 #include "tests/support/session/variants.h"
@@ -69,6 +70,26 @@ SceneDescription cornell_with_delta_lights() {
          .inner_deg = 10,
          .outer_deg = 35},
         {.kind = PunctualKind::Directional, .direction = {0.4f, -0.5f, 1}, .intensity = {1, 1, 3}}};
+    return scene;
+}
+
+/// The Cornell box with two blocks of glass that absorb: a clear one, and a frosted one around a tile and a lamp.
+SceneDescription cornell_with_stained_glass() {
+    SceneDescription scene = shipped_scene("cornell");
+    scene.name = "stained glass";
+    const auto first = static_cast<std::uint32_t>(scene.materials.size());
+    MaterialDescription glass{
+        .name = "clear", .kind = SurfaceKind::Dielectric, .ior = 1.3f, .absorption = {0.001f, 0.004f, 0.01f}};
+    scene.materials.push_back(glass);
+    glass.name = "frosted";
+    glass.roughness = 0.5f;
+    scene.materials.push_back(glass);
+    scene.materials.push_back({.name = "tile", .albedo = glm::vec3(0.7f)});
+    scene.materials.push_back({.name = "inner lamp", .emission = {20, 30, 40}, .two_sided_emission = true});
+    add_box(scene, Vec3f{60, 350, 250}, Vec3f{200, 450, 400}, false, first);
+    add_box(scene, Vec3f{320, 350, 150}, Vec3f{500, 480, 330}, false, first + 1);
+    add_triangle(scene, Vec3f{340, 370, 170}, Vec3f{340, 390, 310}, Vec3f{480, 380, 200}, first + 2);
+    add_triangle(scene, Vec3f{400, 440, 220}, Vec3f{400, 440, 260}, Vec3f{440, 440, 240}, first + 3);
     return scene;
 }
 
@@ -174,6 +195,7 @@ TEST_CASE("All methods agree on lights without extent") { check_agreement(cornel
 
 // Caustics are found by chance alone: with light samples, too, pictures are noisier than those of diffuse scenes.
 TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.2); }
+TEST_CASE("All methods agree on glass that absorbs") { check_agreement(cornell_with_stained_glass(), 0.2); }
 TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.2); }
 TEST_CASE("All methods agree on the row before the lens") { check_agreement("lens", 0.16); }
 
@@ -209,6 +231,12 @@ TEST_CASE("All targets, rates and rules of roulette agree on lights without exte
 }
 TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03, 1.15); }
 TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
+TEST_CASE("All methods agree on glass that absorbs within 3 %", "[merge]") {
+    check_agreement(cornell_with_stained_glass(), 0.03);
+}
+TEST_CASE("All targets agree on glass that absorbs", "[merge]") {
+    check_variants(cornell_with_stained_glass(), 0.06);
+}
 TEST_CASE("All targets agree on mirror and glass", "[merge]") { check_variants("spheres", 0.06); }
 TEST_CASE("All targets agree on coats and rough metals", "[merge]") { check_variants("coats", 0.06); }
 // Sky and sun through a lattice, textures: without light samples few paths find the sun, which has most of the light.

@@ -64,6 +64,8 @@ public:
     PL_HD bool is_lambert() const { return lobes_.kind == SurfaceKind::Diffuse; }
     /// Not guided: the vertex learns nothing and passes the incident radiance on to the previous vertex.
     PL_HD bool is_specular() const { return is_black(reflectance_) && scatters(); }
+    /// Has an inside, which paths enter and leave.
+    PL_HD bool refracts() const { return lobes_.kind == SurfaceKind::Dielectric; }
     PL_HD bool scatters() const { return lobes_.kind == SurfaceKind::Dielectric || !is_black(albedo_); }
     /// Directional albedo: the reflected and transmitted share of uniform incident radiance, towards wo.
     PL_HD Vec3f albedo() const { return albedo_; }
