@@ -10,6 +10,7 @@ namespace {
 FeatureSet effects_of(const SurfaceLobes& lobes) {
     if (lobes.kind == SurfaceKind::Diffuse) return {};
     const FeatureSet set = features(lobes.roughness > 0.0f ? Feature::Rough : Feature::Specular);
+    if (lobes.kind == SurfaceKind::Pane) return set.with(Feature::ThinPanes);
     return lobes.kind == SurfaceKind::Plastic ? set.with(Feature::Plastic) : set;
 }
 
@@ -29,6 +30,7 @@ std::string_view name_of(Feature feature) {
     case Feature::NormalMaps: return "normal-maps";
     case Feature::DeltaLights: return "delta-lights";
     case Feature::Absorption: return "absorption";
+    case Feature::ThinPanes: return "thin-panes";
     }
     return "";
 }

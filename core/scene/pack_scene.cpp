@@ -65,7 +65,8 @@ Vec3f guided_albedo(const MaterialDescription& m) {
     case SurfaceKind::Diffuse:
     case SurfaceKind::Plastic: return m.albedo;
     case SurfaceKind::Conductor: return m.roughness < kMinGuidedRoughness ? Vec3f{0.0f} : Vec3f{m.specular};
-    case SurfaceKind::Dielectric: return Vec3f{0.0f};
+    case SurfaceKind::Dielectric:
+    case SurfaceKind::Pane: return Vec3f{0.0f};
     }
     return Vec3f{0.0f};
 }
@@ -85,7 +86,8 @@ public:
         const auto [place, is_new] = first_.try_emplace({kind, ior}, static_cast<std::uint32_t>(values_.size()));
         if (is_new) {
             switch (kind) {
-            case SurfaceKind::Diffuse: break;
+            case SurfaceKind::Diffuse:
+            case SurfaceKind::Pane: break;
             case SurfaceKind::Conductor: add(lossless_albedo()); break;
             case SurfaceKind::Plastic: add(coat_albedo(ior)); break;
             case SurfaceKind::Dielectric:
@@ -104,9 +106,10 @@ private:
     std::map<std::pair<SurfaceKind, float>, std::uint32_t> first_;
 };
 
-/// A dielectric that hardly refracts counts as smooth.
+/// A dielectric that hardly refracts counts as smooth, and so do panes.
 float usable_roughness(const MaterialDescription& m) {
     constexpr float kLeastContrast = 1e-3f;
+    if (m.kind == SurfaceKind::Pane) return 0.0f;
     const bool refracts = m.kind != SurfaceKind::Dielectric || std::fabs(m.ior - 1.0f) > kLeastContrast;
     return refracts ? m.roughness : 0.0f;
 }

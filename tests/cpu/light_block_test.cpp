@@ -36,10 +36,12 @@ std::vector<PunctualLightDescription> delta_lights() {
 }
 
 /// A room with triangles that shine: small, large, edge-on, and one without area.
-HostScene room_of_lights(int lights, std::vector<PunctualLightDescription> without_extent = {}) {
+/// `unused`: a material of number 2.
+HostScene room_of_lights(int lights, std::vector<PunctualLightDescription> without_extent = {},
+                         MaterialDescription unused = {}) {
     SceneDescription scene;
     scene.punctual_lights = std::move(without_extent);
-    scene.materials = {gray(), gray(0.3f)};
+    scene.materials = {gray(), gray(0.3f), std::move(unused)};
     scene.materials[1].emission = glm::vec3{3.0f, 2.0f, 1.0f};
     add_box(scene, Vec3f{-1.0f}, Vec3f{1.0f}, true);
     Uniforms random(3);
@@ -211,6 +213,48 @@ TEST_CASE("Lights of a tree are sampled as by one path alone") {
         CHECK(same_ray(lights->shadow_ray(i, block->primitive(i)), expected[i].ray));
     }
     CHECK(lit > 5);
+}
+
+TEST_CASE("Lights inside of glass that absorbs are sampled as by one path alone") {
+    constexpr FeatureSet kGlass = kLights.with(Feature::Specular).with(Feature::Absorption);
+    constexpr std::uint32_t kInk = 2;
+    const HostScene scene = room_of_lights(
+        3, delta_lights(), {.name = "ink", .kind = SurfaceKind::Dielectric, .absorption = {0.5f, 2.0f, 0.0f}});
+    const SceneView view = scene.view();
+    const DefaultMethod method;
+    const PathSettings settings{.next_event = 1};
+    const PathContext<DefaultMethod> context{view, method, settings};
+    const auto block = std::make_unique<VertexBlock<kGlass, DefaultMethod>>();
+    const auto lights = std::make_unique<LightBlock<kGlass, DefaultMethod>>(context);
+    Uniforms random(8);
+    int lit = 0;
+    int absorbed = 0;
+    for (int round = 0; round < 20; ++round) {
+        block->clear();
+        std::vector<UnweightedLight> expected;
+        for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+            const SurfacePoint surface = random_point(view, random).surface;
+            const ScatterPoint<kGlass, DefaultMethod> point{
+                surface, make_bsdf<kGlass>(view, surface, Vec3f{1.0f / 3.0f}, surface.geometric_normal)};
+            const Vec4f u = random_numbers(random);
+            const std::uint32_t medium = random.below(2) == 0 ? kInk : kNoMedium;
+            block->add(i, point, Vec3f{1.0f}, {.light = u}, medium);
+            expected.push_back(sample_light(context, point, u, {.medium = medium}));
+            const UnweightedLight outside = sample_light(context, point, u, {});
+            absorbed += expected.back().irradiance < outside.irradiance ? 1 : 0;
+        }
+        lights->sample(*block);
+        for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+            REQUIRE(lights->is_wanted(i) == (expected[i].pdf_sa > 0.0f));
+            if (!lights->is_wanted(i)) continue;
+            ++lit;
+            const LightSampleGroup& group = lights->groups()[i / kGroupSize];
+            const std::uint32_t lane = i % kGroupSize;
+            CHECK(luminance(group.emitted.get(lane)) * (kInvPi * group.cos_i[lane]) == expected[i].irradiance);
+        }
+    }
+    CHECK(lit > 200);
+    CHECK(absorbed > 100);
 }
 
 TEST_CASE("A scene without lights has no light samples") {

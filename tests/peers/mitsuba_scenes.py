@@ -165,11 +165,26 @@ def normal_mapped(folder, inside):
     return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
 
 
+def stained_glass():
+    """Two blocks that absorb, each at its own rate: a color within (0, 1], times a scale."""
+    def block(center, half, degrees, absorption, scale):
+        ink = (f'<medium type="homogeneous" name="interior"><rgb name="sigma_t" value="{absorption}"/>'
+               f'<float name="scale" value="{scale}"/><rgb name="albedo" value="0, 0, 0"/></medium>')
+        return shape("cube", scaled(*half) + turned("y", degrees) + moved(*center), GLASS, ink)
+
+    content = ground(diffuse(WHITE)) + sky()
+    content += block((-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25, "0.12, 0.4, 1", 2.5)
+    content += block((0.5, 0.39, 0.3), (0.4, 0.4, 0.4), -20, "1, 0.25, 0.1", 2)
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0)).replace('type="path"', 'type="volpath"')
+
+
 MIRROR = '<bsdf type="conductor"><string name="material" value="none"/></bsdf>'
 GOLD = ('<bsdf type="conductor"><rgb name="eta" value="0.143, 0.375, 1.442"/><rgb name="k" value="3.983, 2.386, 1.603"/></bsdf>')
 # Of a high index: Schlick's approximation is 15 % too bright near the edge.
 CHROME = ('<bsdf type="conductor"><rgb name="eta" value="3.1, 3.2, 2.33"/><rgb name="k" value="3.3, 3.33, 3.14"/></bsdf>')
 GLASS = '<bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>'
+
+PANE = '<bsdf type="thindielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>'
 
 
 def rough_metal(alpha):

@@ -1,7 +1,6 @@
 // All methods, with and without light samples, make the same picture: rule S2 on scenes without a closed form.
 #include "tests/support/catch.hpp"
-#include "tests/support/scenes/shapes.h"
-#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/scenes/cornell_variants.h"
 #include "tests/support/session/sessions.h"
 #include "tests/support/session/variants.h"
 
@@ -56,42 +55,6 @@ Picture first_passes(const SceneDescription& scene, Estimator estimator, int run
 
 /// Default path tracing with light samples: the least noisy estimator without a learned field.
 constexpr Estimator kReference{MethodId::Default, true};
-
-/// The Cornell box with its lamp, and lights without extent: a point and a spot inside, a direction through the open front.
-SceneDescription cornell_with_delta_lights() {
-    SceneDescription scene = shipped_scene("cornell");
-    scene.name = "lights without extent";
-    scene.punctual_lights = {
-        {.kind = PunctualKind::Point, .position = {90, 400, 300}, .intensity = {1e5f, 4e4f, 2e4f}},
-        {.kind = PunctualKind::Spot,
-         .position = {278, 500, 60},
-         .direction = {-0.3f, -1, 0.9f},
-         .intensity = {1e5f, 3e5f, 2e5f},
-         .inner_deg = 10,
-         .outer_deg = 35},
-        {.kind = PunctualKind::Directional, .direction = {0.4f, -0.5f, 1}, .intensity = {1, 1, 3}}};
-    return scene;
-}
-
-/// The Cornell box with two blocks of glass that absorb: a clear one, and a frosted one around a tile and a lamp.
-SceneDescription cornell_with_stained_glass() {
-    SceneDescription scene = shipped_scene("cornell");
-    scene.name = "stained glass";
-    const auto first = static_cast<std::uint32_t>(scene.materials.size());
-    MaterialDescription glass{
-        .name = "clear", .kind = SurfaceKind::Dielectric, .ior = 1.3f, .absorption = {0.001f, 0.004f, 0.01f}};
-    scene.materials.push_back(glass);
-    glass.name = "frosted";
-    glass.roughness = 0.5f;
-    scene.materials.push_back(glass);
-    scene.materials.push_back({.name = "tile", .albedo = glm::vec3(0.7f)});
-    scene.materials.push_back({.name = "inner lamp", .emission = {20, 30, 40}, .two_sided_emission = true});
-    add_box(scene, Vec3f{60, 350, 250}, Vec3f{200, 450, 400}, false, first);
-    add_box(scene, Vec3f{320, 350, 150}, Vec3f{500, 480, 330}, false, first + 1);
-    add_triangle(scene, Vec3f{340, 370, 170}, Vec3f{340, 390, 310}, Vec3f{480, 380, 200}, first + 2);
-    add_triangle(scene, Vec3f{400, 440, 220}, Vec3f{400, 440, 260}, Vec3f{440, 440, 240}, first + 3);
-    return scene;
-}
 
 /// `noise`: by how much the scene is noisier than those that passes_for() was measured on.
 void check_agreement(const SceneDescription& scene, double resolution, double noise = 1.0) {
@@ -196,6 +159,7 @@ TEST_CASE("All methods agree on lights without extent") { check_agreement(cornel
 // Caustics are found by chance alone: with light samples, too, pictures are noisier than those of diffuse scenes.
 TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.2); }
 TEST_CASE("All methods agree on glass that absorbs") { check_agreement(cornell_with_stained_glass(), 0.2); }
+TEST_CASE("All methods agree on thin panes") { check_agreement(cornell_with_panes(), 0.2); }
 TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.2); }
 TEST_CASE("All methods agree on the row before the lens") { check_agreement("lens", 0.16); }
 
@@ -234,6 +198,7 @@ TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") {
 TEST_CASE("All methods agree on glass that absorbs within 3 %", "[merge]") {
     check_agreement(cornell_with_stained_glass(), 0.03);
 }
+TEST_CASE("All methods agree on thin panes within 3 %", "[merge]") { check_agreement(cornell_with_panes(), 0.03); }
 TEST_CASE("All targets agree on glass that absorbs", "[merge]") {
     check_variants(cornell_with_stained_glass(), 0.06);
 }

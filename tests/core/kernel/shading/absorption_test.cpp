@@ -26,7 +26,7 @@ MaterialDescription glass(float ior) {
 SceneDescription slab(float ior, float thickness) {
     SceneDescription scene;
     scene.materials = {glass(ior)};
-    add_box(scene, Vec3f{-1000, -1000, 0}, Vec3f{1000, 1000, thickness}, false);
+    add_box(scene, Vec3f{-20, -20, 0}, Vec3f{20, 20, thickness}, false);
     return scene;
 }
 
@@ -68,7 +68,8 @@ void check_mean(const Mean& mean, const Vec3d& expected) {
     for (int c = 0; c < 3; ++c) {
         CAPTURE(c, mean.value[c], mean.error[c], expected[c]);
         CHECK(mean.error[c] < 0.006 * (expected[c] + 0.01));
-        CHECK(std::fabs(mean.value[c] - expected[c]) < 4.0 * mean.error[c] + 1e-5);
+        CHECK(std::fabs(mean.value[c] - expected[c]) <
+              4.0 * mean.error[c] + 3e-4 * expected[c]);  // rays begin above their surface
     }
 }
 
@@ -106,7 +107,7 @@ TEST_CASE("A slab of glass lets through what Fresnel's and Beer's laws say") {
             CAPTURE(ior, angle);
             SceneDescription scene = slab(ior, static_cast<float>(kThickness));
             // Above the slab the sky is dark: what is reflected does not count.
-            add_triangle(scene, Vec3f{-900, -900, -3}, Vec3f{900, -900, -3}, Vec3f{0, 1200, -3}, 1);
+            add_triangle(scene, Vec3f{-90, -90, -3}, Vec3f{90, -90, -3}, Vec3f{0, 120, -3}, 1);
             scene.materials.push_back({.name = "lamp", .emission = glm::vec3(2.0f), .two_sided_emission = true});
             const Ray ray{.origin = {-2.0f * sine, 0, static_cast<float>(kThickness) + 2.0f * cosine},
                           .direction = {sine, 0, -cosine}};
