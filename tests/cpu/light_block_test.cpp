@@ -176,7 +176,7 @@ TEST_CASE("Delta lights beside those in the lanes are sampled as by one path alo
                 if (lights == 0 || !next_event)
                     CHECK(result.lit == result.delta);
                 else
-                    CHECK(result.lit > result.delta + 50);
+                    CHECK(result.lit > result.delta + 10);
             }
         }
     }
