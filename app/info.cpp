@@ -45,8 +45,13 @@ std::string surface_text(const MaterialDescription& material) {
         return fmt::format("metal, reflects {}, {}", print_vector(material.specular),
                            finish_text(material.roughness));
     case SurfaceKind::Dielectric:
-        return fmt::format("glass of ior {}, transmits {}, {}", print_float(material.ior),
-                           print_vector(material.transmission), finish_text(material.roughness));
+        return fmt::format(
+            "glass of ior {}, transmits {}, {}{}", print_float(material.ior), print_vector(material.transmission),
+            finish_text(material.roughness),
+            material.absorbs() ? fmt::format(", absorbs {} per length", print_vector(material.absorption)) : "");
+    case SurfaceKind::Pane:
+        return fmt::format("thin pane of ior {}, transmits {}", print_float(material.ior),
+                           print_vector(material.transmission));
     case SurfaceKind::Plastic:
         return fmt::format("reflects {} under a coat of ior {}, {}", print_vector(material.albedo),
                            print_float(material.ior), finish_text(material.roughness));

@@ -59,6 +59,7 @@ public:
                 sample_alone(block, i);
             else if constexpr (F.has(Feature::Textures) || F.has(Feature::CutOuts))
                 look_up_emission(i);
+            if constexpr (kTracksMedium<F>) absorb(block, i);
         }
     }
     /// Weighs the samples by multiple importance sampling. `directions`: densities of the method in their directions.
@@ -142,6 +143,15 @@ private:
         on_light.material = context_.scene.triangles[on_light.primitive].material;
         on_light.front = to.is_behind[lane] == 0;
         to.emitted.set(lane, light_emitted<F>(context_.scene, on_light, to.weights.get(lane)));
+    }
+
+    /// Absorption in the glass around a vertex.
+    void absorb(const VertexBlock<F, M>& block, std::uint32_t i) {
+        if (context_.scene.absorption.empty() || block.medium(i) == kNoMedium || !is_wanted(i)) return;
+        LightSampleGroup& to = group(i);
+        const std::uint32_t lane = i % kGroupSize;
+        const Ray ray = shadow_ray(i, block.primitive(i));
+        to.emitted.set(lane, to.emitted.get(lane) * shadow_transmittance(context_.scene, block.medium(i), ray));
     }
 
     const PathContext<M>& context_;

@@ -173,7 +173,7 @@ private:
         return status;
     }
     void add_vertex(std::uint32_t i, const ScatterPoint<F, M>& from, const VertexNumbers& numbers) {
-        vertices_.add(i, from, states_[i].throughput, numbers);
+        vertices_.add(i, from, states_[i].throughput, numbers, medium_of(states_[i]));
         directions_.add(vertices_, from, numbers.scatter);
     }
     /// The same at another surface: path i is scattered at once.

@@ -23,7 +23,9 @@ public:
     }
 
     /// Appends the vertex that a path has reached.
-    void add(std::uint32_t path, const ScatterPoint<F, M>& from, Vec3f throughput, const VertexNumbers& numbers) {
+    /// `medium`: of the path there.
+    void add(std::uint32_t path, const ScatterPoint<F, M>& from, Vec3f throughput, const VertexNumbers& numbers,
+             [[maybe_unused]] std::uint32_t medium = kNoMedium) {
         VertexGroup& group = groups_[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
         group.position.set(lane, from.surface.position);
@@ -37,6 +39,7 @@ public:
             group.throughput.set(lane, throughput);
             for (int i = 0; i < 4; ++i) group.light.rows[i][lane] = numbers.light[i];
         }
+        if constexpr (kTracksMedium<F>) media_.of[count_] = medium;
         paths_[count_] = path;
         vertices_[count_++] = from.vertex;
     }
@@ -50,6 +53,7 @@ public:
     std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
     const Vertex& vertex(std::uint32_t i) const { return vertices_[i]; }
     float roulette_weight(std::uint32_t i) const { return roulette_weights_[i]; }
+    std::uint32_t medium(std::uint32_t i) const requires(kTracksMedium<F>) { return media_.of[i]; }
     Vec3f albedo(std::uint32_t i) const { return group(i).albedo.get(i % kGroupSize); }
     std::uint32_t primitive(std::uint32_t i) const { return group(i).primitive[i % kGroupSize]; }
     Vec4f light_numbers(std::uint32_t i) const { return group(i).light.get(i % kGroupSize); }
@@ -70,6 +74,10 @@ public:
     }
 
 private:
+    struct Media {
+        std::uint32_t of[kPathBlock];
+    };
+
     const VertexGroup& group(std::uint32_t i) const { return groups_[i / kGroupSize]; }
 
     static_assert(kPathBlock <= 64);
@@ -79,6 +87,7 @@ private:
     float roulette_weights_[kPathBlock];
     Vertex vertices_[kPathBlock];
     VertexGroup groups_[kBlockGroups];
+    [[no_unique_address]] std::conditional_t<kTracksMedium<F>, Media, NoPathMedium> media_;
 };
 
 }  // namespace pl

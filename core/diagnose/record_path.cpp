@@ -68,17 +68,19 @@ private:
                             .branch = branch_of(before),
                             .bounce = before.vertices,
                             .origin = before.ray.origin,
-                            .wo = -before.ray.direction,
-                            .throughput = before.throughput};
+                            .wo = -before.ray.direction};
         const Hit hit = closest_solid_hit<kAll>(scene_, BvhIntersector{scene_}, before.ray);
+        State arrived = before;
+        absorb_segment(scene_, hit, arrived);
+        vertex.throughput = arrived.throughput;
         Point point;
         std::optional<PathEnd> end = PathEnd::Escaped;
         if (hit.found()) {
-            point = add_surface(hit, before, vertex);
-            end = add_interaction(point, before, vertex);
+            point = add_surface(hit, arrived, vertex);
+            end = add_interaction(point, arrived, vertex);
         } else {
             vertex.is_escape = true;
-            vertex.emission = environment_emission(before);
+            vertex.emission = environment_emission(arrived);
         }
         if (vertex.roulette && vertex.roulette->branches > 1)
             forks_.push_back({static_cast<std::uint32_t>(record.vertices.size()), vertex.roulette->branches - 1});

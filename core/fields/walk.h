@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kCameraWalk = 1;
 
 /// The direction in which a walk leaves a surface; black if it ends there. u in [0,1)^4.
 inline Vec3f leave_surface(const SurfacePoint& point, const LayeredBsdf& bsdf, Vec4f u) {
-    if (u.z < bsdf.delta_probability()) return bsdf.sample_delta(point, u.w).wi;
+    if (u.z < bsdf.delta_probability()) return bsdf.sample_delta<kEveryFeature>(point, u.w).wi;
     return bsdf.sample(point, {u.x, u.y}, u.w);
 }
 

@@ -17,6 +17,8 @@ float strongest(const std::optional<glm::vec3>& color) {
     return color ? std::max(color->x, std::max(color->y, color->z)) : 0.0f;
 }
 
+bool is_glass(SurfaceKind kind) { return kind == SurfaceKind::Dielectric || kind == SurfaceKind::Pane; }
+
 bool has_index(const MtlEntry& entry) { return entry.ni && *entry.ni > kNoRefraction; }
 
 bool is_metal(const MtlEntry& entry) { return entry.pm && *entry.pm >= 0.5f; }
@@ -48,6 +50,9 @@ SurfaceKind kind_of(const MtlEntry& entry) {
 
 float roughness_of(const MtlEntry& entry, SurfaceKind kind) {
     float roughness = 0.0f;
+    if (kind == SurfaceKind::Pane) {
+        return roughness;
+    }
     if (entry.roughness || entry.pr) {
         roughness = entry.roughness ? *entry.roughness : *entry.pr;
     } else if (entry.map_pr || entry.map_ns) {
@@ -64,7 +69,7 @@ float ior_of(const MtlEntry& entry, SurfaceKind kind) {
         return *entry.own_ior;
     }
     const float usual = MaterialDescription{}.ior;
-    if (kind == SurfaceKind::Dielectric) {
+    if (is_glass(kind)) {
         return entry.ni.value_or(usual);
     }
     return has_index(entry) ? *entry.ni : usual;
@@ -85,7 +90,7 @@ glm::vec3 specular_of(const MtlEntry& entry, SurfaceKind kind) {
 }
 
 glm::vec3 albedo_of(const MtlEntry& entry, SurfaceKind kind) {
-    if (kind == SurfaceKind::Conductor || kind == SurfaceKind::Dielectric) {
+    if (kind == SurfaceKind::Conductor || is_glass(kind)) {
         return glm::vec3(0.0f);
     }
     return entry.kd.value_or(entry.map_kd ? glm::vec3(1.0f) : glm::vec3(0.0f));
@@ -106,7 +111,7 @@ MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& 
         material.albedo = kDefaultAlbedo;
         notes.emplace_back("has neither Kd nor Ke and is shown in the default color");
     }
-    if (entry.d.value_or(1.0f) < 1.0f && material.kind != SurfaceKind::Dielectric) {
+    if (entry.d.value_or(1.0f) < 1.0f && !is_glass(material.kind)) {
         notes.emplace_back("is partly transparent (d, Tr) without refraction (Tf, Ni): shown opaque");
     }
     if (material.kind == SurfaceKind::Diffuse) {
@@ -115,7 +120,7 @@ MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& 
     material.roughness = roughness_of(entry, material.kind);
     material.ior = ior_of(entry, material.kind);
     material.specular = specular_of(entry, material.kind);
-    if (material.kind == SurfaceKind::Dielectric) {
+    if (is_glass(material.kind)) {
         material.transmission = strongest(entry.tf) > 0.0f ? *entry.tf : glm::vec3(1.0f);
         if (material.roughness > 0.0f && material.ior < kLeastRoughIor) {
             material.roughness = 0.0f;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kMaterialsSchema = "pathlight.materials/1";
 
-/// Radiance or emission: three finite numbers of at least 0.
+/// Radiance, emission or absorption: three finite numbers of at least 0.
 std::optional<glm::vec3> read_light(const JsonDocument& file, const std::string& pointer) {
     const std::optional<glm::vec3> value = file.vector(pointer);
     if (value && glm::any(glm::lessThan(*value, glm::vec3(0.0f)))) {
@@ -76,13 +76,14 @@ void read_surface(const JsonDocument& file, const std::string& at, MaterialDescr
         material.kind = *kind;
     }
     material.roughness = read_within(file, at + "/roughness", 0.0f, 1.0f).value_or(material.roughness);
-    if (material.roughness < kLeastRoughness) {
+    if (material.roughness < kLeastRoughness || material.kind == SurfaceKind::Pane) {
         material.roughness = 0.0f;
     }
     material.ior = read_within(file, at + "/ior", kLeastIor, kMostIor).value_or(material.ior);
     material.specular = read_share(file, at + "/specular").value_or(material.specular);
     material.edge_tint = read_share(file, at + "/edge_tint").value_or(material.edge_tint);
     material.transmission = read_share(file, at + "/transmission").value_or(material.transmission);
+    material.absorption = read_light(file, at + "/absorption").value_or(material.absorption);
 }
 
 /// Whether an image repeats outside of [0, 1].
@@ -174,7 +175,7 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
                          "opacity_map",      "normal_map",         "wrap",
                          "albedo_map_wrap",  "roughness_map_wrap", "emission_map_wrap",
                          "opacity_map_wrap", "normal_map_wrap",    "normal_strength",
-                         "normal_green"});
+                         "normal_green",     "absorption"});
         MaterialDescription& material = find_material(file, scene, name);
         material.albedo = read_share(file, at + "/albedo").value_or(material.albedo);
         material.emission = read_light(file, at + "/emission").value_or(material.emission);
@@ -209,6 +210,7 @@ Json material_json(const MaterialDescription& material) {
               {"specular", vector_json(material.specular)},
               {"transmission", vector_json(material.transmission)}};
     if (material.edge_tint != glm::vec3(1.0f)) json["edge_tint"] = vector_json(material.edge_tint);
+    if (material.absorption != glm::vec3(0.0f)) json["absorption"] = vector_json(material.absorption);
     return json;
 }
 

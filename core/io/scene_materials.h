@@ -10,9 +10,9 @@
 namespace pl {
 
 /// Reads `materials`: overrides of MTL entries, name -> any of
-///   albedo, emission, specular, edge_tint, transmission   [r, g, b]
+///   albedo, emission, specular, edge_tint, transmission, absorption   [r, g, b]
 ///   two_sided_emission                         true, false
-///   surface                                    "diffuse", "conductor", "dielectric", "plastic"
+///   surface                                    "diffuse", "conductor", "dielectric", "plastic", "pane"
 ///   roughness, ior, normal_strength            numbers
 ///   normal_green                               "up", "down", "left"
 ///   albedo_map, roughness_map, emission_map, opacity_map, normal_map    images in the folder of the scene or below; "" for none

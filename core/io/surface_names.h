@@ -10,7 +10,8 @@
 namespace pl {
 
 /// [SurfaceKind]
-inline constexpr std::array<std::string_view, 4> kSurfaceNames = {"diffuse", "conductor", "dielectric", "plastic"};
+inline constexpr std::array<std::string_view, 5> kSurfaceNames = {"diffuse", "conductor", "dielectric", "plastic",
+                                                                  "pane"};
 
 /// [NormalGreen]
 inline constexpr std::array<std::string_view, 3> kNormalGreenNames = {"up", "down", "left"};

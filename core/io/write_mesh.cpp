@@ -71,7 +71,8 @@ std::string obj_text(const SceneDescription& scene, const std::vector<std::strin
 glm::vec3 color_of(const MaterialDescription& material) {
     switch (material.kind) {
     case SurfaceKind::Conductor: return material.specular;
-    case SurfaceKind::Dielectric: return material.transmission;
+    case SurfaceKind::Dielectric:
+    case SurfaceKind::Pane: return material.transmission;
     case SurfaceKind::Diffuse:
     case SurfaceKind::Plastic: break;
     }

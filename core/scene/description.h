@@ -56,14 +56,16 @@ struct MaterialDescription {
     bool two_sided_emission = false;  ///< the back side emits too
     SurfaceKind kind = SurfaceKind::Diffuse;
     float roughness = 0.0f;        ///< in [0, 1]: sqrt(alpha) of GGX; 0: smooth
-    float ior = 1.5f;              ///< dielectric and plastic: index of refraction, inside over outside
+    float ior = 1.5f;              ///< dielectric, plastic and pane: index of refraction, inside over outside
     glm::vec3 specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of the reflection
     glm::vec3 edge_tint{1.0f};     ///< conductor: reflectance at 82 degrees over that of Schlick's approximation
-    glm::vec3 transmission{1.0f};  ///< dielectric: tint of the transmission
+    glm::vec3 transmission{1.0f};  ///< dielectric and pane: tint of the transmission
+    glm::vec3 absorption{0.0f};    ///< dielectric: share of light that its inside absorbs per length, at least 0
     TextureUse textures{};
     float normal_strength = 1.0f;  ///< factor of the slopes in textures.normal, at least 0
     NormalGreen normal_green = NormalGreen::Up;
 
+    bool absorbs() const { return kind == SurfaceKind::Dielectric && absorption != glm::vec3(0.0f); }
     friend bool operator==(const MaterialDescription&, const MaterialDescription&) = default;
 };
 

@@ -72,6 +72,8 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::NormalMaps:
         return materials_that(scene, [](const auto& m) { return m.textures.normal != kNoTexture; });
     case Feature::DeltaLights: return count_text(scene.punctual_lights);
+    case Feature::ThinPanes: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Pane; });
+    case Feature::Absorption: return materials_that(scene, [](const auto& m) { return m.absorbs(); });
     }
     return "";
 }

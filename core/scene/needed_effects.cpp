@@ -10,6 +10,7 @@ namespace {
 FeatureSet effects_of(const SurfaceLobes& lobes) {
     if (lobes.kind == SurfaceKind::Diffuse) return {};
     const FeatureSet set = features(lobes.roughness > 0.0f ? Feature::Rough : Feature::Specular);
+    if (lobes.kind == SurfaceKind::Pane) return set.with(Feature::ThinPanes);
     return lobes.kind == SurfaceKind::Plastic ? set.with(Feature::Plastic) : set;
 }
 
@@ -28,6 +29,8 @@ std::string_view name_of(Feature feature) {
     case Feature::ManyLights: return "many-lights";
     case Feature::NormalMaps: return "normal-maps";
     case Feature::DeltaLights: return "delta-lights";
+    case Feature::Absorption: return "absorption";
+    case Feature::ThinPanes: return "thin-panes";
     }
     return "";
 }
@@ -44,6 +47,7 @@ FeatureSet needed_effects(const HostScene& scene) {
     if (!scene.normal_maps.empty()) set = set.with(Feature::NormalMaps);
     if (!scene.light_nodes.empty()) set = set.with(Feature::ManyLights);
     if (!scene.delta_lights.empty()) set = set.with(Feature::DeltaLights);
+    if (!scene.absorption.empty()) set = set.with(Feature::Absorption);
     if (scene.far_probability > 0.0f) set = set.with(Feature::EnvironmentMap);
     return set;
 }

@@ -30,7 +30,9 @@ void set_falloff(const PunctualLightDescription& light, DeltaLight& packed) {
         const double angle = degrees(static_cast<double>(angle_deg));
         return is_cosine ? std::cos(angle) : angle;
     };
-    const double slope = 1.0 / (along(light.inner_deg) - along(light.outer_deg));
+    // Cones may be nearer to each other than numbers tell.
+    const double gap = along(light.inner_deg) - along(light.outer_deg);
+    const double slope = 1.0 / std::copysign(std::max(std::abs(gap), 0x1p-60), is_cosine ? 1.0 : -1.0);
     packed.slope = static_cast<float>(slope);
     packed.offset = static_cast<float>(-slope * along(light.outer_deg));
 }

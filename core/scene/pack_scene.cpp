@@ -65,7 +65,8 @@ Vec3f guided_albedo(const MaterialDescription& m) {
     case SurfaceKind::Diffuse:
     case SurfaceKind::Plastic: return m.albedo;
     case SurfaceKind::Conductor: return m.roughness < kMinGuidedRoughness ? Vec3f{0.0f} : Vec3f{m.specular};
-    case SurfaceKind::Dielectric: return Vec3f{0.0f};
+    case SurfaceKind::Dielectric:
+    case SurfaceKind::Pane: return Vec3f{0.0f};
     }
     return Vec3f{0.0f};
 }
@@ -85,7 +86,8 @@ public:
         const auto [place, is_new] = first_.try_emplace({kind, ior}, static_cast<std::uint32_t>(values_.size()));
         if (is_new) {
             switch (kind) {
-            case SurfaceKind::Diffuse: break;
+            case SurfaceKind::Diffuse:
+            case SurfaceKind::Pane: break;
             case SurfaceKind::Conductor: add(lossless_albedo()); break;
             case SurfaceKind::Plastic: add(coat_albedo(ior)); break;
             case SurfaceKind::Dielectric:
@@ -104,9 +106,10 @@ private:
     std::map<std::pair<SurfaceKind, float>, std::uint32_t> first_;
 };
 
-/// A dielectric that hardly refracts counts as smooth.
+/// A dielectric that hardly refracts counts as smooth, and so do panes.
 float usable_roughness(const MaterialDescription& m) {
     constexpr float kLeastContrast = 1e-3f;
+    if (m.kind == SurfaceKind::Pane) return 0.0f;
     const bool refracts = m.kind != SurfaceKind::Dielectric || std::fabs(m.ior - 1.0f) > kLeastContrast;
     return refracts ? m.roughness : 0.0f;
 }
@@ -130,6 +133,13 @@ void pack_lobes(const SceneDescription& scene, HostScene& packed) {
         if (uses_table) lobes.table = tables.first_for(m.kind, is_metal ? 1.0f : m.ior);
         packed.lobes.push_back(lobes);
     }
+}
+
+void pack_absorption(const SceneDescription& scene, HostScene& packed) {
+    if (std::ranges::none_of(scene.materials, &MaterialDescription::absorbs)) return;
+    packed.absorption.reserve(scene.materials.size());
+    for (const MaterialDescription& m : scene.materials)
+        packed.absorption.push_back(m.absorbs() ? Vec3f{m.absorption} : Vec3f{0.0f});
 }
 
 /// Collects the emissive triangles. Sums are in double and rounded once.
@@ -157,6 +167,7 @@ void pack_lights(HostScene& packed) {
 void pack_looks(const SceneDescription& scene, HostScene& packed) {
     pack_materials(scene, packed);
     pack_lobes(scene, packed);
+    pack_absorption(scene, packed);
     pack_textures(scene, packed);  // replaces textured emission by its mean
     pack_lights(packed);
     packed.environment = scene.environment;

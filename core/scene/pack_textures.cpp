@@ -25,7 +25,8 @@ float inverse_or_zero(float x) { return x > 0.0f ? 1.0f / x : 0.0f; }
 /// The parameter that an albedo texture multiplies.
 Vec3f tinted(const MaterialDescription& material) {
     if (material.kind == SurfaceKind::Conductor) return material.specular;
-    return material.kind == SurfaceKind::Dielectric ? Vec3f{0.0f} : material.albedo;
+    const bool is_glass = material.kind == SurfaceKind::Dielectric || material.kind == SurfaceKind::Pane;
+    return is_glass ? Vec3f{0.0f} : material.albedo;
 }
 
 class ImagePacker {
@@ -33,12 +34,12 @@ public:
     ImagePacker(const SceneDescription& scene, HostScene& packed)
         : scene_(scene), packed_(packed), image_of_(scene.textures.size(), kNoImage) {}
 
-    MaterialImages pack(const MaterialDescription& material, Material& packed_material) {
+    /// `is_rough`: as it is packed, which has a table of albedos.
+    MaterialImages pack(const MaterialDescription& material, bool is_rough, Material& packed_material) {
         MaterialImages images;
         const TextureUse& use = material.textures;
         if (use.albedo != kNoTexture && !is_black(tinted(material))) images.albedo = image(use.albedo);
-        if (use.roughness != kNoTexture && material.kind != SurfaceKind::Diffuse && material.roughness > 0.0f)
-            images.roughness = image(use.roughness);
+        if (use.roughness != kNoTexture && is_rough) images.roughness = image(use.roughness);
         if (use.opacity != kNoTexture && has_holes(scene_.textures[use.opacity])) {
             images.opacity = image(use.opacity);
             packed_.has_holes = 1;
@@ -107,7 +108,8 @@ void pack_textures(const SceneDescription& scene, HostScene& packed) {
     bool has_normals = false;
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         if (!used[m] || !scene.materials[m].textures.any()) continue;
-        of_material[m] = packer.pack(scene.materials[m], packed.materials[m]);
+        const bool is_rough = !packed.lobes.empty() && packed.lobes[m].roughness > 0.0f;
+        of_material[m] = packer.pack(scene.materials[m], is_rough, packed.materials[m]);
         normal_maps[m] = packer.pack_normals(scene.materials[m]);
         has_normals = has_normals || normal_maps[m].image != kNoImage;
     }

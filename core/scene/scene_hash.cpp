@@ -38,6 +38,10 @@ public:
             hash_.add(m.ior);
             add(hash_, m.specular);
             add(hash_, m.transmission);
+            if (m.absorbs()) {
+                begin("absorption", i);
+                add(hash_, m.absorption);
+            }
             if (m.edge_tint == glm::vec3(1.0f)) continue;
             begin("edge tint", i);
             add(hash_, m.edge_tint);

@@ -16,6 +16,7 @@ struct SceneStorage {
     Array<Material> materials;
     Array<SurfaceLobes> lobes;
     Array<float> directional_albedo;
+    Array<Vec3f> absorption;
     Array<Vec2f> uvs;
     Array<TriangleUvs> triangle_uvs;
     Array<Image> images;
@@ -54,6 +55,7 @@ struct SceneStorage {
             .materials = view_of(materials),
             .lobes = view_of(lobes),
             .directional_albedo = view_of(directional_albedo),
+            .absorption = view_of(absorption),
             .textures = {.uvs = view_of(uvs),
                          .triangle_uvs = view_of(triangle_uvs),
                          .images = view_of(images),
@@ -88,6 +90,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.materials, to.materials);
     fn(from.lobes, to.lobes);
     fn(from.directional_albedo, to.directional_albedo);
+    fn(from.absorption, to.absorption);
     fn(from.uvs, to.uvs);
     fn(from.triangle_uvs, to.triangle_uvs);
     fn(from.images, to.images);

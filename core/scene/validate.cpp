@@ -118,6 +118,11 @@ void check_surfaces(std::string& list, std::span<const MaterialDescription> mate
                                    kLeastIor, kMostIor);
             });
         }
+        if (!is_finite(m.absorption) || glm::any(glm::lessThan(m.absorption, glm::vec3(0.0f))))
+            number.add([&] {
+                return fmt::format("material '{}': absorption {} is not finite and at least 0", m.name,
+                                   show(m.absorption));
+            });
         for (const auto& [what, value] :
              {std::pair{"specular", m.specular}, {"edge tint", m.edge_tint}, {"transmission", m.transmission}}) {
             if (!is_albedo(value)) {

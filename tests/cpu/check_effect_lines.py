@@ -27,6 +27,8 @@ EFFECTS = {
     "scene/texture.h": "textured-room",
     "scene/normal_map.h": str(Path(__file__).with_name("relief.obj")),
     "shading/light_tree.h": "gallery",
+    "shading/delta_lights.h": str(Path(__file__).with_name("ink.json")),
+    "shading/absorption.h": str(Path(__file__).with_name("ink.json")),
 }
 PLAIN = (["cornell", "--nee", "off"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinforcement", "--nee", "on"],
          ["cornell", "--method", "precomputed", "--bins", "16"], ["door", "--nee", "on"], ["sky", "--nee", "on"])
@@ -46,7 +48,7 @@ def spent_in(counts, file):
 
 # Left out by the quick check: many runs under callgrind take long.
 QUICK_PLAIN = PLAIN[2:3]
-QUICK_SCENES = ("coats",)
+QUICK_SCENES = ("coats", str(Path(__file__).with_name("ink.json")))
 
 
 def main():

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <memory>
 
+#include "core/kernel/integrator/sampled_lights.h"
 #include "core/kernel/methods/default.h"
 #include "core/scene/pack_scene.h"
 #include "tests/support/catch.hpp"
@@ -14,7 +15,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);
+constexpr FeatureSet kLights = features(Feature::NextEventEstimation, Feature::DeltaLights);
 
 /// Default path tracing that keeps the estimates it is told of.
 struct KeepsEstimates : DefaultMethod {
@@ -26,10 +27,21 @@ struct KeepsEstimates : DefaultMethod {
 using Context = PathContext<KeepsEstimates>;
 using Point = ScatterPoint<kLights, KeepsEstimates>;
 
+/// A point, a spot and a directional light.
+std::vector<PunctualLightDescription> delta_lights() {
+    return {
+        {.kind = PunctualKind::Point, .position = {0.2f, 0.4f, -0.3f}, .intensity = {3, 2, 1}},
+        {.kind = PunctualKind::Spot, .position = {0, 0.9f, 0}, .direction = {0.1f, -1, 0.2f}, .intensity = {1, 2, 3}},
+        {.kind = PunctualKind::Directional, .direction = {1, -2, 0.5f}, .intensity = {0.5f, 1, 0.2f}}};
+}
+
 /// A room with triangles that shine: small, large, edge-on, and one without area.
-HostScene room_of_lights(int lights) {
+/// `unused`: a material of number 2.
+HostScene room_of_lights(int lights, std::vector<PunctualLightDescription> without_extent = {},
+                         MaterialDescription unused = {}) {
     SceneDescription scene;
-    scene.materials = {gray(), gray(0.3f)};
+    scene.punctual_lights = std::move(without_extent);
+    scene.materials = {gray(), gray(0.3f), std::move(unused)};
     scene.materials[1].emission = glm::vec3{3.0f, 2.0f, 1.0f};
     add_box(scene, Vec3f{-1.0f}, Vec3f{1.0f}, true);
     Uniforms random(3);
@@ -87,9 +99,15 @@ bool same_light(const LightBlock<kLights, KeepsEstimates>& block, std::uint32_t 
 
 struct Comparison {
     int different = 0;
-    int lit = 0;   ///< vertices whose sample can contribute
-    int near = 0;  ///< vertices whose light may be sampled by solid angle
+    int lit = 0;    ///< vertices whose sample can contribute
+    int near = 0;   ///< vertices whose light may be sampled by solid angle
+    int delta = 0;  ///< vertices whose sample of a delta light can contribute
 };
+
+/// In rooms without an environment.
+bool is_of_delta_light(const Ray& shadow) {
+    return shadow.target == kDeltaLightTarget || shadow.target == kNoPrimitive;
+}
 
 /// Blocks of every size up to the largest one.
 Comparison compare(const Context& context, const LaneKernels& kernels) {
@@ -115,6 +133,7 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
         for (std::uint32_t i = 0; i < size; ++i) {
             result.different += same_light(*lights, i, points[i], expected[i]) ? 0 : 1;
             result.lit += expected[i].wanted ? 1 : 0;
+            result.delta += expected[i].wanted && is_of_delta_light(expected[i].ray) ? 1 : 0;
             result.near += lights->groups()[i / kGroupSize].is_near[i % kGroupSize] != 0 ? 1 : 0;
         }
     }
@@ -137,6 +156,28 @@ TEST_CASE("Every instruction set samples the lights of the scalar code, bit for 
             CHECK(result.different == 0);
             CHECK(result.lit > 150);
             CHECK(result.near > 50);
+            CHECK(result.delta == 0);
+        }
+    }
+}
+
+TEST_CASE("Delta lights beside those in the lanes are sampled as by one path alone") {
+    for (const int lights : {0, 3, 20}) {
+        const HostScene scene = room_of_lights(lights, delta_lights());
+        for (const bool next_event : {false, true}) {
+            const SampledScene sampled = with_delta_lights(scene.view(), {.next_event = next_event ? 1u : 0u});
+            const KeepsEstimates method;
+            const Context context{sampled.scene, method, sampled.path};
+            for (const LaneKernels& kernels : usable_lane_kernels()) {
+                INFO(kernels.isa << ", " << lights << " lights, next event " << next_event);
+                const Comparison result = compare(context, kernels);
+                CHECK(result.different == 0);
+                CHECK(result.delta > 150);
+                if (lights == 0 || !next_event)
+                    CHECK(result.lit == result.delta);
+                else
+                    CHECK(result.lit > result.delta + 10);
+            }
         }
     }
 }
@@ -172,6 +213,48 @@ TEST_CASE("Lights of a tree are sampled as by one path alone") {
         CHECK(same_ray(lights->shadow_ray(i, block->primitive(i)), expected[i].ray));
     }
     CHECK(lit > 5);
+}
+
+TEST_CASE("Lights inside of glass that absorbs are sampled as by one path alone") {
+    constexpr FeatureSet kGlass = kLights.with(Feature::Specular).with(Feature::Absorption);
+    constexpr std::uint32_t kInk = 2;
+    const HostScene scene = room_of_lights(
+        3, delta_lights(), {.name = "ink", .kind = SurfaceKind::Dielectric, .absorption = {0.5f, 2.0f, 0.0f}});
+    const SceneView view = scene.view();
+    const DefaultMethod method;
+    const PathSettings settings{.next_event = 1};
+    const PathContext<DefaultMethod> context{view, method, settings};
+    const auto block = std::make_unique<VertexBlock<kGlass, DefaultMethod>>();
+    const auto lights = std::make_unique<LightBlock<kGlass, DefaultMethod>>(context);
+    Uniforms random(8);
+    int lit = 0;
+    int absorbed = 0;
+    for (int round = 0; round < 20; ++round) {
+        block->clear();
+        std::vector<UnweightedLight> expected;
+        for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+            const SurfacePoint surface = random_point(view, random).surface;
+            const ScatterPoint<kGlass, DefaultMethod> point{
+                surface, make_bsdf<kGlass>(view, surface, Vec3f{1.0f / 3.0f}, surface.geometric_normal)};
+            const Vec4f u = random_numbers(random);
+            const std::uint32_t medium = random.below(2) == 0 ? kInk : kNoMedium;
+            block->add(i, point, Vec3f{1.0f}, {.light = u}, medium);
+            expected.push_back(sample_light(context, point, u, {.medium = medium}));
+            const UnweightedLight outside = sample_light(context, point, u, {});
+            absorbed += expected.back().irradiance < outside.irradiance ? 1 : 0;
+        }
+        lights->sample(*block);
+        for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+            REQUIRE(lights->is_wanted(i) == (expected[i].pdf_sa > 0.0f));
+            if (!lights->is_wanted(i)) continue;
+            ++lit;
+            const LightSampleGroup& group = lights->groups()[i / kGroupSize];
+            const std::uint32_t lane = i % kGroupSize;
+            CHECK(luminance(group.emitted.get(lane)) * (kInvPi * group.cos_i[lane]) == expected[i].irradiance);
+        }
+    }
+    CHECK(lit > 200);
+    CHECK(absorbed > 100);
 }
 
 TEST_CASE("A scene without lights has no light samples") {

@@ -90,6 +90,12 @@ void load_and_pack(const fs::path& path) {
     for (const auto& plane : packed.planes)
         for (int axis = 0; axis < 3; ++axis)
             if (!std::isfinite(plane.normal[axis])) fail("a normal that is no number");
+    for (const DeltaLight& light : packed.delta_lights) {
+        if (!std::isfinite(light.slope) || !std::isfinite(light.offset)) fail("a spot that is no number");
+        for (int axis = 0; axis < 3; ++axis)
+            if (!std::isfinite(light.axis[axis]) || !std::isfinite(light.intensity[axis]))
+                fail("a light that is no number");
+    }
     const Camera camera = make_camera(scene.camera, 64, 48);
     for (const Vec3f v : {camera.eye, camera.forward, camera.right, camera.up})
         for (int axis = 0; axis < 3; ++axis)

@@ -140,8 +140,8 @@ TEST_CASE("Metals that are hardly rough are mirrors", "[hard]") {
 }
 
 TEST_CASE("Every kind of surface at every limit makes finite pictures by every method", "[hard]") {
-    for (const SurfaceKind kind :
-         {SurfaceKind::Diffuse, SurfaceKind::Conductor, SurfaceKind::Dielectric, SurfaceKind::Plastic})
+    for (const SurfaceKind kind : {SurfaceKind::Diffuse, SurfaceKind::Conductor, SurfaceKind::Dielectric,
+                                   SurfaceKind::Plastic, SurfaceKind::Pane})
         for (const float roughness : {0.0f, 1e-6f, 0.29f, 1.0f})
             for (const float color : {0.0f, 1.0f}) {
                 SceneDescription scene = shipped_scene("coats");

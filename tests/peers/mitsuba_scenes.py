@@ -62,6 +62,14 @@ def room():
                       shape("rectangle", turned("y", -90) + moved(1, 1, 0), diffuse(GREEN)), lamp))
 
 
+def delta_lights():
+    """A point and a spot inside of the room, and a direction through its open side."""
+    return ('<emitter type="point"><point name="position" x="-0.7" y="1.5" z="0.3"/><rgb name="intensity" value="1.2, 0.6, 0.3"/></emitter>'
+            '<emitter type="spot"><transform name="to_world"><lookat origin="0.6, 1.8, 0.8" target="-0.2, 0.3, -0.4" up="0, 1, 0"/></transform>'
+            '<rgb name="intensity" value="2, 6, 4"/><float name="cutoff_angle" value="30"/><float name="beam_width" value="12"/></emitter>'
+            '<emitter type="directional"><vector name="direction" x="0.4" y="-0.5" z="-1"/><rgb name="irradiance" value="1, 1, 3"/></emitter>')
+
+
 def ground(surface):
     return shape("rectangle", scaled(4, 4, 1) + turned("x", -90), surface)
 
@@ -73,6 +81,11 @@ def sky(color="0.5, 0.65, 0.9"):
 def in_room(tall, short):
     return scene(room() + box(tall, (-0.35, 0.59, -0.3), (0.3, 0.6, 0.3), 18) +
                  box(short, (0.35, 0.29, 0.3), (0.3, 0.3, 0.3), -17))
+
+
+def in_lit_room(tall, short):
+    """With lights without extent beside the lamp."""
+    return in_room(tall, short).replace("</scene>", delta_lights() + "</scene>")
 
 
 def outside(light, tall, short, floor=None):
@@ -152,11 +165,26 @@ def normal_mapped(folder, inside):
     return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
 
 
+def stained_glass():
+    """Two blocks that absorb, each at its own rate: a color within (0, 1], times a scale."""
+    def block(center, half, degrees, absorption, scale):
+        ink = (f'<medium type="homogeneous" name="interior"><rgb name="sigma_t" value="{absorption}"/>'
+               f'<float name="scale" value="{scale}"/><rgb name="albedo" value="0, 0, 0"/></medium>')
+        return shape("cube", scaled(*half) + turned("y", degrees) + moved(*center), GLASS, ink)
+
+    content = ground(diffuse(WHITE)) + sky()
+    content += block((-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25, "0.12, 0.4, 1", 2.5)
+    content += block((0.5, 0.39, 0.3), (0.4, 0.4, 0.4), -20, "1, 0.25, 0.1", 2)
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0)).replace('type="path"', 'type="volpath"')
+
+
 MIRROR = '<bsdf type="conductor"><string name="material" value="none"/></bsdf>'
 GOLD = ('<bsdf type="conductor"><rgb name="eta" value="0.143, 0.375, 1.442"/><rgb name="k" value="3.983, 2.386, 1.603"/></bsdf>')
 # Of a high index: Schlick's approximation is 15 % too bright near the edge.
 CHROME = ('<bsdf type="conductor"><rgb name="eta" value="3.1, 3.2, 2.33"/><rgb name="k" value="3.3, 3.33, 3.14"/></bsdf>')
 GLASS = '<bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>'
+
+PANE = '<bsdf type="thindielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>'
 
 
 def rough_metal(alpha):

@@ -28,6 +28,7 @@ WHITE = xml.diffuse(xml.WHITE)
 
 MITSUBA = [
     Case("cornell", lambda folder: xml.in_room(WHITE, WHITE), DIFFUSE, 96, 384),
+    Case("delta-lights", lambda folder: xml.in_lit_room(WHITE, WHITE), DIFFUSE, 96, 384),
     Case("sky", lambda folder: xml.outside(xml.sky(), WHITE, xml.diffuse(xml.RED)), DIFFUSE, 32, 64),
     Case("environment-map", lambda folder: xml.outside(xml.environment_map(folder), WHITE, xml.diffuse(xml.RED)), DIFFUSE,
          32, 128, ((-0.002, 0.002),) * 3, "Mitsuba spreads n texels of a map over n - 1 intervals"),
@@ -41,6 +42,8 @@ MITSUBA = [
     Case("rough-metal", lambda folder: xml.outside(xml.sky(), xml.rough_metal(0.3), xml.rough_metal(0.1)), GLOSSY, 16, 32,
          ((0.023, 0.029),) * 3, "ours gives back the light that facets scatter several times, Mitsuba loses it"),
     Case("glass", lambda folder: xml.outside(xml.sky(), xml.GLASS, xml.GLASS), GLOSSY, 16, 32),
+    Case("stained-glass", lambda folder: xml.stained_glass(), GLOSSY, 32, 96),
+    Case("thin-panes", lambda folder: xml.outside(xml.sky(), xml.PANE, xml.PANE), GLOSSY, 16, 32),
     Case("rough-glass", lambda folder: xml.outside(xml.sky(), xml.rough_glass(0.3), xml.rough_glass(0.1)), GLOSSY, 16, 32,
          ((0.036, 0.043),) * 3, "as for metal: ours loses nothing in scattering between facets"),
     Case("plastic", lambda folder: xml.in_room(xml.plastic(), xml.plastic()), GLOSSY, 32, 96),

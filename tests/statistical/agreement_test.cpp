@@ -1,6 +1,6 @@
 // All methods, with and without light samples, make the same picture: rule S2 on scenes without a closed form.
 #include "tests/support/catch.hpp"
-#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/scenes/cornell_variants.h"
 #include "tests/support/session/sessions.h"
 #include "tests/support/session/variants.h"
 
@@ -57,31 +57,35 @@ Picture first_passes(const SceneDescription& scene, Estimator estimator, int run
 constexpr Estimator kReference{MethodId::Default, true};
 
 /// `noise`: by how much the scene is noisier than those that passes_for() was measured on.
-void check_agreement(const std::string& name, double resolution, double noise = 1.0) {
-    const SceneDescription scene = shipped_scene(name);
+void check_agreement(const SceneDescription& scene, double resolution, double noise = 1.0) {
     const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution, noise);
     for (const Estimator estimator : kEstimators) {
-        INFO(name << ", " << estimator);
+        INFO(scene.name << ", " << estimator);
         CHECK(same_picture(one_run(scene, estimator, kSeed, resolution, noise), expected, resolution));
     }
 }
+void check_agreement(const std::string& name, double resolution, double noise = 1.0) {
+    check_agreement(shipped_scene(name), resolution, noise);
+}
 
-void check_first_passes(const std::string& name, int runs, double resolution) {
-    const SceneDescription scene = shipped_scene(name);
+void check_first_passes(const SceneDescription& scene, int runs, double resolution) {
     const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution);
     for (const bool next_event : {false, true}) {
         const Estimator estimator{MethodId::Reinforcement, next_event};
-        INFO(name << ", first passes of " << estimator);
+        INFO(scene.name << ", first passes of " << estimator);
         CHECK(same_picture(first_passes(scene, estimator, runs), expected, resolution));
     }
 }
 
+void check_first_passes(const std::string& name, int runs, double resolution) {
+    check_first_passes(shipped_scene(name), runs, resolution);
+}
+
 /// Every way of learning against default path tracing.
-void check_variants(const std::string& name, double resolution) {
-    const SceneDescription scene = shipped_scene(name);
+void check_variants(const SceneDescription& scene, double resolution) {
     const Picture expected = one_run(scene, kReference, kReferenceSeed, resolution);
     for (const Variant& variant : kVariants) {
-        INFO(name << ", " << variant.name);
+        INFO(scene.name << ", " << variant.name);
         const Estimator estimator{MethodId::Reinforcement, variant.next_event};
         Session session = make_session(scene, variant.of(quick_learner(scene, estimator, kSide, kSeed)));
         Picture picture(kSide, kSide);
@@ -89,6 +93,8 @@ void check_variants(const std::string& name, double resolution) {
         CHECK(same_picture(picture, expected, resolution));
     }
 }
+
+void check_variants(const std::string& name, double resolution) { check_variants(shipped_scene(name), resolution); }
 
 /// With passes that are not guided wherever guiding does not pay.
 void check_paying(const std::string& name, double resolution, double noise) {
@@ -148,8 +154,12 @@ TEST_CASE("All methods agree on the door ajar") { check_agreement("door", 0.12);
 TEST_CASE("The first passes of learning agree on the door ajar") { check_first_passes("door", 64, 0.06); }
 TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") { check_variants("cornell", 0.15); }
 
+TEST_CASE("All methods agree on lights without extent") { check_agreement(cornell_with_delta_lights(), 0.12); }
+
 // Caustics are found by chance alone: with light samples, too, pictures are noisier than those of diffuse scenes.
 TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.2); }
+TEST_CASE("All methods agree on glass that absorbs") { check_agreement(cornell_with_stained_glass(), 0.2); }
+TEST_CASE("All methods agree on thin panes") { check_agreement(cornell_with_panes(), 0.2); }
 TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.2); }
 TEST_CASE("All methods agree on the row before the lens") { check_agreement("lens", 0.16); }
 
@@ -174,8 +184,24 @@ TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box wit
 TEST_CASE("All targets, rates and rules of roulette agree on the door ajar within 2 %", "[merge]") {
     check_variants("door", 0.02);
 }
+TEST_CASE("All methods agree on lights without extent within 2 %", "[merge]") {
+    check_agreement(cornell_with_delta_lights(), 0.02);
+}
+TEST_CASE("The first passes of learning agree on lights without extent", "[merge]") {
+    check_first_passes(cornell_with_delta_lights(), 64, 0.06);
+}
+TEST_CASE("All targets, rates and rules of roulette agree on lights without extent", "[merge]") {
+    check_variants(cornell_with_delta_lights(), 0.15);
+}
 TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03, 1.15); }
 TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
+TEST_CASE("All methods agree on glass that absorbs within 5 %", "[merge]") {
+    check_agreement(cornell_with_stained_glass(), 0.05, 1.6);
+}
+TEST_CASE("All methods agree on thin panes within 3 %", "[merge]") { check_agreement(cornell_with_panes(), 0.03); }
+TEST_CASE("All targets agree on glass that absorbs", "[merge]") {
+    check_variants(cornell_with_stained_glass(), 0.06);
+}
 TEST_CASE("All targets agree on mirror and glass", "[merge]") { check_variants("spheres", 0.06); }
 TEST_CASE("All targets agree on coats and rough metals", "[merge]") { check_variants("coats", 0.06); }
 // Sky and sun through a lattice, textures: without light samples few paths find the sun, which has most of the light.

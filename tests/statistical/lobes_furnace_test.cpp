@@ -1,5 +1,6 @@
 // Surfaces that absorb nothing under an even sky: whatever directions they scatter to, radiance is that of the sky. Glass is
 // invisible, pixel by pixel; rough surfaces are on the mean.
+#include "core/io/surface_names.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/session/sessions.h"
@@ -41,13 +42,13 @@ std::vector<Vec3f> picture_of(const MaterialDescription& material, Estimator est
 }  // namespace
 
 // Each interface rounds some ten times, a path through the block meets a few.
-TEST_CASE("Clear glass and perfect mirrors cannot be seen under an even sky") {
-    for (const SurfaceKind kind : {SurfaceKind::Dielectric, SurfaceKind::Conductor})
+TEST_CASE("Clear glass, thin panes and perfect mirrors cannot be seen under an even sky") {
+    for (const SurfaceKind kind : {SurfaceKind::Dielectric, SurfaceKind::Pane, SurfaceKind::Conductor})
         for (const Estimator estimator : kEstimators) {
             int wrong = 0;
             for (const Vec3f& pixel : picture_of(lossless(kind, 0.0f), estimator, 4))
                 for (int c = 0; c < 3; ++c) wrong += std::fabs(pixel[c] - 1.0f) < 2e-5f ? 0 : 1;
-            INFO((kind == SurfaceKind::Dielectric ? "glass, " : "mirror, ") << estimator);
+            INFO(kSurfaceNames[static_cast<std::size_t>(kind)] << ", " << estimator);
             CHECK(wrong == 0);
         }
 }

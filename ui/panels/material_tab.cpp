@@ -40,13 +40,14 @@ bool draw_reflection(MaterialDescription& m, const MaterialDescription& file) {
         changed |=
             share_row("Edge tint", "Reflectance at 82 degrees over that of Schlick's approximation.", m.edge_tint);
     }
-    if (m.kind == SurfaceKind::Dielectric || m.kind == SurfaceKind::Plastic)
+    const bool is_glass = m.kind == SurfaceKind::Dielectric || m.kind == SurfaceKind::Pane;
+    if (is_glass || m.kind == SurfaceKind::Plastic)
         changed |= share_row("Reflected", "Tint of the light that glass or coat reflects.", m.specular);
-    if (m.kind == SurfaceKind::Dielectric)
-        changed |= share_row("Transmitted", "Tint of the transmitted light.", m.transmission);
+    if (is_glass) changed |= share_row("Transmitted", "Tint of the transmitted light.", m.transmission);
     if (m.kind == SurfaceKind::Diffuse) return changed;
-    changed |= slider_row("Roughness", "0 is a mirror; the alpha of the microfacet distribution is its square.",
-                          &m.roughness, {0.0f, 1.0f, file.roughness, "%.3f"});
+    if (m.kind != SurfaceKind::Pane)
+        changed |= slider_row("Roughness", "0 is a mirror; the alpha of the microfacet distribution is its square.",
+                              &m.roughness, {0.0f, 1.0f, file.roughness, "%.3f"});
     if (m.kind != SurfaceKind::Conductor)
         changed |=
             slider_row("Index", "Index of refraction, inside over outside: water 1.33, glass 1.5, diamond 2.4.",
@@ -102,7 +103,8 @@ void draw_material_tab(ViewerModel& model) {
     const MaterialDescription& file = model.scene().materials().in_file(index);
     MaterialDescription material = model.scene().materials().now()[index];
     int kind = static_cast<int>(material.kind);
-    bool changed = choice_row("Kind", "The BSDF of the surface.", &kind, "Diffuse\0Metal\0Glass\0Coated\0");
+    bool changed =
+        choice_row("Kind", "The BSDF of the surface.", &kind, "Diffuse\0Metal\0Glass\0Coated\0Thin pane\0");
     material.kind = static_cast<SurfaceKind>(kind);
     changed |= draw_reflection(material, file);
     changed |= draw_emission(material, file);

@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/io/gltf/material_values.h"
 #include "core/io/mtl_surface.h"
+#include "core/kernel/shading/absorption.h"
 
 namespace pl {
 namespace {
 
 /// Extensions and members that change the picture and are not supported, with the words for them.
-constexpr std::array<std::pair<const char*, const char*>, 12> kLeftOut = {{
+constexpr std::array<std::pair<const char*, const char*>, 11> kLeftOut = {{
     {"/occlusionTexture", "occlusion images are left out: the light itself is traced"},
     {"/extensions/KHR_materials_sheen", "sheen is left out"},
     {"/extensions/KHR_materials_iridescence", "iridescence is left out"},
@@ -21,12 +25,17 @@ constexpr std::array<std::pair<const char*, const char*>, 12> kLeftOut = {{
     {"/extensions/KHR_materials_dispersion", "dispersion is left out"},
     {"/extensions/KHR_materials_diffuse_transmission", "diffuse transmission is left out"},
     {"/extensions/KHR_materials_subsurface", "subsurface scattering is left out"},
-    {"/extensions/KHR_materials_volume/attenuationDistance", "absorption inside of glass is left out"},
     {"/extensions/KHR_materials_transmission/transmissionTexture", "images of transmission are left out"},
     {"/extensions/KHR_materials_specular/specularTexture", "images of the specular amount are left out"},
     {"/extensions/KHR_materials_specular/specularColorTexture", "images of the specular color are left out"},
     {"/extensions/KHR_materials_clearcoat/clearcoatNormalTexture", "normal maps of a clear coat are left out"},
 }};
+
+/// Absorption per length by the share of light that is left behind a distance.
+float absorption_of(float left, float distance) {
+    const float depth = left > 0.0f ? -std::log(left) : kOpaqueDepth;
+    return std::min(std::min(depth, kOpaqueDepth) / distance, std::numeric_limits<float>::max());
+}
 
 float strongest(const glm::vec3& color) { return std::max(color.x, std::max(color.y, color.z)); }
 
@@ -135,16 +144,42 @@ private:
             material_.roughness = 0.0f;
             material_.textures.roughness = kNoTexture;
         }
-        if (!(json_.number(extension("volume") + "/thicknessFactor").value_or(0.0f) > 0.0f))
-            note("thin panes are shown as solid glass");
+        read_volume();
     }
+
+    /// The inside of glass: it absorbs, or there is none. [KHR_materials_volume]
+    void read_volume() {
+        const std::string at = extension("volume");
+        if (!(json_.number(at + "/thicknessFactor").value_or(0.0f) > 0.0f)) {
+            read_thin();
+            return;
+        }
+        const std::optional<float> distance = json_.number(at + "/attenuationDistance");
+        if (!distance) return;
+        if (!(*distance > 0.0f)) {
+            note("glass that absorbs within no distance is shown as clear");
+            return;
+        }
+        const glm::vec3 left = glm::vec3(clamped_shares(file_, at + "/attenuationColor", 3));
+        for (int i = 0; i < 3; ++i) material_.absorption[i] = absorption_of(left[i], *distance);
+    }
+
+    void read_thin() {
+        if (material_.roughness >= kLeastRoughness) {
+            note("frosted thin panes are shown as solid glass");
+            return;
+        }
+        material_.kind = SurfaceKind::Pane;
+        material_.textures.roughness = kNoTexture;
+    }
+
+    bool is_glass() const { return material_.kind == SurfaceKind::Dielectric || material_.kind == SurfaceKind::Pane; }
 
     void read_clearcoat() {
         const std::string at = extension("clearcoat");
         const float amount = share(at + "/clearcoatFactor", 0.0f);
         if (amount == 0.0f) return;
-        const bool fits =
-            amount >= kGltfHalf && surface_.metalness < kGltfHalf && material_.kind != SurfaceKind::Dielectric;
+        const bool fits = amount >= kGltfHalf && surface_.metalness < kGltfHalf && !is_glass();
         if (!fits) {
             note("a clear coat on metal or glass, or of less than one half, is left out");
             return;
@@ -225,7 +260,7 @@ private:
         material_.name = std::move(name);
         if (material_.roughness < kLeastRoughness) material_.roughness = 0.0f;
         const auto [least, most] = range_of_metalness();
-        if (material_.kind == SurfaceKind::Dielectric || most < kGltfHalf) {
+        if (is_glass() || most < kGltfHalf) {
             surface_.material = surface_.metal = append(without_metal());
         } else if (least >= kGltfHalf) {
             surface_.material = surface_.metal = append(as_metal());
@@ -261,7 +296,7 @@ private:
 
     MaterialDescription without_metal() const {
         MaterialDescription material = material_;
-        if (material.kind == SurfaceKind::Dielectric)
+        if (is_glass())
             material.textures.albedo = kNoTexture;
         else
             material.albedo = base_;

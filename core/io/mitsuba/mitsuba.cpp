@@ -32,8 +32,6 @@ public:
                 read_far_light(object);
             else if (element == "sensor" || element == "camera")
                 read_sensor(object);
-            else if (element == "medium")
-                object.note("media are left out");
         }
         if (scene_.triangles.empty()) {
             throw Error(ErrorKind::Input,
@@ -52,9 +50,7 @@ private:
             read_instance(shape);
             return;
         }
-        const std::uint32_t material = material_of(shape);
-        if (shape.child("interior_medium") || shape.property("interior")) shape.note("media are left out");
-        add_mitsuba_shape(shape, material, scene_);
+        add_mitsuba_shape(shape, material_of(shape), scene_);
     }
 
     void read_instance(const MitsubaObject& instance) {
@@ -86,7 +82,7 @@ private:
         return part;
     }
 
-    /// The scene's material of a shape: one for each surface and radiance.
+    /// The scene's material of a shape: one for each surface, inside and radiance.
     std::uint32_t material_of(const MitsubaObject& shape) {
         MitsubaObject surface;
         glm::vec3 radiance(0.0f);
@@ -97,9 +93,11 @@ private:
             else if (target.element() == "emitter" || target.element() == "light")
                 radiance = radiance_of(target);
         }
-        const auto key = std::make_tuple(surface.identity(), radiance.x, radiance.y, radiance.z);
+        const MitsubaObject inside = mitsuba_target(file_, shape.property("interior"));
+        if (shape.property("exterior")) shape.note("media outside of shapes are left out");
+        const auto key = std::make_tuple(surface.identity(), inside.identity(), radiance.x, radiance.y, radiance.z);
         const auto [known, is_new] = materials_.try_emplace(key, static_cast<std::uint32_t>(scene_.materials.size()));
-        if (is_new) add_material(surface, radiance);
+        if (is_new) add_material(surface, inside, radiance);
         return known->second;
     }
 
@@ -112,17 +110,26 @@ private:
         return emitter.color("radiance").value_or(glm::vec3(1.0f));
     }
 
-    void add_material(const MitsubaObject& surface, const glm::vec3& radiance) {
+    void add_material(const MitsubaObject& surface, const MitsubaObject& inside, const glm::vec3& radiance) {
         MaterialDescription material;
         material.albedo = glm::vec3(radiance == glm::vec3(0.0f) ? 0.5f : 0.0f);
         if (surface) material = mitsuba_surface(file_, surface, scene_);
         material.emission = radiance;
+        if (inside) set_inside(inside, material);
         const std::string id = surface ? surface.attribute("id") : "";
         material.name = id.empty() ? fmt::format("material {}", scene_.materials.size()) : id;
         if (std::any_of(scene_.materials.begin(), scene_.materials.end(),
                         [&](const MaterialDescription& other) { return other.name == material.name; }))
             material.name += fmt::format(" ({})", scene_.materials.size());
         scene_.materials.push_back(std::move(material));
+    }
+
+    /// The medium inside of a shape.
+    static void set_inside(const MitsubaObject& medium, MaterialDescription& material) {
+        if (medium.element() == "medium" && material.kind == SurfaceKind::Dielectric)
+            material.absorption = mitsuba_absorption(medium);
+        else
+            medium.note("media inside of other surfaces than glass are left out");
     }
 
     void read_far_light(const MitsubaObject& emitter) {
@@ -189,7 +196,7 @@ private:
 
     MitsubaFile file_;
     SceneDescription scene_;
-    std::map<std::tuple<const void*, float, float, float>, std::uint32_t> materials_;
+    std::map<std::tuple<const void*, const void*, float, float, float>, std::uint32_t> materials_;
     std::map<const void*, SceneDescription> groups_;
 };
 

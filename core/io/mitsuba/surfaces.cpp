@@ -69,7 +69,7 @@ public:
         } else if (type == "conductor" || type == "roughconductor") {
             read_conductor();
         } else if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric") {
-            read_dielectric(type == "thindielectric");
+            read_dielectric(type == "thindielectric" ? SurfaceKind::Pane : SurfaceKind::Dielectric);
         } else if (type == "plastic" || type == "roughplastic") {
             read_plastic();
         } else if (type == "principled" || type == "principledthin") {
@@ -154,12 +154,11 @@ private:
         return metal_of(kMetals.back().eta, kMetals.back().k);
     }
 
-    void read_dielectric(bool is_thin) {
-        material_.kind = SurfaceKind::Dielectric;
-        material_.ior = is_thin ? 1.0f : read_ior(1.5046f);
+    void read_dielectric(SurfaceKind kind) {
+        material_.kind = kind;
+        material_.ior = read_ior(1.5046f);
         material_.specular = within_one(bsdf_.color("specular_reflectance").value_or(glm::vec3(1.0f)));
         material_.transmission = within_one(bsdf_.color("specular_transmittance").value_or(glm::vec3(1.0f)));
-        if (is_thin) bsdf_.note("thin panes are shown as clear ones without reflection");
     }
 
     void read_plastic() {
@@ -274,6 +273,27 @@ MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject
     material.textures.normal = normals;
     if (normals != kNoTexture) material.normal_green = NormalGreen::Left;
     return material;
+}
+
+glm::vec3 mitsuba_absorption(const MitsubaObject& medium) {
+    const glm::vec3 none(0.0f);
+    const bool is_even = medium.type() == "homogeneous" && !medium.text("material");
+    glm::vec3 absorbed = medium.color("sigma_a").value_or(none);
+    glm::vec3 scattered = medium.color("sigma_s").value_or(none);
+    if (!medium.property("sigma_a")) {
+        const glm::vec3 all = medium.color("sigma_t").value_or(glm::vec3(1.0f));
+        scattered = all * medium.color("albedo").value_or(glm::vec3(0.75f));
+        absorbed = all - scattered;
+    }
+    if (!is_even || scattered != none) {
+        medium.note("media that scatter light, and those that vary, are left out");
+        return none;
+    }
+    absorbed *= medium.number("scale").value_or(1.0f);
+    if (!is_finite(absorbed) || !glm::all(glm::greaterThanEqual(absorbed, none)))
+        medium.fail(
+            fmt::format("expected an absorption of at least 0, got {} {} {}", absorbed.x, absorbed.y, absorbed.z));
+    return absorbed;
 }
 
 }  // namespace pl

@@ -10,6 +10,10 @@ namespace pl {
 /// inside. [Mitsuba 3 and 0.6, plugins]
 MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene);
 
+/// What the inside of glass absorbs per length: that of a `medium` element of the type homogeneous, which scatters nothing. Other media
+/// are noted and absorb nothing. [Mitsuba 3 and 0.6, homogeneous]
+glm::vec3 mitsuba_absorption(const MitsubaObject& medium);
+
 /// The object that `object` stands for: the one with its id if it is a `ref`.
 MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& object);
 

@@ -22,13 +22,15 @@ enum class Feature : std::uint32_t {
     ManyLights = 1u << 10,          ///< light samples choose lights by a light tree instead of by power alone
     NormalMaps = 1u << 11,          ///< images of shading normals
     DeltaLights = 1u << 12,         ///< lights without extent: points, spots, directions
+    Absorption = 1u << 13,          ///< glass that absorbs light along the way through it
+    ThinPanes = 1u << 14,           ///< thin sheets of clear glass
 };
 
 inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
                                            Feature::Specular,      Feature::Rough,       Feature::Plastic,
                                            Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
                                            Feature::ThinLens,      Feature::ManyLights,  Feature::NormalMaps,
-                                           Feature::DeltaLights};
+                                           Feature::DeltaLights,   Feature::Absorption,  Feature::ThinPanes};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {

@@ -8,6 +8,7 @@
 #include "core/kernel/base/rng.h"
 #include "core/kernel/film/sample_variance.h"
 #include "core/kernel/integrator/branches.h"
+#include "core/kernel/shading/absorption.h"
 #include "core/kernel/shading/light_tree.h"
 
 namespace pl {
@@ -50,6 +51,16 @@ struct SpecularChain {
     bool is_open = false;  ///< the chain has at least one vertex
 };
 
+/// Whether paths know the glass around them, see medium.h.
+template <FeatureSet F>
+inline constexpr bool kTracksMedium = F.has(Feature::Absorption) && F.has_any(kLobeFeatures);
+
+/// The glass around a path.
+struct PathMedium {
+    std::uint32_t material = kNoMedium;
+};
+struct NoPathMedium {};
+
 /// Whether paths of this method choose lights by the learned irradiance of clusters, in scenes with a light tree.
 template <FeatureSet F, class M>
 inline constexpr bool learns_lights = F.has(Feature::ManyLights) && M::kLearnsLights;
@@ -78,6 +89,7 @@ struct PathState {
     std::uint32_t sample = 0;
     std::uint32_t vertices = 0;  ///< surface vertices so far
     [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), SpecularChain, Nothing> chain{};
+    [[no_unique_address]] std::conditional_t<kTracksMedium<F>, PathMedium, NoPathMedium> medium{};
     [[no_unique_address]] LightChoiceOf<F, M> lights{};  ///< at the vertex of direction_pdf_sa
     [[no_unique_address]] typename M::Memory memory{};
     [[no_unique_address]] typename M::Expectation expectation{};

@@ -1,7 +1,7 @@
 // Russian roulette and splitting: the number of paths that continue from a vertex, by their contribution estimate.
 #pragma once
 
-#include "core/kernel/integrator/path.h"
+#include "core/kernel/integrator/medium.h"
 
 namespace pl {
 
@@ -47,7 +47,8 @@ PL_HD inline Continuation play_roulette(const M& method, const PathSettings& set
         method.estimate_contribution(vertex, albedo, state.throughput, state.survival, state.expectation);
     if (state.vertices < settings.roulette_start) return {.branches = 1};
     if constexpr (SplittingMethod<M>) {
-        if (estimate > settings.split_threshold && state.branches.room() > 1)
+        // Forks remember no medium: paths inside of glass are not split.
+        if (estimate > settings.split_threshold && state.branches.room() > 1 && medium_of(state) == kNoMedium)
             return split(settings, estimate, u, state);
     }
     const float probability = survival_probability(settings, estimate, state.survival);

@@ -2,7 +2,7 @@
 // kernels of a device: apart, the functions would take the path's state in memory.
 #pragma once
 
-#include "core/kernel/integrator/path.h"
+#include "core/kernel/integrator/medium.h"
 #include "core/kernel/shading/bsdf.h"
 
 namespace pl {
@@ -53,6 +53,11 @@ PL_HD inline Observation through_chain(const PathState<F, M>& state, Observation
                     .direction_share = 1.0f,  // light samples do not pass through delta lobes
                     .distance = state.chain.distance + observation.distance};
     }
+    if constexpr (kTracksMedium<F>) {
+        // Without a chain its weight is what glass around the segment lets through.
+        observation.emitted *= state.chain.weight;
+        observation.albedo *= state.chain.weight;
+    }
     return observation;
 }
 
@@ -96,6 +101,8 @@ PL_HD_INLINED PathStatus send_path(const M& method, const ScatterPoint<F, M>& fr
                                    Vec3f weight, PathState<F, M>& state, PathCounters& counters) {
     state.throughput *= weight;
     state.ray = spawn_ray(from.surface, direction.wi);
+    if constexpr (kTracksMedium<F>)
+        state.medium.material = medium_towards(from.surface, from.bsdf, direction.wi, state.medium.material);
     if constexpr (F.has_any(kLobeFeatures)) {
         if (from.bsdf.is_specular()) {
             state.chain.weight *= weight;
@@ -127,7 +134,7 @@ PL_HD_INLINED PathStatus scatter_layered(const M& method, const ScatterPoint<F, 
     const Vec4f choice = numbers.rng.draw(numbers.index, Purpose::Lobe);
     const float p = from.bsdf.delta_probability();
     if (choice.x < p) {
-        const DeltaDirection delta = from.bsdf.sample_delta(from.surface, choice.y);
+        const DeltaDirection delta = from.bsdf.template sample_delta<F>(from.surface, choice.y);
         if (is_black(delta.weight)) return terminate_black(method, state, out);
         state.direction_pdf_sa = 0.0f;
         return send_path(method, from, {.wi = delta.wi}, delta.weight * (1.0f / p), state, out.counters);

@@ -7,6 +7,7 @@
 
 #include "core/kernel/film/vertex_sequence.h"
 #include "core/kernel/integrator/environment.h"
+#include "core/kernel/integrator/medium.h"
 #include "core/kernel/integrator/roulette.h"
 #include "core/kernel/integrator/scatter.h"
 #include "core/kernel/scene/camera.h"
@@ -108,10 +109,11 @@ struct UnweightedLight {
 struct ReceivedWeights {
     Vec3f throughput{1.0f};
     Vec3f chain{1.0f};  ///< of the specular chain that ends at the vertex; with lobes only
+    std::uint32_t medium = kNoMedium;  ///< around the path there
 };
 template <FeatureSet F, class M>
 PL_HD inline ReceivedWeights received_weights(const PathState<F, M>& state) {
-    ReceivedWeights weights{.throughput = state.throughput};
+    ReceivedWeights weights{.throughput = state.throughput, .medium = medium_of(state)};
     if constexpr (F.has_any(kLobeFeatures)) weights.chain = state.chain.weight;
     return weights;
 }
@@ -137,10 +139,15 @@ PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const
 template <FeatureSet F, Method M>
 PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
                                            const ReceivedWeights& weights) {
-    const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, u,
-                                                      learned_lights<F>(context.method, from.vertex).learned());
+    DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, u,
+                                                learned_lights<F>(context.method, from.vertex).learned());
     if (!(sample.pdf_sa > 0.0f)) return {};
-    return reflect_light(from, sample, shadow_ray_to<F>(from.surface, sample), weights);
+    const Ray ray = shadow_ray_to<F>(from.surface, sample);
+    if constexpr (kTracksMedium<F>) {
+        const std::uint32_t medium = medium_towards(from.surface, from.bsdf, sample.wi, weights.medium);
+        sample.emitted *= shadow_transmittance(context.scene, medium, ray);
+    }
+    return reflect_light(from, sample, ray, weights);
 }
 
 /// Weighs a light sample by multiple importance sampling. `scatter_pdf_sa`: of its direction, see scatter_pdf_sa(). `shadow` comes
@@ -235,6 +242,7 @@ template <FeatureSet F, Method M, class FindSurface>
 PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const FindSurface& find_surface,
                                    PathState<F, M>& state, const ShadeOutput<F, M>& out) {
     ++out.counters.segments;
+    absorb_segment(context.scene, hit, state);
     if (!hit.found()) return shade_miss(context, state, out);
     const SceneView& scene = context.scene;
     find_surface(out.from.surface);
@@ -308,6 +316,7 @@ PL_HD_INLINED PathStatus begin_branch(const PathContext<M>& context, PathState<F
     state.vertices = fork.vertices;
     state.memory = begin_memory(state.memory);
     state.chain = {};
+    state.medium = {};
     const SurfacePoint surface = make_surface_point<F>(context.scene, fork.hit, fork.wo);
     const Bsdf<F> bsdf = make_bsdf<F>(context.scene, surface, hit_weights(fork.hit), fork.wo);
     const Rng rng = path_rng(context.settings, state.pixel, state.sample);

@@ -49,6 +49,7 @@ struct SceneView {
     Span<const Material> materials;
     Span<const SurfaceLobes> lobes;        ///< [material]; empty if all are diffuse
     Span<const float> directional_albedo;  ///< tables that SurfaceLobes::table indexes
+    Span<const Vec3f> absorption;          ///< [material], per length, of the inside of glass; empty if nothing absorbs
     Textures textures;
     Span<const Light> lights;  ///< sorted by primitive
     LightTree light_tree;      ///< over `lights`; empty if they are few

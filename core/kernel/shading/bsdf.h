@@ -64,6 +64,8 @@ public:
     PL_HD bool is_lambert() const { return lobes_.kind == SurfaceKind::Diffuse; }
     /// Not guided: the vertex learns nothing and passes the incident radiance on to the previous vertex.
     PL_HD bool is_specular() const { return is_black(reflectance_) && scatters(); }
+    /// Has an inside, which paths enter and leave.
+    PL_HD bool refracts() const { return lobes_.kind == SurfaceKind::Dielectric; }
     PL_HD bool scatters() const { return lobes_.kind == SurfaceKind::Dielectric || !is_black(albedo_); }
     /// Directional albedo: the reflected and transmitted share of uniform incident radiance, towards wo.
     PL_HD Vec3f albedo() const { return albedo_; }
@@ -73,7 +75,11 @@ public:
         return lobes_.kind == SurfaceKind::Plastic ? plastic().coat_probability() : 1.0f;
     }
     /// u in [0, 1).
+    template <FeatureSet F>
     PL_HD DeltaDirection sample_delta(const SurfacePoint& surface, float u) const {
+        if constexpr (F.has(Feature::ThinPanes)) {
+            if (lobes_.kind == SurfaceKind::Pane) return sample_pane(surface, u);
+        }
         const Vec3f up{0.0f, 0.0f, 1.0f};
         DeltaDirection delta{reflect_at(wo_, up), Vec3f{0.0f}};
         if (lobes_.kind == SurfaceKind::Conductor) {
@@ -85,10 +91,7 @@ public:
         } else {
             delta = {refract_at(wo_, up, eta_), lobes_.transmission * (1.0f / (eta_ * eta_))};
         }
-        const bool passes = delta.wi.z < 0.0f;
-        delta.wi = glm::normalize(frame_.to_world(delta.wi));
-        if ((glm::dot(delta.wi, surface.geometric_normal) < 0.0f) != passes) delta.weight = Vec3f{0.0f};
-        return delta;
+        return to_sides(surface, delta);
     }
 
     /// |cos theta_i| at the shading normal; 0 for directions that eval() is black for.
@@ -107,6 +110,7 @@ public:
         case SurfaceKind::Conductor: return conductor().eval(frame_.to_local(wi));
         case SurfaceKind::Dielectric: return dielectric().eval(frame_.to_local(wi));
         case SurfaceKind::Plastic: return plastic().eval(frame_.to_local(wi));
+        case SurfaceKind::Pane: break;
         }
         return Vec3f{0.0f};
     }
@@ -116,6 +120,7 @@ public:
         case SurfaceKind::Conductor: return conductor().pdf_sa(frame_.to_local(wi));
         case SurfaceKind::Dielectric: return dielectric().pdf_sa(frame_.to_local(wi));
         case SurfaceKind::Plastic: return plastic().pdf_sa(frame_.to_local(wi));
+        case SurfaceKind::Pane: break;
         }
         return 0.0f;
     }
@@ -127,6 +132,7 @@ public:
         case SurfaceKind::Conductor: return to_world(conductor().sample(u, choice));
         case SurfaceKind::Dielectric: return to_world(dielectric().sample(u, choice));
         case SurfaceKind::Plastic: return to_world(plastic().sample(u, choice));
+        case SurfaceKind::Pane: break;
         }
         return Vec3f{0.0f};
     }
@@ -137,6 +143,18 @@ private:
     PL_HD bool smooth() const { return lobes_.kind != SurfaceKind::Diffuse && lobes_.roughness == 0.0f; }
     PL_HD Vec3f to_world(Vec3f local) const {
         return is_black(local) ? local : glm::normalize(frame_.to_world(local));
+    }
+    /// To the world; black if the direction lies on the other side of the triangle than of the shading normal's plane.
+    PL_HD DeltaDirection to_sides(const SurfacePoint& surface, DeltaDirection delta) const {
+        const bool passes = delta.wi.z < 0.0f;
+        delta.wi = glm::normalize(frame_.to_world(delta.wi));
+        if ((glm::dot(delta.wi, surface.geometric_normal) < 0.0f) != passes) delta.weight = Vec3f{0.0f};
+        return delta;
+    }
+    PL_HD DeltaDirection sample_pane(const SurfacePoint& surface, float u) const {
+        if (u < fresnel_pane(min_of(wo_.z, 1.0f), lobes_.ior))
+            return to_sides(surface, {reflect_at(wo_, {0.0f, 0.0f, 1.0f}), lobes_.specular});
+        return to_sides(surface, {-wo_, lobes_.transmission});
     }
     PL_HD Ggx ggx() const { return {square(lobes_.roughness)}; }
 
@@ -154,7 +172,8 @@ private:
         case SurfaceKind::Diffuse: return reflectance_;
         case SurfaceKind::Conductor:
             return smooth() ? fresnel_conductor(wo_.z, lobes_.specular, lobes_.edge_loss()) : conductor().albedo();
-        case SurfaceKind::Dielectric: return glm::max(lobes_.specular, lobes_.transmission);
+        case SurfaceKind::Dielectric:
+        case SurfaceKind::Pane: return glm::max(lobes_.specular, lobes_.transmission);
         case SurfaceKind::Plastic: return plastic().albedo();
         }
         return Vec3f{0.0f};

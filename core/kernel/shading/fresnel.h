@@ -16,6 +16,13 @@ PL_HD inline float fresnel_dielectric(float cos_i, float eta) {
     return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
+/// Reflectance of a sheet of clear glass between whose faces light goes to and fro: R + (1 - R)^2 R / (1 - R^2).   [Born and Wolf,
+/// Principles of Optics, 7.6, without interference]
+PL_HD inline float fresnel_pane(float cos_i, float eta) {
+    const float face = fresnel_dielectric(cos_i, eta);
+    return 2.0f * face / (1.0f + face);
+}
+
 /// Unpolarized Fresnel reflectance of a conductor with the complex index of refraction eta + i k over that of the near side.   [Born and
 /// Wolf, Principles of Optics, 14.2]
 PL_HD inline float fresnel_complex(float cos_i, float eta, float k) {

@@ -12,6 +12,7 @@ enum class SurfaceKind : std::uint32_t {
     Conductor,   ///< metal, smooth or rough
     Dielectric,  ///< glass, water, smooth or rough: reflection and refraction
     Plastic,     ///< Lambert base under a smooth or rough dielectric coat
+    Pane,        ///< thin sheet of clear glass: reflects, and lets light straight through
 };
 
 struct SurfaceLobes {
@@ -20,7 +21,7 @@ struct SurfaceLobes {
     float ior = 1.5f;          ///< index of refraction, inside over outside
     std::uint32_t table = 0;   ///< offset in SceneView::directional_albedo, see AlbedoTable
     Vec3f specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of the reflection
-    Vec3f transmission{1.0f};  ///< dielectric: tint of the transmission; conductor: 1 - edge_loss()
+    Vec3f transmission{1.0f};  ///< dielectric and pane: tint of the transmission; conductor: 1 - edge_loss()
 
     /// Of a conductor, see fresnel_conductor(); 0: none. Shares the place of the transmission, so that no surface pays for both.
     PL_HD Vec3f edge_loss() const { return Vec3f{1.0f} - transmission; }

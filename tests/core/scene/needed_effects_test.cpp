@@ -12,7 +12,7 @@ using namespace pl::test;
 namespace {
 
 constexpr SurfaceKind kKinds[] = {SurfaceKind::Diffuse, SurfaceKind::Conductor, SurfaceKind::Dielectric,
-                                  SurfaceKind::Plastic};
+                                  SurfaceKind::Plastic, SurfaceKind::Pane};
 
 /// A box of a few materials, each diffuse two times out of three.
 SceneDescription random_scene(Uniforms& random) {
@@ -20,7 +20,8 @@ SceneDescription random_scene(Uniforms& random) {
     const std::uint32_t materials = 1 + random.below(3);
     for (std::uint32_t i = 0; i < materials; ++i) {
         MaterialDescription material = gray();
-        if (random.below(3) == 0) material.kind = kKinds[random.below(4)];
+        if (random.below(3) == 0) material.kind = kKinds[random.below(std::size(kKinds))];
+        if (material.kind == SurfaceKind::Dielectric && random.below(2) == 0) material.absorption = glm::vec3(1.0f);
         // One table for all, so that packing stays quick.
         if (material.kind == SurfaceKind::Conductor && random.below(2) == 0) material.roughness = 0.5f;
         scene.materials.push_back(material);
@@ -42,6 +43,8 @@ FeatureSet needed_by_look(const SceneDescription& scene) {
         if (m.kind == SurfaceKind::Diffuse) continue;
         set = set.with(m.roughness > 0.0f ? Feature::Rough : Feature::Specular);
         if (m.kind == SurfaceKind::Plastic) set = set.with(Feature::Plastic);
+        if (m.kind == SurfaceKind::Pane) set = set.with(Feature::ThinPanes);
+        if (m.absorbs()) set = set.with(Feature::Absorption);
     }
     if (scene.environment != glm::vec3{0.0f}) set = set.with(Feature::Environment);
     if (scene.sun.radiance != glm::vec3{0.0f}) set = set.with(Feature::EnvironmentMap);
@@ -63,7 +66,7 @@ TEST_CASE("The scan of a scene finds the effects of all its materials") {
     }
     // All but light samples, images and the lens, which the random scenes have none of.
     CHECK(seen == features(Feature::SmoothNormals, Feature::Environment, Feature::Specular, Feature::Rough,
-                           Feature::Plastic, Feature::EnvironmentMap)
+                           Feature::Plastic, Feature::EnvironmentMap, Feature::Absorption, Feature::ThinPanes)
                       .bits);
 }
 
@@ -76,6 +79,8 @@ TEST_CASE("Effects that a scene does not need take no memory") {
     CHECK(packed.triangle_normals.capacity() == 0);
     CHECK(packed.lobes.capacity() == 0);
     CHECK(packed.directional_albedo.capacity() == 0);
+    CHECK(packed.absorption.capacity() == 0);
+    CHECK(packed.delta_lights.capacity() == 0);
     CHECK(packed.images.capacity() == 0);
     CHECK(packed.material_images.capacity() == 0);
     CHECK(packed.map_texels.capacity() == 0);

@@ -16,7 +16,8 @@ public:
     /// `albedo` is that of the guided lobes, see pack_scene().
     explicit LobeSurface(const SurfaceLobes& lobes, Vec3f albedo = Vec3f{0.0f}) : lobes_(lobes), albedo_(albedo) {
         switch (lobes.kind) {
-        case SurfaceKind::Diffuse: break;
+        case SurfaceKind::Diffuse:
+        case SurfaceKind::Pane: break;
         case SurfaceKind::Conductor: table_ = lossless_albedo(); break;
         case SurfaceKind::Plastic: table_ = coat_albedo(lobes.ior); break;
         case SurfaceKind::Dielectric: {
@@ -117,7 +118,7 @@ inline Moments returned_light(const LobeSurface& surface, Vec3f wo, bool front, 
         const Vec2f u = random.square();
         double weight = 0.0;
         if (static_cast<double>(choice) < p) {
-            weight = static_cast<double>(bsdf.sample_delta(point, random.next()).weight.x) / p;
+            weight = static_cast<double>(bsdf.sample_delta<kEveryFeature>(point, random.next()).weight.x) / p;
         } else {
             const Vec3f wi = bsdf.sample(point, u, random.next());
             const float pdf_sa = bsdf.pdf_sa(point, wi);

@@ -8,6 +8,7 @@
 
 #include "core/io/load_scene.h"
 #include "core/io/mtl_surface.h"
+#include "core/kernel/shading/absorption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/gltf_maker.h"
 #include "tests/support/files/input_error.h"
@@ -122,11 +123,11 @@ TEST_CASE("gltf materials: glass by transmission") {
     CHECK(scene.materials[0].transmission == glm::vec3(0.5f, 1.0f, 1.0f));
     CHECK(scene.materials[0].ior == 1.33f);
     CHECK(scene.materials[0].roughness == 0.3f);
-    CHECK(is_told(scene, "thin panes"));
-    glass["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}, {"attenuationDistance", 2}};
+    CHECK(is_told(scene, "frosted thin panes"));
+    glass["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}};
     scene = load(glass);
     CHECK_FALSE(is_told(scene, "thin panes"));
-    CHECK(is_told(scene, "absorption inside of glass"));
+    CHECK(scene.materials[0].absorption == glm::vec3(0.0f));
     glass["extensions"]["KHR_materials_ior"]["ior"] = 1.01;
     CHECK(surface(glass).roughness == 0.0f);
     glass["pbrMetallicRoughness"]["metallicFactor"] = 1;
@@ -134,6 +135,36 @@ TEST_CASE("gltf materials: glass by transmission") {
     const SceneDescription weak = load(extended("transmission", {{"transmissionFactor", 0.2}}));
     CHECK(weak.materials[0].kind == SurfaceKind::Plastic);
     CHECK(is_told(weak, "transmission below one half"));
+}
+
+TEST_CASE("gltf materials: glass without an inside is a thin pane") {
+    Json glass = extended("transmission", {{"transmissionFactor", 1}});
+    glass["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 1, 1, 1};
+    glass["pbrMetallicRoughness"]["roughnessFactor"] = 0.01;
+    const SceneDescription scene = load(glass);
+    CHECK(scene.materials[0].kind == SurfaceKind::Pane);
+    CHECK(scene.materials[0].transmission == glm::vec3(0.5f, 1.0f, 1.0f));
+    CHECK(scene.materials[0].roughness == 0.0f);
+    CHECK(scene.materials[0].albedo == glm::vec3(0.0f));
+    CHECK_FALSE(is_told(scene, "pane"));
+}
+
+TEST_CASE("gltf materials: the inside of glass absorbs") {
+    Json glass = extended("transmission", {{"transmissionFactor", 1}});
+    glass["extensions"]["KHR_materials_volume"] = {
+        {"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {0.5, 1, 0}}};
+    const glm::vec3 absorption = surface(glass).absorption;
+    CHECK(absorption.x == Approx(0.5 * std::log(2.0)).epsilon(1e-6));
+    CHECK(absorption.y == 0.0f);
+    CHECK(transmittance(absorption.z, 2.0f) == 0.0f);
+    glass["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 1e-38;
+    CHECK(is_finite(surface(glass).absorption));
+    glass["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 0;
+    const SceneDescription odd = load(glass);
+    CHECK(odd.materials[0].absorption == glm::vec3(0.0f));
+    CHECK(is_told(odd, "absorbs within no distance"));
+    glass["extensions"]["KHR_materials_volume"] = {{"attenuationDistance", 2}, {"attenuationColor", {0.5, 1, 0}}};
+    CHECK(surface(glass).absorption == glm::vec3(0.0f));  // thin
 }
 
 TEST_CASE("gltf materials: a clear coat on dielectrics") {

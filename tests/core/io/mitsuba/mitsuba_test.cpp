@@ -175,6 +175,12 @@ TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the val
                                               "value=\"water\"/><float name=\"extIOR\" value=\"1\"/></bsdf>");
     CHECK(glass.kind == SurfaceKind::Dielectric);
     CHECK(glass.ior == 1.333f);
+    const MaterialDescription pane =
+        surface("<bsdf type=\"thindielectric\"><float name=\"int_ior\" value=\"1.6\"/><float name=\"ext_ior\" "
+                "value=\"1\"/><rgb name=\"specular_transmittance\" value=\"0.5, 1, 0.25\"/></bsdf>");
+    CHECK(pane.kind == SurfaceKind::Pane);
+    CHECK(pane.ior == 1.6f);
+    CHECK(pane.transmission == glm::vec3(0.5f, 1.0f, 0.25f));
     const std::string leather =
         "<bsdf type=\"plastic\"><float name=\"int_ior\" value=\"1.5\"/><float name=\"ext_ior\" "
         "value=\"1\"/><rgb name=\"diffuse_reflectance\" value=\"0.034\"/>";
@@ -191,6 +197,34 @@ TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the val
     const SceneDescription plain = load("<shape type=\"rectangle\"><bsdf type=\"normalmap\"><rgb name=\"normalmap\" "
                                         "value=\"1\"/><bsdf type=\"diffuse\"/></bsdf></shape>");
     CHECK(is_told(plain, "normals that are no image are left out"));
+}
+
+TEST_CASE("mitsuba: the inside of glass absorbs, by name or in its place, and other media are told") {
+    const auto shape = [](const std::string& inside, const std::string& bsdf = "dielectric") {
+        return "<shape type=\"cube\"><bsdf type=\"" + bsdf + "\"/>" + inside + "</shape>";
+    };
+    const std::string ink = "<rgb name=\"sigma_t\" value=\"1, 2, 0\"/><float name=\"scale\" value=\"0.5\"/><rgb "
+                            "name=\"albedo\" value=\"0\"/></medium>";
+    const std::string inside = "<medium type=\"homogeneous\" name=\"interior\">" + ink;
+    const SceneDescription scene = load("<medium type=\"homogeneous\" id=\"ink\">" + ink + shape(inside) + shape("") +
+                                        shape("<ref name=\"interior\" id=\"ink\"/>"));
+    REQUIRE(scene.materials.size() == 3);
+    CHECK(scene.materials[0].absorption == glm::vec3(0.5f, 1.0f, 0.0f));
+    CHECK(scene.materials[1].absorption == glm::vec3(0.0f));
+    CHECK(scene.materials[2].absorption == glm::vec3(0.5f, 1.0f, 0.0f));
+    CHECK(scene.warnings.size() == 1);  // of the light that the scene lacks
+    const SceneDescription older = load(shape("<medium type=\"homogeneous\" name=\"interior\"><spectrum "
+                                              "name=\"sigmaA\" value=\"0.25\"/></medium>"));
+    CHECK(older.materials[0].absorption == glm::vec3(0.25f));
+    const SceneDescription milk = load(shape("<medium type=\"homogeneous\" name=\"interior\"/>"));
+    CHECK(milk.materials[0].absorption == glm::vec3(0.0f));
+    CHECK(is_told(milk, "media that scatter light"));
+    CHECK(is_told(load(shape("<medium type=\"heterogeneous\" name=\"interior\"/>")), "and those that vary"));
+    CHECK(is_told(load(shape(inside, "plastic")), "media inside of other surfaces than glass are left out"));
+    CHECK(is_told(load(shape("<medium type=\"homogeneous\" name=\"exterior\"/>")), "media outside of shapes"));
+    CHECK_THAT(refusal(shape("<medium type=\"homogeneous\" name=\"interior\"><rgb name=\"sigma_a\" value=\"1\"/>"
+                             "<float name=\"scale\" value=\"-2\"/></medium>")),
+               contains("expected an absorption of at least 0, got -2 -2 -2"));
 }
 
 TEST_CASE("mitsuba: a normal map is that of the surface inside") {

@@ -41,6 +41,9 @@ TEST_CASE("Compiled sets are chosen for themselves") {
 }
 
 TEST_CASE("Covering is inclusion") {
+    std::uint32_t wrong = 0;  // one assertion for all pairs: they are many
     for (std::uint32_t a = 0; a < kSubsets; ++a)
-        for (std::uint32_t b = 0; b < kSubsets; ++b) CHECK(FeatureSet{a}.covers(FeatureSet{b}) == ((a | b) == a));
+        for (std::uint32_t b = 0; b < kSubsets; ++b)
+            wrong += FeatureSet{a}.covers(FeatureSet{b}) == ((a | b) == a) ? 0u : 1u;
+    CHECK(wrong == 0);
 }

@@ -200,17 +200,19 @@ TEST_CASE("Directions that a surface cannot send light to have no cosine") {
 TEST_CASE("No direction gives anything that is not finite") {
     Uniforms random(21);
     const float heights[] = {0.0f, 1e-30f, 1e-7f, 1e-3f, 0.5f, 1.0f};
-    for (const SurfaceKind kind : {SurfaceKind::Conductor, SurfaceKind::Plastic, SurfaceKind::Dielectric})
+    for (const SurfaceKind kind :
+         {SurfaceKind::Conductor, SurfaceKind::Plastic, SurfaceKind::Dielectric, SurfaceKind::Pane})
         for (const float roughness : {0.0f, 0.03f, 0.3f, 1.0f})
             for (const float height : heights)
                 for (const bool front : {true, false}) {
+                    if (kind == SurfaceKind::Pane && roughness > 0.0f) continue;
                     const LobeSurface surface(rough(kind, roughness),
                                               Vec3f{kind == SurfaceKind::Plastic ? 0.5f : 0.0f});
                     const LayeredBsdf bsdf = surface.from(glm::normalize(Vec3f{1.0f - height, 0.0f, height}), front);
                     const SurfacePoint point = LobeSurface::point(front);
                     for (int i = 0; i < 200; ++i) {
                         const Vec2f u = i == 0 ? Vec2f{0.0f} : (i == 1 ? Vec2f{0.5f} : random.square());
-                        const DeltaDirection delta = bsdf.sample_delta(point, random.next());
+                        const DeltaDirection delta = bsdf.sample_delta<kEveryFeature>(point, random.next());
                         CHECK((roughness > 0.0f || is_valid_radiance(delta.weight)));
                         if (roughness == 0.0f && kind != SurfaceKind::Plastic) continue;
                         const Vec3f wi = bsdf.sample(point, u, random.next());
@@ -221,4 +223,37 @@ TEST_CASE("No direction gives anything that is not finite") {
                         if (cos_i > 0.0f) CHECK(is_valid_radiance(bsdf.eval(point, wi, cos_i)));
                     }
                 }
+}
+
+// Light goes to and fro between the faces of a sheet: the sum over all ways through it.
+TEST_CASE("A thin pane reflects and lets through what its two faces do together, from both sides alike") {
+    for (const float ior : {1.0f, 1.33f, 1.5f, 2.4f})
+        for (const float cos_o : {1.0f, 0.8f, 0.3f, 0.05f})
+            for (const bool front : {true, false}) {
+                SurfaceLobes lobes = rough(SurfaceKind::Pane, 0.0f);
+                lobes.ior = ior;
+                lobes.specular = Vec3f{0.5f};
+                lobes.transmission = Vec3f{0.25f};
+                const LobeSurface pane(lobes);
+                const Vec3f wo = tilted(cos_o);
+                const LayeredBsdf bsdf = pane.from(wo, front);
+                CHECK(bsdf.delta_probability() == 1.0f);
+                CHECK(bsdf.is_specular());
+                const double face = static_cast<double>(fresnel_dielectric(cos_o, ior));
+                double reflected = face;
+                for (double way = (1.0 - face) * (1.0 - face) * face; way > 1e-12; way *= face * face)
+                    reflected += way;
+                CAPTURE(ior, cos_o, front, reflected);
+                const SurfacePoint point = LobeSurface::point(front);
+                const auto share = static_cast<float>(reflected);
+                const DeltaDirection mirrored = bsdf.sample_delta<kEveryFeature>(point, 0.999f * share);
+                if (share > 0.0f) {
+                    CHECK(mirrored.weight == lobes.specular);
+                    CHECK(mirrored.wi.z == Approx(wo.z).epsilon(1e-5));
+                    CHECK(mirrored.wi.x == Approx(-wo.x).margin(1e-6));
+                }
+                const DeltaDirection straight = bsdf.sample_delta<kEveryFeature>(point, 1.001f * share + 1e-7f);
+                CHECK(straight.weight == lobes.transmission);
+                CHECK(glm::length(straight.wi + wo) < 1e-6f);
+            }
 }

@@ -172,6 +172,13 @@ TEST_CASE("Lights on and next to a surface give finite light") {
     }
 }
 
+TEST_CASE("A cone without a width that numbers tell is dark, not invalid") {
+    PunctualLightDescription needle = spot_light(SpotFalloff::Cosine);
+    needle.inner_deg = 0.0f;
+    needle.outer_deg = 1e-7f;
+    for (const float x : {0.0f, 1e-6f, 1.0f}) CHECK(is_black(seen_at(pack_scene(floor_with({needle})), x, 0, true)));
+}
+
 TEST_CASE("Black lights and scenes without lights change nothing") {
     const HostScene none = pack_scene(floor_with({}));
     const HostScene black = pack_scene(floor_with({point_light({0, 0, 1}, glm::vec3(0.0f))}));
