@@ -31,6 +31,10 @@ struct LightBlock {
     std::vector<float> values;
 };
 
+bool are_finite(const LargeArray<float>& values) {
+    return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
+}
+
 class NetworkUpdate {
 public:
     NetworkUpdate(const FieldShape& shape, const HostVolumes& volumes, HostNeural& field, int threads)
@@ -62,7 +66,7 @@ private:
         return {(volumes_.sites[volume].position - shape_.corner) / shape_.edge, volumes_.normals[volume]};
     }
 
-    /// Whether loss and weights stay finite.
+    /// Whether all stays finite.
     bool learn() {
         const std::uint32_t steps = std::clamp((count_ + kBatch - 1) / kBatch, kFewestSteps, kMostSteps);
         std::vector<NetworkBlock> blocks(kBatchBlocks, NetworkBlock(layout_.columns));
@@ -83,6 +87,7 @@ private:
         return std::max(stride, 1u);
     }
 
+    /// One step, by the next volumes. Whether loss, weights and the state of Adam are finite behind it.
     bool descend(std::vector<NetworkBlock>& blocks, std::vector<std::vector<float>>& slopes) {
         const Network network(best_neural_kernels(), layout_, field_.weights.data());
         const std::uint64_t first = std::uint64_t{field_.counts[kNetworkSteps]} * kBatch;
@@ -116,7 +121,7 @@ private:
         }
         if (!std::isfinite(loss)) return false;
         move_weights(all);
-        return std::all_of(field_.weights.begin(), field_.weights.end(), [](float w) { return std::isfinite(w); });
+        return are_finite(field_.weights) && are_finite(field_.slope_square);
     }
 
     void move_weights(const std::vector<float>& slopes) {

@@ -215,7 +215,8 @@ TEST_CASE("Damaged networks in files are refused, whole ones come back") {
     CHECK_THAT(refused([](HostNeural& neural) { neural.counts[kNetworkIsLost] = 2; }),
                contains("network: expected weights of layout 1, got mark of loss 2"));
     CHECK_THAT(refused([](HostNeural& neural) { neural.counts[kNetworkVersion] = 9; }), contains("got layout 9"));
-    CHECK_THAT(refused([](HostNeural& neural) { neural.column_cdf[0] = 2.0f; }), contains("entry 0 of the column table"));
+    CHECK_THAT(refused([](HostNeural& neural) { neural.column_cdf[0] = 2.0f; }),
+               contains("entry 0 of the column table"));
 }
 
 // A table that is not monotonic would give a direction a negative probability; this takes at least four columns.
