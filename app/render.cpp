@@ -108,6 +108,8 @@ void report(const Snapshot& snapshot, const Options& options, const Json& stats,
     if (snapshot.is_closed && snapshot.counters.path.escaped > 0)
         console.log().warning(fmt::format("{} paths escaped although closed surfaces surround the camera",
                                           snapshot.counters.path.escaped));
+    if (snapshot.field && snapshot.field->network && snapshot.field->network->is_lost)
+        console.log().warning("the network of the field was not finite: its tables are sampled without it");
 }
 
 /// run_passes() with a last checkpoint. An error on the way, such as a rank that has died, names the checkpoint to go on from.

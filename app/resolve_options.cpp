@@ -107,7 +107,7 @@ void check_combinations(Command command, const Options& options) {
     if (!options.save_field.empty()) require_learning(options);
 }
 
-/// SD-trees and lobes are learned, and on the CPU: "auto" then takes that.
+/// SD-trees, lobes and networks are learned, and on the CPU: "auto" then takes that.
 void settle_representation(Options& options) {
     const FieldSettings& field = options.render.field;
     if (field.representation != Representation::SdTree && field.iterations != Iterations::Updates)
@@ -123,9 +123,8 @@ void settle_representation(Options& options) {
     const auto is_cuda = [](const std::string& backend) { return backend == "cuda"; };
     if (is_cuda(options.backend) || std::ranges::any_of(options.backends, is_cuda))
         throw Error(ErrorKind::Unavailable,
-                    fmt::format("--field {}: expected --backend cpu or auto, got cuda, which has kernels for "
-                                "tables alone",
-                                name));
+                    fmt::format("--field {}: expected --backend cpu or auto, got cuda, which has {} tables alone", name,
+                                field.representation == Representation::Neural ? "an update of" : "kernels for"));
     options.backend = "cpu";
 }
 

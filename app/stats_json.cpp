@@ -32,16 +32,22 @@ Json target_json(const ErrorTarget* target) {
             {"of", target->word()}};
 }
 
+Json network_json(const NetworkStatus& network) {
+    return {{"bytes", network.bytes}, {"steps", network.steps}, {"lost", network.is_lost}};
+}
+
 Json field_json(const std::optional<FieldStatus>& field) {
     if (!field) return nullptr;
-    return {{"representation", name_of(field->representation)},
-            {"volumes", field->volumes},
-            {"added_volumes", field->added_volumes},
-            {"bins", field->bins},
-            {"bytes", field->bytes},
-            {"passes", field->passes},
-            {"records", field->records},
-            {"lookup_misses", field->lookup_misses}};
+    Json json{{"representation", name_of(field->representation)},
+              {"volumes", field->volumes},
+              {"added_volumes", field->added_volumes},
+              {"bins", field->bins},
+              {"bytes", field->bytes},
+              {"passes", field->passes},
+              {"records", field->records},
+              {"lookup_misses", field->lookup_misses}};
+    if (field->network) json["network"] = network_json(*field->network);
+    return json;
 }
 
 Json guiding_json(const std::optional<GuidingStatus>& guiding) {

@@ -17,6 +17,7 @@
 #include "cpu/emission_pass.h"
 #include "cpu/film_store.h"
 #include "cpu/launchers.h"
+#include "cpu/neural_update.h"
 #include "cpu/parallel_for.h"
 #include "cpu/view_pass.h"
 #include "cpu/volume_update.h"
@@ -86,6 +87,11 @@ public:
     std::size_t field_bytes(MethodId method) const override {
         const std::optional<StoredField>& field = fields_[index_of(method)];
         return field ? pl::field_bytes(field->arrays) : 0;
+    }
+    std::optional<NetworkStatus> network_status(MethodId method) const override {
+        const std::optional<StoredField>& field = fields_[index_of(method)];
+        const auto* neural = field ? std::get_if<HostNeural>(&field->arrays) : nullptr;
+        return neural != nullptr ? std::optional(status_of(*neural)) : std::nullopt;
     }
 
     void reset_film(FilmSlot slot, int width, int height) override {
@@ -173,6 +179,10 @@ private:
     }
     void update(HostSdTree& tree, bool) const { update_sd_tree(shape_, tree, settings_.threads); }
     void update(HostLobes& lobes, bool) const { update_lobes(shape_, lobes, settings_.threads); }
+    void update(HostNeural& field, bool is_updated) const {
+        update(static_cast<HostTables&>(field), is_updated);
+        update_network(shape_, *volumes_, field, settings_.threads);
+    }
 
     StoredField& existing_field(MethodId method) {
         std::optional<StoredField>& field = fields_[index_of(method)];

@@ -48,13 +48,13 @@ public:
     void upload_field(MethodId method, HostField field) override {
         if (volumes_.normals.size() == 0)
             throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
-        if (representation_of(field) != Representation::Table)
+        if (representation_of(field) != Representation::Table) {
+            constexpr const char* kOthers[]{"", "an SD-tree", "lobes", "a network"};
             throw Error(ErrorKind::Unavailable,
-                        representation_of(field) == Representation::SdTree
-                            ? "CUDA back end: expected a field of tables, got an SD-tree, which the CPU serves: take "
-                              "--backend cpu or --field table"
-                            : "CUDA back end: expected a field of tables, got lobes, which the CPU serves: take "
-                              "--backend cpu or --field table");
+                        fmt::format("CUDA back end: expected a field of tables, got {}, which the CPU serves: take "
+                                    "--backend cpu or --field table",
+                                    kOthers[field.index()]));
+        }
         launcher_.forget();
         DeviceField uploaded;
         zip_fields(field, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });

@@ -71,6 +71,9 @@ public:
     }
     bool has_field(MethodId method) const override { return local().has_field(method); }
     std::size_t field_bytes(MethodId method) const override { return local().field_bytes(method); }
+    std::optional<NetworkStatus> network_status(MethodId method) const override {
+        return local().network_status(method);
+    }
     void change_pending(MethodId method, const std::function<void(PendingSums)>& change) override {
         lead({.order = Order::Collect, .method = method});
         local().change_pending(method, change);

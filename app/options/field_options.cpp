@@ -13,8 +13,8 @@ void refuse_save_field(Options&, const std::string&) {
 constexpr auto kFieldOptions = std::to_array<OptionSpec>({
     {.name = "field", .flags = "--field", .value = "NAME", .group = kField,
      .help = "How reinforcement represents what it learns: table (default), cells of each radiance volume; sd-tree, quadtrees "
-             "over directions at the leaves of a binary tree over space; or lobes, a mixture of von Mises-Fisher lobes in each "
-             "radiance volume; the last two on the CPU",
+             "over directions at the leaves of a binary tree over space; lobes, a mixture of von Mises-Fisher lobes in each "
+             "radiance volume; or neural, tables with a network over all volumes as their prior; the last three on the CPU",
      .commands = kSampling, .in_scene_files = true, .parse = parse_representation,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.representation)); }},
     {.name = "iterations", .flags = "--iterations", .value = "NAME", .group = kField,

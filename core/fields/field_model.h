@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/fields/lobe_model.h"
+#include "core/fields/neural_model.h"
 #include "core/fields/sd_tree_model.h"
 #include "core/kernel/methods/method.h"
 
@@ -14,10 +15,11 @@ namespace pl {
 
 /// The arrays of a field in memory of one kind, by representation.
 template <template <class> class Array>
-using FieldArrays = std::variant<TableStorage<Array>, SdTreeStorage<Array>, LobeStorage<Array>>;
+using FieldArrays =
+    std::variant<TableStorage<Array>, SdTreeStorage<Array>, LobeStorage<Array>, NeuralStorage<Array>>;
 using HostField = FieldArrays<LargeArray>;
 
-/// A field as kernels see it, by representation; std::monostate for methods without one.
+/// A field as kernels see it; std::monostate for methods without one. Of a neural field they see the tables.
 using AnyFieldView = std::variant<std::monostate, TableField, SdTreeField, LobeField>;
 
 /// The representation of a field's arrays: their place in the variant.
@@ -33,6 +35,7 @@ void clear_to(FieldArrays<Array>& field, Representation representation) {
     case Representation::Table: field = TableStorage<Array>{}; return;
     case Representation::SdTree: field = SdTreeStorage<Array>{}; return;
     case Representation::Lobes: field = LobeStorage<Array>{}; return;
+    case Representation::Neural: field = NeuralStorage<Array>{}; return;
     }
 }
 
@@ -40,6 +43,7 @@ void clear_to(FieldArrays<Array>& field, Representation representation) {
 inline HostField make_field(const FieldShape& shape, std::size_t volumes, Representation representation) {
     if (representation == Representation::SdTree) return make_sd_tree(shape, volumes);
     if (representation == Representation::Lobes) return make_lobes(shape, volumes);
+    if (representation == Representation::Neural) return make_neural(shape, volumes);
     return make_tables(shape, volumes);
 }
 
@@ -60,6 +64,8 @@ void zip_fields(const FieldArrays<From>& from, FieldArrays<To>& to, Fn&& fn) {
         zip(*tree, std::get<SdTreeStorage<To>>(to), fn);
     else if (const auto* lobes = std::get_if<LobeStorage<From>>(&from))
         zip(*lobes, std::get<LobeStorage<To>>(to), fn);
+    else if (const auto* neural = std::get_if<NeuralStorage<From>>(&from))
+        zip(*neural, std::get<NeuralStorage<To>>(to), fn);
     else
         zip(std::get<TableStorage<From>>(from), std::get<TableStorage<To>>(to), fn);
 }

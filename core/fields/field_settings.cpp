@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/fields/lobe_model.h"
+#include "core/fields/neural_model.h"
 #include "core/fields/sd_tree_model.h"
 #include "core/fields/volume_grid.h"
 #include "core/scene/pack_scene.h"
@@ -21,7 +22,9 @@ double affordable(const FieldSettings& settings, std::size_t light_clusters) {
     if (settings.representation == Representation::Lobes)
         bytes += std::max(lobe_bytes(light_clusters), table_bytes(settings.bins, light_clusters)) -
                  table_bytes(settings.bins, light_clusters);
-    return settings.budget_megabytes * kBytesPerMegabyte / static_cast<double>(bytes);
+    double left = settings.budget_megabytes * kBytesPerMegabyte;
+    if (settings.representation == Representation::Neural) left -= static_cast<double>(network_bytes(settings.bins));
+    return std::max(left, 0.0) / static_cast<double>(bytes);
 }
 
 /// Nodes of an SD-tree within the budget, which its volumes share.

@@ -12,6 +12,7 @@ enum class Representation : std::uint32_t {
     Table,   ///< a table of cells per radiance volume
     SdTree,  ///< quadtrees over directions at the leaves of a binary tree over space   [Mueller et al. 2017]
     Lobes,   ///< a mixture of von Mises-Fisher lobes per radiance volume   [Ruppert et al. 2020]
+    Neural,  ///< tables, and a network over all volumes as the prior of their probabilities
 };
 
 /// The training samples that an SD-tree is built from. Files store these numbers.

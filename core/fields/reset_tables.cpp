@@ -24,6 +24,11 @@ void forget(const FieldShape& shape, const HostVolumes&, HostTables& tables, std
     });
 }
 
+/// The network, of all volumes, stays.
+void forget(const FieldShape& shape, const HostVolumes& volumes, HostNeural& field, std::size_t volume) {
+    forget(shape, volumes, static_cast<HostTables&>(field), volume);
+}
+
 void forget(const FieldShape& shape, const HostVolumes&, HostLobes& lobes, std::size_t volume) {
     reset_lobes(shape, lobes, volume);
 }

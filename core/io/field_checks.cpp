@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/fields/network_layout.h"
 #include "core/kernel/base/math.h"
 
 namespace pl {
@@ -68,7 +69,7 @@ private:
         require(s.precompute_samples > 0 && is_square(s.precompute_samples), "precomputed samples",
                 "a square number above 0", s.precompute_samples);
         require(s.lookup <= Lookup::Grid, "lookup", "0 to 2", static_cast<std::uint32_t>(s.lookup));
-        require(s.representation <= Representation::Lobes, "representation", "0 to 2",
+        require(s.representation <= Representation::Neural, "representation", "0 to 3",
                 static_cast<std::uint32_t>(s.representation));
         require(s.iterations <= Iterations::Doubling, "iterations", "0 or 1",
                 static_cast<std::uint32_t>(s.iterations));
@@ -127,6 +128,14 @@ private:
         for_each_table_array([&](const auto& spec) {
             size(spec.name, spec.get(tables), extent_of(spec.extent, field_.shape, volumes));
         });
+    }
+
+    template <class Size>
+    void lengths_of(const HostNeural& field, const Size& size) const {
+        lengths_of(static_cast<const HostTables&>(field), size);
+        const HostNeural whole = make_neural(field_.shape, 0);
+        for_each_network_array(
+            [&](const auto& spec) { size(spec.name, spec.get(field), spec.get(whole).size()); });
     }
 
     template <class Size>
@@ -205,6 +214,13 @@ private:
             fail("lobes", fmt::format("mixtures of 1 to {} lobes", kMostLobes), *damage);
     }
 
+    void arrays_of(const HostNeural& field) const {
+        arrays_of(static_cast<const HostTables&>(field));
+        for_each_network_array([&](const auto& spec) { values_of(spec, spec.get(field)); });
+        if (const std::optional<std::string> damage = damage_of(field))
+            fail("network", fmt::format("weights of layout {}", kNetworkLayoutVersion), *damage);
+    }
+
     static const char* word_of(ArrayExtent extent) { return extent == ArrayExtent::Cell ? "cell" : "volume"; }
     static const char* word_of(SdTreeExtent extent) {
         switch (extent) {
@@ -228,9 +244,17 @@ private:
         return "volume";
     }
 
+    template <class Spec>
+    static const char* word_of(const Spec& spec) {
+        if constexpr (requires { spec.extent; })
+            return word_of(spec.extent);
+        else
+            return "place";
+    }
+
     template <class Spec, class Array>
     void values_of(const Spec& spec, const Array& values) const {
-        const char* where = word_of(spec.extent);
+        const char* where = word_of(spec);
         const auto all = [&](std::string_view expected, const auto& is_valid) {
             for (std::size_t i = 0; i < values.size(); ++i)
                 if (!is_valid(values[i]))

@@ -133,6 +133,8 @@ public:
     virtual bool has_field(MethodId method) const = 0;
     /// Bytes of the arrays of a method's field.
     virtual std::size_t field_bytes(MethodId method) const { return pl::field_bytes(download_field(method)); }
+    /// Of the network of a method's field; empty if it has none.
+    virtual std::optional<NetworkStatus> network_status(MethodId) const { return std::nullopt; }
 
     /// Allocates the film in this size and clears it.
     virtual void reset_film(FilmSlot slot, int width, int height) = 0;

@@ -13,7 +13,9 @@ constexpr std::uint32_t kMostRounds = 32;
 
 std::uint32_t most_rounds(const FieldSettings& settings) {
     if (settings.refine_share == 0.0f) return 0;
-    if (settings.representation != Representation::Table) return 0;  // refined by their updates
+    const bool has_tables =
+        settings.representation == Representation::Table || settings.representation == Representation::Neural;
+    if (!has_tables) return 0;  // refined by their updates
     return settings.refine_share == kRefineByRecords ? kMostRounds : kRounds;
 }
 

@@ -53,6 +53,7 @@ std::optional<FieldStatus> Session::field_status(MethodId method) const {
                        .bins = placement_.bins(),
                        .representation = representation_of(settings_.field, method),
                        .bytes = volume_bytes(*placement_.volumes()) + stored_bytes(method),
+                       .network = backend_->network_status(method),
                        .passes = trained_passes(method),
                        .records = state.records,
                        .clamped_records = state.clamped_records,

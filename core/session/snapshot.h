@@ -41,7 +41,8 @@ struct FieldStatus {
     int bins = 0;
     Representation representation = Representation::Table;
     std::size_t bytes = 0;
-    std::uint64_t passes = 0;  ///< that trained it
+    std::optional<NetworkStatus> network{};  ///< of a neural field; its bytes are among those above
+    std::uint64_t passes = 0;                ///< that trained it
     std::uint64_t records = 0;
     std::uint64_t clamped_records = 0;
     std::uint64_t lookup_misses = 0;

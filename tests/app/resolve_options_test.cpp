@@ -71,13 +71,15 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--refine", "half"}, "--refine: expected"},
         {{"--learning-rate", "means"},
          "--learning-rate: expected mean, forgetful, power or floor, got 'means' (nearest: 'mean')"},
-        {{"--field", "sdtree"}, "--field: expected table, sd-tree or lobes, got 'sdtree' (nearest: 'sd-tree')"},
+        {{"--field", "sdtree"}, "--field: expected table, sd-tree, lobes or neural, got 'sdtree' (nearest: 'sd-tree')"},
         {{"--iterations", "twice"}, "--iterations: expected updates or doubling, got 'twice'"},
         {{"--iterations", "doubling"}, "--iterations doubling: expected --field sd-tree with it, got --field table"},
         {{"--field", "sd-tree", "--method", "precomputed"},
          "--field sd-tree: expected --field table with --method precomputed, whose probes fill tables"},
         {{"--field", "lobes", "--method", "precomputed"},
          "--field lobes: expected --field table with --method precomputed, whose probes fill tables"},
+        {{"--field", "neural", "--method", "precomputed"},
+         "--field neural: expected --field table with --method precomputed, whose probes fill tables"},
         {{"--field", "lobes", "--iterations", "doubling"},
          "--iterations doubling: expected --field sd-tree with it, got --field lobes"},
         {{"--learn-target", "montecarlo"},
@@ -131,11 +133,12 @@ TEST_CASE("unknown words name the nearest one") {
     CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), contains("unexpected argument 't'"));
 }
 
-TEST_CASE("SD-trees and lobes take the CPU and refuse CUDA") {
+TEST_CASE("SD-trees, lobes and networks take the CPU and refuse CUDA") {
     CHECK(parse(render_with({"--method", "reinforcement"})).backend == "auto");
     for (const auto& [name, representation] :
          {std::pair<std::string, Representation>{"sd-tree", Representation::SdTree},
-          {"lobes", Representation::Lobes}}) {
+          {"lobes", Representation::Lobes},
+          {"neural", Representation::Neural}}) {
         const std::vector<std::string> given{"--method", "reinforcement", "--field", name};
         const Options options = parse(render_with(given));
         CHECK(options.render.field.representation == representation);

@@ -166,9 +166,11 @@ void RenderControls::cancel_precomputation() {
 /// Whether a back end serves the field; says so if it does not.
 bool RenderControls::is_served(const FieldSettings& field, const std::string& backend) {
     if (field.representation == Representation::Table || backend == "cpu") return true;
+    std::string_view needs = "the SD-tree needs";
+    if (field.representation == Representation::Lobes) needs = "lobes need";
+    if (field.representation == Representation::Neural) needs = "the network needs";
     messages_.say(MessageLevel::Warning,
-                  fmt::format("{} serves tables alone: {} the CPU", back_end_label(backend),
-                              field.representation == Representation::SdTree ? "the SD-tree needs" : "lobes need"));
+                  fmt::format("{} serves tables alone: {} the CPU", back_end_label(backend), needs));
     return false;
 }
 

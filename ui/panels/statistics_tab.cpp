@@ -81,6 +81,15 @@ void draw_field(const std::optional<FieldStatus>& field) {
                  "Quadtrees at the leaves of a tree over space; volumes keep the irradiance.");
     if (field->representation == Representation::Lobes)
         text_row("Directions", "lobes", "A mixture of von Mises-Fisher lobes in each volume.");
+    if (field->network)
+        text_row("Network",
+                 field->network->is_lost
+                     ? std::string("lost")
+                     : fmt::format("{}B, {} steps", short_number(static_cast<double>(field->network->bytes)),
+                                   field->network->steps),
+                 field->network->is_lost ? "Its loss or weights were not finite: tables are sampled without it."
+                                         : "Predicts the light in all volumes, the prior of their tables.",
+                 field->network->is_lost ? colors::kWarning : colors::kText);
     text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");
     text_row("Passes", fmt::format("{}", field->passes), "Passes whose training samples the field has learned from.");
     text_row("Samples", count_text(field->records), "Training samples.");

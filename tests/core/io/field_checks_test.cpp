@@ -161,8 +161,8 @@ TEST_CASE("Damaged SD-trees in files are refused, whole ones come back") {
                contains("nodes of quadtrees: expected 1 to"));
     CHECK_THAT(refused([&](LearnedField& f) { f.method = MethodId::Precomputed; }),
                contains("representation of the arrays: expected 0, got 1"));
-    CHECK_THAT(refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(3); }),
-               contains("representation: expected 0 to 2, got 3"));
+    CHECK_THAT(refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(4); }),
+               contains("representation: expected 0 to 3, got 4"));
 }
 
 TEST_CASE("Damaged lobes in files are refused, whole ones come back") {
@@ -189,6 +189,34 @@ TEST_CASE("Damaged lobes in files are refused, whole ones come back") {
     CHECK_THAT(refused([](HostLobes& lobes) { lobes.moments.clear(); }), contains("moments: expected"));
     CHECK_THAT(refused([](HostLobes& lobes) { lobes.bsdf_fraction[0] = 0.0f; }),
                contains("BSDF share of volume 0: expected 0.1 to 0.9, got 0"));
+}
+
+TEST_CASE("Damaged networks in files are refused, whole ones come back") {
+    const TemporaryFolder folder;
+    LearnedField field = small_field();
+    field.method = MethodId::Reinforcement;
+    field.settings.representation = field.shape.representation = Representation::Neural;
+    field.field = make_field(field.shape, kVolumes, Representation::Neural);
+    std::get<HostNeural>(field.field).counts[kNetworkSteps] = 7;
+    const auto refused = [&](const std::function<void(HostNeural&)>& change) {
+        LearnedField damaged = field;
+        change(std::get<HostNeural>(damaged.field));
+        write_field(folder.path() / "field", damaged);
+        return input_error([&] { read_field(folder.path() / "field"); });
+    };
+    write_field(folder.path() / "field", field);
+    CHECK(status_of(std::get<HostNeural>(read_field(folder.path() / "field").field)).steps == 7);
+    CHECK_THAT(refused([](HostNeural& neural) { neural.weights[2] = kNan; }),
+               contains("damaged field: weight of place 2: expected a finite number, got nan"));
+    CHECK_THAT(refused([](HostNeural& neural) { neural.slope_square[1] = -1.0f; }),
+               contains("square of the slope of place 1: expected 0 or more, got -1"));
+    CHECK_THAT(refused([](HostNeural& neural) { neural.weights.pop_back(); }),
+               contains("weights of the network: expected"));
+    CHECK_THAT(refused([](HostNeural& neural) { neural.counts[kNetworkIsLost] = 2; }),
+               contains("network: expected weights of layout 1, got mark of loss 2"));
+    CHECK_THAT(refused([](HostNeural& neural) { neural.counts[kNetworkVersion] = 9; }), contains("got layout 9"));
+    CHECK_THAT(refused([](HostNeural& neural) { neural.column_cdf[0] = 2.0f; }),
+               contains("entry 0 of the column table"));
 }
 
 // A table that is not monotonic would give a direction a negative probability; this takes at least four columns.

@@ -22,18 +22,20 @@ bool same_arrays(const Arrays& a, const Arrays& b) {
 inline bool same_bits(const HostTables& a, const HostTables& b) { return same_arrays(a, b); }
 inline bool same_bits(const HostSdTree& a, const HostSdTree& b) { return same_arrays(a, b); }
 inline bool same_bits(const HostLobes& a, const HostLobes& b) { return same_arrays(a, b); }
+inline bool same_bits(const HostNeural& a, const HostNeural& b) { return same_arrays(a, b); }
 
 inline bool same_events(const PassCounters& a, const PassCounters& b) {
     static_assert(std::has_unique_object_representations_v<PassCounters>);
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// A film with its statistics, and the tables, the SD-tree or the lobes of its method.
+/// A film with its statistics, and the arrays of its method, by their representation.
 struct State {
     Snapshot snapshot;
     HostTables tables;
     HostSdTree tree{};
     HostLobes lobes{};
+    HostNeural neural{};
 };
 
 inline State state_of(Session& session, FilmSlot slot) {
@@ -43,6 +45,8 @@ inline State state_of(Session& session, FilmSlot slot) {
         state.tree = std::move(*tree);
     else if (auto* lobes = std::get_if<HostLobes>(&field))
         state.lobes = std::move(*lobes);
+    else if (auto* neural = std::get_if<HostNeural>(&field))
+        state.neural = std::move(*neural);
     else
         state.tables = tables_of(std::move(field));
     return state;
@@ -57,7 +61,8 @@ inline bool same_film(const State& a, const State& b) {
 }
 inline bool same_state(const State& a, const State& b) {
     return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) &&
-           same_bits(a.tables, b.tables) && same_bits(a.tree, b.tree) && same_bits(a.lobes, b.lobes);
+           same_bits(a.tables, b.tables) && same_bits(a.tree, b.tree) && same_bits(a.lobes, b.lobes) &&
+           same_bits(a.neural, b.neural);
 }
 
 }  // namespace pl::test

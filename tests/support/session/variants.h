@@ -63,6 +63,14 @@ inline constexpr Variant kVariants[] = {
      {LearningTarget::MonteCarlo, LearnedLight::Indirect},
      RouletteRule::Spare,
      Representation::Lobes},
+    {"neural", false, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::Neural},
+    {"neural, light samples", true, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::Neural},
+    {"neural, Monte Carlo",
+     true,
+     LearningRate::Forgetful,
+     {LearningTarget::MonteCarlo, LearnedLight::Indirect},
+     RouletteRule::Spare,
+     Representation::Neural},
 };
 
 }  // namespace pl::test

@@ -77,6 +77,11 @@ TEST_CASE("Render controls: an SD-tree is chosen on the CPU, and keeps the other
     CHECK(model.render().settings().field.representation == Representation::Lobes);
     model.render().set_backend("cuda");
     CHECK(model.messages().toasts().back().text == "CUDA serves tables alone: lobes need the CPU");
+    FieldSettings neural = tree;
+    neural.representation = Representation::Neural;
+    model.render().set_field(neural);
+    model.render().set_backend("cuda");
+    CHECK(model.messages().toasts().back().text == "CUDA serves tables alone: the network needs the CPU");
     model.render().set_field({});
     model.render().set_backend("cuda");
     CHECK(model.render().wanted_backend() == "cuda");

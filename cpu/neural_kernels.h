@@ -1,0 +1,72 @@
+// The loops of the update of a neural field, compiled once per instruction set with bit-identical results. Plain pointers, see
+// cpu/lane_kernels.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace pl {
+
+/// c = a b, or c + a b if it `adds`, each element summed in ascending order of the inner index. Element (row, i) of `a` is
+/// a[row * a_row + i * a_inner]; rows of `b` and `c` lie `b_row` and `c_row` apart. `rows` is a multiple of 4, `columns` one of
+/// kColumnBlock.
+struct MatrixProduct {
+    const float* a;
+    std::size_t a_row, a_inner;
+    const float* b;
+    std::size_t b_row;
+    float* c;
+    std::size_t c_row;
+    std::uint32_t rows, inner, columns;
+    bool adds;
+};
+
+/// What the cells of one volume have learned, and what the network predicts for them. Arrays of `columns` values; those behind
+/// the cells have no visits and are no cells.
+struct VolumeLight {
+    const float* visits;      ///< as weights
+    const float* radiance;    ///< learned, in units of the mean of all volumes
+    const float* is_cell;     ///< 1 or 0
+    const float* logarithms;  ///< of the predicted radiance in these units
+    std::uint32_t columns;
+};
+
+/// Shares of the old in the running means of slopes and their squares.
+inline constexpr float kMeanShare = 0.9f;
+inline constexpr float kSquareShare = 0.99f;
+
+/// One step of Adam.   [Kingma and Ba 2015]
+struct DescentStep {
+    float* weights;
+    float* slope_mean;
+    float* slope_square;
+    const float* slopes;
+    std::size_t count;
+    float rate;          ///< with the correction of both means for their start at 0
+    float square_scale;  ///< of the square's
+};
+
+struct NeuralKernels {
+    const char* isa;
+    void (*multiply)(const MatrixProduct& product);
+    /// The loss of a volume times `scale`, and its slopes by the logarithms. [column]
+    float (*slopes)(const VolumeLight& light, float scale, float* slopes);
+    /// Radiance of each cell predicted by the network, scaled to what the volume's cells know. [column] False if any is not
+    /// finite.
+    bool (*predict)(const VolumeLight& light, float* predicted);
+    /// Unnormalized probabilities of side x side cells: their learned radiance with `predicted` as the prior.
+    void (*weigh)(const VolumeLight& light, const float* predicted, std::uint32_t side, float* weights);
+    void (*descend)(const DescentStep& step);
+};
+
+extern const NeuralKernels kNeuralKernelsBaseline;
+extern const NeuralKernels kNeuralKernelsAvx2;    ///< only in builds with PL_LANE_CLONES
+extern const NeuralKernels kNeuralKernelsAvx512;  ///< only in builds with PL_LANE_CLONES
+
+/// Kernels in this build that the machine supports, widest vectors last.
+std::span<const NeuralKernels> usable_neural_kernels();
+
+inline const NeuralKernels& best_neural_kernels() { return usable_neural_kernels().back(); }
+
+}  // namespace pl

@@ -1,0 +1,195 @@
+// Implementation of the neural kernels; see cpu/lanes.h. Elements are lanes and every sum has an order of its own, so that the
+// width of vectors changes no bit.
+#pragma once
+
+#include "core/fields/network_layout.h"
+#include "core/kernel/guiding/direction_cells.h"
+#include "cpu/lanes.h"
+#include "cpu/neural_kernels.h"
+
+namespace pl {
+namespace {
+
+/// Training samples of a cell that a prediction counts as.
+constexpr float kPriorVisits = 2.0f;
+/// Those that it counts as in the 3 x 3 cells by which it is corrected, and in the volume by which it is scaled.
+constexpr float kNearVisits = 2.0f;
+constexpr float kScaleVisits = 4.0f;
+/// Most visits of a cell that count in the loss: later ones say little about its neighbors.
+constexpr float kMostVisits = 64.0f;
+
+constexpr std::uint32_t kRowBlock = 4;
+constexpr std::uint32_t kVectors = 2;  ///< of a block of columns
+static_assert(kColumnBlock % (kVectors * kLaneWidth) == 0);
+
+/// kRowBlock rows and kVectors vectors of columns of a product.
+PL_INLINE void multiply_block(const MatrixProduct& p, std::uint32_t row, std::uint32_t column) {
+    LaneFloat sums[kRowBlock][kVectors];
+    float* c = p.c + row * p.c_row + column;
+    for (std::uint32_t r = 0; r < kRowBlock; ++r)
+        for (std::uint32_t v = 0; v < kVectors; ++v)
+            sums[r][v] = p.adds ? load_lanes<LaneFloat>(c + r * p.c_row + v * kLaneWidth) : LaneFloat{};
+    const float* a = p.a + row * p.a_row;
+    const float* b = p.b + column;
+    for (std::uint32_t i = 0; i < p.inner; ++i, a += p.a_inner, b += p.b_row) {
+        const LaneFloat first = load_lanes<LaneFloat>(b);
+        const LaneFloat second = load_lanes<LaneFloat>(b + kLaneWidth);
+        for (std::uint32_t r = 0; r < kRowBlock; ++r) {
+            const LaneFloat factor = broadcast(a[r * p.a_row]);
+            sums[r][0] += factor * first;
+            sums[r][1] += factor * second;
+        }
+    }
+    for (std::uint32_t r = 0; r < kRowBlock; ++r)
+        for (std::uint32_t v = 0; v < kVectors; ++v) store_lanes(sums[r][v], c + r * p.c_row + v * kLaneWidth);
+}
+
+void multiply(const MatrixProduct& p) {
+    for (std::uint32_t column = 0; column < p.columns; column += kVectors * kLaneWidth)
+        for (std::uint32_t row = 0; row < p.rows; row += kRowBlock) multiply_block(p, row, column);
+}
+
+/// e^x of |x| <= kMostLogarithm, beyond it that of the limit. Relative error below 1e-6.
+PL_INLINE LaneFloat exponential(const LaneFloat& x) {
+    constexpr float kMostLogarithm = 20.0f;
+    constexpr float kLog2E = 1.44269504f;
+    constexpr int kShift = 64;  // above any |x| log2(e), so that truncation rounds down
+    const LaneFloat power = larger(smaller(x, broadcast(kMostLogarithm)), broadcast(-kMostLogarithm)) * kLog2E;
+    const LaneInt whole = Lanes::truncate(power + (static_cast<float>(kShift) + 0.5f)) - kShift;
+    const LaneFloat f = power - Lanes::to_real(whole);
+    // Taylor series of 2^f, |f| <= 1/2.
+    LaneFloat sum = broadcast(1.54035304e-4f);
+    sum = sum * f + 1.33335581e-3f;
+    sum = sum * f + 9.61812911e-3f;
+    sum = sum * f + 5.55041087e-2f;
+    sum = sum * f + 2.40226507e-1f;
+    sum = sum * f + 6.93147181e-1f;
+    sum = sum * f + 1.0f;
+    return sum * Lanes::from_bits((whole + 127) << 23);
+}
+
+/// A sum over columns: of every kColumnBlock-th one by itself, and then of these in order.
+struct ColumnTotal {
+    static constexpr std::uint32_t kParts = kColumnBlock / kLaneWidth;
+    LaneFloat parts[kParts] = {};
+
+    PL_INLINE float total() const {
+        float values[kColumnBlock];
+        for (std::uint32_t part = 0; part < kParts; ++part) store_lanes(parts[part], values + part * kLaneWidth);
+        float sum = 0.0f;
+        for (const float value : values) sum += value;
+        return sum;
+    }
+};
+
+/// Calls body(part of a ColumnTotal, column) for each vector of columns.
+template <class Body>
+PL_INLINE void for_columns(std::uint32_t columns, Body&& body) {
+    for (std::uint32_t column = 0; column < columns; column += kColumnBlock)
+        for (std::uint32_t part = 0; part < ColumnTotal::kParts; ++part) body(part, column + part * kLaneWidth);
+}
+
+PL_INLINE LaneFloat column(const float* values, std::uint32_t index) { return load_lanes<LaneFloat>(values + index); }
+
+float slopes(const VolumeLight& light, float scale, float* slopes) {
+    ColumnTotal loss;
+    for_columns(light.columns, [&](std::uint32_t part, std::uint32_t i) {
+        const LaneFloat logarithm = column(light.logarithms, i);
+        const LaneFloat value = exponential(logarithm);
+        const LaneFloat weight = scale * smaller(column(light.visits, i), broadcast(kMostVisits));
+        const LaneFloat target = column(light.radiance, i);
+        loss.parts[part] += weight * (value - target * logarithm);
+        store_lanes(weight * (value - target), slopes + i);
+    });
+    return loss.total();
+}
+
+bool predict(const VolumeLight& light, float* predicted) {
+    ColumnTotal known, expected, all, cells, finite;
+    for_columns(light.columns, [&](std::uint32_t part, std::uint32_t i) {
+        const LaneFloat logarithm = column(light.logarithms, i);
+        const LaneFloat value = column(light.is_cell, i) * exponential(logarithm);
+        const LaneFloat visits = column(light.visits, i);
+        store_lanes(value, predicted + i);
+        known.parts[part] += visits * column(light.radiance, i);
+        expected.parts[part] += visits * value;
+        all.parts[part] += value;
+        cells.parts[part] += column(light.is_cell, i);
+        finite.parts[part] += 0.0f * logarithm;
+    });
+    const float prior = kScaleVisits * (all.total() / cells.total());
+    const float scale = (known.total() + prior) / (expected.total() + prior);
+    for_columns(light.columns,
+                [&](std::uint32_t, std::uint32_t i) { store_lanes(scale * column(predicted, i), predicted + i); });
+    return finite.total() == 0.0f;
+}
+
+/// Sums over three rows of columns, with an empty one on either side.
+struct RowSums {
+    float known[kMaxSide + 2], expected[kMaxSide + 2];
+};
+
+/// Of the cells in the rows around `row`: visits times learned and times predicted radiance.
+PL_INLINE void add_rows(const VolumeLight& light, const float* predicted, std::uint32_t side, std::uint32_t row,
+                        RowSums& sums) {
+    for (std::uint32_t x = 0; x < side + 2; ++x) sums.known[x] = sums.expected[x] = 0.0f;
+    const std::uint32_t first = row > 0 ? row - 1 : row;
+    const std::uint32_t last = row + 1 < side ? row + 1 : row;
+    for (std::uint32_t y = first; y <= last; ++y)
+        for (std::uint32_t x = 0; x < side; ++x) {
+            const float visits = light.visits[y * side + x];
+            sums.known[x + 1] += visits * light.radiance[y * side + x];
+            sums.expected[x + 1] += visits * predicted[y * side + x];
+        }
+}
+
+PL_INLINE void weigh_side(const VolumeLight& light, const float* predicted, std::uint32_t side, float* weights) {
+    ColumnTotal all;
+    for_columns(light.columns, [&](std::uint32_t part, std::uint32_t i) { all.parts[part] += column(predicted, i); });
+    const float prior = kNearVisits * all.total() / static_cast<float>(side * side);
+    for (std::uint32_t row = 0; row < side; ++row) {
+        RowSums sums;
+        add_rows(light, predicted, side, row, sums);
+        float row_weights[kMaxSide];
+        for (std::uint32_t x = 0; x < side; ++x) {
+            const std::uint32_t cell = row * side + x;
+            const float known = prior + (sums.known[x] + sums.known[x + 1] + sums.known[x + 2]);
+            const float expected = prior + (sums.expected[x] + sums.expected[x + 1] + sums.expected[x + 2]);
+            const float visits = light.visits[cell];
+            const float own = visits * light.radiance[cell] + kPriorVisits * predicted[cell] * (known / expected);
+            row_weights[x] = own / (visits + kPriorVisits);
+        }
+        for (std::uint32_t x = 0; x < side; ++x) weights[row * side + x] = row_weights[x];
+    }
+}
+
+void weigh(const VolumeLight& light, const float* predicted, std::uint32_t side, float* weights) {
+    constexpr std::uint32_t kCommonSide = 16;  // the default, known to the compiler
+    if (side == kCommonSide)
+        weigh_side(light, predicted, kCommonSide, weights);
+    else
+        weigh_side(light, predicted, side, weights);
+}
+
+void descend(const DescentStep& step) {
+    constexpr float kLeast = 1.0e-8f;
+    static_assert(kColumnBlock % kLaneWidth == 0);
+    for (std::size_t i = 0; i < step.count; i += kLaneWidth) {
+        const auto slope = load_lanes<LaneFloat>(step.slopes + i);
+        const LaneFloat mean = kMeanShare * load_lanes<LaneFloat>(step.slope_mean + i) + (1.0f - kMeanShare) * slope;
+        const LaneFloat square =
+            kSquareShare * load_lanes<LaneFloat>(step.slope_square + i) + (1.0f - kSquareShare) * (slope * slope);
+        const LaneFloat weight = load_lanes<LaneFloat>(step.weights + i) -
+                                 step.rate * mean / (Lanes::sqrt(square * step.square_scale) + kLeast);
+        store_lanes(mean, step.slope_mean + i);
+        store_lanes(square, step.slope_square + i);
+        store_lanes(weight, step.weights + i);
+    }
+}
+
+constexpr NeuralKernels neural_kernels_named(const char* isa) {
+    return {isa, multiply, slopes, predict, weigh, descend};
+}
+
+}  // namespace
+}  // namespace pl

@@ -1,0 +1,52 @@
+// The network of a neural field: its predictions for blocks of volumes, and the slopes of its loss by its weights.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/fields/network_layout.h"
+#include "core/kernel/base/math.h"
+#include "cpu/neural_kernels.h"
+
+namespace pl {
+
+/// Volumes that are worked on together.
+inline constexpr std::uint32_t kNetworkBlock = 64;
+
+/// Where the network is asked. `place` is in the unit cube.
+struct NetworkPoint {
+    Vec3f place, normal;
+};
+
+/// Values of all units for a block of volumes, [volume][unit], and in training the slopes of the loss by them.
+struct NetworkBlock {
+    explicit NetworkBlock(std::uint32_t columns);
+
+    std::vector<float> inputs, first, second, logarithms;
+    std::vector<float> input_slopes, first_slopes, second_slopes, logarithm_slopes;
+};
+
+/// A network for one set of weights.
+class Network {
+public:
+    /// Weights and places as in NetworkLayout. `kernels` and `weights` outlive it.
+    Network(const NeuralKernels& kernels, const NetworkLayout& layout, const float* weights);
+
+    /// Fills the block's units for these points, at most kNetworkBlock of them.
+    void predict(std::span<const NetworkPoint> points, NetworkBlock& block) const;
+
+    /// From block.logarithm_slopes: the slopes by the weights of the layers into `slopes`, from NetworkLayout::first on, and
+    /// those by the inputs into the block. The block is that of the last predict().
+    void propagate(NetworkBlock& block, float* slopes) const;
+
+    /// Adds the slopes by the features of the grids at these points.
+    void add_feature_slopes(std::span<const NetworkPoint> points, const NetworkBlock& block, float* slopes) const;
+
+private:
+    const NeuralKernels& kernels_;
+    NetworkLayout layout_;
+    const float* weights_;
+    std::vector<float> first_turned_, second_turned_, last_turned_;  ///< the layers, [unit][input]
+};
+
+}  // namespace pl

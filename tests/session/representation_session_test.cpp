@@ -1,0 +1,192 @@
+// Sessions that learn by lobes or by a neural field: files, checkpoints, inspection, memory, and the fixed point of a furnace.
+#include "core/diagnose/record_path.h"
+#include "core/io/checkpoint_file.h"
+#include "tests/session/through_file.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/scenes/shipped_scenes.h"
+#include "tests/support/session/same_bits.h"
+#include "tests/support/session/small_settings.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+struct Represented {
+    Representation representation;
+    const char* summary;
+};
+constexpr Represented kRepresented[] = {{Representation::Lobes, "up to 16 lobes"},
+                                        {Representation::Neural, "64 directions with a network of "}};
+
+RenderSettings settings_of(const Represented& field, const SceneDescription& scene, bool next_event = false) {
+    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, next_event});
+    settings.field.representation = field.representation;
+    return settings;
+}
+
+LargeArray<float> mean_radiance_of(const Session& session) {
+    return std::visit([](const auto& arrays) { return arrays.mean_radiance; },
+                      session.export_field(MethodId::Reinforcement).field);
+}
+
+/// Of the arrays beside the placement.
+std::size_t fewest_bytes(Representation representation, std::size_t volumes) {
+    return representation == Representation::Lobes ? volumes * lobe_bytes()
+                                                   : volumes * table_bytes(64) + network_bytes(64);
+}
+
+}  // namespace
+
+TEST_CASE("A session with lobes or a network has the same bits for any number of threads") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Represented& field : kRepresented)
+        for (const bool next_event : {false, true}) {
+            Session one = make_session(scene, settings_of(field, scene, next_event), 1);
+            render_passes(one, 6);
+            const State expected = state_of(one);
+            REQUIRE(std::ranges::any_of(mean_radiance_of(one), [](float mean) { return mean > 0.0f; }));
+            for (const int threads : {2, 8}) {
+                Session other = make_session(scene, settings_of(field, scene, next_event), threads);
+                render_passes(other, 6);
+                CHECK(same_state(expected, state_of(other)));
+            }
+        }
+}
+
+TEST_CASE("Lobes and networks that moved to another session through a file go on with the same bits") {
+    for (const Represented& represented : kRepresented) {
+        const SceneDescription scene = shipped_scene("door");
+        const RenderSettings settings = settings_of(represented, scene);
+        Session first = make_session(scene, settings, 2);
+        render_passes(first, 3);
+        const LearnedField field = first.export_field(MethodId::Reinforcement);
+        CHECK_THAT(summary_of(field), contains(represented.summary) && contains("3 passes"));
+        Session second = make_session(scene, small_settings(scene, {MethodId::Reinforcement, false}), 1);
+        render_passes(second, 1);
+        first.apply(EditRestart{});
+        second.import_field(through_file(field));
+        CHECK((second.settings().field == settings.field));
+        for (int pass = 0; pass < 2; ++pass) {
+            render_passes(first, 1);
+            render_passes(second, 1);
+            CHECK(same_state(state_of(first), state_of(second)));
+        }
+    }
+}
+
+TEST_CASE("A checkpoint of a session with lobes or a network is continued with the same bits") {
+    for (const Represented& represented : kRepresented) {
+        const SceneDescription scene = shipped_scene("door");
+        const RenderSettings settings = settings_of(represented, scene, true);
+        Session whole = make_session(scene, settings, 2);
+        render_passes(whole, 3);
+        const TemporaryFolder folder;
+        write_checkpoint(folder.path() / "c", {.seconds = 0.0, .state = whole.save_state()});
+        Session next = make_session(scene, settings, 3);
+        next.restore_state(read_checkpoint(folder.path() / "c").state);
+        render_passes(whole, 3);
+        render_passes(next, 3);
+        CHECK(same_state(state_of(whole), state_of(next)));
+    }
+}
+
+// Targets of all light in a furnace have no noise given V, and the quotient of V keeps it so: V comes to e/(1-rho) = 1.
+TEST_CASE("The irradiance beside lobes and networks comes to that of the furnace") {
+    for (const Represented& represented : kRepresented) {
+        const SceneDescription scene = furnace_scene(0.5f, 0.5f);
+        RenderSettings settings = settings_of(represented, scene);
+        settings.field.volumes = 12;
+        settings.field.learning.light = LearnedLight::All;
+        Session session = make_session(scene, settings, 2);
+        render_passes(session, 40);
+        for (const float mean : mean_radiance_of(session)) CHECK(mean == Approx(1.0f).epsilon(0.005));
+    }
+}
+
+TEST_CASE("What lobes and networks have learned is inspected, shown and counted") {
+    for (const Represented& represented : kRepresented) {
+        const SceneDescription scene = shipped_scene("cornell");
+        Session session = make_session(scene, settings_of(represented, scene), 2);
+        render_passes(session, 8);
+        const auto volumes = static_cast<std::int32_t>(session.field_status(MethodId::Reinforcement)->volumes);
+        double largest = 0.0;
+        for (std::int32_t volume = 0; volume < volumes; ++volume) {
+            const VolumeInspection seen = session.inspect_volume(MethodId::Reinforcement, volume);
+            double sum = 0.0;
+            for (const float share : seen.probability) sum += share;
+            largest = std::max(largest, sum);
+            CHECK(sum >= 0.0);
+            CHECK(seen.radiance.size() == 64);
+            CHECK((seen.bsdf_fraction >= kMinBsdfFraction && seen.bsdf_fraction <= kMaxBsdfFraction));
+        }
+        // Of directions on the volume's side: the lobe of the cosine reaches below the surface. By quadrature.
+        CHECK(largest > 0.7);
+        CHECK(largest < 1.3);
+        const FieldStatus status = *session.field_status(MethodId::Reinforcement);
+        CHECK(status.representation == represented.representation);
+        CHECK(status.network.has_value() == (represented.representation == Representation::Neural));
+        CHECK(status.bytes > fewest_bytes(represented.representation, static_cast<std::size_t>(volumes)));
+        for (const View view : {View::RadianceMap, View::Visits, View::Irradiance, View::Entropy, View::BsdfShare,
+                                View::Change, View::Unvisited}) {
+            render_passes(session, {MethodId::Reinforcement, view}, 1);
+            const std::vector<Vec3f> pixels = session.snapshot({MethodId::Reinforcement, view}).pixels;
+            INFO(info_of(view).name);
+            // In a closed box no direction stays dark.
+            CHECK((view == View::Unvisited ||
+                   std::ranges::any_of(pixels, [](Vec3f pixel) { return max_component(pixel) > 0.0f; })));
+            CHECK(std::ranges::all_of(pixels, [](Vec3f pixel) { return is_valid_radiance(pixel); }));
+        }
+    }
+}
+
+TEST_CASE("The number of volumes with lobes or a network is what the budget holds, that with lobes stays") {
+    for (const Represented& represented : kRepresented) {
+        const SceneDescription scene = shipped_scene("door");
+        RenderSettings settings = settings_of(represented, scene);
+        settings.field.volumes = 0;
+        settings.field.bins = 16;
+        settings.field.budget_megabytes = 0.3;
+        Session session = make_session(scene, settings, 2);
+        render_passes(session, 20);
+        const FieldStatus status = *session.field_status(MethodId::Reinforcement);
+        CHECK((status.added_volumes == 0 || represented.representation == Representation::Neural));
+        CHECK(static_cast<double>(status.bytes) < 0.3e6);
+    }
+}
+
+TEST_CASE("A volume with lobes or a network begins anew and learns again") {
+    for (const Represented& represented : kRepresented) {
+        const SceneDescription scene = shipped_scene("cornell");
+        Session session = make_session(scene, settings_of(represented, scene), 2);
+        render_passes(session, 4);
+        REQUIRE(mean_radiance_of(session)[3] > 0.0f);
+        session.apply(EditForgetVolume{MethodId::Reinforcement, 3});
+        CHECK(mean_radiance_of(session)[3] == 0.0f);
+        render_passes(session, 2);
+        CHECK(mean_radiance_of(session)[3] > 0.0f);
+    }
+}
+
+// The field is frozen, so that all passes sampled what it holds now.
+TEST_CASE("Paths guided by lobes or a network are traced again with all vertices") {
+    for (const Represented& represented : kRepresented) {
+        const SceneDescription scene = shipped_scene("cornell");
+        Session session = make_session(scene, settings_of(represented, scene), 2);
+        render_passes(session, 3);
+        session.apply(EditLearning{MethodId::Reinforcement, LearningControl::Freeze});
+        session.apply(EditRestart{});
+        render_passes(session, 1);
+        PassReplay passes = session.pass_replay(slot_of(session));
+        const AnyFieldView field = field_of(passes);
+        const std::vector<Vec3f> pixels = session.snapshot(slot_of(session)).pixels;
+        int guided = 0;
+        for (std::uint32_t pixel = 0; pixel < 200; ++pixel) {
+            const PathRecord record = record_path(passes, field, pixel, 0);
+            guided += record.is_guided ? 1 : 0;
+            CHECK(glm::length(record.radiance - pixels[pixel]) <= 1e-5f * glm::length(pixels[pixel]));
+        }
+        CHECK(guided == 200);
+    }
+}
