@@ -22,9 +22,9 @@ constexpr std::uint32_t kMostSteps = 40;
 constexpr double kRate = 0.02;
 constexpr double kDecay = 300.0;
 
-/// Light of the volumes of a block, as kernels take it.
-struct LightBlock {
-    explicit LightBlock(std::uint32_t columns)
+/// Light in the cells of one volume, as kernels take it.
+struct CellRows {
+    explicit CellRows(std::uint32_t columns)
         : visits(columns), radiance(columns), is_cell(columns), values(columns) {}
 
     std::vector<float> visits, radiance, is_cell;
@@ -138,7 +138,7 @@ private:
                 NetworkBlock& block) const {
         network.predict(points, block);
         std::fill(block.logarithm_slopes.begin(), block.logarithm_slopes.end(), 0.0f);
-        LightBlock light(layout_.columns);
+        CellRows light(layout_.columns);
         float loss = 0.0f;
         for (std::size_t i = 0; i < volumes.size(); ++i)
             loss += best_neural_kernels().slopes(light_of(volumes[i], i, block, light), 1.0f / kBatch,
@@ -146,7 +146,7 @@ private:
         return loss;
     }
 
-    VolumeLight light_of(std::uint32_t volume, std::size_t row, const NetworkBlock& block, LightBlock& light) const {
+    VolumeLight light_of(std::uint32_t volume, std::size_t row, const NetworkBlock& block, CellRows& light) const {
         const auto cells = static_cast<std::uint32_t>(shape_.cells.count());
         const float scale = 1.0f / unit_;
         for (std::uint32_t cell = 0; cell < cells; ++cell) {
@@ -166,7 +166,7 @@ private:
         ChunkQueue queue(0, chunks, 1);
         parallel_for(threads_, queue, [&](IndexRange range) {
             NetworkBlock block(layout_.columns);
-            LightBlock light(layout_.columns);
+            CellRows light(layout_.columns);
             for (std::uint32_t chunk = range.begin; chunk < range.end; ++chunk) {
                 const std::uint32_t first = chunk * kNetworkBlock;
                 const std::uint32_t end = std::min(first + kNetworkBlock, count_);

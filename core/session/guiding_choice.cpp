@@ -30,10 +30,10 @@ constexpr double kRatioOfHiddenLight = 1.5;
 /// Rounds of the warm-up: after the first number it ends with a gain that is clear.
 constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
 constexpr std::uint32_t kMostWarmUpRounds = 12;
-/// From this round on a warm-up gives up where learning does not help: where a gain below kLeastGainOfLearning is less than
-/// kRiseOfLearning times the first one that was measured.
+/// From this round on a warm-up gives up where learning does not help: where a gain is below kLeastGainOfLearning, and by both errors less
+/// than kRiseOfLearning times the first one that was measured.
 constexpr std::uint32_t kFirstFlatRound = 7;
-constexpr double kRiseOfLearning = 1.05;
+constexpr double kRiseOfLearning = 1.1;
 /// It does not give up on a gain below this one: there few paths have found light so far, and their variance is not yet reliable.
 constexpr double kLeastCertainGain = 0.6;
 /// Rounds after which a field that another film interrupts is trusted.
@@ -115,7 +115,8 @@ void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters
 
 bool GuidingChoice::is_flat() const {
     if (rounds_ < kFirstFlatRound || !gain_ || !first_gain_ || finds_hidden_light()) return false;
-    return *gain_ >= kLeastCertainGain && *gain_ < kLeastGainOfLearning && *gain_ < kRiseOfLearning * *first_gain_;
+    return *gain_ >= kLeastCertainGain && *gain_ < kLeastGainOfLearning &&
+           gain_of_both_ < kRiseOfLearning * *first_gain_;
 }
 
 Trial GuidingChoice::trial_before(std::uint32_t pass) const {
@@ -178,7 +179,7 @@ void GuidingChoice::predict() {
     gain_ = gain;
     const double relative = costs * baseline_.relative_variance() / guided_.relative_variance();
     gain_of_both_ = relative > 0.0 && std::isfinite(relative) ? std::sqrt(gain * relative) : gain;
-    if (!first_gain_) first_gain_ = gain;
+    if (!first_gain_) first_gain_ = gain_of_both_;
 }
 
 bool GuidingChoice::finds_hidden_light() const {

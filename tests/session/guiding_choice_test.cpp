@@ -111,14 +111,15 @@ TEST_CASE("Guiding choice: a warm-up ends early with a clear gain or a loss") {
 }
 
 TEST_CASE("Guiding choice: a warm-up goes on as long as its gain rises") {
-    const auto outcome = [](double fall) {
+    const auto outcome = [](double first, double fall) {
         GuidingChoice choice;
-        const std::uint32_t rounds = warm_up(choice, [&](std::uint32_t round) { return 0.95 - fall * round; });
+        const std::uint32_t rounds = warm_up(choice, [&](std::uint32_t round) { return first - fall * round; });
         return std::pair(rounds, choice.pays());
     };
-    CHECK(outcome(0.005) == std::pair(7u, false));  // 0.71 to 0.72 by the seventh round
-    CHECK(outcome(0.03).first > 7);                 // 0.78 to 0.85
-    CHECK(outcome(0.03).second);
+    CHECK(outcome(0.95, 0.005) == std::pair(7u, false));  // 0.71 to 0.72 by the seventh round
+    CHECK(outcome(0.95, 0.03) == std::pair(7u, false));   // 0.78 to 0.82
+    CHECK(outcome(1.05, 0.05).first > 7);                 // 0.74 to 0.82
+    CHECK(outcome(1.05, 0.05).second);
 }
 
 TEST_CASE("Guiding choice: a loss ends a warm-up, unless the variance of guided paths still falls") {
