@@ -17,6 +17,9 @@ constexpr double kMature = 640.0;
 constexpr double kLeastGainOfYoung = 0.1;
 constexpr double kLeastGainOfLearning = 0.9;
 constexpr double kLeastGain = 1.04;
+/// The gain by both errors is at most so many times that by variance, which is the surer one: relative variances of small pictures, and of
+/// few samples, are noisy.
+constexpr double kMostOverGain = 1.1;
 /// The gain from which on guiding is taken up again.
 constexpr double kReturningGain = 1.1;
 /// Whatever its gain, a field is learning fast while the variance of guided paths is below this share of its first measurement.
@@ -178,7 +181,8 @@ void GuidingChoice::predict() {
     if (!(gain > 0.0) || !std::isfinite(gain)) return;
     gain_ = gain;
     const double relative = costs * baseline_.relative_variance() / guided_.relative_variance();
-    gain_of_both_ = relative > 0.0 && std::isfinite(relative) ? std::sqrt(gain * relative) : gain;
+    const bool is_known = relative > 0.0 && std::isfinite(relative);
+    gain_of_both_ = is_known ? std::min(std::sqrt(gain * relative), kMostOverGain * gain) : gain;
     if (!first_gain_) first_gain_ = gain_of_both_;
 }
 

@@ -150,7 +150,7 @@ private:
     double spent_ = 0.0;                       ///< on rounds and trials, in passes of the baseline
     double trial_cost_ = 0.0;                  ///< likewise, on the last one
     std::optional<double> gain_;
-    double gain_of_both_ = 0.0;  ///< geometric mean of gain_ and that by relative variance
+    double gain_of_both_ = 0.0;  ///< geometric mean of gain_ and that by relative variance, bounded
     std::optional<double> first_gain_;
     std::optional<bool> belief_;  ///< whether guiding pays
 };

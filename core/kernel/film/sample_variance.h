@@ -10,7 +10,7 @@ namespace pl {
 /// complement: the same for every order of the samples.
 struct VarianceSums {
     std::uint64_t sum = 0;       ///< in steps
-    std::uint64_t relative = 0;  ///< in steps, over the squared mean of the pixel
+    std::uint64_t relative = 0;  ///< in steps, over the squared mean of the pixel; biased, see measure_variance()
     std::uint64_t samples = 0;   ///< measured ones
 
     /// Contributions of one sample are clamped here, so that a single path decides nothing: far above white, because rare bright
@@ -75,7 +75,8 @@ inline constexpr std::uint32_t kFewestBeforeVariance = 3;
 
 /// Measures the variance of a sample that is about to come to a pixel. With the mean m of earlier samples, L (L - m) is an
 /// unbiased estimate of the variance of an independent sample L. Samples of one half of the film are spread evenly, and so
-/// depend on one another: m is the mean of the half that the pass does not belong to. Pixels that see a lamp are left out: their
+/// depend on one another: m is the mean of the half that the pass does not belong to. Divided by m^2 it has a bias that is the same for
+/// all methods of one mean, and vanishes with the number of samples behind m. Pixels that see a lamp are left out: their
 /// variance is that of emission, which no sampling of directions changes, see camera_emission.h.
 PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, std::uint32_t pass, VarianceSums& sums) {
     const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;
