@@ -64,6 +64,7 @@ void GuidedTour::offer() {
 void GuidedTour::begin(ViewerModel& model) {
     is_answered_ = true;
     phase_ = Phase::Opening;
+    model.render().set_paused(false);  // a paused renderer may never show the scene that prepare() waits for
     if (model.scene().name() != kScene) model.scene().open(kScene);
 }
 
