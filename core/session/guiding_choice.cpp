@@ -203,7 +203,9 @@ bool GuidingChoice::decides_after(std::uint32_t pass) const {
 }
 
 void GuidingChoice::decide() {
-    if (gain_) belief_ = gain_of_both_ >= (pays() || finds_hidden_light() ? least_gain() : kReturningGain);
+    // A field that is still learning is given up for variance alone: relative variances need means of many samples.
+    const double gain = learned_ >= kMature ? gain_of_both_ : gain_.value_or(0.0);
+    if (gain_) belief_ = gain >= (pays() || finds_hidden_light() ? least_gain() : kReturningGain);
 }
 
 void GuidingChoice::trust_field() {
