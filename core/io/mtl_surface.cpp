@@ -1,4 +1,5 @@
 #include "core/io/mtl_surface.h"
+#include "core/scene/glass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,6 @@ constexpr float kNoRefraction = 1.01f;
 float strongest(const std::optional<glm::vec3>& color) {
     return color ? std::max(color->x, std::max(color->y, color->z)) : 0.0f;
 }
-
-bool is_glass(SurfaceKind kind) { return kind == SurfaceKind::Dielectric || kind == SurfaceKind::Pane; }
 
 bool has_index(const MtlEntry& entry) { return entry.ni && *entry.ni > kNoRefraction; }
 

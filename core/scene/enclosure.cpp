@@ -1,4 +1,5 @@
 #include "core/scene/enclosure.h"
+#include "core/scene/glass.h"
 
 #include <algorithm>
 #include <array>
@@ -33,8 +34,7 @@ std::vector<std::uint32_t> places_of(const std::vector<glm::vec3>& positions) {
 
 /// Opaque: neither a dielectric nor with holes.
 bool is_solid(const MaterialDescription& material) {
-    return material.kind != SurfaceKind::Dielectric && material.kind != SurfaceKind::Pane &&
-           material.textures.opacity == kNoTexture;
+    return !is_glass(material.kind) && material.textures.opacity == kNoTexture;
 }
 
 /// Edges of all opaque triangles with an area, sorted by their ends.

@@ -1,4 +1,5 @@
 #include "core/scene/pack_textures.h"
+#include "core/scene/glass.h"
 
 #include <algorithm>
 #include <vector>
@@ -25,8 +26,7 @@ float inverse_or_zero(float x) { return x > 0.0f ? 1.0f / x : 0.0f; }
 /// The parameter that an albedo texture multiplies.
 Vec3f tinted(const MaterialDescription& material) {
     if (material.kind == SurfaceKind::Conductor) return material.specular;
-    const bool is_glass = material.kind == SurfaceKind::Dielectric || material.kind == SurfaceKind::Pane;
-    return is_glass ? Vec3f{0.0f} : material.albedo;
+    return is_glass(material.kind) ? Vec3f{0.0f} : material.albedo;
 }
 
 class ImagePacker {

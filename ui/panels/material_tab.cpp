@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/glass.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 
@@ -40,10 +41,9 @@ bool draw_reflection(MaterialDescription& m, const MaterialDescription& file) {
         changed |=
             share_row("Edge tint", "Reflectance at 82 degrees over that of Schlick's approximation.", m.edge_tint);
     }
-    const bool is_glass = m.kind == SurfaceKind::Dielectric || m.kind == SurfaceKind::Pane;
-    if (is_glass || m.kind == SurfaceKind::Plastic)
+    if (is_glass(m.kind) || m.kind == SurfaceKind::Plastic)
         changed |= share_row("Reflected", "Tint of the light that glass or coat reflects.", m.specular);
-    if (is_glass) changed |= share_row("Transmitted", "Tint of the transmitted light.", m.transmission);
+    if (is_glass(m.kind)) changed |= share_row("Transmitted", "Tint of the transmitted light.", m.transmission);
     if (m.kind == SurfaceKind::Diffuse) return changed;
     if (m.kind != SurfaceKind::Pane)
         changed |= slider_row("Roughness", "0 is a mirror; the alpha of the microfacet distribution is its square.",

@@ -1,4 +1,5 @@
 #include "core/io/gltf/surface_reader.h"
+#include "core/scene/glass.h"
 
 #include <algorithm>
 #include <array>
@@ -173,13 +174,11 @@ private:
         material_.textures.roughness = kNoTexture;
     }
 
-    bool is_glass() const { return material_.kind == SurfaceKind::Dielectric || material_.kind == SurfaceKind::Pane; }
-
     void read_clearcoat() {
         const std::string at = extension("clearcoat");
         const float amount = share(at + "/clearcoatFactor", 0.0f);
         if (amount == 0.0f) return;
-        const bool fits = amount >= kGltfHalf && surface_.metalness < kGltfHalf && !is_glass();
+        const bool fits = amount >= kGltfHalf && surface_.metalness < kGltfHalf && !is_glass(material_.kind);
         if (!fits) {
             note("a clear coat on metal or glass, or of less than one half, is left out");
             return;
@@ -260,7 +259,7 @@ private:
         material_.name = std::move(name);
         if (material_.roughness < kLeastRoughness) material_.roughness = 0.0f;
         const auto [least, most] = range_of_metalness();
-        if (is_glass() || most < kGltfHalf) {
+        if (is_glass(material_.kind) || most < kGltfHalf) {
             surface_.material = surface_.metal = append(without_metal());
         } else if (least >= kGltfHalf) {
             surface_.material = surface_.metal = append(as_metal());
@@ -296,7 +295,7 @@ private:
 
     MaterialDescription without_metal() const {
         MaterialDescription material = material_;
-        if (is_glass())
+        if (is_glass(material_.kind))
             material.textures.albedo = kNoTexture;
         else
             material.albedo = base_;

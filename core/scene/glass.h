@@ -1,0 +1,11 @@
+// Surfaces that reflect and transmit light and have no albedo.
+#pragma once
+
+#include "core/kernel/shading/surface_lobes.h"
+
+namespace pl {
+
+/// Whether a surface transmits light: solid glass and thin panes.
+inline bool is_glass(SurfaceKind kind) { return kind == SurfaceKind::Dielectric || kind == SurfaceKind::Pane; }
+
+}  // namespace pl
