@@ -160,7 +160,7 @@ void CudaBackend::launch_picture(const PassRequest& request, const PixelPaths& p
 
 void CudaBackend::launch_view(const PassRequest& request, const ViewContext& context, PathRange range) {
     const std::uint32_t count = range.end - range.first;
-    launch(kViewKernels[covering_set(request.features)], blocks_for(count), stream_, "show_view",
+    launch(kViewKernels[covering_set(request.features)], one_thread_each(count), stream_, "show_view",
            ViewSetup{.scene = existing_scene().view(),
                      .context = context,
                      .first = range.first,
@@ -214,7 +214,7 @@ void CudaBackend::use_samples(const PassRequest& request, PathRange range, const
 /// The same for some pixels of one pass, whose samples begin at `offset`.
 void CudaBackend::use_pass(const PassRequest& request, PathRange pixels, std::uint32_t offset, const FilmView& film) {
     const std::uint32_t count = pixels.end - pixels.first;
-    launch(is_heat_map(request.slot.view) ? kSetSamples : kAddSamples, blocks_for(count), stream_, "add_samples",
+    launch(is_heat_map(request.slot.view) ? kSetSamples : kAddSamples, one_thread_each(count), stream_, "add_samples",
            film,
            LaunchSamples{.radiance = {samples_.data() + offset, count},
                          .first = pixels.first,
@@ -239,8 +239,8 @@ void CudaBackend::refine_launch(const PassRequest& request, PathRange range, con
         .counters = launcher_.counters()};
     const std::size_t features = covering_set(request.features);
     if (request.passes == kMarkingPass && range.first == 0 && !scene.lights.empty())
-        launch(kBorderKernels[features], blocks_for(scene.lights.count), stream_, "mark_borders", setup);
-    launch(kEmissionKernels[features], blocks_for(range.end - range.first), stream_, "refine_film", setup);
+        launch(kBorderKernels[features], one_thread_each(scene.lights.count), stream_, "mark_borders", setup);
+    launch(kEmissionKernels[features], one_thread_each(range.end - range.first), stream_, "refine_film", setup);
 }
 
 PassCounters CudaBackend::precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) {
@@ -273,7 +273,7 @@ void CudaBackend::update_field(MethodId method) {
         std::uint32_t count = volumes;
         if (step.item == UpdateItem::Cell) count *= static_cast<std::uint32_t>(field.cells.count());
         if (step.item == UpdateItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
-        launch(step.kernel, blocks_for(count), stream_, step.name, field, count);
+        launch(step.kernel, one_thread_each(count), stream_, step.name, field, count);
     }
     gather_records(method);
     stream_.wait("updating a field");
@@ -292,7 +292,7 @@ void CudaBackend::gather_records(MethodId method) {
     DeviceArray<VolumeRecord>& records = records_[index_of(method)];
     const std::uint32_t volumes = field.normals.count;
     if (records.size() != volumes) records = DeviceArray<VolumeRecord>(volumes);
-    launch(kGatherRecords, blocks_for(volumes), stream_, "gather_records", field, view_of(records));
+    launch(kGatherRecords, one_thread_each(volumes), stream_, "gather_records", field, view_of(records));
 }
 
 /// The placement and, for heat maps, one value per volume; empty for views that need neither.
@@ -311,7 +311,7 @@ Span<const float> CudaBackend::volume_values(const FilmSlot& slot) {
         update_view(shape_, std::get<TableStorage<DeviceArray>>(existing_field(field_owner(slot.method))));
     const std::uint32_t volumes = field.mean_radiance.count;
     if (volume_values_.size() != volumes) volume_values_ = DeviceArray<float>(volumes);
-    launch(kVolumeValues, blocks_for(volumes), stream_, "volume_values", field, slot.view,
+    launch(kVolumeValues, one_thread_each(volumes), stream_, "volume_values", field, slot.view,
            Span<float>{volume_values_.data(), volumes});
     return Span<const float>{volume_values_.data(), volumes};
 }

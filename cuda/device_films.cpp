@@ -56,9 +56,9 @@ FilmReading DeviceFilms::read(FilmSlot slot, std::uint32_t halves, const Stream&
 
     totals_.clear(stream);
     const auto picture = [&](std::size_t i) { return Span<Vec3f>{means_.data() + i * pixels, pixels}; };
-    launch(kReadFilm, blocks_for(pixels), stream, "read_film", film.view(), picture(0), totals_.data());
+    launch(kReadFilm, one_thread_each(pixels), stream, "read_film", film.view(), picture(0), totals_.data());
     if (halves > 0)
-        launch(kReadHalves, blocks_for(pixels), stream, "read_halves", film.view(), picture(1), picture(2),
+        launch(kReadHalves, one_thread_each(pixels), stream, "read_halves", film.view(), picture(1), picture(2),
                &totals_.data()->second_weight);
     auto* staged = static_cast<std::byte*>(staging_.data());
     copy_to_host(staged, means_.data(), bytes, stream);
@@ -91,7 +91,7 @@ float DeviceFilms::largest_value(FilmSlot slot, const Stream& stream) {
     if (largest_.size() == 0) largest_ = DeviceArray<std::uint32_t>(1);
     if (staging_.bytes() < sizeof(float)) staging_ = PinnedMemory(sizeof(float));
     largest_.clear(stream);
-    launch(kLargestValue, blocks_for(static_cast<std::uint32_t>(film.pixels.size())), stream, "largest_value",
+    launch(kLargestValue, one_thread_each(static_cast<std::uint32_t>(film.pixels.size())), stream, "largest_value",
            film.view(), largest_.data());
     copy_to_host(staging_.data(), largest_.data(), sizeof(float), stream);
     stream.wait("looking for a film's largest value");

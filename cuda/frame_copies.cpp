@@ -46,7 +46,7 @@ DisplayFrame FrameCopies::start(const FilmView& film, const FrameStyle& style, c
     }
     const Span<std::uint32_t> pixels{pixels_.data(), film.pixels.count};
     const std::shared_ptr<ArrivingFrame> frame = spare_->take(pixels.count * sizeof(std::uint32_t));
-    launch(kShowFilm, blocks_for(pixels.count), stream, "show_film", film, style,
+    launch(kShowFilm, one_thread_each(pixels.count), stream, "show_film", film, style,
            ToneCodes{view_of(std::as_const(codes_))}, pixels);
     made_.record(stream);
     made_.hold_back(copies_);

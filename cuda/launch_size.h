@@ -23,11 +23,12 @@ public:
         return std::clamp(size_ / std::max(paths, 1u), 1u, std::max(most, 1u));
     }
 
-    /// Adapts the size to a finished launch, by a factor of at most 4, so that an interruption of the device has no
-    /// lasting effect.
-    void observe(std::uint32_t paths, float milliseconds) {
+    /// Adapts the size to a finished launch, by a factor of at most 4, so that an interruption of the device has no lasting effect.
+    /// `evenness`: the mean number of segments of a thread over the largest. The time of a launch whose threads wait for one that
+    /// has a long path is not that of its paths: less of them would wait as long.
+    void observe(std::uint32_t paths, float milliseconds, float evenness) {
         if (paths < size_ / 2) return;  // too few paths to fill the device: not representative
-        const float scale = kTargetMilliseconds / std::max(milliseconds, 1.0e-3f);
+        const float scale = kTargetMilliseconds / std::max(milliseconds * evenness, 1.0e-3f);
         const float wanted = static_cast<float>(paths) * std::clamp(scale, 0.25f, 4.0f);
         size_ = static_cast<std::uint32_t>(std::clamp(wanted, static_cast<float>(kLeast), static_cast<float>(kMost)));
     }

@@ -48,15 +48,29 @@ public:
     void forget() { launch_.reset(); }
 
     /// Incremented by the kernels that `trace` and `finish` queue.
-    PassCounters* counters() const { return counters_.data(); }
+    PassCounters* counters() const { return &counts_.data()->counters; }
 
 private:
+    /// Counted on the device by one launch.
+    struct Counts {
+        PassCounters counters;
+        std::uint32_t longest = 0;  ///< segments of the thread that traced most
+    };
     struct Launch {
         LaunchKey key;
         PathRange range;
         PassCounters counters{};
+        std::uint64_t thread_segments = 0;  ///< if all threads had traced as many as the one with most
         float milliseconds = 0.0f;
         const void* kernel = nullptr;  ///< whose threads hold the paths that wait; null before the first launch
+        std::uint32_t threads = 0;     ///< of its launch
+
+        /// See LaunchSize::observe(); 1 if no paths were traced.
+        float evenness() const {
+            return thread_segments == 0
+                       ? 1.0f
+                       : static_cast<float>(counters.path.segments) / static_cast<float>(thread_segments);
+        }
     };
 
     bool may_wait(const PathSettings& path) const;
@@ -72,8 +86,8 @@ private:
     std::uint32_t most_segments_;
     bool settles_ = false;
     DeviceArray<std::uint32_t> claimed_{1};
-    DeviceArray<PassCounters> counters_{1};
-    PinnedMemory read_counters_{sizeof(PassCounters)};
+    DeviceArray<Counts> counts_{1};
+    PinnedMemory read_counts_{sizeof(Counts)};
     DeviceMemory stores_;
     DeviceMemory states_;
     DeviceArray<std::uint8_t> is_waiting_;
@@ -101,7 +115,7 @@ PassCounters PathLauncher::run(const LaunchKey& key, LaunchSize& size, PathRange
                 finish(current.range);
             });
         }
-        size.observe(count, current.milliseconds);
+        size.observe(count, current.milliseconds, current.evenness());
         total += current.counters;
         paths.first = current.range.end;
         launch_.reset();
@@ -111,13 +125,15 @@ PassCounters PathLauncher::run(const LaunchKey& key, LaunchSize& size, PathRange
 
 template <class Queue>
 void PathLauncher::run_counted(Launch& current, Queue&& queue) {
-    counters_.clear(stream_);
+    counts_.clear(stream_);
     launched_.record(stream_);
     queue();
     finished_.record(stream_);
-    copy_to_host(read_counters_.data(), counters_.data(), sizeof(PassCounters), stream_);
+    copy_to_host(read_counts_.data(), counts_.data(), sizeof(Counts), stream_);
     stream_.wait("tracing paths");
-    current.counters += *static_cast<const PassCounters*>(read_counters_.data());
+    const Counts& counts = *static_cast<const Counts*>(read_counts_.data());
+    current.counters += counts.counters;
+    current.thread_segments += std::uint64_t{counts.longest} * current.threads;
     current.milliseconds += finished_.milliseconds_since(launched_);
 }
 
@@ -130,17 +146,18 @@ void PathLauncher::launch_paths(void (*kernel)(TraceSetup, M, Paths), TraceSetup
     if (!resumes) {
         claimed_.clear(stream_);
         current.counters = {};
+        current.thread_segments = 0;
     }
     setup.range = current.range;
     setup.claimed = claimed_.data();
-    setup.counters = counters_.data();
-    const std::uint32_t blocks =
-        std::min(resident_blocks(kernel, processors_), blocks_for(setup.range.end - setup.range.first));
-    setup.stores = stores(needs_store<M>(setup.path) ? blocks * kThreadsPerBlock * sizeof(PathStore<M>) : 1);
+    setup.counters = counters();
+    setup.longest = &counts_.data()->longest;
+    const LaunchShape shape = resident_threads(kernel, processors_, setup.range.end - setup.range.first);
+    const std::uint32_t threads = current.threads = shape.blocks * shape.threads;
+    setup.stores = stores(needs_store<M>(setup.path) ? threads * sizeof(PathStore<M>) : 1);
     // No set of effects has a larger state than all of them.
-    if (may_wait(setup.path))
-        setup.parking = parking(blocks * kThreadsPerBlock, sizeof(PathState<kEveryFeature, M>), resumes);
-    launch(kernel, blocks, stream_, "trace_paths", setup, method, paths);
+    if (may_wait(setup.path)) setup.parking = parking(threads, sizeof(PathState<kEveryFeature, M>), resumes);
+    launch(kernel, shape, stream_, "trace_paths", setup, method, paths);
     current.kernel = reinterpret_cast<const void*>(kernel);
 }
 

@@ -191,11 +191,17 @@ std::vector<BvhTriangle> leaf_triangles(const Bvh& bvh, const HostScene& packed)
 }
 
 /// BvhView::leaves.
-std::vector<BvhNode> leaves_of(const Bvh& bvh) {
-    std::vector<BvhNode> leaves;
-    if (bvh.primitives.size() <= kMostSmallTriangles)
-        std::ranges::copy_if(bvh.nodes, std::back_inserter(leaves),
-                             [](const BvhNode& node) { return node.count > 0; });
+std::vector<SmallLeaf> leaves_of(const Bvh& bvh) {
+    std::vector<SmallLeaf> leaves;
+    if (bvh.primitives.size() > kMostSmallTriangles) return leaves;
+    for (const BvhNode& node : bvh.nodes) {
+        if (node.count == 0) continue;
+        const std::uint64_t triangles = ((std::uint64_t{1} << node.count) - 1) << node.first;
+        leaves.push_back({.low = node.low,
+                          .first_triangles = static_cast<std::uint32_t>(triangles),
+                          .high = node.high,
+                          .last_triangles = static_cast<std::uint32_t>(triangles >> 32)});
+    }
     return leaves;
 }
 

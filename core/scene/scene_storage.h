@@ -32,7 +32,7 @@ struct SceneStorage {
     Array<float> map_row_cdf;
     Array<float> map_column_cdf;
     Array<BvhNode> bvh_nodes;
-    Array<BvhNode> bvh_leaves;
+    Array<SmallLeaf> bvh_leaves;
     Array<BvhTriangle> bvh_triangles;
     float light_power = 0.0f;
     Vec3f environment{0.0f};

@@ -3,6 +3,7 @@
 // address is taken, and would read through them as memory of unknown kind.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "core/base/kernel_row.h"
@@ -12,21 +13,50 @@
 #include "core/kernel/integrator/lamp_borders.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/method_list.h"
+#include "cuda/runtime/launch.h"
 
-/// Blocks of a kernel that traces paths that a processor is to hold at least, by which the compiler limits registers; 0: as many as
-/// the registers leave room for. Set by the options of these names of the build, so that a device can decide.
-#ifndef PL_CUDA_RESIDENT_BLOCKS
-#define PL_CUDA_RESIDENT_BLOCKS 0
+/// Blocks of a processor in which the threads of guided methods, and of kernels with lobes, go through a segment together, and in how
+/// many steps at most, see StepOfBlock; 0: each thread goes by itself. Set by the options of these names of the build, so that a device
+/// can decide.
+#ifndef PL_CUDA_GUIDED_BLOCKS
+#define PL_CUDA_GUIDED_BLOCKS 2
 #endif
-/// The same for kernels with lobes, which else take registers for two.
-#ifndef PL_CUDA_RESIDENT_BLOCKS_WITH_LOBES
-#define PL_CUDA_RESIDENT_BLOCKS_WITH_LOBES 3
+#ifndef PL_CUDA_GUIDED_STEPS
+#define PL_CUDA_GUIDED_STEPS 3
+#endif
+#ifndef PL_CUDA_LOBE_BLOCKS
+#define PL_CUDA_LOBE_BLOCKS 1
+#endif
+#ifndef PL_CUDA_LOBE_STEPS
+#define PL_CUDA_LOBE_STEPS 3
 #endif
 
 namespace pl::cuda {
 
-constexpr int least_resident_blocks(FeatureSet features) {
-    return features.has_any(kLobeFeatures) ? PL_CUDA_RESIDENT_BLOCKS_WITH_LOBES : PL_CUDA_RESIDENT_BLOCKS;
+/// The blocks of a kernel that traces paths.
+struct TraceBlock {
+    std::uint32_t threads = kThreadsPerBlock;
+    std::uint32_t resident =
+        1;          ///< blocks that a processor is to hold at least, by which the compiler limits registers
+    int steps = 0;  ///< see StepOfBlock
+
+    /// So many threads of a processor, in a number of blocks.
+    static constexpr TraceBlock of(std::uint32_t threads, std::uint32_t blocks, int steps) {
+        return {.threads = threads / blocks, .resident = blocks, .steps = steps};
+    }
+};
+
+/// The instructions of a segment fit the instruction caches of a processor in `default` without lobes; the threads of other kernels go
+/// through it in steps. The least time of what was measured, docs/notebook/2026-11-26-first-hour-on-a-gpu.md.
+template <FeatureSet F, class M>
+constexpr TraceBlock trace_block() {
+    constexpr int kMostSteps = F.has(Feature::NextEventEstimation) ? 3 : 2;  // without shadow rays the third is empty
+    if constexpr (F.has_any(kLobeFeatures))
+        return TraceBlock::of(384, PL_CUDA_LOBE_BLOCKS, PL_CUDA_LOBE_STEPS);
+    else if constexpr (GuidedMethod<M>)
+        return TraceBlock::of(512, PL_CUDA_GUIDED_BLOCKS, std::min(PL_CUDA_GUIDED_STEPS, kMostSteps));
+    else
+        return TraceBlock::of(F == FeatureSet{} ? 896 : 640, F == FeatureSet{} ? 7 : 5, 0);
 }
 
 /// Path numbers of one launch: [first, end).
@@ -50,6 +80,7 @@ struct TraceSetup {
     PathRange range{};
     std::uint32_t* claimed = nullptr;  ///< number of paths claimed; cleared before the launch
     PassCounters* counters = nullptr;  ///< incremented
+    std::uint32_t* longest = nullptr;  ///< raised to the number of segments of the thread that traced most
     void* stores = nullptr;            ///< the kernel's PathStore, of any size if paths need none. [thread]
     Parking parking{};
 };

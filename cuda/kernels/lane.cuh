@@ -11,6 +11,32 @@ namespace pl::cuda {
 
 __device__ inline std::uint32_t thread_number() { return blockIdx.x * blockDim.x + threadIdx.x; }
 
+/// Threads of a warp, which run in step between the functions below; the host has warps of one.
+#ifdef __CUDA_ARCH__
+inline constexpr std::uint32_t kWarpLanes = 32;
+__device__ inline std::uint32_t lane_number() { return threadIdx.x % kWarpLanes; }
+/// A bit for each lane in which the condition holds. All lanes must call it.
+__device__ inline std::uint32_t lanes_where(bool condition) { return __ballot_sync(0xffffffffu, condition); }
+/// The value that a lane has. All lanes must call it, for the same lane.
+__device__ inline std::uint32_t of_lane(std::uint32_t value, std::uint32_t lane) {
+    return __shfl_sync(0xffffffffu, value, static_cast<int>(lane));
+}
+__device__ inline float of_lane(float value, std::uint32_t lane) {
+    return __shfl_sync(0xffffffffu, value, static_cast<int>(lane));
+}
+#else
+inline constexpr std::uint32_t kWarpLanes = 1;
+inline std::uint32_t lane_number() { return 0; }
+inline std::uint32_t lanes_where(bool condition) { return condition ? 1u : 0u; }
+template <class Value>
+inline Value of_lane(Value value, std::uint32_t) {
+    return value;
+}
+#endif
+__device__ inline Vec3f of_lane(Vec3f value, std::uint32_t lane) {
+    return {of_lane(value.x, lane), of_lane(value.y, lane), of_lane(value.z, lane)};
+}
+
 /// Claims the next number of a queue. The active threads of a warp share one atomic addition and receive consecutive
 /// numbers, so that their camera rays are coherent.
 __device__ inline std::uint32_t claim(std::uint32_t& queue) {
@@ -49,6 +75,27 @@ __device__ inline void raise_to(std::uint32_t& maximum, std::uint32_t value) {
     while (seen < value && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) continue;
 #endif
 }
+
+/// The threads of a block go through a segment in steps that all begin together: else a processor would fetch its instructions again
+/// and again, which are more than its caches hold. `kSteps`: 1, the whole segment; 2, the path's ray, and all after it; 3, the shadow
+/// ray apart, too; 0, each thread goes by itself.
+template <int kSteps>
+struct StepOfBlock {
+    /// Whether a condition holds in any thread of the block; of those that go by themselves, in this one. All must call it.
+    static __device__ bool any(bool condition) {
+#ifdef __CUDA_ARCH__
+        if constexpr (kSteps > 0) return __syncthreads_or(condition) != 0;
+#endif
+        return condition;
+    }
+    /// Begins step number 2 or 3. All must call it.
+    template <int kStep>
+    static __device__ void begin() {
+#ifdef __CUDA_ARCH__
+        if constexpr (kSteps >= kStep) __syncthreads();
+#endif
+    }
+};
 
 template <class Count>
 __device__ inline void add_up(PassCounters& totals, const PassCountersOf<Count>& counters) {

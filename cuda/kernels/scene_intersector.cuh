@@ -29,15 +29,17 @@ __device__ inline SmallScene stage(const BvhView& bvh) {
     const std::uint32_t triangle_count = bvh.triangles.count <= kSmallScenes ? bvh.triangles.count : 0;
     const std::uint32_t leaf_count = triangle_count > 0 ? bvh.leaves.count : 0;
 #ifdef __CUDA_ARCH__
-    __shared__ alignas(BvhNode) std::byte node_bytes[(1 + kMostSmallTriangles) * sizeof(BvhNode)];
+    __shared__ alignas(BvhNode) std::byte root_bytes[sizeof(BvhNode)];
+    __shared__ alignas(SmallLeaf) std::byte leaf_bytes[kMostSmallTriangles * sizeof(SmallLeaf)];
     __shared__ alignas(BvhTriangle) std::byte triangle_bytes[kMostSmallTriangles * sizeof(BvhTriangle)];
-    auto* nodes = reinterpret_cast<BvhNode*>(node_bytes);
+    auto* root = reinterpret_cast<BvhNode*>(root_bytes);
+    auto* leaves = reinterpret_cast<SmallLeaf*>(leaf_bytes);
     auto* triangles = reinterpret_cast<BvhTriangle*>(triangle_bytes);
-    if (leaf_count > 0 && threadIdx.x == 0) nodes[0] = bvh.nodes[0];
-    for (std::uint32_t i = threadIdx.x; i < leaf_count; i += blockDim.x) nodes[1 + i] = bvh.leaves[i];
+    if (leaf_count > 0 && threadIdx.x == 0) *root = bvh.nodes[0];
+    for (std::uint32_t i = threadIdx.x; i < leaf_count; i += blockDim.x) leaves[i] = bvh.leaves[i];
     for (std::uint32_t i = threadIdx.x; i < triangle_count; i += blockDim.x) triangles[i] = bvh.triangles[i];
     __syncthreads();
-    return {nodes, nodes + 1, triangles, leaf_count};
+    return {root, leaves, triangles, leaf_count};
 #else
     return {bvh.nodes.data, bvh.leaves.data, bvh.triangles.data, leaf_count};
 #endif

@@ -86,28 +86,43 @@ __device__ inline void add_to(ThreadCounters& totals, const PassCounters& counte
 
 /// The set of features as bits, since the launch stubs of nvcc cannot name a FeatureSet.
 template <std::uint32_t kFeatureBits, Method M, class Paths>
-__global__ void __launch_bounds__(kThreadsPerBlock, least_resident_blocks(FeatureSet{kFeatureBits}))
+__global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().threads,
+                                  trace_block<FeatureSet{kFeatureBits}, M>().resident)
     trace_paths(const __grid_constant__ TraceSetup setup, const __grid_constant__ M method,
                 const __grid_constant__ Paths paths) {
+    constexpr FeatureSet kFeatures{kFeatureBits};
+    using Step = StepOfBlock<trace_block<kFeatures, M>().steps>;
     const SceneIntersector intersector{setup.scene};
     const PathContext<M> context{setup.scene, method, setup.path};
     ThreadCounters counters;
-    PathState<FeatureSet{kFeatureBits}, M> state;
+    PathState<kFeatures, M> state;
     keep_store(state, static_cast<PathStore<M>*>(setup.stores) + thread_number());
     PathStatus status = PathStatus::Finished;
     bool resumes = setup.parking.resumes != 0;
-    while (counters.path.segments < setup.parking.most_segments) {
-        if (status == PathStatus::Finished && !next_path(setup, paths, resumes, state)) break;
+    bool has_path = true;
+    while (true) {
+        has_path = has_path && counters.path.segments < setup.parking.most_segments &&
+                   (status == PathStatus::Continues || next_path(setup, paths, resumes, state));
+        if (!Step::any(has_path)) break;
         resumes = false;
+        Hit hit;
+        if (has_path) hit = closest_solid_hit<kFeatures>(setup.scene, intersector, state.ray);
+        Step::template begin<2>();
         PassCounters fresh;
-        status = trace_segment<FeatureSet{kFeatureBits}>(context, intersector, state, fresh.path);
-        if (status == PathStatus::Finished) {
-            count_path(fresh, state.radiance, is_valid_radiance(state.radiance));
-            finish(paths, state, fresh.path.method);
+        ShadowRequest<M> shadow;
+        if (has_path) status = shade_segment<kFeatures>(context, hit, state, shadow, fresh.path);
+        Step::template begin<3>();
+        if (has_path) {
+            status = connect_segment<kFeatures>(context, intersector, shadow, status, state, fresh.path);
+            if (status == PathStatus::Finished) {
+                count_path(fresh, state.radiance, is_valid_radiance(state.radiance));
+                finish(paths, state, fresh.path.method);
+            }
+            add_to(counters, fresh);
         }
-        add_to(counters, fresh);
     }
     park(setup.parking, state, status == PathStatus::Continues);
+    raise_to(*setup.longest, counters.path.segments);
     add_up(*setup.counters, counters);
 }
 

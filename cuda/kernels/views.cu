@@ -1,5 +1,6 @@
 #include "cuda/kernels/kernels.h"
 #include "cuda/kernels/lane.cuh"
+#include "cuda/kernels/scattered_pixels.h"
 #include "cuda/runtime/launch.h"
 
 namespace pl::cuda {
@@ -21,15 +22,56 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(const __grid_const
     add_up(*setup.counters, counters);
 }
 
+/// Traces the rays of one pixel by all lanes of a warp; what they see is added up by each lane, in the order of the rays.
+template <FeatureSet F>
+struct WarpRays {
+    const SceneView& scene;
+    const BvhIntersector& intersector;
+
+    /// As SingleRays::trace_emission(); to be called by all lanes alike.
+    template <class RayOf, class Add>
+    __device__ void trace_emission(std::uint32_t count, const RayOf& ray_of, const Add& add) const {
+        for (std::uint32_t first = 0; first < count; first += kWarpLanes) {
+            const std::uint32_t own = first + lane_number();
+            Vec3f seen{0.0f};
+            if (own < count) {
+                const Ray ray = ray_of(own);
+                seen = first_emission<F>(scene, ray, closest_solid_hit<F>(scene, intersector, ray));
+            }
+            for (std::uint32_t lane = 0; lane < min_of(count - first, kWarpLanes); ++lane)
+                add(first + lane, of_lane(seen, lane));
+        }
+    }
+};
+
+/// Few pixels have borders, each with many rays: a warp does the work of its pixels one after the other, by all lanes.
 template <std::uint32_t kFeatureBits>
 __global__ void __launch_bounds__(kThreadsPerBlock) refine_film(const __grid_constant__ EmissionSetup setup) {
+    constexpr FeatureSet kFeatures{kFeatureBits};
     const BvhIntersector intersector{setup.scene};
-    const std::uint32_t number = setup.range.first + thread_number();
-    SingleRays<FeatureSet{kFeatureBits}, BvhIntersector> rays{setup.scene, intersector};
+    const std::uint32_t count = setup.range.end - setup.range.first;
+    const std::uint32_t number = scattered_number(thread_number(), kWarpLanes, count);
+    SingleRays<kFeatures, BvhIntersector> own_rays{setup.scene, intersector};
     PassCounters counters;
-    if (number < setup.range.end)
-        counters.path.emission_rays = refine_emission<FeatureSet{kFeatureBits}>(
-            setup.context, setup.scene, rays, setup.film, setup.subset.pixel(number));
+    std::uint32_t pixel = 0;
+    EmissionWork work;
+    if (number < count) {
+        pixel = setup.subset.pixel(setup.range.first + number);
+        work = find_emission_work<kFeatures>(setup.context, setup.scene, own_rays, setup.film, pixel,
+                                             counters.path.emission_rays);
+        counters.path.emission_rays += work.all_rays();
+    }
+    WarpRays<kFeatures> rays{setup.scene, intersector};
+    for (std::uint32_t waiting = lanes_where(work.samples > 0); waiting != 0; waiting &= waiting - 1) {
+        const std::uint32_t lane = lowest_bit(waiting);
+        const std::uint32_t served = of_lane(pixel, lane);
+        refine_samples<kFeatures>(setup.context, rays, served,
+                                  {of_lane(work.samples, lane), of_lane(work.rays, lane)},
+                                  [&](std::uint32_t sample, Vec3f correction) {
+                                      if (lane_number() == lane)
+                                          correct_sample(setup.film, served, correction, sample);
+                                  });
+    }
     add_up(*setup.counters, counters);
 }
 

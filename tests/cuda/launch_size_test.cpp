@@ -1,5 +1,7 @@
 #include "cuda/launch_size.h"
 
+#include <algorithm>
+
 #include "tests/support/catch.hpp"
 
 using pl::cuda::LaunchSize;
@@ -11,7 +13,7 @@ LaunchSize settled(float paths_per_ms) {
     LaunchSize size;
     for (int i = 0; i < 50; ++i) {
         const std::uint32_t paths = size.next(0xffffffffu);
-        size.observe(paths, static_cast<float>(paths) / paths_per_ms);
+        size.observe(paths, static_cast<float>(paths) / paths_per_ms, 1.0f);
     }
     return size;
 }
@@ -39,14 +41,28 @@ TEST_CASE("A rest is taken along, and never more than there is") {
 TEST_CASE("One odd measurement changes little, and small launches teach nothing") {
     LaunchSize size = settled(1.0e5f);
     const std::uint32_t before = size.next(0xffffffffu);
-    size.observe(before, 1.0e9f);
+    size.observe(before, 1.0e9f, 1.0f);
     CHECK(size.next(0xffffffffu) >= before / 4 - 1);
     size = settled(1.0e5f);
-    size.observe(before, 0.0f);
+    size.observe(before, 0.0f, 1.0f);
     CHECK(size.next(0xffffffffu) <= before * 4 + 1);
     size = settled(1.0e5f);
-    size.observe(100, 50.0f);
+    size.observe(100, 50.0f, 1.0f);
     CHECK(size.next(0xffffffffu) == before);
+}
+
+TEST_CASE("A launch that waits for one long path grows until its other paths take the time that was aimed at") {
+    constexpr float kWait = 5.0f;     // milliseconds of the thread with the long path
+    constexpr float kSpeed = 1.0e5f;  // paths per millisecond
+    LaunchSize size;
+    for (int i = 0; i < 50; ++i) {
+        const std::uint32_t paths = size.next(0xffffffffu);
+        const float even = static_cast<float>(paths) / kSpeed;
+        const float all = std::max(even, kWait);
+        size.observe(paths, all, even / all);
+    }
+    const float milliseconds = static_cast<float>(size.next(0xffffffffu)) / kSpeed;
+    CHECK(milliseconds == Approx(LaunchSize::kTargetMilliseconds).epsilon(0.01));
 }
 
 TEST_CASE("Small pictures have several passes in a launch, large ones one") {

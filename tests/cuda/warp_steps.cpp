@@ -112,29 +112,20 @@ public:
     }
 
     void run() {
-        while (descend() || has_leaf()) {
-            while (has_leaf()) visit();
+        while (!std::ranges::all_of(ways_, &PostponedTraversal::is_over)) {
+            while (std::ranges::any_of(ways_, &PostponedTraversal::looks_for_leaf)) descend();
+            visit();
         }
     }
 
 private:
-    bool has_leaf() const {
-        return std::ranges::any_of(ways_, [](const PostponedTraversal& way) { return way.has_leaf(); });
-    }
-    /// Until all lanes have a leaf or no inner node. Returns whether any was at one.
-    bool descend() {
-        std::vector<std::size_t> descending;
-        for (std::size_t i = 0; i < ways_.size(); ++i)
-            if (ways_[i].is_at_inner_node()) descending.push_back(i);
-        const bool any = !descending.empty();
-        while (!descending.empty()) {
-            ++counts_.pairs.warps;
-            counts_.pairs.lanes += descending.size();
-            for (const std::size_t i : descending) ways_[i].descend(lanes_[i].best.t);
-            if (std::ranges::all_of(descending, [&](std::size_t i) { return ways_[i].has_leaf(); })) break;
-            std::erase_if(descending, [&](std::size_t i) { return !ways_[i].is_at_inner_node(); });
+    void descend() {
+        ++counts_.pairs.warps;
+        for (std::size_t i = 0; i < ways_.size(); ++i) {
+            if (!ways_[i].is_at_inner_node()) continue;
+            ++counts_.pairs.lanes;
+            ways_[i].descend(lanes_[i].best.t);
         }
-        return any;
     }
     void visit() {
         std::uint32_t most = 0;
@@ -158,29 +149,20 @@ void count_postponed(const BvhView& bvh, const std::vector<Ray>& rays, Counts& c
     PostponingWarp(bvh, rays, counts).run();
 }
 
-/// traverse(SmallScene): all boxes, then the triangles of the leaves that a lane enters, one leaf after the other.
+/// traverse(SmallScene): all boxes, then the triangles of the leaves that a lane enters.
 void count_small(const BvhView& bvh, const std::vector<Ray>& rays, Counts& counts) {
-    std::vector<Lane> lanes = lanes_of(rays);
-    for (std::uint32_t first = 0; first < bvh.leaves.count; first += kSmallGroup) {
-        const std::uint32_t end = std::min(bvh.leaves.count, first + kSmallGroup);
-        counts.boxes.warps += end - first;
-        counts.boxes.lanes += (end - first) * lanes.size();
-        std::vector<std::uint32_t> most;
-        for (Lane& lane : lanes) {
-            const BoxRay box_ray = make_box_ray(bvh.nodes[0], *lane.ray);
-            const float t_max = lane.best.t;
-            std::size_t entered = 0;
-            for (std::uint32_t i = first; i < end; ++i) {
-                if (intersect_box(bvh.leaves[i], box_ray, t_max) == kInfinity) continue;
-                if (entered == most.size()) most.push_back(0);
-                const std::uint32_t tested = lane.visit(bvh.triangles.data, bvh.leaves[i].reference());
-                most[entered] = std::max(most[entered], tested);
-                counts.triangles.lanes += tested;
-                ++entered;
-            }
-        }
-        for (const std::uint32_t triangles : most) counts.triangles.warps += triangles;
+    const SmallScene scene{bvh.nodes.data, bvh.leaves.data, bvh.triangles.data, bvh.leaves.count};
+    counts.boxes.warps += bvh.leaves.count;
+    counts.boxes.lanes += bvh.leaves.count * rays.size();
+    std::uint32_t most = 0;
+    for (const Ray& ray : rays) {
+        SmallTriangles entered = entered_triangles(scene, ray, ray.t_max);
+        std::uint32_t tested = 0;
+        for (; !entered.empty(); ++tested) (void)entered.take();
+        counts.triangles.lanes += tested;
+        most = std::max(most, tested);
     }
+    counts.triangles.warps += most;
 }
 
 /// Notes the ray of each segment.

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# run_on_device.sh --stage a|b|c [--kit FOLDER] [--results FOLDER] [--rehearsal]: everything that needs a GPU, in three calls of at
-# most eight minutes each. Results are written as they come, so that a call that is cut off loses nothing: RESULTS/stage-X.tsv is
-# the summary, a line per step (steps.sh), RESULTS/stage-X.log all output, from which device_tables.py makes tables.
-#   a  libraries, devices, a picture per method, memcheck and synccheck, parity without its long cases, both back ends to the bit,
-#      a short benchmark
-#   b  the whole benchmark with a million triangles, times by events, profiler counters, long parity, switches in the viewer
+# run_on_device.sh --stage a|b|c [--seconds N] [--kit FOLDER] [--results FOLDER] [--rehearsal]: everything that needs a GPU, in three
+# calls. Results are written as they come, so that a call that is cut off loses nothing: RESULTS/stage-X.tsv is the summary, a line
+# per step (steps.sh), RESULTS/stage-X.log all output, from which device_tables.py makes tables. Steps that tell most come first;
+# after N seconds (default 470) the stage ends, and steps that did not begin are late.
+#   a  libraries, devices, a picture per method, both back ends to the bit, a short benchmark, parity without its long cases,
+#      memcheck and synccheck
+#   b  the whole benchmark with a million triangles, times by events, profiler counters, switches in the viewer, long parity
 #   c  variants of the kernels, initcheck, random settings for the rest of the time
 # FOLDER is an unpacked kit (pack_for_device.sh), by default that of this script; results go to ./results by default. --rehearsal:
 # without a GPU, by the programs FOLDER/standin/*_on_host, on small pictures.
@@ -13,13 +14,14 @@ set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 usage() {
-    sed -n '2,12p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//' >&2
+    sed -n '2,13p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//' >&2
     exit 2
 }
-chosen= kit=$here results=$PWD/results rehearsal=
+chosen= kit=$here results=$PWD/results rehearsal= stage_seconds=470
 while (($#)); do
     case $1 in
         --stage) chosen=${2-}; shift ;;
+        --seconds) stage_seconds=${2-}; shift ;;
         --kit) kit=${2-}; shift ;;
         --results) results=${2-}; shift ;;
         --rehearsal) rehearsal=yes ;;
@@ -27,7 +29,7 @@ while (($#)); do
     esac
     shift || usage
 done
-[[ $chosen == [abc] ]] || usage
+[[ $chosen == [abc] && $stage_seconds =~ ^[1-9][0-9]*$ ]] || usage
 kit=$(cd "$kit" && pwd) || exit 2
 [[ $results == /* ]] || results=$PWD/$results
 programs=$kit${rehearsal:+/standin} suffix=${rehearsal:+_on_host}
@@ -46,8 +48,8 @@ scenes_c=cornell,coats
 if [[ -z $rehearsal ]]; then
     compare_options=(--side 128 --passes 16) compare_c=("${compare_options[@]}" --scenes "$scenes_c")
     bench_a=(--seconds 0.2 --sizes 512x512,1920x1080 --volumes 0)
-    bench_b=(--seconds 0.6 --also coats --ball-rows 501)
-    bench_c=(--seconds 0.3 --sizes 512x512,1920x1080 --also coats --ball-rows 201 --volumes 0)
+    bench_b=(--seconds 0.4 --also coats,staircase --ball-rows 501)
+    bench_c=(--seconds 0.2 --sizes 1920x1080 --also coats,staircase --ball-rows 501 --volumes 0)
     times_options=(--scenes cornell,staircase)
     parity_a=('~[merge]') parity_b=('[merge]')
     profiled=(--spp 512 --size 1920x1080) launches_skipped=30
@@ -101,11 +103,11 @@ stage_a() {
     for method in sarsa monte-carlo; do
         picture "picture-$method" 60 cornell --method reinforcement --learn-target "$method" --spp 4 --size 64x64
     done
-    sanitize memcheck
-    sanitize synccheck
-    step parity 120 "$programs/device_parity$suffix" "${parity_a[@]}"
     step compare 200 "$programs/compare_backends$suffix" "${compare_options[@]}"
     step bench 100 "$programs/cuda_bench$suffix" "${bench_a[@]}"
+    step parity 120 "$programs/device_parity$suffix" "${parity_a[@]}"
+    sanitize memcheck
+    sanitize synccheck
 }
 
 # profile STEP METHOD METRICS KERNELS SKIP COUNT: so many launches of the kernels of a pattern; the clocks stay as they are.
@@ -135,8 +137,8 @@ stage_b() {
     step bench 180 "$programs/cuda_bench$suffix" "${bench_b[@]}"
     step times 60 "$programs/kernel_times$suffix" "${times_options[@]}"
     profile_kernels
-    step parity-long 200 "$programs/device_parity$suffix" "${parity_b[@]}"
     step switches 60 "$here/time_switches.sh" "$pathlight" "$work"
+    step parity-long 200 "$programs/device_parity$suffix" "${parity_b[@]}"
 }
 
 stage_c() {
@@ -154,7 +156,7 @@ stage_c() {
     step random $((rest + 30)) "$programs/compare_backends$suffix" --random --seed "${RANDOM_SEED:-1}" --seconds "$rest"
 }
 
-begin_stage "$chosen" "$results" 470
+begin_stage "$chosen" "$results" "$stage_seconds"
 tell "@run	stage=$chosen	date=$(date -u +%FT%TZ)	gpu=$(nvidia-smi --query-gpu=name,driver_version --format=csv,noheader 2>/dev/null |
     head -1)	rehearsal=${rehearsal:-no}	kit=$(tr '\n' ' ' <"$kit/KIT" 2>/dev/null)"
 "stage_$chosen"

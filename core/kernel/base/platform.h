@@ -66,15 +66,32 @@ PL_HD inline FloatPair in_order(float a, float b) {
 #endif
 }
 
-/// Whether a condition holds in any thread of a warp, among those that ask at the same time; on the host, in this one. Only for
-/// the order of work, which changes no result.
-PL_HD inline bool any_lane(bool condition) {
+/// Threads of a warp that do something together; on the host, this one. Only for the order of work, which changes no result.
+class LaneGroup {
+public:
+    /// Those that call this at the same time.
+    static PL_HD LaneGroup active() {
 #if defined(__CUDA_ARCH__)
-    return __any_sync(__activemask(), condition) != 0;
+        return LaneGroup(__activemask());
 #else
-    return condition;
+        return LaneGroup(1u);
 #endif
-}
+    }
+
+    /// Whether a condition holds in any thread of the group. All of them must call it, and go on together.
+    PL_HD bool any(bool condition) const {
+#if defined(__CUDA_ARCH__)
+        return __any_sync(lanes_, condition) != 0;
+#else
+        return condition;
+#endif
+    }
+
+private:
+    explicit PL_HD LaneGroup(std::uint32_t lanes) : lanes_(lanes) {}
+
+    std::uint32_t lanes_;
+};
 
 /// Number of the lowest bit that is set; there must be one.
 PL_HD inline std::uint32_t lowest_bit(std::uint32_t bits) {

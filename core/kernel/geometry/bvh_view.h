@@ -51,9 +51,18 @@ inline constexpr int kMaxBvhDepth = 64;
 /// Most triangles of a scene for which BvhView::leaves is there.
 inline constexpr std::uint32_t kMostSmallTriangles = 64;
 
+/// A leaf of a small scene: its box, and a bit for each entry of BvhView::triangles, the first 32 in `first_triangles`.
+struct alignas(16) SmallLeaf {
+    Vec3f low{kInfinity};
+    std::uint32_t first_triangles = 0;
+    Vec3f high{-kInfinity};
+    std::uint32_t last_triangles = 0;
+};
+static_assert(sizeof(SmallLeaf) == 32 && kMostSmallTriangles <= 64);
+
 struct BvhView {
-    Span<const BvhNode> nodes;   ///< root first; empty for an empty scene
-    Span<const BvhNode> leaves;  ///< those of `nodes` once more, in their order; empty unless the scene is small
+    Span<const BvhNode> nodes;     ///< root first; empty for an empty scene
+    Span<const SmallLeaf> leaves;  ///< those of `nodes` once more, in their order; empty unless the scene is small
     Span<const BvhTriangle> triangles;  ///< in the order of the leaves
 };
 
@@ -122,10 +131,10 @@ PL_HD inline BoxRay make_box_ray(const BvhNode& root, const Ray& ray) {
 }
 
 /// Conservative slab test: false positives only. Returns the entry distance, or infinity if the ray misses the box or
-/// enters it beyond `t_max`. `multiply_add` is bound_multiply_add(), but for tests of either rounding.
-template <class MultiplyAdd>
-PL_HD inline float intersect_box(const BvhNode& node, const BoxRay& ray, float t_max,
-                                 const MultiplyAdd& multiply_add) {
+/// enters it beyond `t_max`. `node` is a BvhNode or a SmallLeaf; `multiply_add` is bound_multiply_add(), but for tests of either
+/// rounding.
+template <class Node, class MultiplyAdd>
+PL_HD inline float intersect_box(const Node& node, const BoxRay& ray, float t_max, const MultiplyAdd& multiply_add) {
     float entry = 0.0f;
     float exit = t_max;
     for (int axis = 0; axis < 3; ++axis) {
@@ -137,7 +146,8 @@ PL_HD inline float intersect_box(const BvhNode& node, const BoxRay& ray, float t
     }
     return entry <= exit ? entry : kInfinity;
 }
-PL_HD inline float intersect_box(const BvhNode& node, const BoxRay& ray, float t_max) {
+template <class Node>
+PL_HD inline float intersect_box(const Node& node, const BoxRay& ray, float t_max) {
     return intersect_box(node, ray, t_max, [](float a, float b, float c) { return bound_multiply_add(a, b, c); });
 }
 

@@ -1,5 +1,6 @@
 // Traversal of a hierarchy by the lanes of a warp, which wait for each other where they do different things: a lane that has found
-// a leaf postpones it and goes on, so that all descend together, and all test triangles together.
+// a leaf postpones it and goes on, so that all descend together, and all test triangles together. That lanes meet again after a
+// loop is not left to the compiler, which lets them go apart: they vote on every turn of every loop.
 // [Aila and Laine 2009, "Understanding the Efficiency of Ray Traversal on GPUs", speculative while-while]
 #pragma once
 
@@ -21,6 +22,8 @@ public:
 
     PL_HD bool is_at_inner_node() const { return next_.count() == 0; }
     PL_HD bool has_leaf() const { return leaf_.bits != kNone; }
+    PL_HD bool looks_for_leaf() const { return is_at_inner_node() && !has_leaf(); }
+    PL_HD bool is_over() const { return !is_at_inner_node() && !has_leaf(); }
 
     /// Goes on from an inner node to the nearer of its children that the ray may enter before `t_max`, or to the last node that
     /// waits. The first leaf met is postponed.
@@ -37,6 +40,9 @@ public:
         postpone();
         return leaf;
     }
+
+    /// Visits nothing more.
+    PL_HD void stop() { next_.bits = leaf_.bits = kNone; }
 
 private:
     /// Reference to no node: neither an inner node nor a leaf.
@@ -61,20 +67,27 @@ struct PostponingBvh {
     const BvhView& bvh;
 };
 
-/// traverse() with postponed leaves. Lanes vote on when to stop descending.
+/// traverse() with postponed leaves. A lane with a leaf descends further as long as another one looks for its first; then all test
+/// the triangles of one leaf.
 template <class Visit>
 PL_HD inline void traverse(const PostponingBvh& scene, const Ray& ray, Hit& best, Visit&& visit) {
     const BvhView& bvh = scene.bvh;
     if (bvh.nodes.empty() || !can_hit(ray)) return;
+    const LaneGroup lanes = LaneGroup::active();
     NodeMemory memory;
     PostponedTraversal way(bvh, ray, best.t, memory);
-    while (way.is_at_inner_node() || way.has_leaf()) {
-        while (way.is_at_inner_node()) {
-            way.descend(best.t);
-            if (!any_lane(!way.has_leaf())) break;
+    while (lanes.any(!way.is_over())) {
+        while (lanes.any(way.looks_for_leaf()))
+            if (way.is_at_inner_node()) way.descend(best.t);
+        const NodeReference leaf = way.has_leaf() ? way.take_leaf() : NodeReference{0};
+        std::uint32_t count = leaf.count();
+        for (std::uint32_t i = 0; lanes.any(i < count); ++i) {
+            if (i >= count) continue;
+            const BvhTriangle triangle = bvh.triangles[leaf.first() + i];
+            if (!visit(triangle, best)) continue;
+            way.stop();
+            count = 0;
         }
-        while (way.has_leaf())
-            if (visit_leaf(bvh.triangles.data, way.take_leaf(), best, visit)) return;
     }
 }
 

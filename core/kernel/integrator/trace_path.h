@@ -21,15 +21,20 @@ struct LightAtOnce {
     }
 };
 
-/// Traces one segment of a path, and the shadow ray at its end. The next branch follows the end of one.
-template <FeatureSet F, Method M, Intersector I>
-PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
-                                       PathCounters& counters) {
-    const Hit hit = closest_solid_hit<F>(context.scene, intersector, state.ray);
+/// Shades the end of a path's segment, samples a light there, and scatters the path. `shadow` comes in cleared.
+template <FeatureSet F, Method M>
+PL_HD_INLINED PathStatus shade_segment(const PathContext<M>& context, const Hit& hit, PathState<F, M>& state,
+                                       ShadowRequest<M>& shadow, PathCounters& counters) {
     const VertexNumbers numbers = draw_vertex_numbers<F>(context.settings, state);
-    ShadowRequest<M> shadow;
     const LightAtOnce<F, M> request{context, numbers.light, state, shadow};
-    PathStatus status = extend_path<F>(context, hit, numbers, state, request, counters);
+    return extend_path<F>(context, hit, numbers, state, request, counters);
+}
+
+/// Traces the shadow ray of a light sample, if there is one; the next branch follows the end of one. `status`: of shade_segment().
+template <FeatureSet F, Method M, Intersector I>
+PL_HD_INLINED PathStatus connect_segment(const PathContext<M>& context, const I& intersector,
+                                         const ShadowRequest<M>& shadow, PathStatus status, PathState<F, M>& state,
+                                         PathCounters& counters) {
     if constexpr (F.has(Feature::NextEventEstimation)) {
         bool is_visible = false;
         if (shadow.wanted) {
@@ -39,8 +44,17 @@ PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& i
         }
         context.method.record_light(shadow.light, is_visible);
     }
-    if (status == PathStatus::Finished) status = finish_branch(context, state, counters);
-    return status;
+    return status == PathStatus::Finished ? finish_branch(context, state, counters) : status;
+}
+
+/// Traces one segment of a path, and the shadow ray at its end.
+template <FeatureSet F, Method M, Intersector I>
+PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
+                                       PathCounters& counters) {
+    const Hit hit = closest_solid_hit<F>(context.scene, intersector, state.ray);
+    ShadowRequest<M> shadow;
+    const PathStatus status = shade_segment<F>(context, hit, state, shadow, counters);
+    return connect_segment<F>(context, intersector, shadow, status, state, counters);
 }
 
 /// `store`: for what the path keeps outside of its state.

@@ -81,7 +81,7 @@ TEST_CASE("Every thread of a launch runs once, with the arguments of its launch"
         shim::set_threads(threads);
         const cuda::Stream stream;
         DeviceArray<std::uint32_t> out(1000);
-        launch(number_threads, cuda::blocks_for(1000), stream, "number_threads",
+        launch(number_threads, cuda::one_thread_each(1000), stream, "number_threads",
                Span<std::uint32_t>{out.data(), 1000}, 5u);
         HostArray<std::uint32_t> numbers;
         out.download(numbers, stream);
@@ -90,10 +90,10 @@ TEST_CASE("Every thread of a launch runs once, with the arguments of its launch"
         for (std::uint32_t i = 0; i < 1000; ++i) all = all && numbers[i] == i + 5;
         CHECK(all);
     }
-    CHECK(cuda::blocks_for(0) == 0);
-    CHECK(cuda::blocks_for(1) == 1);
-    CHECK(cuda::blocks_for(cuda::kThreadsPerBlock + 1) == 2);
-    CHECK(cuda::blocks_for(0xffffffffu) == (1u << 25));
+    CHECK(cuda::one_thread_each(0).blocks == 0);
+    CHECK(cuda::one_thread_each(1).blocks == 1);
+    CHECK(cuda::one_thread_each(cuda::kThreadsPerBlock + 1).blocks == 2);
+    CHECK(cuda::one_thread_each(0xffffffffu).blocks == (1u << 25));
 }
 
 TEST_CASE("A stream that is held back by an event waits for the other stream's work") {

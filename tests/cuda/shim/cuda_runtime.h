@@ -56,7 +56,9 @@ struct cudaDeviceProp {
     int major;
     int minor;
 };
-struct cudaFuncAttributes {};
+struct cudaFuncAttributes {
+    int maxThreadsPerBlock;
+};
 
 namespace pl::shim {
 struct Queue;

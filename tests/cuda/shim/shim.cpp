@@ -181,9 +181,10 @@ cudaError_t cudaSetDeviceFlags(unsigned flags) {
     if (code == cudaSuccess) machine.flags = flags;
     return code;
 }
-cudaError_t cudaFuncGetAttributes(cudaFuncAttributes*, const void*) {
+cudaError_t cudaFuncGetAttributes(cudaFuncAttributes* attributes, const void*) {
     const cudaError_t code = called("cudaFuncGetAttributes");
     if (code != cudaSuccess) return code;
+    attributes->maxThreadsPerBlock = 128;
     machine.has_context = true;
     return machine.code_fits ? cudaSuccess : cudaErrorNoKernelImageForDevice;
 }
