@@ -26,6 +26,12 @@ public:
         solid_.find_closest(batch_, count);
         for (std::uint32_t i = 0; i < count; ++i) use(i, batch_.ray(i), batch_.hit(i));
     }
+    /// As SingleRays::trace_emission().
+    template <class RayOf, class Add>
+    void trace_emission(std::uint32_t count, const RayOf& ray_of, const Add& add) {
+        trace(count, ray_of,
+              [&](std::uint32_t i, const Ray& ray, const Hit& hit) { add(i, first_emission<F>(scene_, ray, hit)); });
+    }
     /// Notes the emission of at most kNotedPixels pixels.
     void note(const EmissionContext& context, const FilmView& film, std::span<const std::uint32_t> pixels) {
         const auto count = static_cast<std::uint32_t>(pixels.size());
@@ -60,9 +66,12 @@ template <FeatureSet F>
         }
         tracer.note(pass.context, pass.film, {noted, fresh});
         traced += fresh;
-        for (std::uint32_t i = 0; i < count; ++i)
-            traced += refine_samples<F>(pass.context, pass.setup.scene, tracer, pass.film,
-                                        pass.subset.pixel(begin + i), was_refined[i]);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t pixel = pass.subset.pixel(begin + i);
+            const EmissionWork work = emission_work(pass.context, pass.film.pixels[pixel].emission, was_refined[i]);
+            refine_samples<F>(pass.context, tracer, pass.film, pixel, work);
+            traced += work.all_rays();
+        }
     }
     return traced;
 }

@@ -40,10 +40,12 @@ PL_INLINE PhiloxWords<Word> spread_bits(const PhiloxWords<Word>& shift, Word see
 
 /// The numbers of a path for a vertex and purpose: Rng::draw(), or a member of a sequence.
 PL_HD inline Vec4f vertex_numbers(const Rng& rng, std::uint32_t vertex, Purpose purpose) {
-    if (vertex != kSpreadVertex || rng.stream != Stream::Picture) return rng.draw(vertex, purpose);
+    const bool is_spread = vertex == kSpreadVertex && rng.stream == Stream::Picture;
     const std::uint32_t sequence = sequence_of(rng.sample);
-    const Philox shift = Rng{rng.seed, rng.stream, rng.pixel, sequence}.bits(vertex, purpose);
-    return to_unit_floats(spread_bits(shift, sequence_seed(rng.seed, rng.pixel, sequence, purpose), rng.sample / 2));
+    // One call for both cases, which the lanes of a warp make together.
+    Philox words = Rng{rng.seed, rng.stream, rng.pixel, is_spread ? sequence : rng.sample}.bits(vertex, purpose);
+    if (is_spread) words = spread_bits(words, sequence_seed(rng.seed, rng.pixel, sequence, purpose), rng.sample / 2);
+    return to_unit_floats(words);
 }
 
 }  // namespace pl

@@ -34,6 +34,14 @@ struct EmissionContext {
     std::uint32_t passes = 0;  ///< of the film, this one included
 };
 
+/// Radiance emitted by the first surface along a ray, or by the environment.
+template <FeatureSet F>
+PL_HD inline Vec3f first_emission(const SceneView& scene, const Ray& ray, const Hit& hit) {
+    if (!hit.found()) return environment_radiance<F>(scene, ray.direction);
+    const SurfacePoint surface = make_surface_point<F>(scene, hit, -ray.direction);
+    return emitted_at<F>(scene, surface, hit_weights(hit));
+}
+
 /// Finds the first solid surfaces along rays one by one. Drivers may offer the same for many at once.
 template <FeatureSet F, Intersector I>
 struct SingleRays {
@@ -48,15 +56,13 @@ struct SingleRays {
             use(i, ray, closest_solid_hit<F>(scene, intersector, ray));
         }
     }
+    /// Calls add(i, emission) in the order of i, with first_emission() along the rays.
+    template <class RayOf, class Add>
+    PL_HD void trace_emission(std::uint32_t count, const RayOf& ray_of, const Add& add) const {
+        trace(count, ray_of,
+              [&](std::uint32_t i, const Ray& ray, const Hit& hit) { add(i, first_emission<F>(scene, ray, hit)); });
+    }
 };
-
-/// Radiance emitted by the first surface along a ray, or by the environment.
-template <FeatureSet F>
-PL_HD inline Vec3f first_emission(const SceneView& scene, const Ray& ray, const Hit& hit) {
-    if (!hit.found()) return environment_radiance<F>(scene, ray.direction);
-    const SurfacePoint surface = make_surface_point<F>(scene, hit, -ray.direction);
-    return emitted_at<F>(scene, surface, hit_weights(hit));
-}
 
 /// What a camera ray tells of the emission of its pixel. A bright sky is one value: its own pattern is no border.
 template <FeatureSet F>
@@ -66,31 +72,25 @@ PL_HD inline EmissionSeen seen_emission(const SceneView& scene, const Ray& ray, 
     return emitted > kBrightSky ? EmissionSeen{EmissionSeen::kSky} : EmissionSeen::of(0.0f);
 }
 
-/// Replaces the first emission E_0 of the path of one sample in the film by the mean of further camera rays of its pixel:
-/// L = mean(E) + (path - E_0). The rays of all samples of a half of the film continue one low-discrepancy sequence, which has a
-/// random start of its own. Returns the number of rays traced.
+/// The correction mean(E) - E_0 by which the mean emission along `count` further camera rays of a pixel takes the place of the first
+/// emission of the path of one sample. The rays of all samples of a half of the film continue one low-discrepancy sequence, which has
+/// a random start of its own. Traces count + 1 rays.
 template <FeatureSet F, class Rays>
-PL_HD inline std::uint32_t replace_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
-                                            const FilmView& film, std::uint32_t pixel, std::uint32_t sample) {
-    const bool is_sky = film.pixels[pixel].emission.varies == EmissionSeen::kSkyBorder;
-    const std::uint32_t count = is_sky ? kSkyRays : kEmissionRays;
+PL_HD inline Vec3f emission_correction(const EmissionContext& context, Rays& rays, std::uint32_t pixel,
+                                       std::uint32_t sample, std::uint32_t count) {
     const Vec4f start = path_rng(context.settings, pixel, sequence_of(sample)).draw(0, Purpose::Emission);
     const Vec4f own_start = pixel_start(context.settings, pixel, sample);
     Vec3f sum{0.0f};
     Vec3f own{0.0f};
-    rays.trace(
+    rays.trace_emission(
         count + 1,
         [&](std::uint32_t i) {
             const Vec4f u =
                 i < count ? sequence_point(start, sample / 2 * count + i) : pixel_sample(own_start, sample);
             return camera_ray<F>(context.camera, context.grid, pixel, u);
         },
-        [&](std::uint32_t i, const Ray& ray, const Hit& hit) {
-            const Vec3f emission = first_emission<F>(scene, ray, hit);
-            (i < count ? sum : own) += emission;
-        });
-    correct_sample(film, pixel, sum * (1.0f / static_cast<float>(count)) - own, sample);
-    return count + 1;
+        [&](std::uint32_t i, Vec3f emission) { (i < count ? sum : own) += emission; });
+    return sum * (1.0f / static_cast<float>(count)) - own;
 }
 
 /// Corners of a pixel; every straight border that crosses it parts them.
@@ -169,32 +169,59 @@ PL_HD inline bool is_refined(const EmissionSeen& seen) {
     return seen.varies == EmissionSeen::kLampBorder || seen.varies == EmissionSeen::kSkyBorder;
 }
 
-/// Refines the sample that a pass has added to a pixel whose emission varies; if it has just been found to vary, those of the passes
-/// before, too, which have the numbers before that of this one. `was_refined`: is_refined() before this pass. Returns the number of
-/// rays traced.
-template <FeatureSet F, class Rays>
-PL_HD inline std::uint32_t refine_samples(const EmissionContext& context, const SceneView& scene, Rays& rays,
-                                          const FilmView& film, std::uint32_t pixel, bool was_refined) {
-    EmissionSeen& seen = film.pixels[pixel].emission;
-    if (seen.varies == 0) return 0;
+/// Samples of a pixel that a pass refines, the last ones up to that of the pass, and the further rays of each.
+struct EmissionWork {
+    std::uint32_t samples = 0;
+    std::uint32_t rays = 0;
+
+    PL_HD std::uint32_t all_rays() const { return samples * (rays + 1); }
+};
+
+/// The sample that a pass has added to a pixel whose emission varies; if it has just been found to vary, those of the passes before,
+/// too, which have the numbers before that of this one. `was_refined`: is_refined() before this pass.
+PL_HD inline EmissionWork emission_work(const EmissionContext& context, EmissionSeen& seen, bool was_refined) {
+    if (seen.varies == 0) return {};
     if (seen.varies == EmissionSeen::kBorderMarked) seen.varies = EmissionSeen::kLampBorder;
-    const std::uint32_t last = context.grid.sample;
-    const std::uint32_t samples = was_refined ? 1u : min_of(context.passes, last + 1);
-    std::uint32_t traced = 0;
-    for (std::uint32_t i = 0; i < samples; ++i)
-        traced += replace_emission<F>(context, scene, rays, film, pixel, last - i);
-    return traced;
+    return {.samples = was_refined ? 1u : min_of(context.passes, context.grid.sample + 1),
+            .rays = seen.varies == EmissionSeen::kSkyBorder ? kSkyRays : kEmissionRays};
 }
 
-/// Looks for emission that varies within a pixel, and refines its samples where it does. Unbiased, because the rays that look for such
-/// pixels are independent of the samples. Returns the number of rays traced.
+/// Does the work of a pixel: L = mean(E) + (path - E_0) in each sample. Calls correct(sample, correction).
+template <FeatureSet F, class Rays, class Correct>
+PL_HD inline void refine_samples(const EmissionContext& context, Rays& rays, std::uint32_t pixel,
+                                 const EmissionWork& work, const Correct& correct) {
+    for (std::uint32_t i = 0; i < work.samples; ++i) {
+        const std::uint32_t sample = context.grid.sample - i;
+        correct(sample, emission_correction<F>(context, rays, pixel, sample, work.rays));
+    }
+}
 template <FeatureSet F, class Rays>
-PL_HD inline std::uint32_t refine_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
-                                           const FilmView& film, std::uint32_t pixel) {
-    const EmissionSeen& seen = film.pixels[pixel].emission;
+PL_HD inline void refine_samples(const EmissionContext& context, Rays& rays, const FilmView& film,
+                                 std::uint32_t pixel, const EmissionWork& work) {
+    refine_samples<F>(context, rays, pixel, work, [&](std::uint32_t sample, Vec3f correction) {
+        correct_sample(film, pixel, correction, sample);
+    });
+}
+
+/// Looks for emission that varies within a pixel, and tells the samples to refine where it does. Unbiased, because the rays that look
+/// for such pixels are independent of the samples. Adds the number of rays traced to `traced`.
+template <FeatureSet F, class Rays>
+PL_HD inline EmissionWork find_emission_work(const EmissionContext& context, const SceneView& scene, Rays& rays,
+                                             const FilmView& film, std::uint32_t pixel, std::uint64_t& traced) {
+    EmissionSeen& seen = film.pixels[pixel].emission;
     const bool was_refined = is_refined(seen);
-    const std::uint32_t traced = seen.varies == 0 ? look_for_emission<F>(context, scene, rays, film, pixel) : 0;
-    return traced + refine_samples<F>(context, scene, rays, film, pixel, was_refined);
+    if (seen.varies == 0) traced += look_for_emission<F>(context, scene, rays, film, pixel);
+    return emission_work(context, seen, was_refined);
+}
+
+/// Refines the samples of one pixel that find_emission_work() tells. Returns the number of rays traced.
+template <FeatureSet F, class Rays>
+PL_HD inline std::uint64_t refine_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
+                                           const FilmView& film, std::uint32_t pixel) {
+    std::uint64_t traced = 0;
+    const EmissionWork work = find_emission_work<F>(context, scene, rays, film, pixel, traced);
+    refine_samples<F>(context, rays, film, pixel, work);
+    return traced + work.all_rays();
 }
 
 }  // namespace pl

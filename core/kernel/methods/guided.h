@@ -62,9 +62,10 @@ struct Guided : Target<F> {
 
     PL_HD DirectionSample sample_direction(const Vertex& vertex, const SurfacePoint& surface,
                                            const ScatterNumbers& numbers) const {
-        if (vertex.is_served() && samples_field(vertex, numbers))
-            return weigh(vertex, surface, field.sample(vertex, surface, numbers));
-        return weigh(vertex, surface, lambert_sample(surface, {numbers.u.y, numbers.u.z}));
+        const bool from_field = vertex.is_served() && samples_field(vertex, numbers);
+        const Vec3f wi =
+            from_field ? field.sample(vertex, surface, numbers) : lambert_sample(surface, {numbers.u.y, numbers.u.z});
+        return weigh(vertex, surface, wi);
     }
     PL_HD float pdf_sa(const Vertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
         return weigh(vertex, surface, wi).pdf_sa;
