@@ -115,6 +115,7 @@ double hellinger2(const TableField& field, std::int32_t volume, std::int32_t oth
 
 /// Comparing is expensive, so it ends when the bound of the rest is below the score of all that were found.
 std::vector<std::uint32_t> volumes_to_split(const TableField& field, std::size_t most, int threads) {
+    if (threads <= 0) threads = usable_threads();
     std::vector<double> visits(field.normals.count);
     for (std::uint32_t i = 0; i < visits.size(); ++i) visits[i] = visits_of(field, i);
     std::vector<Candidate> candidates = candidates_of(field, visits);
@@ -123,7 +124,7 @@ std::vector<std::uint32_t> volumes_to_split(const TableField& field, std::size_t
         if (best.size() == most && candidates[done].bound < best.back().score) break;
         const std::size_t end = std::min(done + std::max(most, kLeastBatch), candidates.size());
         ChunkQueue queue(static_cast<std::uint32_t>(done), static_cast<std::uint32_t>(end), kChunk);
-        run_on_plain_threads(std::max(threads, 1), [&](int) {
+        run_on_plain_threads(threads, [&](int) {
             for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
                 for (std::uint32_t i = range.begin; i < range.end; ++i)
                     candidates[i].score = candidates[i].bound * disagreement(field, candidates[i].volume, visits);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/parallel_chunks.h"
 #include "core/fields/disagreement.h"
 
 namespace pl {
@@ -15,21 +16,31 @@ constexpr std::uint32_t kPointsPerVolume = 64;
 /// Most of these points that are tried as positions of the new volume.
 constexpr std::size_t kMostTried = 64;
 
+/// Points that are found, and volumes that are split, in one claim of a thread.
+constexpr std::uint32_t kPointChunk = 1024;
+constexpr std::uint32_t kSplitChunk = 4;
+
 constexpr std::uint32_t kNotSplit = 0xffffffffu;
 
 /// Points of the Voronoi cell of each of `split`: uniform by area, or by area and by paths, as the volumes are.
 std::vector<std::vector<SurfacePoint>> cells_of(const HostScene& scene, const FieldSettings& settings,
                                                 const Camera* camera, const PlacementView& placement,
-                                                std::span<const std::uint32_t> split) {
+                                                std::span<const std::uint32_t> split, int threads) {
     std::vector<std::uint32_t> entry(placement.sites.count, kNotSplit);
     for (std::uint32_t i = 0; i < split.size(); ++i) entry[split[i]] = i;
-    std::vector<std::vector<SurfacePoint>> cells(split.size());
-    for_each_site(scene, settings, camera, kPointsPerVolume, [&](const SurfacePoint& point) {
-        const std::int32_t volume = placement.volume_at(point);
-        if (volume == kNoVolume) return;
-        const std::uint32_t i = entry[static_cast<std::uint32_t>(volume)];
-        if (i != kNotSplit) cells[i].push_back(point);
+    std::vector<SurfacePoint> points;
+    for_each_site(scene, settings, camera, kPointsPerVolume,
+                  [&](const SurfacePoint& point) { points.push_back(point); });
+    std::vector<std::int32_t> volumes(points.size());
+    for_chunks(static_cast<std::uint32_t>(points.size()), kPointChunk, threads, [&](IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i) volumes[i] = placement.volume_at(points[i]);
     });
+    std::vector<std::vector<SurfacePoint>> cells(split.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (volumes[i] == kNoVolume) continue;
+        const std::uint32_t cell = entry[static_cast<std::uint32_t>(volumes[i])];
+        if (cell != kNotSplit) cells[cell].push_back(points[i]);
+    }
     return cells;
 }
 
@@ -57,17 +68,22 @@ std::optional<SurfacePoint> second_center(const std::vector<SurfacePoint>& cell,
 }  // namespace
 
 RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const Camera* camera,
-                                  const PlacementView& placement, std::span<const std::uint32_t> split) {
-    const std::vector<std::vector<SurfacePoint>> cells = cells_of(scene, settings, camera, placement, split);
+                                  const PlacementView& placement, std::span<const std::uint32_t> split, int threads) {
+    if (threads <= 0) threads = usable_threads();
+    const std::vector<std::vector<SurfacePoint>> cells = cells_of(scene, settings, camera, placement, split, threads);
+    std::vector<std::optional<SurfacePoint>> centers(split.size());
+    for_chunks(static_cast<std::uint32_t>(split.size()), kSplitChunk, threads, [&](IndexRange range) {
+        for (std::uint32_t i = range.begin; i < range.end; ++i)
+            centers[i] = second_center(cells[i], placement.sites[split[i]].position);
+    });
     RefinedPlacement result;
     HostVolumes& volumes = result.volumes;
     volumes.sites.assign(placement.sites.begin(), placement.sites.end());
     volumes.normals.assign(placement.normals.begin(), placement.normals.end());
     for (std::size_t i = 0; i < split.size(); ++i) {
-        const std::optional<SurfacePoint> center = second_center(cells[i], placement.sites[split[i]].position);
-        if (!center) continue;
-        volumes.sites.push_back(*center);
-        volumes.normals.push_back(center->geometric_normal);
+        if (!centers[i]) continue;
+        volumes.sites.push_back(*centers[i]);
+        volumes.normals.push_back(centers[i]->geometric_normal);
         result.parents.push_back(split[i]);
     }
     volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));

@@ -20,11 +20,11 @@ void Session::split_volumes(MethodId method, std::size_t most) {
     HostField learned = backend_->download_field(method);
     const FieldShape& shape = placement_.shape();
     const HostVolumes& volumes = *placement_.volumes();
-    const std::vector<std::uint32_t> split =
-        volumes_to_split(field_view(shape, volumes, learned), most, backend_->info().threads);
+    const int threads = backend_->info().threads;  // 0 for back ends that leave the host's to others
+    const std::vector<std::uint32_t> split = volumes_to_split(field_view(shape, volumes, learned), most, threads);
     const Camera camera = view_camera();
     RefinedPlacement refined = refine_placement(*scene_.packed(), settings_.field, &camera,
-                                                placement_view(volumes, shape.lookup, shape.extent), split);
+                                                placement_view(volumes, shape.lookup, shape.extent), split, threads);
     if (!refined.parents.empty()) replace_volumes(method, std::move(refined), std::move(learned));
 }
 

@@ -50,7 +50,7 @@ struct Learned {
 
     RefinedPlacement refine(std::size_t most, int threads = 2) {
         const TableField field = view();
-        return refine_placement(scene, settings, nullptr, field, volumes_to_split(field, most, threads));
+        return refine_placement(scene, settings, nullptr, field, volumes_to_split(field, most, threads), threads);
     }
     void take(RefinedPlacement refined) {
         tables = split_field(shape, std::move(tables), refined.parents);
