@@ -22,7 +22,7 @@ struct MatrixProduct {
     bool adds;
 };
 
-/// What the cells of one volume have learned, and what the network predicts for them. Arrays of `columns` values; those behind
+/// The learned sums of the cells of one volume, and the predictions of the network for them. Arrays of `columns` values; those behind
 /// the cells have no visits and are no cells.
 struct VolumeLight {
     const float* visits;      ///< as weights
@@ -52,7 +52,7 @@ struct NeuralKernels {
     void (*multiply)(const MatrixProduct& product);
     /// The loss of a volume times `scale`, and its slopes by the logarithms. [column]
     float (*slopes)(const VolumeLight& light, float scale, float* slopes);
-    /// Radiance of each cell predicted by the network, scaled to what the volume's cells know. [column] False if any is not
+    /// Radiance of each cell predicted by the network, scaled to the learned radiance of the volume's cells. [column] False if any is not
     /// finite.
     bool (*predict)(const VolumeLight& light, float* predicted);
     /// Unnormalized probabilities of side x side cells: their learned radiance with `predicted` as the prior.

@@ -9,7 +9,7 @@
 
 namespace pl {
 
-/// The tables keep what is learned. The network is taught by them in every update, and its predictions are the prior of the
+/// The tables keep the learned radiance. The network is taught by them in every update, and its predictions are the prior of the
 /// probabilities by which they are sampled: see cpu/neural_update.h.
 template <template <class> class Array>
 struct NeuralStorage : TableStorage<Array> {

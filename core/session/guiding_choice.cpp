@@ -33,7 +33,7 @@ constexpr double kRatioOfHiddenLight = 1.5;
 /// Rounds of the warm-up: after the first number it ends with a gain that is clear.
 constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
 constexpr std::uint32_t kMostWarmUpRounds = 12;
-/// From this round on a warm-up gives up where learning does not help: where a gain is below kLeastGainOfLearning, and by both errors less
+/// From this round on a warm-up gives up if learning does not help: if a gain is below kLeastGainOfLearning, and by both errors less
 /// than kRiseOfLearning times the first one that was measured.
 constexpr std::uint32_t kFirstFlatRound = 7;
 constexpr double kRiseOfLearning = 1.1;

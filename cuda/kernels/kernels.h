@@ -47,7 +47,7 @@ struct TraceBlock {
 };
 
 /// The instructions of a segment fit the instruction caches of a processor in `default` without lobes; the threads of other kernels go
-/// through it in steps. The least time of what was measured, docs/notebook/2026-11-26-first-hour-on-a-gpu.md.
+/// through it in steps. The fastest measured variant: docs/notebook/2026-11-26-first-hour-on-a-gpu.md.
 template <FeatureSet F, class M>
 constexpr TraceBlock trace_block() {
     constexpr int kMostSteps = F.has(Feature::NextEventEstimation) ? 3 : 2;  // without shadow rays the third is empty

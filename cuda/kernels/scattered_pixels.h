@@ -1,4 +1,4 @@
-// The pixels of a warp where few pixels of a picture have much work, as those do that the border of a lamp crosses.
+// The pixels of a warp if few pixels of a picture have much work: those that the border of a lamp crosses.
 #pragma once
 
 #include "core/kernel/base/platform.h"

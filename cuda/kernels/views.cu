@@ -22,7 +22,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(const __grid_const
     add_up(*setup.counters, counters);
 }
 
-/// Traces the rays of one pixel by all lanes of a warp; what they see is added up by each lane, in the order of the rays.
+/// Traces the rays of one pixel by all lanes of a warp; each lane adds up the emission that all have seen, in the order of the rays.
 template <FeatureSet F>
 struct WarpRays {
     const SceneView& scene;

@@ -1,4 +1,4 @@
-// The glass around a path, and what it absorbs. A path enters and leaves glass where it is refracted; what it meets from behind has been
+// The glass around a path, and its absorption. A path enters and leaves glass by refraction; glass whose back side it meets has been
 // around it, however it came there.
 #pragma once
 

@@ -54,7 +54,7 @@ PL_HD inline Observation through_chain(const PathState<F, M>& state, Observation
                     .distance = state.chain.distance + observation.distance};
     }
     if constexpr (kTracksMedium<F>) {
-        // Without a chain its weight is what glass around the segment lets through.
+        // Without a chain its weight is the transmittance of the glass around the segment.
         observation.emitted *= state.chain.weight;
         observation.albedo *= state.chain.weight;
     }
