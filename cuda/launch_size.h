@@ -24,8 +24,8 @@ public:
     }
 
     /// Adapts the size to a finished launch, by a factor of at most 4, so that an interruption of the device has no lasting effect.
-    /// `evenness`: the mean number of segments of a thread over the largest. The time of a launch whose threads wait for one that
-    /// has a long path is not that of its paths: less of them would wait as long.
+    /// `evenness`: the mean number of segments of a thread over the largest. One thread with a long path may keep a launch waiting:
+    /// its duration then says nothing about the throughput, and a smaller launch would last as long.
     void observe(std::uint32_t paths, float milliseconds, float evenness) {
         if (paths < size_ / 2) return;  // too few paths to fill the device: not representative
         const float scale = kTargetMilliseconds / std::max(milliseconds * evenness, 1.0e-3f);

@@ -115,7 +115,6 @@ double hellinger2(const TableField& field, std::int32_t volume, std::int32_t oth
 
 /// Comparing is expensive, so it ends when the bound of the rest is below the score of all that were found.
 std::vector<std::uint32_t> volumes_to_split(const TableField& field, std::size_t most, int threads) {
-    if (threads <= 0) threads = usable_threads();
     std::vector<double> visits(field.normals.count);
     for (std::uint32_t i = 0; i < visits.size(); ++i) visits[i] = visits_of(field, i);
     std::vector<Candidate> candidates = candidates_of(field, visits);

@@ -27,7 +27,7 @@ double hellinger2(const TableField& field, std::int32_t volume, std::int32_t oth
 ///   [Freeman and Tukey 1950; Matusita 1955]
 /// * V^2: the variance that a volume's directions leave in the picture grows with it. Alternatives are compared in
 ///   docs/notebook/2026-11-22-refinement.md.
-/// None with a product of 0. Does not depend on the number of threads, 0 for all that run at once here.
+/// None with a product of 0. Does not depend on the number of threads.
 std::vector<std::uint32_t> volumes_to_split(const TableField& field, std::size_t most, int threads);
 /// None: an SD-tree is refined by its updates.
 inline std::vector<std::uint32_t> volumes_to_split(const SdTreeField&, std::size_t, int) { return {}; }

@@ -69,7 +69,6 @@ std::optional<SurfacePoint> second_center(const std::vector<SurfacePoint>& cell,
 
 RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const Camera* camera,
                                   const PlacementView& placement, std::span<const std::uint32_t> split, int threads) {
-    if (threads <= 0) threads = usable_threads();
     const std::vector<std::vector<SurfacePoint>> cells = cells_of(scene, settings, camera, placement, split, threads);
     std::vector<std::optional<SurfacePoint>> centers(split.size());
     for_chunks(static_cast<std::uint32_t>(split.size()), kSplitChunk, threads, [&](IndexRange range) {

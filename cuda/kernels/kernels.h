@@ -16,7 +16,7 @@
 #include "cuda/runtime/launch.h"
 
 /// Blocks of a processor in which the threads of guided methods, and of kernels with lobes, go through a segment together, and in how
-/// many steps at most, see StepOfBlock; 0: each thread goes by itself. Set by the options of these names of the build, so that a device
+/// many steps at most, see StepOfBlock; 0: no barriers. Set by the options of these names of the build, so that a device
 /// can decide.
 #ifndef PL_CUDA_GUIDED_BLOCKS
 #define PL_CUDA_GUIDED_BLOCKS 2
@@ -36,8 +36,8 @@ namespace pl::cuda {
 /// The blocks of a kernel that traces paths.
 struct TraceBlock {
     std::uint32_t threads = kThreadsPerBlock;
-    std::uint32_t resident =
-        1;          ///< blocks that a processor is to hold at least, by which the compiler limits registers
+    /// Blocks that are resident on a multiprocessor at least: the compiler limits registers by it.
+    std::uint32_t resident = 1;
     int steps = 0;  ///< see StepOfBlock
 
     /// So many threads of a processor, in a number of blocks.

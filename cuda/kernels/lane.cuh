@@ -76,19 +76,19 @@ __device__ inline void raise_to(std::uint32_t& maximum, std::uint32_t value) {
 #endif
 }
 
-/// The threads of a block go through a segment in steps that all begin together: else a processor would fetch its instructions again
-/// and again, which are more than its caches hold. `kSteps`: 1, the whole segment; 2, the path's ray, and all after it; 3, the shadow
-/// ray apart, too; 0, each thread goes by itself.
+/// Barriers by which all threads of a block begin each step of a segment together: the instructions of a segment exceed the instruction
+/// caches, those of a step do not. `kSteps`: 0, no barriers; 1, the segment is one step; 2, the path's ray, and shading; 3, the path's ray,
+/// shading, and the shadow ray.
 template <int kSteps>
 struct StepOfBlock {
-    /// Whether a condition holds in any thread of the block; of those that go by themselves, in this one. All must call it.
+    /// Begins step 1. Whether a condition holds in any thread of the block; without barriers, in this one. All threads must call it.
     static __device__ bool any(bool condition) {
 #ifdef __CUDA_ARCH__
         if constexpr (kSteps > 0) return __syncthreads_or(condition) != 0;
 #endif
         return condition;
     }
-    /// Begins step number 2 or 3. All must call it.
+    /// Begins step 2 or 3. All threads must call it.
     template <int kStep>
     static __device__ void begin() {
 #ifdef __CUDA_ARCH__
