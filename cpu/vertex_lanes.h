@@ -39,7 +39,7 @@ public:
         store(product(reflectance, emitted), samples.reflected);
         store(scaled(product(product(vector(vertices_.throughput), reflectance), emitted), weight),
               samples.contribution);
-        store(luminance(emitted) * (kInvPi * cos_i) * weight, samples.irradiance);
+        store(rms(emitted) * (kInvPi * cos_i) * weight, samples.irradiance);
     }
 
     PL_INLINE void scatter(const DirectionGroup& directions, ScatteredGroup& scattered) const {

@@ -56,7 +56,7 @@ float brightest_by_delta_lights(const HostScene& scene, float diagonal) {
     float brightest = 0.0f;
     for (const DeltaLight& light : scene.delta_lights) {
         const bool is_far = light.kind == DeltaLightKind::Directional || !(distance > 0.0f);
-        const float irradiance = luminance(light.intensity) / (is_far ? 1.0f : distance * distance);
+        const float irradiance = rms(light.intensity) / (is_far ? 1.0f : distance * distance);
         brightest = std::max(brightest, kInvPi * irradiance);
     }
     return brightest;
@@ -85,15 +85,15 @@ std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t plac
 }
 
 FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings) {
-    float brightest = luminance(scene.environment);
-    for (const Vec3f& texel : scene.map_texels) brightest = std::max(brightest, luminance(texel));
+    float brightest = rms(scene.environment);
+    for (const Vec3f& texel : scene.map_texels) brightest = std::max(brightest, rms(texel));
     // A sun is so small and bright that fixed-point steps of its radiance would lose all other light: its mean over half of the
     // sky resolves both.
     const Sun& sun = scene.far_lights.sun;
-    brightest = std::max(brightest, luminance(sun.radiance) * 0.5f * sun.chord2);
+    brightest = std::max(brightest, rms(sun.radiance) * 0.5f * sun.chord2);
     for (const Light& light : scene.lights) {
         const Material& material = scene.materials[scene.triangles[light.primitive].material];
-        brightest = std::max(brightest, luminance(material.emission));
+        brightest = std::max(brightest, rms(material.emission));
     }
     const Bounds bounds = bounds_of(scene);
     brightest = std::max(brightest, brightest_by_delta_lights(scene, bounds.diagonal()));

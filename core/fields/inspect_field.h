@@ -14,10 +14,12 @@ namespace pl {
 template <class Inspector>
 concept FieldInspector = requires(const Inspector& inspector, std::int32_t volume, int cell) {
     { inspector.cells() } -> std::same_as<DirectionCells>;
-    { inspector.radiance(volume, cell) } -> std::same_as<float>;         ///< learned incident radiance, luminance
+    {
+        inspector.radiance(volume, cell)
+        } -> std::same_as<float>;  ///< learned incident radiance, rms() of its channels
     { inspector.probability(volume, cell) } -> std::same_as<float>;      ///< of sampling a direction of the cell
     { inspector.samples(volume, cell) } -> std::same_as<std::uint32_t>;  ///< training samples
-    { inspector.mean_radiance(volume) } -> std::same_as<float>;          ///< irradiance / pi, luminance
+    { inspector.mean_radiance(volume) } -> std::same_as<float>;          ///< irradiance / pi, likewise
     /// Density of sampling the direction of a point of the unit square, relative to that of cosine sampling.
     { inspector.density(volume, Vec2f{}) } -> std::same_as<float>;
     { inspector.bsdf_fraction(volume) } -> std::same_as<float>;  ///< learned
@@ -113,7 +115,7 @@ struct VolumeInspection {
     Vec3f normal{0.0f, 0.0f, 1.0f};
     SurfacePoint site{};
     int side = 0;
-    std::vector<float> radiance;     ///< learned incident radiance Q, luminance
+    std::vector<float> radiance;     ///< learned incident radiance Q, rms() of its channels
     std::vector<float> probability;  ///< of sampling the cell
     std::vector<std::uint32_t> visits;
     std::vector<float>

@@ -92,7 +92,7 @@ void LightGatherer::trace(std::uint32_t cell, std::uint32_t round) {
     const Vec3f rest = radiance - found.radiance;
     const std::uint32_t group = round % kLightGroups;
     const std::size_t index = group * light_.cells() + cell;
-    light_.radiance[index] += static_cast<double>(luminance(rest));
+    light_.radiance[index] += static_cast<double>(rms(rest));
     light_.reflected[index] += static_cast<double>(bsdf_.reflected(wi, rest));
     if (is_black(found.radiance)) return;
     const float cosine_pdf = kInvPi * glm::dot(wi, receiver.normal);
@@ -101,7 +101,7 @@ void LightGatherer::trace(std::uint32_t cell, std::uint32_t round) {
                                .fine_cell = fine_cell_of(receiver.side, square),
                                .light_pdf = found.light_pdf_sa / cosine_pdf,
                                .bsdf_pdf = bsdf_.pdf(wi),
-                               .radiance = luminance(found.radiance),
+                               .radiance = rms(found.radiance),
                                .reflected = bsdf_.reflected(wi, found.radiance)});
 }
 

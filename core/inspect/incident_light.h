@@ -23,11 +23,11 @@ struct SampledEmission {
     std::uint32_t fine_cell = 0;  ///< of VolumeInspection::density
     float light_pdf = 0.0f;       ///< density of light sampling, relative to that of cosine sampling
     float bsdf_pdf = 0.0f;        ///< the same of BSDF sampling
-    float radiance = 0.0f;        ///< luminance
-    float reflected = 0.0f;       ///< pi f L, luminance: the part reflected towards wo
+    float radiance = 0.0f;        ///< rms() of its channels
+    float reflected = 0.0f;       ///< pi f L, likewise: the part reflected towards wo
 };
 
-/// The paths so far. Arrays are [group][cell]; sums over paths of luminances.
+/// The paths so far. Arrays are [group][cell]; sums over paths of rms() of their channels.
 struct IncidentLight {
     int side = 0;
     std::array<std::uint32_t, kLightGroups> paths{};  ///< per cell

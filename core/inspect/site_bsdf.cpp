@@ -37,7 +37,7 @@ float SiteBsdf::reflected(Vec3f wi, Vec3f radiance) const {
     const float cos_i = bsdf_.cosine(receiver_.site, wi);
     if (cos_i == 0.0f) return 0.0f;
     const float cosine_pdf = kInvPi * glm::dot(wi, receiver_.normal);
-    return luminance(bsdf_.eval(receiver_.site, wi, cos_i) * radiance) / cosine_pdf;
+    return rms(bsdf_.eval(receiver_.site, wi, cos_i) * radiance) / cosine_pdf;
 }
 
 float SiteBsdf::pdf(Vec3f wi) const {

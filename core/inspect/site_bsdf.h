@@ -26,7 +26,7 @@ public:
 
     const LightReceiver& receiver() const { return receiver_; }
 
-    /// pi f(wo, wi) L, delta lobes left out, as luminance: its mean over a cell is that of f L over cosine-weighted directions.
+    /// rms() of pi f(wo, wi) L, delta lobes left out: its mean over a cell is that of f L over cosine-weighted directions.
     float reflected(Vec3f wi, Vec3f radiance) const;
     /// Density of sampling wi, delta lobes left out, relative to that of cosine sampling around the volume's normal.
     float pdf(Vec3f wi) const;

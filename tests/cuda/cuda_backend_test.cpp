@@ -103,7 +103,7 @@ TEST_CASE("Every target, rate and rule of roulette gives the bits of the CPU bac
 }
 
 TEST_CASE("A film that guiding is given up in has the bits of the CPU back end, launches of any size") {
-    constexpr std::uint32_t kPasses = 32;
+    constexpr std::uint32_t kPasses = 60;
     const SceneDescription scene = shipped_scene("door");
     for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
         INFO(info_of(method).name);

@@ -136,7 +136,7 @@ TEST_CASE("Without a given share no volume is added in small pictures, nor where
 TEST_CASE("Without a given share volumes are also added later, as training samples come") {
     constexpr std::uint64_t kRecordsPerVolume = 96 * 4;
     constexpr std::uint32_t kRounds = 4;  // after 8, 16, 48 and 96 passes
-    RenderSettings settings = settings_for(door(), kLearning, 30, 20);
+    RenderSettings settings = settings_for(door(), kLearning, 26, 20);
     settings.field.bins = 4;
     Session session = make_session(door(), settings, 2);
     render_passes(session, 191);

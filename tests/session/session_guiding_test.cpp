@@ -11,7 +11,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kPasses = 40;
+constexpr std::uint32_t kPasses = 60;
 
 /// Of the least size that has a warm-up.
 RenderSettings large_picture(RenderSettings settings) {

@@ -63,6 +63,18 @@ PL_INLINE Real luminance_of(const Real& red, const Real& green, const Real& blue
 }
 PL_HD inline float luminance(Vec3f rgb) { return luminance_of(rgb.x, rgb.y, rgb.z); }
 
+/// Root mean square of the three channels of an RGB value that is not negative, from 4 % too small to 13 % too large: exact for
+/// gray and for a single channel, and without squares, which would leave the range of float. Of all densities, one in
+/// proportion to the root mean square of the contributions leaves the least sum of the variances of the channels.
+/// `largest`: of the channels.
+template <class Real>
+PL_INLINE Real rms_of_channels(const Real& largest, const Real& sum) {
+    constexpr float kOfSum = 0.21132487f;  // (3 - sqrt(3)) / 6
+    constexpr float kOfLargest = 1.0f - 3.0f * kOfSum;
+    return kOfLargest * largest + kOfSum * sum;
+}
+PL_HD inline float rms(Vec3f rgb) { return rms_of_channels(max_component(rgb), rgb.x + rgb.y + rgb.z); }
+
 /// True if every channel is finite and not negative: the values that a film accepts.
 PL_HD inline bool is_valid_radiance(Vec3f v) {
     return v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f && v.x < kInfinity && v.y < kInfinity && v.z < kInfinity;

@@ -111,10 +111,6 @@ PL_INLINE Real3<N> product(const Real3<N>& a, const Real3<N>& b) {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 template <class N>
-PL_INLINE typename N::Real luminance(const Real3<N>& rgb) {
-    return luminance_of(rgb.x, rgb.y, rgb.z);
-}
-template <class N>
 PL_INLINE typename N::Real dot(const Real3<N>& a, const Real3<N>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -139,6 +135,14 @@ PL_INLINE typename N::Real min_real(const typename N::Real& x, float most) {
 template <class N>
 PL_INLINE typename N::Real max_real(const typename N::Real& x, float least) {
     return select(static_cast<typename N::Mask>(x < least), N::constant(least), x);
+}
+
+/// The same as the function of a Vec3f.
+template <class N>
+PL_INLINE typename N::Real rms(const Real3<N>& rgb) {
+    const auto of_last = select(static_cast<typename N::Mask>(rgb.y < rgb.z), rgb.z, rgb.y);
+    const auto largest = select(static_cast<typename N::Mask>(rgb.x < of_last), of_last, rgb.x);
+    return rms_of_channels<typename N::Real>(largest, rgb.x + rgb.y + rgb.z);
 }
 
 /// The neighboring float towards +infinity for a `step` of 1, towards -infinity for -1; x itself for 0 and if x is

@@ -6,8 +6,8 @@
 
 namespace pl {
 
-/// Sums over pixels of the variance of one sample: the integrand of an MSE, and that of a relMSE. Signed fixed point in two's
-/// complement: the same for every order of the samples.
+/// Sums over pixels of the variance of one sample, the mean of its channels: the integrand of an MSE, and that of a relMSE. Signed fixed
+/// point in two's complement: the same for every order of the samples.
 struct VarianceSums {
     std::uint64_t sum = 0;       ///< in steps
     std::uint64_t relative = 0;  ///< in steps, over the squared mean of the pixel; biased, see measure_variance()
@@ -31,13 +31,17 @@ struct VarianceSums {
     double mean() const { return mean_of(sum); }
     double relative_mean() const { return mean_of(relative); }
 
-    PL_HD void add(float variance, float mean) {
-        sum += steps_of(variance);
-        relative += steps_of(variance / (mean * mean + kLeastSquare));
+    /// `variance`: of each channel; `mean`: its square is that which the relative one is over.
+    PL_HD void add(Vec3f variance, Vec3f mean) {
+        const Vec3f over = variance / (mean * mean + Vec3f{kLeastSquare});
+        sum += steps_of((variance.x + variance.y + variance.z) * kThird);
+        relative += steps_of((over.x + over.y + over.z) * kThird);
         ++samples;
     }
 
 private:
+    static constexpr float kThird = 1.0f / 3.0f;
+
     double mean_of(std::uint64_t steps) const {
         if (samples == 0) return 0.0;
         return static_cast<double>(static_cast<std::int64_t>(steps)) / (kSteps * static_cast<double>(samples));
@@ -82,9 +86,8 @@ PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, std::
     const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;
     const bool has_both_halves = pixel.second_weight > 0 && pixel.weight > pixel.second_weight;
     if (!has_both_halves || sees_lamp || !is_valid_radiance(radiance)) return;
-    const float value = luminance(radiance);
-    const float mean = luminance(half_mean(pixel, !in_second_half(pass)));
-    sums.add(value * (value - mean), mean);
+    const Vec3f mean = half_mean(pixel, !in_second_half(pass));
+    sums.add(radiance * (radiance - mean), mean);
 }
 
 /// Puts the sample of a pass to its use. Returns false if it is invalid.

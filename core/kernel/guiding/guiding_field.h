@@ -21,15 +21,14 @@ struct OpenSample {
 /// One observation of incident radiance, to be added to a field's pending sums.
 template <class Field>
 struct TrainingSample : OpenSample<Field> {
-    float target = 0.0f;  ///< incident radiance, luminance
+    float target = 0.0f;  ///< incident radiance, rms() of its channels
 };
 
 /// A light sample at a surface point, for the field's irradiance by light samples.
 template <class Field>
 struct LightSample {
     typename Field::Location location{};
-    float irradiance =
-        0.0f;  ///< irradiance / pi (luminance) with the sample's MIS weight; 0 if the light is occluded
+    float irradiance = 0.0f;  ///< rms() of irradiance / pi with the sample's MIS weight; 0 if the light is occluded
     std::uint32_t cluster = kNoCluster;  ///< of the light, see LightTree
 };
 
@@ -41,7 +40,7 @@ struct LightSample {
 ///   sample(l, surface, n)      a direction; uses n.u.y, n.u.z and further draws of n.rng. Served locations only, as below
 ///   density(l, surface, wi)    of sample(), per steradian at the surface point
 ///   bsdf_fraction_at(l)        learned fraction a of BSDF samples in the mixture, in (0, 1]
-///   value_at(l)                expected irradiance / pi (luminance): the value function V of reinforcement learning
+///   value_at(l)                expected irradiance / pi: the value function V of reinforcement learning
 ///   direct_at(l)               the same by light samples alone, with their MIS weights; 0 before the first one
 ///   lights_at(l)               learned choice among the clusters of the scene's light tree; empty: nothing is learned
 ///   entry_of(l, direction)     the entry that a sampled direction trains
@@ -75,7 +74,7 @@ concept GuidingField = std::is_trivially_copyable_v<Field> && std::default_initi
 template <class Field>
 concept RadianceField = GuidingField<Field> &&
     requires(const Field& field, const typename Field::Location& location) {
-    /// Incident radiance (luminance) in the direction of DirectionSample::bin; value_at() before the first training
+    /// Incident radiance in the direction of DirectionSample::bin; value_at() before the first training
     /// sample of that direction.
     { field.radiance_at(location, std::int32_t{}) } -> std::same_as<float>;
 };

@@ -58,7 +58,7 @@ struct SdTreeField : SdTreeView {
         if (bin < 0 || visits[location.leaf.leaf] == 0) return value_at(location);
         return radiance_of(slot_of(bin));
     }
-    /// Mean incident radiance (luminance) of a slot's directions.
+    /// Mean incident radiance of a slot's directions.
     PL_HD float radiance_of(const QuadSlot& slot) const {
         return energy[slot.slot] * (kUniformSpherePdf / (slot.side() * slot.side()));
     }

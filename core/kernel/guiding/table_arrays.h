@@ -12,7 +12,7 @@ namespace pl {
 /// between two updates. Shapes: [volume][cell] with cells row by row, [volume][row], or [volume].
 template <template <class> class Learned, template <class> class Pending>
 struct TableArrays {
-    Learned<float> radiance;               ///< learned incident radiance Q, luminance. [volume][cell]
+    Learned<float> radiance;               ///< learned incident radiance Q, rms(). [volume][cell]
     Learned<std::uint32_t> visits;         ///< training samples so far. [volume][cell]
     Pending<std::int64_t> pending_sum;     ///< of targets, fixed point. [volume][cell]
     Pending<std::uint32_t> pending_count;  ///< of training samples. [volume][cell]

@@ -15,7 +15,7 @@ concept VolumeSummary = requires(const Summary& summary, std::uint32_t volume) {
         summary.unvisited_share(volume)
         } -> std::same_as<float>;                              ///< of its directions without training sample, [0, 1]
     { summary.entropy(volume) } -> std::same_as<float>;        ///< of its distribution of directions, bits
-    { summary.mean_radiance(volume) } -> std::same_as<float>;  ///< irradiance / pi, luminance
+    { summary.mean_radiance(volume) } -> std::same_as<float>;  ///< irradiance / pi, rms() of its channels
     { summary.change(volume) } -> std::same_as<float>;         ///< mean change of radiance by the last update
     { summary.bsdf_fraction(volume) } -> std::same_as<float>;  ///< a of the mixture
 };

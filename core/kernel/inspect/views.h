@@ -41,7 +41,7 @@ PL_HD inline Vec3f color_of_id(std::uint32_t id) {
 /// The part of a field that views show, for any representation that keeps numbers per volume.
 struct ShownField {
     PlacementView placement;
-    /// Heat maps: volume_value(); View::RadianceMap: irradiance / pi (luminance); other views: empty. [volume]
+    /// Heat maps: volume_value(); View::RadianceMap: learned irradiance / pi; other views: empty. [volume]
     Span<const float> volume_values;
 };
 

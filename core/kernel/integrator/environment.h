@@ -50,8 +50,8 @@ PL_HD inline FarRadiance add_environment(const SceneView& scene, [[maybe_unused]
         const float weight =
             direction_weight(settings, state, [&] { return far_light_pdf_sa(scene, state.ray.direction); });
         state.radiance += weight * (state.throughput * map);
-        const float constant = luminance(far.radiance);
-        const float varying = luminance(map);
+        const float constant = rms(far.radiance);
+        const float varying = rms(map);
         if (varying > 0.0f) far.direction_share = (constant + weight * varying) / (constant + varying);
         far.radiance += map;
     }

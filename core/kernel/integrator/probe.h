@@ -76,7 +76,7 @@ PL_HD inline void finish_probe(const TableView& field, const PathState<F, ProbeM
                                MethodCounters& counters) {
     constexpr float kWeightPerUnit = 256.0f;  // before the first update there is no mean radiance to be relative to
     const ProbeTarget target = probe_target(field, state.pixel);
-    const float radiance = luminance(state.radiance);
+    const float radiance = rms(state.radiance);
     record(field, target.volume, target.cell, radiance);
     counters.clamped_records += is_clamped(radiance, field.radiance_unit) ? 1u : 0u;
     record_reach(field, target.volume, kWeightPerUnit * (radiance / field.radiance_unit), state.memory.distance);

@@ -127,7 +127,7 @@ PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const
     light.cluster = sample.cluster;
     light.contribution = weights.throughput * reflectance * sample.emitted;
     light.reflected = reflectance * sample.emitted;
-    light.irradiance = luminance(sample.emitted) * (kInvPi * sample.cos_i);
+    light.irradiance = rms(sample.emitted) * (kInvPi * sample.cos_i);
     if constexpr (F.has_any(kLobeFeatures)) {
         // The radiance of a specular chain is that of its scattered directions.
         light.reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : weights.chain * light.reflected;

@@ -33,7 +33,7 @@ struct FieldTrainer : MethodHooks {
     }
 };
 
-/// Radiance (luminance) expected to be reflected at the path's first vertex with a location, light samples included; 0 before
+/// Radiance, rms() of its channels, expected to be reflected at the path's first vertex with a location, light samples included; 0 before
 /// it.
 struct GuidedExpectation {
     float first = 0.0f;
@@ -89,9 +89,9 @@ struct Guided : Target<F> {
     PL_HD float estimate_contribution(const Vertex& vertex, Vec3f albedo, Vec3f throughput, float survival,
                                       Expectation& expectation) const {
         if (!vertex.is_served()) return survival;
-        const float expected = luminance(throughput * albedo) * field.value_at(vertex);
+        const float expected = rms(throughput * albedo) * field.value_at(vertex);
         if (expectation.first == 0.0f)
-            expectation.first = expected + luminance(throughput * albedo) * field.direct_at(vertex);
+            expectation.first = expected + rms(throughput * albedo) * field.direct_at(vertex);
         // Infinite or NaN if the first expectation is 0 or the ratio is beyond the range of float.
         const float estimate = expected / expectation.first;
         return estimate < kInfinity ? estimate : survival;

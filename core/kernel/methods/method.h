@@ -36,7 +36,7 @@ struct Observation {
 /// A light sample at a vertex, with its MIS weight, if nothing occludes the light.
 struct LightEstimate {
     Vec3f reflected{0.0f};               ///< radiance reflected there towards the path's last vertex with a location
-    float irradiance = 0.0f;             ///< irradiance / pi, luminance
+    float irradiance = 0.0f;             ///< rms() of irradiance / pi
     std::uint32_t cluster = kNoCluster;  ///< of the light, see LightTree; none if the estimate is 0
 };
 
@@ -97,7 +97,7 @@ struct MethodHooks {
     PL_HD Light light_sampled(auto&, const auto& /*vertex*/, const LightEstimate&) const { return {}; }
     PL_HD void record_light(const Light&, bool /*is_visible*/) const {}
     PL_HD void light_received(auto&, MethodCounters&) const {}
-    /// Contribution estimate: the radiance (luminance) still expected of the path as a share of that at its first
+    /// Contribution estimate: the radiance, rms() of its channels, still expected of the path as a share of that at its first
     /// vertex. `survival`: the product of the albedos so far over that of the survival probabilities, the estimate of
     /// a method without a field. Called once per vertex.
     PL_HD float estimate_contribution(const auto&, Vec3f /*albedo*/, Vec3f /*throughput*/, float survival,

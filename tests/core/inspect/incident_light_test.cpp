@@ -103,7 +103,7 @@ std::vector<std::vector<double>> plain_paths(const Place& place, int batches, st
                 trace_path<kEveryFeature>(PathContext<DefaultMethod>{scene, method, path}, BvhIntersector{scene},
                                           state, counters);
                 means.back()[static_cast<std::size_t>(cell)] +=
-                    static_cast<double>(luminance(state.radiance)) / paths;
+                    static_cast<double>(rms(state.radiance)) / paths;
             }
     }
     return means;

@@ -37,11 +37,11 @@ struct ExpectedSarsa : FieldTrainer<F> {
                          MethodCounters& counters) const {
         if (!memory.entry.is_trained()) return {};
         const bool indirect = learning.light == LearnedLight::Indirect;
-        float target = luminance(observation.emitted) * (indirect ? observation.direction_share : 1.0f);
+        float target = rms(observation.emitted) * (indirect ? observation.direction_share : 1.0f);
         if (!is_black(observation.albedo)) {
             if (!vertex.is_served()) return {};
             const float direct = indirect ? this->field.direct_at(vertex) : 0.0f;
-            target += luminance(observation.albedo) * (this->field.value_at(vertex) + direct);
+            target += rms(observation.albedo) * (this->field.value_at(vertex) + direct);
         }
         this->count_sample(target, counters);
         memory.distance = observation.distance;

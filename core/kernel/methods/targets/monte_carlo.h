@@ -55,7 +55,7 @@ struct MonteCarlo : FieldTrainer<F> {
         last.open.distance = observation.distance;
         last.brought = observation.direction_share * observation.emitted;
         if (learning.light == LearnedLight::All)
-            last.unshared = (1.0f - observation.direction_share) * luminance(observation.emitted);
+            last.unshared = (1.0f - observation.direction_share) * rms(observation.emitted);
         return {};
     }
 
@@ -93,7 +93,7 @@ struct MonteCarlo : FieldTrainer<F> {
             const Step& step = memory.steps[i];
             brought = step.brought + step.weight * brought;
             if (!step.open.entry.is_trained()) continue;
-            const float target = luminance(brought) + step.unshared;
+            const float target = rms(brought) + step.unshared;
             this->train(step.open, target);
             this->count_sample(target, counters);
         }

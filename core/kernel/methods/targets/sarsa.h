@@ -35,7 +35,7 @@ struct Sarsa : FieldTrainer<F> {
     PL_HD void scattered(Memory& memory, const Vertex& vertex, const ScatterEvent& event,
                          MethodCounters& counters) const {
         const float radiance = vertex.is_served() ? this->field.radiance_at(vertex, event.direction.bin) : 0.0f;
-        complete(memory, luminance(event.weight) * radiance, counters);
+        complete(memory, rms(event.weight) * radiance, counters);
         memory.scattered = this->open_sample(vertex, event.direction);
         memory.emitted = 0.0f;
     }
@@ -46,7 +46,7 @@ struct Sarsa : FieldTrainer<F> {
         if (!memory.scattered.entry.is_trained()) return {};
         const bool indirect = learning.light == LearnedLight::Indirect;
         memory.scattered.distance = observation.distance;
-        memory.emitted = luminance(observation.emitted) * (indirect ? observation.direction_share : 1.0f);
+        memory.emitted = rms(observation.emitted) * (indirect ? observation.direction_share : 1.0f);
         if (is_black(observation.albedo)) {
             complete(memory, 0.0f, counters);
         } else if (!vertex.is_served()) {
@@ -59,7 +59,7 @@ struct Sarsa : FieldTrainer<F> {
 
     PL_HD typename FieldTrainer<F>::Light light_sampled(Memory& memory, const Vertex&,
                                                         const LightEstimate& estimate) const {
-        memory.light = luminance(estimate.reflected);
+        memory.light = rms(estimate.reflected);
         return {};
     }
     PL_HD void light_received(Memory& memory, MethodCounters&) const {

@@ -169,3 +169,24 @@ TEST_CASE("A frame takes local z to its normal and back") {
         REQUIRE(frame.to_world({0.0f, 0.0f, 1.0f}) == normal);
     }
 }
+
+TEST_CASE("The root mean square of channels is exact for gray and for one channel, else within 13 %") {
+    CHECK(rms(Vec3f{0.0f}) == 0.0f);
+    for (const float size : {1e-38f, 0.25f, 1.0f, 8.0f, 1e37f}) {
+        INFO(size);
+        CHECK(rms(Vec3f{size}) == Approx(size).epsilon(1e-6));
+        for (const Vec3f& one : {Vec3f{size, 0, 0}, Vec3f{0, size, 0}, Vec3f{0, 0, size}})
+            CHECK(rms(one) == Approx(size / std::sqrt(3.0)).epsilon(1e-6));
+    }
+    CHECK(rms(Vec3f{0.25f}) == 0.25f);
+    constexpr int kSteps = 20;
+    for (int red = 0; red <= kSteps; ++red)
+        for (int green = 0; green <= kSteps; ++green)
+            for (int blue = 0; blue <= kSteps; ++blue) {
+                const Vec3f rgb = Vec3f{red, green, blue} * 0.05f;
+                const Vec3d exact{rgb};
+                const double expected = std::sqrt((exact.x * exact.x + exact.y * exact.y + exact.z * exact.z) / 3.0);
+                CHECK(rms(rgb) <= expected * 1.127);
+                CHECK(rms(rgb) >= expected * 0.965);
+            }
+}

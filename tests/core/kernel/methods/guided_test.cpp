@@ -163,9 +163,9 @@ TEST_CASE("Reinforcement learning adds its target to the cell of the direction")
     CHECK(memory.entry.volume == 0);
     CHECK(memory.entry.cell == 9);
 
-    // L_e + rho V, in luminance. Powers of two: exact.
+    // L_e + rho V, by rms(). Powers of two: exact.
     method.record(method.observe(memory, {.emitted = Vec3f{0.0f}, .albedo = Vec3f{0.25f}}, {1}, counters));
-    const auto quarter_gray = static_cast<double>(luminance(Vec3f{0.25f})) * 2.0;
+    const auto quarter_gray = static_cast<double>(rms(Vec3f{0.25f})) * 2.0;
     CHECK(field.tables.pending_count[9] == 1);
     CHECK(field.tables.pending_sum[9] == static_cast<std::int64_t>(quarter_gray * 16777216.0));
     // A lamp that reflects nothing, or the sky.
