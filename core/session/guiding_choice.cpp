@@ -33,6 +33,8 @@ constexpr double kRatioOfHiddenLight = 1.5;
 /// Rounds of the warm-up: after the first number it ends with a gain that is clear.
 constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
 constexpr std::uint32_t kMostWarmUpRounds = 12;
+/// Rounds that measure the baseline, whose variance stays what it is.
+constexpr std::uint32_t kBaselineRounds = 4;
 /// From this round on a warm-up gives up if learning does not help: if a gain is below kLeastGainOfLearning, and by both errors less
 /// than kRiseOfLearning times the first one that was measured.
 constexpr std::uint32_t kFirstFlatRound = 7;
@@ -95,7 +97,8 @@ void PathEfficiency::fade(double share) {
 }
 
 Trial GuidingChoice::warm_up_round() const {
-    return {.is_guided = true, .is_baseline = rounds_ >= kFewestBeforeVariance};
+    const bool is_measured = rounds_ >= kFewestBeforeVariance + kBaselineRounds;
+    return {.is_guided = true, .is_baseline = rounds_ >= kFewestBeforeVariance && !is_measured};
 }
 
 void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters& baseline,

@@ -70,7 +70,7 @@ void check_that_targets_agree(const SceneDescription& scene, std::uint32_t passe
         INFO(scene.name << ", target " << static_cast<int>(target));
         CHECK(learned(false, target, LearnedLight::All) == Approx(all).epsilon(0.12));
         CHECK(learned(true, target, LearnedLight::All) == Approx(all).epsilon(0.12));
-        CHECK(learned(true, target, LearnedLight::Indirect) == Approx(indirect).epsilon(0.05));
+        CHECK(learned(true, target, LearnedLight::Indirect) == Approx(indirect).epsilon(0.08));
     }
 }
 
@@ -131,7 +131,7 @@ void check_gain_on_the_door(Pictures picture, Gain least) {
 // 64 x 64 pixels, seed 1, 200 volumes of 64 cells. The Monte-Carlo target is the reference. Targets that use the table of the
 // next volume get its mean over all points that it serves, and over earlier passes: with so few volumes that is up to
 // 8 % more on these scenes. Where only indirect light is learned, most of a target comes from the light sample of the very
-// point, and the targets agree better, to 3.4 % here.
+// point, and the targets agree better, to 6.4 % here: a product of two magnitudes is not that of the product of colors.
 TEST_CASE("All targets learn the same light in the Cornell box") {
     check_that_targets_agree(shipped_scene("cornell"), 32);
 }

@@ -90,7 +90,8 @@ void draw_summary(const VolumeInspection& volume) {
              "Of the sampling probabilities. The maximum is a uniform table: cosine sampling.");
     text_row("Effective", fmt::format("{:.1f} cells, peak {:.1f} x mean", summary.effective_cells, summary.peak),
              "2 to the power of the entropy; largest over mean probability.");
-    text_row("Irradiance", fmt::format("{:.4g}", volume.mean_radiance * kPi), "Learned irradiance, root mean square of red, green and blue.");
+    text_row("Irradiance", fmt::format("{:.4g}", volume.mean_radiance * kPi),
+             "Learned irradiance, root mean square of red, green and blue.");
 }
 
 /// Freezing and stepping of the whole field, and forgetting of this volume, before the next control of the row.

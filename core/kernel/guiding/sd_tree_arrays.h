@@ -16,7 +16,7 @@ struct SdTreeArrays {
     Learned<std::uint32_t> spatial;     ///< SpatialNode::word. [spatial node]
     Learned<std::uint32_t> first_node;  ///< root of the quadtree, whose nodes follow one another. [leaf]
 
-    Learned<float> energy;  ///< integral of incident radiance over the quadrant, in steradians. [slot]
+    Learned<float> energy;                 ///< integral of incident radiance over the quadrant, in steradians. [slot]
     Learned<std::uint32_t> child;          ///< node that divides the quadrant, counted from the root; 0: none. [slot]
     Pending<std::int64_t> pending_energy;  ///< of target / density, fixed point. [slot]
 

@@ -108,7 +108,7 @@ struct UnweightedLight {
 /// Weights of the light that a path receives at a vertex, before the roulette there.
 struct ReceivedWeights {
     Vec3f throughput{1.0f};
-    Vec3f chain{1.0f};  ///< of the specular chain that ends at the vertex; with lobes only
+    Vec3f chain{1.0f};                 ///< of the specular chain that ends at the vertex; with lobes only
     std::uint32_t medium = kNoMedium;  ///< around the path there
 };
 template <FeatureSet F, class M>

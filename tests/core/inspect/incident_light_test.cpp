@@ -102,8 +102,7 @@ std::vector<std::vector<double>> plain_paths(const Place& place, int batches, st
                 PathCounters counters;
                 trace_path<kEveryFeature>(PathContext<DefaultMethod>{scene, method, path}, BvhIntersector{scene},
                                           state, counters);
-                means.back()[static_cast<std::size_t>(cell)] +=
-                    static_cast<double>(rms(state.radiance)) / paths;
+                means.back()[static_cast<std::size_t>(cell)] += static_cast<double>(rms(state.radiance)) / paths;
             }
     }
     return means;
