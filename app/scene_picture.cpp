@@ -22,7 +22,7 @@ FieldHistoryRecorder recorder_for_run() {
     return recorder;
 }
 
-/// Light samples alone: little noise after a few passes, and no sample of it changes what was learned.
+/// Light samples alone: little noise after a few passes, and no sample of it trains the field.
 PublishedFrame frame_behind(Session& session, const Options& options) {
     constexpr std::uint32_t kPasses = 8;
     const FilmSlot slot{baseline_method(), View::Direct};

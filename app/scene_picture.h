@@ -1,4 +1,4 @@
-// Pictures of what was learned and of paths, in the scene: drawn by the viewer's code, which a build without a viewer lacks.
+// Pictures of the learned field and of paths, in the scene: drawn by the viewer's code, which a build without a viewer lacks.
 #pragma once
 
 #include <filesystem>

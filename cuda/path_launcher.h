@@ -1,4 +1,4 @@
-// Launches of the kernels that trace paths: how many paths one takes, where those wait that it does not finish, and what is counted.
+// Launches of the kernels that trace paths: how many paths one takes, where unfinished ones wait, and their counts.
 #pragma once
 
 #include <algorithm>
@@ -44,7 +44,7 @@ public:
     /// From now on run() ends no launch before its last path, even if it is stopped.
     void settle_when_stopped() { settles_ = true; }
 
-    /// Drops the paths that wait, if there are any: what they were traced in is about to change.
+    /// Drops the paths that wait, if there are any: their scene or field is about to change.
     void forget() { launch_.reset(); }
 
     /// Incremented by the kernels that `trace` and `finish` queue.

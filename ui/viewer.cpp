@@ -59,7 +59,7 @@ WindowMemory first_memory(const ViewerOptions& options) {
     return memory;
 }
 
-/// Options have priority over what is remembered.
+/// Options have priority over remembered values.
 WindowOptions window_options(WindowOptions options, const WindowMemory& memory) {
     if (options.ui_scale == 0.0f) options.ui_scale = memory.ui_scale;
     return options;
@@ -133,7 +133,7 @@ Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescript
     image_ = image_layer_.place(model_, layout_.view);
 }
 
-/// The folders of what is remembered beside the window's state.
+/// The folders remembered beside the window's state.
 void Viewer::set_folders(const std::filesystem::path& folder) {
     model_.open_dialog().gallery().set_folder(folder / "thumbnails");
     model_.bookmarks().set_folder(folder / "cameras");
@@ -252,7 +252,7 @@ void Viewer::build_panels() {
     image_ = image_layer_.place(model_, layout_.view);
     plan_ = model_.comparison().plan(layout_.view, model_.window().zoom);
     point_at_pixel();
-    model_.window().values_shown = false;  // what shows values sets it again
+    model_.window().values_shown = false;  // panels that show values set it again
     draw_interface(model_, layout_, image_, plan_, layout_.panels ? hovered_pixel() : std::nullopt,
                    magnifier_ ? &*magnifier_ : nullptr);
 }

@@ -19,7 +19,7 @@ namespace {
 
 using OnWork = std::function<void(const Session&, FilmSlot)>;
 
-/// What a rank tells of a run: it is finished, was stopped, or has failed.
+/// The message of a rank about a run: it is finished, was stopped, or has failed.
 struct Reply {
     std::optional<FinishedRun> finished{};
     std::optional<Error> failure{};

@@ -13,7 +13,7 @@ template <template <class> class Array>
 using LobeStorage = LobeArrays<Array, Array>;
 using HostLobes = LobeStorage<LargeArray>;
 
-/// What the values of an array belong to.
+/// The owners of an array's values.
 enum class LobeExtent { Lobe, LobeAxis, LobeStatistic, Volume, LightCluster };
 
 /// Description of one array of LobeArrays.

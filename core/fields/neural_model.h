@@ -27,7 +27,7 @@ enum NetworkCount : std::uint32_t {
     kNetworkCounts,
 };
 
-/// What a session tells of a network.
+/// State of a network, as a session tells it.
 struct NetworkStatus {
     std::size_t bytes = 0;    ///< of weights and the state of gradient descent
     std::uint64_t steps = 0;  ///< of gradient descent

@@ -13,7 +13,7 @@ template <template <class> class Array>
 using SdTreeStorage = SdTreeArrays<Array, Array>;
 using HostSdTree = SdTreeStorage<LargeArray>;
 
-/// What the values of an array belong to.
+/// The owners of an array's values.
 enum class SdTreeExtent { SpatialNode, Leaf, Slot, Volume, LightCluster };
 
 /// The part of an array: the shape of the trees, or values of their nodes and of volumes.

@@ -1,5 +1,5 @@
-// The update of what a representation keeps beside its directions: irradiance, light samples and BSDF fractions. For the storage of
-// any representation with arrays of these names.
+// The update of the values that a representation keeps beside its directions: irradiance, light samples and BSDF
+// fractions. For the storage of any representation with arrays of these names.
 #pragma once
 
 #include <cmath>

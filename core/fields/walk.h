@@ -1,4 +1,4 @@
-// What the walks of a placement share: paths that sample the BSDF, independent of the picture's seed.
+// The common part of the walks of a placement: paths that sample the BSDF, independent of the picture's seed.
 #pragma once
 
 #include "core/kernel/shading/bsdf.h"

@@ -62,7 +62,7 @@ struct ObjName {
     int line = 0;
 };
 
-/// What becomes of the lengths of normals.
+/// The treatment of the lengths of normals.
 enum class ObjNormals : std::uint8_t {
     Any,   ///< all are made unit
     Unit,  ///< those that are unit to within rounding keep their bits, which dividing by the length would change

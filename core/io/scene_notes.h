@@ -1,4 +1,4 @@
-// Notes about what a file asks for and the program does not show, or shows otherwise.
+// Notes about parts of a file that the program does not show, or shows otherwise.
 #pragma once
 
 #include <cstddef>

@@ -144,7 +144,7 @@ private:
         if (!scene_.textures[texture].repeats) json[key + "_wrap"] = "clamp";
     }
 
-    /// What follows from the chosen camera is left out: it is set again when the scene is opened.
+    /// Values that follow from the chosen camera are left out: they are set again when the scene is opened.
     void add_settings(Json& document) const {
         const float aspect = scene_.chosen_camera > 0 ? scene_.cameras[scene_.chosen_camera - 1].aspect : 0.0f;
         Json settings = Json::object();

@@ -8,7 +8,7 @@
 
 namespace pl {
 
-/// What write_scene() has written beside the scene file.
+/// The files that write_scene() has written beside the scene file.
 struct SceneParts {
     std::filesystem::path folder;
     std::size_t images = 0;  ///< of materials, and the environment map

@@ -13,7 +13,7 @@ namespace {
 
 std::string triple(const glm::vec3& v) { return fmt::format("({} {} {})", v.x, v.y, v.z); }
 
-/// What is wrong with a light, if anything.
+/// The fault of a light; empty without one.
 std::string complaint_about(const PunctualLightDescription& light) {
     const glm::vec3& power = light.intensity;
     if (!is_finite(power) || power.x < 0.0f || power.y < 0.0f || power.z < 0.0f)

@@ -33,7 +33,7 @@ constexpr double kRatioOfHiddenLight = 1.5;
 /// Rounds of the warm-up: after the first number it ends with a gain that is clear.
 constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
 constexpr std::uint32_t kMostWarmUpRounds = 12;
-/// Rounds that measure the baseline, whose variance stays what it is.
+/// Rounds that measure the baseline, whose variance does not change.
 constexpr std::uint32_t kBaselineRounds = 4;
 /// From this round on a warm-up gives up if learning does not help: if a gain is below kLeastGainOfLearning, and by both errors less
 /// than kRiseOfLearning times the first one that was measured.

@@ -102,7 +102,7 @@ public:
     /// After the complete pass of this number.
     void measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms);
 
-    /// The choice for another film with the same field: what is known is kept until it is measured again.
+    /// The choice for another film with the same field: the belief is kept until it is measured again.
     GuidingChoice restarted() const;
     /// Guides from the first pass on, by a field that is unknown.
     void begin_guided() { belief_ = belief_.value_or(true); }

@@ -24,7 +24,7 @@ struct FieldProgress {
     double precompute_seconds = 0.0;
     bool is_well_trained = false;  ///< had enough training samples per volume at the last update, see is_trained_by()
     bool has_part = false;         ///< the field was updated within a pass that is incomplete
-    std::vector<std::int32_t> forgotten{};  ///< volumes that forget what they learned before the next pass
+    std::vector<std::int32_t> forgotten{};  ///< volumes that begin anew before the next pass
     bool was_edited =
         false;  ///< was stepped, continued after a freeze, or has forgotten volumes: no command line repeats it
 

@@ -22,7 +22,7 @@ public:
     /// Of placing and uploading the present volumes; 0 before placement.
     double seconds() const { return volumes_ ? seconds_ : 0.0; }
 
-    /// Places the volumes for what `camera` sees, and uploads them, unless they are placed.
+    /// Places the volumes for the view of `camera`, and uploads them, unless they are placed.
     void ensure(RenderBackend& backend, const HostScene& scene, const FieldSettings& settings, const Camera& camera);
     /// Takes volumes placed in another session, and uploads them.
     void adopt(RenderBackend& backend, const HostScene& scene, HostVolumes volumes, const FieldShape& shape,

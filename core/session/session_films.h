@@ -53,7 +53,7 @@ public:
     /// Gives a film its origin before the first work on it, precomputation included. `before`: state at that moment,
     /// whether the field is warm, and seconds on the clocks.
     void begin(FilmSlot slot, const FilmOrigin& before);
-    /// Clears all films, including those of parked back ends. What is known of guiding by their methods is kept.
+    /// Clears all films, including those of parked back ends. The beliefs about guiding by their methods are kept.
     void clear();
     /// Forgets it, because fields are replaced or cleared.
     void forget_guiding();

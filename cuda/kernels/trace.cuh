@@ -76,7 +76,7 @@ __device__ inline void park(const Parking& parking, const PathState<F, M>& state
     if (active) std::memcpy(parking_place<F, M>(parking), static_cast<const void*>(&state), sizeof state);
 }
 
-/// What one thread counts in a launch, which ends long before 32 bits do. 64 bits would take twice the registers.
+/// The counts of one thread in a launch, which ends long before 32 bits do. 64 bits would take twice the registers.
 using ThreadCounters = PassCountersOf<std::uint32_t>;
 
 __device__ inline void add_to(ThreadCounters& totals, const PassCounters& counters) {

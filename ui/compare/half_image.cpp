@@ -11,7 +11,7 @@
 namespace pl {
 namespace {
 
-/// Calls `color` with the index of every pixel, and writes what it returns.
+/// Calls `color` with the index of every pixel, and writes its result.
 template <class Color>
 void write_pixels(const HalfPicture& size, std::uint32_t* out, std::size_t pitch, Color color) {
     const auto width = static_cast<std::size_t>(size.width);

@@ -23,7 +23,7 @@ std::vector<CellFan> make_cell_fans(int side);
 
 enum class CellQuantity { Radiance, Probability, Density, Visits };
 
-/// One value per cell: what was learned. Density: of sampling the field, relative to cosine sampling.
+/// One learned value per cell. Density: of sampling the field, relative to cosine sampling.
 std::vector<float> cell_values(const VolumeInspection& volume, CellQuantity quantity);
 
 /// Probabilities of cells as densities relative to cosine sampling, which gives all cells the same.

@@ -66,7 +66,7 @@ public:
     /// The rectangle of the whole picture of width x height, most of which may be outside of `view`.
     Rect place(const Rect& view, int width, int height) const;
     /// Steps through 1:1 and whole multiples; positive notches enlarge. The point of the picture under `pointer` stays there.
-    /// Smaller than what fits becomes the whole picture.
+    /// Smaller than the fitting size becomes the whole picture.
     void step(int notches, Vec2f pointer, const Rect& view, int width, int height);
     /// 1:1 around `pointer`, or the whole picture if it is zoomed.
     void toggle(Vec2f pointer, const Rect& view, int width, int height);

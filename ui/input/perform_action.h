@@ -1,4 +1,4 @@
-// What the actions of keys and menu items do to the viewer.
+// The effects of keys and menu items on the viewer.
 #pragma once
 
 #include "ui/input/actions.h"

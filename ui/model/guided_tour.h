@@ -13,7 +13,7 @@ class ViewerModel;
 
 struct TourStep {
     const char* title;
-    const char* text;   ///< the meaning of what is highlighted
+    const char* text;   ///< the meaning of the highlighted part
     const char* task;   ///< the click or key that completes the step
     const char* place;  ///< label of the control to be highlighted, see note_place(); kPicture for the picture
 

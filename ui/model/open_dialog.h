@@ -11,7 +11,7 @@
 
 namespace pl {
 
-/// What a folder offers, sorted, without hidden files.
+/// The entries of a folder, sorted, without hidden files.
 struct FolderListing {
     std::filesystem::path folder;  ///< absolute
     std::vector<std::string> folders;
@@ -40,7 +40,7 @@ public:
     /// Looks into another folder on the helper thread. If it cannot be read, the old one stays, with a message.
     void browse(const std::filesystem::path& folder);
 
-    /// The chosen name or path: what Enter opens.
+    /// The chosen name or path, opened by Enter.
     std::string& choice() { return choice_; }
     const std::string& choice() const { return choice_; }
     /// Opens the name of a scene or a file and closes the dialog, or browses a folder; a relative path counts from the

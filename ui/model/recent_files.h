@@ -20,7 +20,7 @@ public:
     }
     /// Newest first, without duplicates, kMost of them.
     const std::vector<std::string>& names() const { return names_; }
-    /// As names() gave them in another session; what breaks its rules is dropped.
+    /// As names() gave them in another session; those that break its rules are dropped.
     void set(const std::vector<std::string>& names) {
         names_.clear();
         for (auto name = names.rbegin(); name != names.rend(); ++name) add(*name);

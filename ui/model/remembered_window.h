@@ -27,7 +27,7 @@ public:
     /// message; there is no other attempt before the window closes.
     void update(const WindowMemory& now, double seconds, Messages& messages);
 
-    /// At the end: writes what is not written yet. Returns why that failed, empty if it did not.
+    /// At the end: writes the changes since the last write. Returns why that failed, empty if it did not.
     std::string finish(const WindowMemory& now);
 
     /// Removes the file. `now` is the state of a first start; it is written when it changes again.

@@ -10,7 +10,7 @@
 
 namespace pl {
 
-/// Reasons for loading a scene, which decide what of the window stays.
+/// Reasons for loading a scene, which decide about the parts of the window that stay.
 enum class LoadReason {
     Open,    ///< another scene
     Reload,  ///< the files again: the camera stays

@@ -17,7 +17,7 @@ struct ShownVolume {
 /// The selected volume, then the pinned ones, each once; without those that no frame has brought yet.
 std::vector<ShownVolume> shown_volumes(ViewerModel& model);
 
-/// One disc of the selected volume: what was learned, at the shown time and now, and the true light if it is to be shown.
+/// One disc of the selected volume: the learned radiance, at the shown time and now, and the true light if it is to be shown.
 struct ShownDisc {
     std::string caption;
     std::vector<float> values;  ///< [cell]; empty as long as the true light is not known

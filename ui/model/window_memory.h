@@ -1,4 +1,4 @@
-// What a window remembers between starts: its place, its layout and its displays, as a JSON file. No setting that
+// The memory of a window between starts: its place, its layout and its displays, as a JSON file. No setting that
 // changes a picture: the same command line makes the same picture after any use of the window.
 #pragma once
 

@@ -27,7 +27,7 @@ struct PlotState {
 
 /// How much of the settings and displays is shown.
 enum class WindowLayout {
-    Explore,   ///< what a newcomer needs
+    Explore,   ///< the panels that a newcomer needs
     Research,  ///< everything
 };
 

@@ -23,7 +23,7 @@ inline constexpr float kDomeShare = 0.05f;
 /// A line in the scene, clipped at the picture.
 void draw_scene_line(ImDrawList& out, const Projection& projection, Vec3f from, Vec3f to, ImU32 color, float width);
 
-/// The shapes, farthest first, with ring and peak; what the scene hides is faint.
+/// The shapes, farthest first, with ring and peak; hidden parts are faint.
 void draw_shapes(ImDrawList& out, const PublishedFrame& frame, const Projection& projection,
                  std::vector<ShownVolume> volumes, const ShapeScale& scale);
 

@@ -1,4 +1,4 @@
-// The discs of the selected volume: what was learned, and the light that reaches it on the same scale.
+// The discs of the selected volume: the learned radiance, and the light that reaches it on the same scale.
 #pragma once
 
 #include "ui/model/viewer_model.h"

@@ -1,4 +1,4 @@
-// What a press on the plot drags: the view or a cursor. Decided at the press and kept until the release.
+// The target of a drag on the plot: the view or a cursor. Decided at the press and kept until the release.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What a plot of runs draws, as data: lines in the units of the axes, thinned to what can be seen, and which of their
+// The drawing of a plot of runs, as data: lines in the units of the axes, thinned to the visible points, and which of their
 // points is nearest to the pointer.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Random input for a script: what hands on mouse and keyboard might do. The same seed and the same windows give the same input.
+// Random input for a script, as of hands on mouse and keyboard. The same seed and the same windows give the same input.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,7 @@
 
 namespace pl {
 
-/// What keeps the window awake.
+/// Reasons for the window to stay awake.
 struct WindowActivity {
     bool is_scripted = false;
     bool has_input = false;   ///< keys or buttons are held

@@ -38,7 +38,7 @@ inline constexpr int kLeastWindowHeight = 400;
 WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> screens);
 
 /// The scale grows in halves with the density of the screen, as long as the panels have room; the window is
-/// 1440 x 900 times the scale, or as much of it as fits the screen. What was asked for is taken as it is.
+/// 1440 x 900 times the scale, or as much of it as fits the screen. A requested size is taken as it is.
 WindowPlan plan_window(const WindowOptions& options, const Screen& screen);
 
 }  // namespace pl

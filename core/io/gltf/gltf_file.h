@@ -1,4 +1,4 @@
-// A glTF 2.0 file: its JSON with checked indices, the bytes of its buffers, and notes about what is not shown.
+// A glTF 2.0 file: its JSON with checked indices, the bytes of its buffers, and notes about parts that are not shown.
 #pragma once
 
 #include <cstdint>

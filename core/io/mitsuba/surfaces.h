@@ -10,7 +10,7 @@ namespace pl {
 /// inside. [Mitsuba 3 and 0.6, plugins]
 MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene);
 
-/// What the inside of glass absorbs per length: that of a `medium` element of the type homogeneous, which scatters nothing. Other media
+/// Absorption per length inside of glass: that of a `medium` element of the type homogeneous, which scatters nothing. Other media
 /// are noted and absorb nothing. [Mitsuba 3 and 0.6, homogeneous]
 glm::vec3 mitsuba_absorption(const MitsubaObject& medium);
 

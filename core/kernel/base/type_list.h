@@ -1,4 +1,4 @@
-// Lists of types: what is compiled once per entry.
+// Lists of types, for code that is compiled once per entry.
 #pragma once
 
 #include <type_traits>

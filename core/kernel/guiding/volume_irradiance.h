@@ -8,7 +8,7 @@
 namespace pl {
 
 /// Bounds of the weights of one training sample: q is at least a tenth of the BSDF's density, so that only grazing directions meet
-/// them. They limit what is learned, never a picture.
+/// them. They limit the learned values, never a picture.
 inline constexpr float kMostInverseDensity = 1024.0f;
 inline constexpr float kMostCosineWeight = 16.0f;
 /// Steps per unit of the sums of cosine weights.

@@ -1,4 +1,4 @@
-// What guided paths read of a volume besides its table, gathered from the arrays of placement and tables.
+// The values of a volume, besides its table, that guided paths read, gathered from the arrays of placement and tables.
 #pragma once
 
 #include "core/kernel/base/math.h"

@@ -61,7 +61,7 @@ struct BranchesOf {};
 template <SplittingMethod M>
 struct BranchesOf<M> : Branches<typename M::Vertex> {};
 
-/// Memory of a path outside of its state, which its driver provides: for what the method keeps there, and for forks.
+/// Memory of a path outside of its state, which its driver provides: for the method's Store, and for forks.
 template <class M>
 struct PathStore {
     [[no_unique_address]] typename M::Store method;

@@ -64,7 +64,7 @@ struct SingleRays {
     }
 };
 
-/// What a camera ray tells of the emission of its pixel. A bright sky is one value: its own pattern is no border.
+/// The emission that a camera ray shows of its pixel. A bright sky is one value: its own pattern is no border.
 template <FeatureSet F>
 PL_HD inline EmissionSeen seen_emission(const SceneView& scene, const Ray& ray, const Hit& hit) {
     const float emitted = luminance(first_emission<F>(scene, ray, hit));

@@ -1,5 +1,5 @@
 // Pixels that the borders of lamps cross, found from the lamps: the rays of a pixel meet a lamp smaller than the pixel too rarely
-// to tell. What they find is refined by camera_emission.h.
+// to tell. The pixels found are refined by camera_emission.h.
 #pragma once
 
 #include "core/kernel/base/atomics.h"
@@ -85,7 +85,7 @@ PL_HD inline std::uint32_t mark_edge(const EmissionContext& context, const Scene
         const Vec2f at = line.at(middle);
         const std::uint32_t x = min_of(static_cast<std::uint32_t>(max_of(at.x, 0.0f)), film.width - 1u);
         const std::uint32_t y = min_of(static_cast<std::uint32_t>(max_of(at.y, 0.0f)), film.height - 1u);
-        // A share of the line on the film is not one of the edge: what is near appears longer.
+        // A share of the line on the film is not one of the edge: near parts appear longer.
         const float near_part = middle * from.depth;
         const Vec3f point = edge.from + near_part / (near_part + (1.0f - middle) * to.depth) * (edge.to - edge.from);
         const float margin = kEdgeMargin / max_of(glm::length(center.film - at), 1.0f);

@@ -57,7 +57,7 @@ PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& i
     return connect_segment<F>(context, intersector, shadow, status, state, counters);
 }
 
-/// `store`: for what the path keeps outside of its state.
+/// `store`: the path's memory outside of its state.
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline void trace_path(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
                              PathStore<M>& store, PathCounters& counters) {
