@@ -117,6 +117,7 @@ void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters
         belief_ = gain >= least;
     else if (is_flat())
         belief_ = false;
+    found_hidden_light_ = belief_.value_or(false) && finds_hidden_light();
 }
 
 bool GuidingChoice::is_flat() const {

@@ -92,6 +92,10 @@ public:
     Trial warm_up_round() const;
     void measure_round(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
 
+    /// Whether guided paths of the warm-up brought light far more often than those of the baseline: rare bright paths are then most of
+    /// the variance of the first guided passes.
+    bool found_hidden_light() const { return found_hidden_light_; }
+
     /// Whether passes are guided from now on, as far as is known.
     bool pays() const { return belief_.value_or(true); }
     /// The trial that is due before the pass of this number, of the method that passes do not use: two of the baseline before the first
@@ -117,7 +121,7 @@ public:
         PathEfficiency::each_value(choice.baseline_, fn);
         all(choice.first_variance_, choice.guided_measurements_, choice.learned_, choice.rounds_,
             choice.baseline_trials_, choice.last_trial_, choice.spent_, choice.trial_cost_, choice.gain_,
-            choice.gain_of_both_, choice.first_gain_, choice.belief_);
+            choice.gain_of_both_, choice.first_gain_, choice.belief_, choice.found_hidden_light_);
     }
 
     /// Predicted equal-time factor of guiding over the baseline, by variance. Empty before the first decision of this film.
@@ -152,7 +156,8 @@ private:
     std::optional<double> gain_;
     double gain_of_both_ = 0.0;  ///< geometric mean of gain_ and that by relative variance, bounded
     std::optional<double> first_gain_;
-    std::optional<bool> belief_;  ///< whether guiding pays
+    std::optional<bool> belief_;       ///< whether guiding pays
+    bool found_hidden_light_ = false;  ///< by the warm-up
 };
 
 }  // namespace pl

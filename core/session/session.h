@@ -144,6 +144,7 @@ private:
     bool render_parts_before(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop);
     void render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop, std::uint32_t most_passes = 1);
     PassRequest pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const;
+    bool first_passes_weigh_less(FilmSlot slot) const;
     bool chooses_guiding(FilmSlot slot) const;
     bool warms_up(FilmSlot slot) const;
     bool choose_guiding(FilmSlot slot, const StopFlag* stop);

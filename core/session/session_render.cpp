@@ -165,6 +165,11 @@ std::uint32_t Session::end_of_part(FilmSlot slot) const {
     return end_of_first_part(films_[slot].next_pixel, pixel_count(), static_cast<std::uint32_t>(placement_.count()));
 }
 
+/// Where a warm-up has trained the field, its first passes are as good as the others, unless light is hidden.
+bool Session::first_passes_weigh_less(FilmSlot slot) const {
+    return learns_from(slot) && (!warms_up(slot) || films_[slot].guiding.found_hidden_light());
+}
+
 /// One sample for every pixel, by directions of a method.
 PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const {
     const FilmProgress& state = films_[slot];
@@ -183,7 +188,7 @@ PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag
             .learning = settings_.field.learning,
             .sample = sample,
             .passes = state.passes + 1,
-            .weights = learns_from(slot) && !warms_up(slot) ? pass_weights(settings_, slot.method) : PassWeights{},
+            .weights = first_passes_weigh_less(slot) ? pass_weights(settings_, slot.method) : PassWeights{},
             .stop = stop};
 }
 

@@ -147,6 +147,7 @@ TEST_CASE("Guiding choice: a young field that finds light where the baseline doe
             baseline.zero_contribution_paths = 90;
             choice.measure_round(guided, choice.warm_up_round().is_baseline ? baseline : PassCounters{}, terms);
         }
+        CHECK(choice.found_hidden_light() == (choice.pays() && lit_of_guided > 15));
         return std::pair(choice.rounds(), choice.pays());
     };
     const GuidingTerms learning = terms_of(4000.0);  // with 12 rounds of 100 paths

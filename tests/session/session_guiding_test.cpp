@@ -186,3 +186,17 @@ TEST_CASE("A replay knows the passes that were not guided") {
     CHECK(replay.is_guided(0));
     CHECK(unguided == session.guiding_status(slot_of(session))->unguided_passes);
 }
+
+// Passes of weight 1 and 2.
+TEST_CASE("The first passes behind a warm-up weigh less where it has found hidden light") {
+    for (const auto& [name, weight] : {std::pair{"labyrinth", 3u}, std::pair{"cornell", 2u}}) {
+        const SceneDescription scene = shipped_scene(name);
+        RenderSettings settings = large_picture(small_settings(scene, {MethodId::Reinforcement, true}, 40, 40));
+        settings.guiding = GuidingRule::Paying;
+        Session session = make_session(scene, settings, 2);
+        render_passes(session, 2);
+        INFO(name);
+        CHECK(session.guiding_status(slot_of(session))->unguided_passes == 0);
+        CHECK(session.backend_access().read_film(slot_of(session)).weight == std::uint64_t{weight} * 256 * 256);
+    }
+}
