@@ -14,12 +14,11 @@ namespace pl {
 template <class Inspector>
 concept FieldInspector = requires(const Inspector& inspector, std::int32_t volume, int cell) {
     { inspector.cells() } -> std::same_as<DirectionCells>;
-    {
-        inspector.radiance(volume, cell)
-        } -> std::same_as<float>;  ///< learned incident radiance, rms() of its channels
+    /// Learned incident radiance, rms() of its channels.
+    { inspector.radiance(volume, cell) } -> std::same_as<float>;
     { inspector.probability(volume, cell) } -> std::same_as<float>;      ///< of sampling a direction of the cell
     { inspector.samples(volume, cell) } -> std::same_as<std::uint32_t>;  ///< training samples
-    { inspector.mean_radiance(volume) } -> std::same_as<float>;          ///< irradiance / pi, likewise
+    { inspector.mean_radiance(volume) } -> std::same_as<float>;          ///< rms() of irradiance / pi
     /// Density of sampling the direction of a point of the unit square, relative to that of cosine sampling.
     { inspector.density(volume, Vec2f{}) } -> std::same_as<float>;
     { inspector.bsdf_fraction(volume) } -> std::same_as<float>;  ///< learned

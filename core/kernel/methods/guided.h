@@ -33,8 +33,8 @@ struct FieldTrainer : MethodHooks {
     }
 };
 
-/// Radiance, rms() of its channels, expected to be reflected at the path's first vertex with a location, light samples included; 0 before
-/// it.
+/// Radiance, rms() of its channels, expected to be reflected at the path's first vertex with a location, light samples
+/// included; 0 before it.
 struct GuidedExpectation {
     float first = 0.0f;
 };
