@@ -67,6 +67,7 @@ public:
             tracer_->move_to(scene_->view());
         else
             tracer_.emplace(scene_->view(), settings_.intersector, settings_.threads);
+        lights_ = LightTable(scene_->view());
     }
 
     void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
@@ -162,6 +163,7 @@ private:
         if (!tracer_) throw Error(ErrorKind::Runtime, "CPU back end: expected a scene, got none");
         const SampledScene sampled = with_delta_lights(scene_->view(), path);
         return {.scene = sampled.scene,
+                .lights = lights_,
                 .path = sampled.path,
                 .paths = paths,
                 .stop = stop,
@@ -258,6 +260,7 @@ private:
     std::string device_ = cpu_name();  ///< cached, since info() is called after every pass
     std::shared_ptr<const HostScene> scene_;
     std::optional<BatchTracer> tracer_;
+    LightTable lights_;
     std::shared_ptr<const HostVolumes> volumes_;
     FieldShape shape_;
     std::array<std::optional<StoredField>, kMethodCount> fields_;

@@ -1,5 +1,5 @@
-// Directions at the vertices of a block, and the densities of directions towards lights, by the means that a method has: SIMD lanes for
-// tables and for the BSDF, else path by path.
+// Directions at the Lambert reflectors of a block, and the densities of directions towards lights, by the means that a method has: SIMD
+// lanes for tables and for the BSDF, else path by path. Those of its other vertices are arbitrary.
 #pragma once
 
 #include "core/kernel/integrator/probe.h"
@@ -30,14 +30,14 @@ public:
         for (std::uint32_t i = 0; i < block.count(); ++i) {
             const std::uint32_t lane = i % kGroupSize;
             const LightSampleGroup& group = lights[i / kGroupSize];
-            if (!(group.pdf_sa[lane] > 0.0f)) continue;
+            if (block.is_layered(i) || !(group.pdf_sa[lane] > 0.0f)) continue;
             directions_[i / kGroupSize].pdf_sa[lane] =
                 method_.pdf_sa(block.vertex(i), surfaces_[i], group.wi.get(lane));
         }
     }
-    /// Samples a direction at every vertex whose path continues. `states`: of all paths of the batch.
+    /// Samples a direction at every Lambert reflector whose path continues. `states`: of all paths of the batch.
     void sample(const VertexBlock<F, M>& block, const PathState<F, M>* states) {
-        block.for_continuing([&](std::uint32_t i) {
+        block.for_continuing_lambert([&](std::uint32_t i) {
             const PathState<F, M>& state = states[block.path(i)];
             const ScatterNumbers numbers = scatter_numbers(settings_, state, numbers_[i]);
             directions_[i / kGroupSize].set(i % kGroupSize,
@@ -105,7 +105,7 @@ public:
         GuidedGroup& group = groups_[last / kGroupSize];
         const std::uint32_t lane = last % kGroupSize;
         group.volume[lane] = kNoVolume;
-        if (from.vertex.is_served()) {
+        if (!block.is_layered(last) && from.vertex.is_served()) {
             __builtin_prefetch(field.row_cdf.data + from.vertex.volume * field.cells.side);
             group.set_volume(lane, served_point(field, from.vertex, from.surface),
                              method_.bsdf_fraction(from.vertex));

@@ -155,20 +155,48 @@ struct alignas(64) ScatteredGroup {
     VectorGroup origin;                    ///< of the ray in the direction
 };
 
-/// Lights as plain pointers, a row of numbers per column.
-struct LightColumns {
-    /// The first of three columns, or the only one.
-    static constexpr int kCorner0 = 0, kCorner1 = 3, kCorner2 = 6, kNormal = 9, kPositionError = 12, kPdfArea = 13,
-                         kCumulative = 14, kEmission = 15, kBackEmission = 18, kPrimitive = 21, kCount = 22;
-
-    const float* numbers;  ///< [column][light]
-    std::uint32_t count;
-
-    PL_INLINE const float* row(int column) const { return numbers + static_cast<std::uint32_t>(column) * count; }
+/// An emissive triangle with all that a light sample on it needs, next to each other.
+struct LightRecord {
+    Vec3f corners[3];
+    Vec3f normal{0.0f};  ///< TrianglePlane::normal, position_error
+    float position_error = 0.0f;
+    Vec3f emission{0.0f};         ///< emitted_radiance() of the front
+    Vec3f back_emission{0.0f};    ///< and of the back
+    std::uint32_t primitive = 0;  ///< Light::primitive, cumulative_probability
+    float cumulative_probability = 0.0f;
 };
 
-/// A light sample for each of a VertexGroup: members as in DirectLight, and the results of weighing it.
+/// The lights of a scene as plain pointers.
+struct LightRows {
+    const LightRecord* lights;
+    std::uint32_t count;
+    float power;  ///< SceneView::light_power
+};
+
+/// A light tree as plain pointers, and the choices among its clusters that were learned.
+struct LightTreeRows {
+    const LightNode* nodes;
+    const LightPlace* of_light;
+    const std::uint32_t* clusters;
+    std::uint32_t cluster_count;
+    const float* learned;  ///< LearnedLights::cdf of all points, one after the other; null: nothing is learned
+};
+
+/// For each of a VertexGroup the first number of its LearnedLights::cdf in LightTreeRows::learned.
+struct alignas(64) LearnedLightsGroup {
+    static constexpr std::int32_t kNone = -1;  ///< nothing is learned
+
+    std::int32_t first[kGroupSize];
+
+    LearnedLightsGroup() { std::fill_n(first, kGroupSize, kNone); }
+};
+
+/// A light sample for each of a VertexGroup: members as in ChosenLight, LightPoint and DirectLight, and the results of weighing it.
 struct alignas(64) LightSampleGroup {
+    std::uint32_t light[kGroupSize] = {};
+    float probability[kGroupSize] = {};       ///< of the light, by a tree
+    float pdf_area[kGroupSize] = {};          ///< by a tree
+    std::uint32_t cluster[kGroupSize] = {};   ///< by a tree
     std::int32_t is_near[kGroupSize] = {};    ///< not 0: the light may be sampled by solid angle, this sample is none
     std::int32_t is_behind[kGroupSize] = {};  ///< not 0: its back is seen
     VectorGroup weights;                      ///< barycentric, on the light
@@ -219,9 +247,14 @@ struct LaneKernels {
     /// DefaultMethod::pdf_sa() towards every light.
     void (*weigh_lambert)(const VertexGroup* vertices, const LightSampleGroup* lights, DirectionGroup* directions,
                           std::uint32_t groups);
-    /// Samples a light for every vertex.
-    void (*sample_lights)(const LightColumns& lights, const VertexGroup* vertices, LightSampleGroup* samples,
+    /// Samples a light for every vertex, chosen by power: for scenes without a light tree.
+    void (*sample_lights)(const LightRows& lights, const VertexGroup* vertices, LightSampleGroup* samples,
                           std::uint32_t groups);
+    /// Chooses a light for every vertex by a light tree, for sample_chosen_lights().
+    void (*choose_by_tree)(const LightTreeRows& tree, const VertexGroup* vertices, const LearnedLightsGroup* learned,
+                           LightSampleGroup* samples, std::uint32_t groups);
+    void (*sample_chosen_lights)(const LightRows& lights, const VertexGroup* vertices, LightSampleGroup* samples,
+                                 std::uint32_t groups);
     /// Weighs the light samples by multiple importance sampling, with the densities in `directions`. Clears pdf_sa of those that
     /// cannot contribute.
     void (*weigh_lights)(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,

@@ -5,6 +5,7 @@
 #include "cpu/dense_lanes.h"
 #include "cpu/guided_lanes.h"
 #include "cpu/light_lanes.h"
+#include "cpu/light_tree_lanes.h"
 #include "cpu/lookup_lanes.h"
 #include "cpu/update_lanes.h"
 #include "cpu/vertex_lanes.h"
@@ -81,9 +82,21 @@ void weigh_lambert(const VertexGroup* vertices, const LightSampleGroup* lights, 
     });
 }
 
-void sample_lights(const LightColumns& lights, const VertexGroup* vertices, LightSampleGroup* samples,
+void choose_by_tree(const LightTreeRows& tree, const VertexGroup* vertices, const LearnedLightsGroup* learned,
+                    LightSampleGroup* samples, std::uint32_t groups) {
+    choose_by_tree_in_groups(tree, vertices, learned, samples, groups);
+}
+
+void sample_lights(const LightRows& lights, const VertexGroup* vertices, LightSampleGroup* samples,
                    std::uint32_t groups) {
-    sample_lights_of_groups(lights, vertices, samples, groups);
+    for_light_lanes(lights, vertices, groups,
+                    [&](const LightLanes& lanes, std::uint32_t group) { lanes.sample_by_power(samples[group]); });
+}
+
+void sample_chosen_lights(const LightRows& lights, const VertexGroup* vertices, LightSampleGroup* samples,
+                          std::uint32_t groups) {
+    for_light_lanes(lights, vertices, groups,
+                    [&](const LightLanes& lanes, std::uint32_t group) { lanes.sample_chosen(samples[group]); });
 }
 
 void weigh_lights(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,
@@ -105,10 +118,10 @@ bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return an
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name,          find_closest,  find_occluded, find_closest_wide, find_occluded_wide,
-            draw,          draw_vertices, find_points,   read_cells,        find_nearest,
-            sample_rows,   sample_guided, weigh_guided,  sample_lambert,    weigh_lambert,
-            sample_lights, weigh_lights,  scatter,       has_samples,       update_table};
+    return {name,          find_closest,   find_occluded, find_closest_wide, find_occluded_wide, draw,
+            draw_vertices, find_points,    read_cells,    find_nearest,      sample_rows,        sample_guided,
+            weigh_guided,  sample_lambert, weigh_lambert, sample_lights,     choose_by_tree,     sample_chosen_lights,
+            weigh_lights,  scatter,        has_samples,   update_table};
 }
 
 }  // namespace

@@ -1,68 +1,64 @@
-// Light samples at the vertices of a block, taken in SIMD lanes where lights are few.
+// Light samples at the vertices of a block: lights are chosen in SIMD lanes, and sampled there at Lambert reflectors.
 #pragma once
 
-#include <bit>
-#include <vector>
-
+#include "cpu/light_table.h"
 #include "cpu/vertex_block.h"
 
 namespace pl {
 
-/// The lights of a scene by columns; empty if they are chosen by a tree.
-class LightTable {
-public:
-    explicit LightTable(const SceneView& scene) : count_(scene.light_tree.empty() ? scene.lights.count : 0) {
-        numbers_.resize(std::size_t{LightColumns::kCount} * count_);
-        for (std::uint32_t light = 0; light < count_; ++light) fill(scene, light);
+/// Choices of lights that were learned for the vertices of a block.
+template <FeatureSet F, Method M>
+struct LearnedLightsBlock {
+    explicit LearnedLightsBlock(const M&) {}
+    const float* numbers() const { return nullptr; }
+    void find(const VertexBlock<F, M>&) {}
+    LearnedLights at(const VertexBlock<F, M>&, std::uint32_t) const { return {}; }
+
+    LearnedLightsGroup groups[kBlockGroups];
+};
+template <FeatureSet F, Method M>
+requires(learns_lights<F, M>) struct LearnedLightsBlock<F, M> {
+    explicit LearnedLightsBlock(const M& method) : method_(method) {}
+    const float* numbers() const { return method_.field.light_cdf.data; }
+    void find(const VertexBlock<F, M>& block) {
+        for (std::uint32_t i = 0; i < block.count(); ++i) {
+            const LearnedLights learned = at(block, i);
+            const std::ptrdiff_t first = learned.empty() ? LearnedLightsGroup::kNone : learned.cdf - numbers();
+            groups[i / kGroupSize].first[i % kGroupSize] = static_cast<std::int32_t>(first);
+        }
     }
-    bool empty() const { return count_ == 0; }
-    LightColumns columns() const { return {numbers_.data(), count_}; }
+    LearnedLights at(const VertexBlock<F, M>& block, std::uint32_t i) const {
+        return method_.learned_lights(block.vertex(i));
+    }
+
+    LearnedLightsGroup groups[kBlockGroups];
 
 private:
-    void fill(const SceneView& scene, std::uint32_t light) {
-        const std::uint32_t primitive = scene.lights[light].primitive;
-        const Triangle& triangle = scene.triangles[primitive];
-        const TrianglePlane& plane = scene.planes[primitive];
-        set(LightColumns::kCorner0, light, scene.positions[triangle.v0]);
-        set(LightColumns::kCorner1, light, scene.positions[triangle.v1]);
-        set(LightColumns::kCorner2, light, scene.positions[triangle.v2]);
-        set(LightColumns::kNormal, light, plane.normal);
-        set(LightColumns::kPositionError, light, plane.position_error);
-        set(LightColumns::kPdfArea, light, light_pdf_area(scene, scene.materials[triangle.material]));
-        set(LightColumns::kCumulative, light, scene.lights[light].cumulative_probability);
-        set(LightColumns::kEmission, light, emitted_radiance(scene.materials[triangle.material], true));
-        set(LightColumns::kBackEmission, light, emitted_radiance(scene.materials[triangle.material], false));
-        set(LightColumns::kPrimitive, light, std::bit_cast<float>(primitive));
-    }
-    void set(int column, std::uint32_t light, float number) {
-        numbers_[static_cast<std::size_t>(column) * count_ + light] = number;
-    }
-    void set(int column, std::uint32_t light, Vec3f v) {
-        for (int axis = 0; axis < 3; ++axis) set(column + axis, light, v[axis]);
-    }
-
-    std::uint32_t count_;
-    std::vector<float> numbers_;
+    const M& method_;
 };
 
 /// A light sample for every vertex of a block: bit-identical to sample_light() and weigh_light().
 template <FeatureSet F, Method M>
 class LightBlock {
 public:
-    explicit LightBlock(const PathContext<M>& context, const LaneKernels& kernels = best_lane_kernels())
-        : context_(context), table_(context.scene), kernels_(kernels) {}
+    /// `lights`: of the scene; an empty table: lights are sampled path by path.
+    LightBlock(const PathContext<M>& context, const LightTable& lights,
+               const LaneKernels& kernels = best_lane_kernels())
+        : context_(context), lights_(lights), kernels_(kernels), learned_(context.method) {}
 
     void sample(const VertexBlock<F, M>& block) {
-        if (!table_.empty()) kernels_.sample_lights(table_.columns(), block.groups(), samples_, block.group_count());
+        if (lanes_pay()) sample_in_lanes(block);
         for (std::uint32_t i = 0; i < block.count(); ++i) {
-            if (!is_in_lanes(block, i))
-                sample_alone(block, i);
+            if (block.is_layered(i)) continue;
+            if (!chooses_in_lanes(block, i) || group(i).is_near[i % kGroupSize] != 0)
+                sample_lambert(block, i);
             else if constexpr (F.has(Feature::Textures) || F.has(Feature::CutOuts))
                 look_up_emission(i);
             if constexpr (kTracksMedium<F>) absorb(block, i);
         }
     }
-    /// Weighs the samples by multiple importance sampling. `directions`: densities of the method in their directions.
+    /// Weighs the samples at Lambert reflectors by multiple importance sampling. `directions`: densities of the method in their
+    /// directions.
     void weigh(const VertexBlock<F, M>& block, const DirectionGroup* directions) {
         kernels_.weigh_lights(block.groups(), directions, samples_, block.group_count());
     }
@@ -75,7 +71,11 @@ public:
     LightEstimate estimate(std::uint32_t i, Vec3f chain) const {
         const LightSampleGroup& from = group(i);
         const std::uint32_t lane = i % kGroupSize;
-        return {(chain * from.reflected.get(lane)) * from.weight[lane], from.irradiance[lane], clusters_.get(i)};
+        LightEstimate estimate{(chain * from.reflected.get(lane)) * from.weight[lane], from.irradiance[lane]};
+        if constexpr (F.has(Feature::ManyLights)) {
+            if (!context_.scene.light_tree.empty()) estimate.cluster = from.cluster[lane];
+        }
+        return estimate;
     }
     /// The shadow ray; `source`: the primitive of the vertex.
     Ray shadow_ray(std::uint32_t i, std::uint32_t source) const {
@@ -87,39 +87,66 @@ public:
                 .source = source,
                 .target = from.target[lane]};
     }
+    /// The light sample of a vertex that is layered.
+    UnweightedLight sample_layered(const VertexBlock<F, M>& block, std::uint32_t i) const {
+        const ScatterPoint<F, M>& from = block.layered(i);
+        return unweighted_light(context_, from, sample_alone(block, i, from.surface, from.bsdf),
+                                block.layered_weights(i));
+    }
 
 private:
-    /// Clusters of the lights chosen; only a light tree has them.
-    struct Clusters {
-        std::uint32_t of[kPathBlock];
-        std::uint32_t get(std::uint32_t i) const { return of[i]; }
-        void set(std::uint32_t i, std::uint32_t cluster) { of[i] = cluster; }
-    };
-    struct NoClusters {
-        std::uint32_t get(std::uint32_t) const { return kNoCluster; }
-        void set(std::uint32_t, std::uint32_t) {}
-    };
+    static constexpr float kMostFarSamples = 0.6f;
 
     LightSampleGroup& group(std::uint32_t i) { return samples_[i / kGroupSize]; }
     const LightSampleGroup& group(std::uint32_t i) const { return samples_[i / kGroupSize]; }
 
-    /// Whether the sample of vertex i has come from the lanes.
-    bool is_in_lanes([[maybe_unused]] const VertexBlock<F, M>& block, std::uint32_t i) {
-        if (table_.empty() || group(i).is_near[i % kGroupSize] != 0) return false;
+    /// Whether enough light samples are of emissive triangles for vectors to be worth their time.
+    bool lanes_pay() const {
+        if (lights_.empty()) return false;
+        [[maybe_unused]] const SceneView& scene = context_.scene;
+        if constexpr (F.has(Feature::EnvironmentMap)) {
+            if (scene.far_probability > kMostFarSamples) return false;
+        }
+        if constexpr (F.has(Feature::DeltaLights)) {
+            if (scene.delta_probability > 0.0f) return false;
+        }
+        return true;
+    }
+    void sample_in_lanes(const VertexBlock<F, M>& block) {
+        const LightRows lights = lights_.rows(context_.scene.light_power);
+        if constexpr (F.has(Feature::ManyLights)) {
+            const LightTree& tree = context_.scene.light_tree;
+            if (!tree.empty()) {
+                learned_.find(block);
+                const LightTreeRows rows{tree.nodes.data, tree.of_light.data, tree.clusters.data, tree.clusters.count,
+                                         learned_.numbers()};
+                kernels_.choose_by_tree(rows, block.groups(), learned_.groups, samples_, block.group_count());
+                return kernels_.sample_chosen_lights(lights, block.groups(), samples_, block.group_count());
+            }
+        }
+        kernels_.sample_lights(lights, block.groups(), samples_, block.group_count());
+    }
+    /// Whether the sample of vertex i is of the emissive triangle that was chosen in lanes.
+    bool chooses_in_lanes([[maybe_unused]] const VertexBlock<F, M>& block, [[maybe_unused]] std::uint32_t i) const {
         if constexpr (F.has(Feature::EnvironmentMap)) {
             if (block.light_numbers(i).w < context_.scene.far_probability) return false;
         }
-        if constexpr (F.has(Feature::DeltaLights)) {
-            if (context_.scene.delta_probability > 0.0f) return false;
-        }
-        clusters_.set(i, kNoCluster);
-        return true;
+        return lanes_pay();
     }
-    void sample_alone(const VertexBlock<F, M>& block, std::uint32_t i) {
+    template <class B>
+    DirectLight sample_alone(const VertexBlock<F, M>& block, std::uint32_t i, const SurfacePoint& surface,
+                             const B& bsdf) const {
+        const Vec4f u = block.light_numbers(i);
+        if (!chooses_in_lanes(block, i))
+            return sample_direct_light<F>(context_.scene, surface, bsdf, u, learned_.at(block, i));
+        const ChosenLight chosen{group(i).light[i % kGroupSize], group(i).probability[i % kGroupSize]};
+        return direct_light_from<F>(
+            context_.scene, surface, bsdf,
+            sample_chosen_light<F>(context_.scene, chosen, Receiver::of(surface), {u.y, u.z}));
+    }
+    void sample_lambert(const VertexBlock<F, M>& block, std::uint32_t i) {
         const SurfacePoint surface = block.surface(i);
-        const DirectLight sample =
-            sample_direct_light<F>(context_.scene, surface, LambertBsdf{block.albedo(i)}, block.light_numbers(i),
-                                   learned_lights<F>(context_.method, block.vertex(i)).learned());
+        const DirectLight sample = sample_alone(block, i, surface, LambertBsdf{block.albedo(i)});
         LightSampleGroup& to = group(i);
         const std::uint32_t lane = i % kGroupSize;
         to.pdf_sa[lane] = sample.pdf_sa;
@@ -131,7 +158,7 @@ private:
         to.target[lane] = ray.target;
         to.origin.set(lane, ray.origin);
         to.direction.set(lane, ray.direction);
-        clusters_.set(i, sample.cluster);
+        if constexpr (F.has(Feature::ManyLights)) to.cluster[lane] = sample.cluster;
     }
     /// Emission that varies over a light.
     void look_up_emission(std::uint32_t i) {
@@ -155,15 +182,15 @@ private:
     }
 
     const PathContext<M>& context_;
-    LightTable table_;
+    const LightTable& lights_;
     LaneKernels kernels_;
     LightSampleGroup samples_[kBlockGroups];
-    [[no_unique_address]] std::conditional_t<F.has(Feature::ManyLights), Clusters, NoClusters> clusters_;
+    LearnedLightsBlock<F, M> learned_;
 };
 template <FeatureSet F, Method M>
 requires(!F.has(Feature::NextEventEstimation)) class LightBlock<F, M> {
 public:
-    explicit LightBlock(const PathContext<M>&) {}
+    LightBlock(const PathContext<M>&, const LightTable&) {}
 };
 
 }  // namespace pl

@@ -7,27 +7,6 @@
 namespace pl {
 namespace {
 
-/// The members of arrays of structures that consist of 32-bit words.
-template <class T>
-class Words {
-public:
-    static_assert(sizeof(T) % 4 == 0);
-    PL_INLINE Words(const T* array, const LaneInt& index)
-        : words_(array), first_(index * static_cast<std::int32_t>(sizeof(T) / 4)) {}
-
-    PL_INLINE LaneInt integer(std::size_t offset) const {
-        return Lanes::load_word(words_, first_ + static_cast<std::int32_t>(offset / 4));
-    }
-    PL_INLINE LaneFloat real(std::size_t offset) const { return Lanes::from_bits(integer(offset)); }
-    PL_INLINE Real3<Lanes> vector(std::size_t offset) const {
-        return {real(offset), real(offset + 4), real(offset + 8)};
-    }
-
-private:
-    const T* words_;
-    LaneInt first_;
-};
-
 class LookupLanes : GroupRows {
 public:
     PL_INLINE LookupLanes(const PlacementRows& scene, std::uint32_t first) : GroupRows(first), scene_(scene) {}

@@ -23,12 +23,17 @@ namespace pl {
 /// Arguments common to all passes.
 struct PassSetup {
     SceneView scene;
+    const LightTable& lights = no_lights();  ///< of the scene; empty: lights are sampled path by path
     PathSettings path;
     IndexRange paths{0, kToTheLast};  ///< numbers of the paths to trace, clamped to those of the pass
     const StopFlag* stop = nullptr;
     int threads = 1;
     std::uint32_t batch_paths = 1024;
 
+    static const LightTable& no_lights() {
+        static const LightTable none;
+        return none;
+    }
     /// Chunks of the paths to trace; the pass has `count` paths.
     ChunkQueue chunks(std::uint32_t count) const {
         return ChunkQueue(paths.begin, std::min(paths.end, count), kPathChunk, stop);
@@ -122,7 +127,7 @@ private:
     auto& lookups_of(std::uint32_t i) { return guided_.lookups[i / kPathBlock % 2]; }
 
     /// Shades and scatters paths [first, end): most of the run time of a small scene. In one loop each path is shaded up to the
-    /// roulette at its vertex; lights and directions are then sampled for all vertices at Lambert reflectors.
+    /// roulette at its vertex; lights and directions are then sampled for all vertices.
     [[gnu::flatten, gnu::noinline]] void extend_block(std::uint32_t first, std::uint32_t end) {
         vertices_.clear();
         for (std::uint32_t i = first; i < end; ++i) shade(i);
@@ -133,13 +138,26 @@ private:
         scatter_vertices();
     }
 
+    /// Place of the vertex that a path reaches: on the stack unless it may stay in the block.
+    struct VertexSlot {
+        [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), Nothing, ScatterPoint<F, M>> point;
+
+        ScatterPoint<F, M>& in(VertexBlock<F, M>& vertices) {
+            if constexpr (F.has_any(kLobeFeatures))
+                return vertices.next_layered();
+            else
+                return point;
+        }
+    };
+
     bool samples_lights() const { return kSamplesLights && setup_.path.next_event != 0; }
 
     void shade(std::uint32_t i) {
         typename M::Sample sample{};
         const StepOutput<M> out{sample, counters_.path};
         const Hit hit = rays_.hit(i);
-        ScatterPoint<F, M> from;
+        VertexSlot slot;
+        ScatterPoint<F, M>& from = slot.in(vertices_);
         const auto find_surface = [&](SurfacePoint& surface) {
             ::new (static_cast<void*>(&surface)) SurfacePoint(surface_at(i, hit));  // in place, as in start()
         };
@@ -159,12 +177,9 @@ private:
         }
     }
 
-    /// Plays roulette at the vertex `from` of path i. At a Lambert reflector its light and its direction are left to the block.
+    /// Plays roulette at the vertex `from` of path i. Its light and its direction are left to the block.
     PathStatus leave(std::uint32_t i, const Hit& hit, ScatterPoint<F, M>& from, const StepOutput<M>& out) {
         const VertexNumbers numbers = numbers_.numbers(i);
-        if constexpr (F.has_any(kLobeFeatures)) {
-            if (!from.bsdf.is_lambert()) return leave_alone(i, hit, numbers, from, out);
-        }
         if (samples_lights()) add_vertex(i, from, numbers);
         const PathStatus status = continue_path(context_, hit, numbers.scatter.w, states_[i], from, out);
         if (status == PathStatus::Finished) return status;
@@ -173,23 +188,8 @@ private:
         return status;
     }
     void add_vertex(std::uint32_t i, const ScatterPoint<F, M>& from, const VertexNumbers& numbers) {
-        vertices_.add(i, from, states_[i].throughput, numbers, medium_of(states_[i]));
+        vertices_.add(i, from, received_weights(states_[i]), numbers);
         directions_.add(vertices_, from, numbers.scatter);
-    }
-    /// The same at another surface: path i is scattered at once.
-    PathStatus leave_alone(std::uint32_t i, const Hit& hit, const VertexNumbers& numbers, ScatterPoint<F, M>& from,
-                           const StepOutput<M>& out) {
-        if constexpr (kSamplesLights) {
-            ShadowRequest<M> shadow;
-            if (samples_lights()) {
-                request_light(context_, from, numbers.light, states_[i], shadow);
-                push(shadow, i);
-            }
-        }
-        const PathStatus status = continue_path(context_, hit, numbers.scatter.w, states_[i], from, out);
-        if (status == PathStatus::Finished) return status;
-        return scatter_layered(method_, from, scatter_numbers(setup_.path, states_[i], numbers.scatter), states_[i],
-                               out);
     }
 
     /// Samples and weighs the lights of the block's vertices.
@@ -201,6 +201,9 @@ private:
     }
     void request_light_of(std::uint32_t k) {
         const std::uint32_t path = vertices_.path(k);
+        if constexpr (F.has_any(kLobeFeatures)) {
+            if (vertices_.is_layered(k)) return request_layered(k, path);
+        }
         const bool wanted = lights_.is_wanted(k);
         const Vec3f chain = received_weights(states_[path]).chain;
         const typename M::Light light = method_.light_sampled(states_[path].memory, vertices_.vertex(k),
@@ -212,6 +215,14 @@ private:
         shadow_rays_.set_ray(shadow_count_, lights_.shadow_ray(k, vertices_.primitive(k)));
         shadow_paths_[shadow_count_++] = path;
     }
+    void request_layered(std::uint32_t k, std::uint32_t path) {
+        ShadowRequest<M> shadow;
+        weigh_light(method_, vertices_.layered(k), lights_.sample_layered(vertices_, k), states_[path], shadow);
+        if (!shadow.wanted) return guided_.record_light(shadow.light, false);
+        shadow_rays_.set_ray(shadow_count_, shadow.ray);
+        shadow_paths_[shadow_count_] = path;
+        shadows_[shadow_count_++] = shadow;
+    }
 
     /// Scatters the paths that continue from the block's vertices.
     void scatter_vertices() {
@@ -219,10 +230,14 @@ private:
         kernels_.scatter(vertices_.groups(), directions_.groups(), scattered_, vertices_.group_count());
         vertices_.for_continuing([this](std::uint32_t k) {
             const std::uint32_t path = vertices_.path(k);
-            statuses_[path] = scatter_vertex(k, states_[path]);
+            statuses_[path] = scatter_vertex(k, path);
         });
     }
-    PathStatus scatter_vertex(std::uint32_t k, PathState<F, M>& state) {
+    PathStatus scatter_vertex(std::uint32_t k, std::uint32_t path) {
+        if constexpr (F.has_any(kLobeFeatures)) {
+            if (vertices_.is_layered(k)) return scatter_alone(k, path);
+        }
+        PathState<F, M>& state = states_[path];
         const std::uint32_t lane = k % kGroupSize;
         const ScatteredGroup& to = scattered_[k / kGroupSize];
         if (to.is_lit[lane] == 0) {
@@ -239,12 +254,14 @@ private:
                      {vertices_.roulette_weight(k) * weight, vertices_.albedo(k), direction}, state, counters_.path);
         return PathStatus::Continues;
     }
-
-    void push(const ShadowRequest<M>& shadow, std::uint32_t path) {
-        if (!shadow.wanted) return guided_.record_light(shadow.light, false);
-        shadow_rays_.set_ray(shadow_count_, shadow.ray);
-        shadow_paths_[shadow_count_] = path;
-        shadows_[shadow_count_++] = shadow;
+    /// Scatters a path at a layered vertex.
+    PathStatus scatter_alone(std::uint32_t k, std::uint32_t path) {
+        typename M::Sample sample{};
+        const ScatterNumbers numbers = scatter_numbers(setup_.path, states_[path], numbers_.numbers(path).scatter);
+        const PathStatus status = scatter_layered(method_, vertices_.layered(k), numbers, states_[path],
+                                                  StepOutput<M>{sample, counters_.path});
+        guided_.record(sample);
+        return status;
     }
 
     [[gnu::flatten, gnu::noinline]] void connect() {
@@ -304,7 +321,7 @@ private:
     SolidHits<F, I> solid_hits_;
     LaneKernels kernels_ = best_lane_kernels();
     VertexBlock<F, M> vertices_;
-    [[no_unique_address]] LightBlock<F, M> lights_{context_};
+    [[no_unique_address]] LightBlock<F, M> lights_{context_, setup_.lights};
     DirectionBlock<F, M> directions_{setup_.path, method_};
     ScatteredGroup scattered_[kBlockGroups];
     GuidedMemory<M> guided_;

@@ -1,5 +1,5 @@
-// The vertices of a block of paths at Lambert reflectors, as structures of arrays: written once, when a path is shaded, and read in
-// SIMD lanes while lights and directions are sampled.
+// The vertices of a block of paths, as structures of arrays: written once, when a path is shaded, and read in SIMD lanes while lights
+// and directions are sampled.
 #pragma once
 
 #include <bit>
@@ -8,6 +8,17 @@
 #include "cpu/lane_kernels.h"
 
 namespace pl {
+
+/// The vertices of a block at surfaces other than Lambert reflectors, whose directions are sampled path by path.
+template <FeatureSet F, Method M>
+struct LayeredVertices {
+    std::uint64_t bits = 0;  ///< one per vertex of the block
+    ScatterPoint<F, M> points[kPathBlock];
+    ReceivedWeights weights[kPathBlock];  ///< before the roulette at the vertex
+};
+struct NoLayeredVertices {
+    static constexpr std::uint64_t bits = 0;
+};
 
 /// At most kPathBlock vertices, numbered in the order of their paths.
 template <FeatureSet F, Method M>
@@ -20,33 +31,32 @@ public:
     void clear() {
         count_ = 0;
         continuing_ = 0;
+        if constexpr (F.has_any(kLobeFeatures)) layered_.bits = 0;
     }
 
-    /// Appends the vertex that a path has reached.
-    /// `medium`: of the path there.
-    void add(std::uint32_t path, const ScatterPoint<F, M>& from, Vec3f throughput, const VertexNumbers& numbers,
-             [[maybe_unused]] std::uint32_t medium = kNoMedium) {
+    /// The place of a vertex that add() may append next: a layered one stays there.
+    ScatterPoint<F, M>& next_layered() requires(F.has_any(kLobeFeatures)) { return layered_.points[count_]; }
+    /// Appends the vertex that a path has reached. `weights`: before the roulette there. A vertex at a surface other than a Lambert
+    /// reflector must be in next_layered(); lanes know no more of it than its light sample needs.
+    void add(std::uint32_t path, const ScatterPoint<F, M>& from, const ReceivedWeights& weights,
+             const VertexNumbers& numbers) {
         VertexGroup& group = groups_[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
         group.position.set(lane, from.surface.position);
-        group.geometric_normal.set(lane, from.surface.geometric_normal);
-        group.shading_normal.set(lane, from.surface.shading_normal);
-        group.position_error[lane] = from.surface.position_error;
-        group.primitive[lane] = from.surface.primitive;
-        group.albedo.set(lane, from.bsdf.albedo());
-        group.scatter.set(lane, Vec3f{numbers.scatter});
-        if constexpr (F.has(Feature::NextEventEstimation)) {
-            group.throughput.set(lane, throughput);
+        if constexpr (F.has(Feature::NextEventEstimation))
             for (int i = 0; i < 4; ++i) group.light.rows[i][lane] = numbers.light[i];
-        }
-        if constexpr (kTracksMedium<F>) media_.of[count_] = medium;
+        if (from.bsdf.is_lambert())
+            add_lambert(group, lane, from, weights, numbers);
+        else if constexpr (F.has_any(kLobeFeatures))
+            add_layered(from, weights);
         paths_[count_] = path;
         vertices_[count_++] = from.vertex;
     }
     /// The path of the last vertex continues from it.
     void keep_last(float roulette_weight) {
-        roulette_weights_[count_ - 1] = roulette_weight;
-        continuing_ |= std::uint64_t{1} << (count_ - 1);
+        const std::uint32_t last = count_ - 1;
+        roulette_weights_[last] = roulette_weight;
+        continuing_ |= std::uint64_t{1} << last;
     }
 
     const VertexGroup* groups() const { return groups_; }
@@ -67,17 +77,44 @@ public:
                 .position_error = from.position_error[lane],
                 .primitive = from.primitive[lane]};
     }
-    /// Calls visit(i) for every vertex whose path continues.
-    void for_continuing(const auto& visit) const {
-        for (std::uint64_t rest = continuing_; rest != 0; rest &= rest - 1)
-            visit(static_cast<std::uint32_t>(std::countr_zero(rest)));
+    /// Whether vertex i is not at a Lambert reflector.
+    bool is_layered(std::uint32_t i) const { return ((layered_.bits >> i) & 1u) != 0; }
+    /// A vertex that is_layered().
+    const ScatterPoint<F, M>& layered(std::uint32_t i) const requires(F.has_any(kLobeFeatures)) {
+        return layered_.points[i];
     }
+    const ReceivedWeights& layered_weights(std::uint32_t i) const requires(F.has_any(kLobeFeatures)) {
+        return layered_.weights[i];
+    }
+    /// Calls visit(i) for every vertex whose path continues.
+    void for_continuing(const auto& visit) const { for_bits(continuing_, visit); }
+    /// The same for Lambert reflectors alone.
+    void for_continuing_lambert(const auto& visit) const { for_bits(continuing_ & ~layered_.bits, visit); }
 
 private:
     struct Media {
         std::uint32_t of[kPathBlock];
     };
 
+    void add_lambert(VertexGroup& group, std::uint32_t lane, const ScatterPoint<F, M>& from,
+                     const ReceivedWeights& weights, const VertexNumbers& numbers) {
+        group.geometric_normal.set(lane, from.surface.geometric_normal);
+        group.shading_normal.set(lane, from.surface.shading_normal);
+        group.position_error[lane] = from.surface.position_error;
+        group.primitive[lane] = from.surface.primitive;
+        group.albedo.set(lane, from.bsdf.albedo());
+        group.scatter.set(lane, Vec3f{numbers.scatter});
+        if constexpr (F.has(Feature::NextEventEstimation)) group.throughput.set(lane, weights.throughput);
+        if constexpr (kTracksMedium<F>) media_.of[count_] = weights.medium;
+    }
+    void add_layered([[maybe_unused]] const ScatterPoint<F, M>& from, const ReceivedWeights& weights) {
+        PL_ASSERT(&from == &layered_.points[count_]);
+        layered_.bits |= std::uint64_t{1} << count_;
+        layered_.weights[count_] = weights;
+    }
+    static void for_bits(std::uint64_t bits, const auto& visit) {
+        for (; bits != 0; bits &= bits - 1) visit(static_cast<std::uint32_t>(std::countr_zero(bits)));
+    }
     const VertexGroup& group(std::uint32_t i) const { return groups_[i / kGroupSize]; }
 
     static_assert(kPathBlock <= 64);
@@ -88,6 +125,8 @@ private:
     Vertex vertices_[kPathBlock];
     VertexGroup groups_[kBlockGroups];
     [[no_unique_address]] std::conditional_t<kTracksMedium<F>, Media, NoPathMedium> media_;
+    [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), LayeredVertices<F, M>, NoLayeredVertices>
+        layered_;
 };
 
 }  // namespace pl

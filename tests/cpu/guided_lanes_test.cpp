@@ -98,7 +98,7 @@ TEST_CASE("Without volumes a block of paths scatters by the BSDF") {
     DirectionBlock<FeatureSet{}, PrecomputedMethod> directions(settings, method);
     const ScatterPoint<FeatureSet{}, PrecomputedMethod> point{.surface = SurfacePoint{}, .bsdf = {Vec3f{0.5f}}};
     block.clear();
-    block.add(7, point, Vec3f{1.0f}, {.scatter = {0.25f, 0.75f, 0.125f, 0.0f}});
+    block.add(7, point, {}, {.scatter = {0.25f, 0.75f, 0.125f, 0.0f}});
     block.keep_last(1.0f);
     directions.add(block, point, {});
     directions.complete(block);

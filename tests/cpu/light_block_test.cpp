@@ -36,12 +36,12 @@ std::vector<PunctualLightDescription> delta_lights() {
 }
 
 /// A room with triangles that shine: small, large, edge-on, and one without area.
-/// `unused`: a material of number 2.
+/// `third`: material number 2, of no triangle.
 HostScene room_of_lights(int lights, std::vector<PunctualLightDescription> without_extent = {},
-                         MaterialDescription unused = {}) {
+                         MaterialDescription third = {}) {
     SceneDescription scene;
     scene.punctual_lights = std::move(without_extent);
-    scene.materials = {gray(), gray(0.3f), std::move(unused)};
+    scene.materials = {gray(), gray(0.3f), std::move(third)};
     scene.materials[1].emission = glm::vec3{3.0f, 2.0f, 1.0f};
     add_box(scene, Vec3f{-1.0f}, Vec3f{1.0f}, true);
     Uniforms random(3);
@@ -113,7 +113,8 @@ bool is_of_delta_light(const Ray& shadow) {
 Comparison compare(const Context& context, const LaneKernels& kernels) {
     Comparison result;
     const auto block = std::make_unique<VertexBlock<kLights, KeepsEstimates>>();
-    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, kernels);
+    const LightTable table(context.scene);
+    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, table, kernels);
     DirectionGroup directions[kBlockGroups];
     Uniforms random(5);
     for (std::uint32_t size = 0; size <= kPathBlock; ++size) {
@@ -124,7 +125,7 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
             points.push_back(random_point(context.scene, random));
             const Vec4f u = random_numbers(random);
             const Vec3f throughput = random.cube(0.0f, 1.0f);
-            block->add(i, points.back(), throughput, {.light = u});
+            block->add(i, points.back(), {.throughput = throughput}, {.light = u});
             expected.push_back(request_alone(context, points.back(), u, throughput));
         }
         lights->sample(*block);
@@ -182,37 +183,120 @@ TEST_CASE("Delta lights beside those in the lanes are sampled as by one path alo
     }
 }
 
-TEST_CASE("Lights of a tree are sampled as by one path alone") {
-    constexpr FeatureSet kMany = kLights.with(Feature::ManyLights);
-    const HostScene many = room_of_lights(3000);
-    const SceneView view = many.view();
-    REQUIRE_FALSE(view.light_tree.empty());
-    const DefaultMethod method;
+namespace {
+
+constexpr FeatureSet kMany = kLights.with(Feature::ManyLights).with(Feature::Rough);
+
+/// Default path tracing with a learned choice of lights: that of a volume, or none.
+struct ChoosesLights : DefaultMethod {
+    static constexpr bool kLearnsLights = true;
+
+    struct Vertex : DefaultMethod::Vertex {
+        std::int32_t volume = kNoVolume;
+    };
+    struct {
+        Span<const float> light_cdf;
+    } field;
+    std::uint32_t clusters = 0;
+
+    Vertex locate(const SurfacePoint&, MethodCounters&) const { return {}; }
+    LearnedLights learned_lights(const Vertex& vertex) const {
+        if (vertex.volume == kNoVolume) return {};
+        return {field.light_cdf.data + static_cast<std::uint32_t>(vertex.volume) * clusters};
+    }
+};
+
+/// Cumulative probabilities of `volumes` random choices, some clusters left out.
+std::vector<float> random_choices(std::uint32_t volumes, std::uint32_t clusters) {
+    Uniforms random(9);
+    std::vector<float> cdf;
+    for (std::uint32_t volume = 0; volume < volumes; ++volume) {
+        std::vector<float> weights(clusters);
+        float total = 0.0f;
+        for (float& weight : weights) total += weight = random.below(3) == 0 ? 0.0f : random.next();
+        float sum = 0.0f;
+        for (std::uint32_t i = 0; i + 1 < clusters; ++i)
+            cdf.push_back(std::min((sum += weights[i]) / (total + 1e-3f), 1.0f));
+        cdf.push_back(1.0f);
+    }
+    return cdf;
+}
+
+struct TreeComparison {
+    int lit = 0;      ///< vertices whose sample can contribute
+    int layered = 0;  ///< of them at rough conductors
+    int learned = 0;  ///< of them where a choice is learned
+};
+
+/// Blocks of vertices of which some are layered, and some have a learned choice of lights.
+TreeComparison compare_tree(const SceneView& scene, const ChoosesLights& method, std::uint32_t volumes,
+                            const LaneKernels& kernels) {
     const PathSettings settings{.next_event = 1};
-    const PathContext<DefaultMethod> context{view, method, settings};
-    const auto block = std::make_unique<VertexBlock<kMany, DefaultMethod>>();
-    const auto lights = std::make_unique<LightBlock<kMany, DefaultMethod>>(context);
+    const PathContext<ChoosesLights> context{scene, method, settings};
+    const LightTable table(scene);
+    const auto block = std::make_unique<VertexBlock<kMany, ChoosesLights>>();
+    const auto lights = std::make_unique<LightBlock<kMany, ChoosesLights>>(context, table, kernels);
     Uniforms random(6);
-    block->clear();
-    std::vector<UnweightedLight> expected;
-    for (std::uint32_t i = 0; i < kPathBlock; ++i) {
-        const Point at = random_point(view, random);
-        const ScatterPoint<kMany, DefaultMethod> point{at.surface, at.bsdf};
-        const Vec4f u = random_numbers(random);
-        block->add(i, point, Vec3f{1.0f}, {.light = u});
-        expected.push_back(sample_light(context, point, u, {}));
+    TreeComparison result;
+    for (std::uint32_t size = 1; size <= kPathBlock; ++size) {
+        block->clear();
+        std::vector<UnweightedLight> expected;
+        for (std::uint32_t i = 0; i < size; ++i) {
+            auto& point = block->next_layered();
+            point.surface = random_point(scene, random).surface;
+            point.vertex = {};
+            if (random.below(3) == 0) point.surface.material = 2;
+            point.bsdf = make_bsdf<kMany>(scene, point.surface, Vec3f{1.0f / 3.0f}, point.surface.geometric_normal);
+            if (random.below(3) != 0) point.vertex.volume = static_cast<std::int32_t>(random.below(volumes));
+            const Vec4f u = random_numbers(random);
+            expected.push_back(sample_light(context, point, u, {}));
+            block->add(i, point, {}, {.light = u});
+        }
+        lights->sample(*block);
+        for (std::uint32_t i = 0; i < size; ++i) {
+            const bool is_lit = expected[i].pdf_sa > 0.0f;
+            if (block->is_layered(i)) {
+                const UnweightedLight light = lights->sample_layered(*block, i);
+                REQUIRE(light.pdf_sa == expected[i].pdf_sa);
+                REQUIRE((!is_lit || same_ray(light.ray, expected[i].ray)));
+                REQUIRE(light.cluster == expected[i].cluster);
+                result.layered += is_lit ? 1 : 0;
+            } else {
+                REQUIRE(lights->is_wanted(i) == is_lit);
+                if (!is_lit) continue;
+                REQUIRE(lights->groups()[i / kGroupSize].pdf_sa[i % kGroupSize] == expected[i].pdf_sa);
+                REQUIRE(lights->estimate(i, Vec3f{1.0f}).cluster == expected[i].cluster);
+                REQUIRE(same_ray(lights->shadow_ray(i, block->primitive(i)), expected[i].ray));
+            }
+            result.lit += is_lit ? 1 : 0;
+            result.learned += is_lit && block->vertex(i).volume != kNoVolume ? 1 : 0;
+        }
     }
-    lights->sample(*block);
-    int lit = 0;
-    for (std::uint32_t i = 0; i < kPathBlock; ++i) {
-        REQUIRE(lights->is_wanted(i) == (expected[i].pdf_sa > 0.0f));
-        if (!lights->is_wanted(i)) continue;
-        ++lit;
-        CHECK(lights->groups()[i / kGroupSize].pdf_sa[i % kGroupSize] == expected[i].pdf_sa);
-        CHECK(lights->estimate(i, Vec3f{1.0f}).cluster == expected[i].cluster);
-        CHECK(same_ray(lights->shadow_ray(i, block->primitive(i)), expected[i].ray));
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("Lights of a tree are sampled as by one path alone, at all surfaces") {
+    constexpr std::uint32_t kVolumes = 20;
+    for (const int count : {60, 3000}) {
+        const HostScene scene = room_of_lights(
+            count, {},
+            {.name = "metal", .kind = SurfaceKind::Conductor, .roughness = 0.5f, .specular = {0.9f, 0.8f, 0.7f}});
+        const SceneView view = scene.view();
+        REQUIRE_FALSE(view.light_tree.empty());
+        const std::vector<float> choices = random_choices(kVolumes, view.light_tree.clusters.count);
+        ChoosesLights method;
+        method.field.light_cdf = {choices.data(), static_cast<std::uint32_t>(choices.size())};
+        method.clusters = view.light_tree.clusters.count;
+        for (const LaneKernels& kernels : usable_lane_kernels()) {
+            INFO(kernels.isa << ", " << count << " lights");
+            const TreeComparison result = compare_tree(view, method, kVolumes, kernels);
+            CHECK(result.lit > 200);
+            CHECK(result.layered > 30);
+            CHECK(result.learned > 100);
+        }
     }
-    CHECK(lit > 5);
 }
 
 TEST_CASE("Lights inside of glass that absorbs are sampled as by one path alone") {
@@ -225,7 +309,8 @@ TEST_CASE("Lights inside of glass that absorbs are sampled as by one path alone"
     const PathSettings settings{.next_event = 1};
     const PathContext<DefaultMethod> context{view, method, settings};
     const auto block = std::make_unique<VertexBlock<kGlass, DefaultMethod>>();
-    const auto lights = std::make_unique<LightBlock<kGlass, DefaultMethod>>(context);
+    const LightTable table(view);
+    const auto lights = std::make_unique<LightBlock<kGlass, DefaultMethod>>(context, table);
     Uniforms random(8);
     int lit = 0;
     int absorbed = 0;
@@ -238,7 +323,7 @@ TEST_CASE("Lights inside of glass that absorbs are sampled as by one path alone"
                 surface, make_bsdf<kGlass>(view, surface, Vec3f{1.0f / 3.0f}, surface.geometric_normal)};
             const Vec4f u = random_numbers(random);
             const std::uint32_t medium = random.below(2) == 0 ? kInk : kNoMedium;
-            block->add(i, point, Vec3f{1.0f}, {.light = u}, medium);
+            block->add(i, point, {.medium = medium}, {.light = u});
             expected.push_back(sample_light(context, point, u, {.medium = medium}));
             const UnweightedLight outside = sample_light(context, point, u, {});
             absorbed += expected.back().irradiance < outside.irradiance ? 1 : 0;
@@ -267,10 +352,11 @@ TEST_CASE("A scene without lights has no light samples") {
     const PathSettings settings{.next_event = 1};
     const Context context{view, method, settings};
     const auto block = std::make_unique<VertexBlock<kLights, KeepsEstimates>>();
-    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context);
+    const LightTable table(view);
+    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, table);
     Uniforms random(7);
     block->clear();
-    block->add(0, random_point(view, random), Vec3f{1.0f}, {.light = random_numbers(random)});
+    block->add(0, random_point(view, random), {}, {.light = random_numbers(random)});
     lights->sample(*block);
     CHECK_FALSE(lights->is_wanted(0));
 }

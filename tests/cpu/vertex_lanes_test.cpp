@@ -48,7 +48,7 @@ Comparison compare(const LaneKernels& kernels) {
         for (std::uint32_t i = 0; i < kPathBlock; ++i) {
             points.push_back(random_point(random));
             numbers.push_back({random.cube(0.0f, 1.0f), 0.0f});
-            block.add(i, points.back(), Vec3f{1.0f}, {.scatter = numbers.back()});
+            block.add(i, points.back(), {}, {.scatter = numbers.back()});
         }
         kernels.sample_lambert(block.groups(), directions, block.group_count());
         kernels.scatter(block.groups(), directions, scattered, block.group_count());

@@ -135,12 +135,10 @@ PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const
     return light;
 }
 
-/// Samples a light at a vertex, by the numbers `u`.
+/// The reflection at a vertex of a light sample, through the glass around the path.
 template <FeatureSet F, Method M>
-PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
-                                           const ReceivedWeights& weights) {
-    DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, u,
-                                                learned_lights<F>(context.method, from.vertex).learned());
+PL_HD_INLINED UnweightedLight unweighted_light(const PathContext<M>& context, const ScatterPoint<F, M>& from,
+                                               DirectLight sample, const ReceivedWeights& weights) {
     if (!(sample.pdf_sa > 0.0f)) return {};
     const Ray ray = shadow_ray_to<F>(from.surface, sample);
     if constexpr (kTracksMedium<F>) {
@@ -148,6 +146,15 @@ PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const 
         sample.emitted *= shadow_transmittance(context.scene, medium, ray);
     }
     return reflect_light(from, sample, ray, weights);
+}
+
+/// Samples a light at a vertex, by the numbers `u`.
+template <FeatureSet F, Method M>
+PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
+                                           const ReceivedWeights& weights) {
+    const LearnedLights learned = learned_lights<F>(context.method, from.vertex).learned();
+    return unweighted_light(context, from, sample_direct_light<F>(context.scene, from.surface, from.bsdf, u, learned),
+                            weights);
 }
 
 /// Weighs a light sample by multiple importance sampling. `scatter_pdf_sa`: of its direction, see scatter_pdf_sa(). `shadow` comes
@@ -166,15 +173,21 @@ PL_HD_INLINED void weigh_light(const M& method, const typename M::Vertex& vertex
     shadow.light = method.light_sampled(state.memory, vertex, estimate);
 }
 
+/// Weighs a light sample at a vertex.
+template <FeatureSet F, Method M>
+PL_HD_INLINED void weigh_light(const M& method, const ScatterPoint<F, M>& from, const UnweightedLight& light,
+                               PathState<F, M>& state, ShadowRequest<M>& shadow) {
+    const float pdf_sa = light.pdf_sa > 0.0f ? scatter_pdf_sa(method, from, light.wi) : 0.0f;
+    weigh_light<F>(method, from.vertex, light, pdf_sa, state, shadow);
+}
+
 /// Samples a light at a vertex, if the settings ask for it.
 template <FeatureSet F, Method M>
 PL_HD_INLINED void request_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
                                  PathState<F, M>& state, ShadowRequest<M>& shadow) {
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (context.settings.next_event == 0) return;
-        const UnweightedLight light = sample_light(context, from, u, received_weights(state));
-        const float pdf_sa = light.pdf_sa > 0.0f ? scatter_pdf_sa(context.method, from, light.wi) : 0.0f;
-        weigh_light<F>(context.method, from.vertex, light, pdf_sa, state, shadow);
+        weigh_light(context.method, from, sample_light(context, from, u, received_weights(state)), state, shadow);
     }
 }
 

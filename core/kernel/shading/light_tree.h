@@ -3,7 +3,7 @@
 // choice among clusters of lights that was learned for the surroundings of a point is mixed with its own.
 #pragma once
 
-#include "core/kernel/base/math.h"
+#include "core/kernel/base/numbers.h"
 #include "core/kernel/base/span.h"
 #include "core/kernel/base/warp.h"
 
@@ -52,38 +52,50 @@ struct ChosenLight {
     float probability = 0.0f;
 };
 
+/// The members of a LightNode that its importance depends on.
+template <class N>
+struct LightBounds {
+    Real3<N> center;
+    typename N::Real radius;
+    Real3<N> axis;
+    typename N::Real cos_spread, power;
+};
+PL_HD inline LightBounds<One> bounds_of(const LightNode& node) {
+    return {unpack(node.center), node.radius, unpack(node.axis), node.cos_spread, node.power};
+}
+
 /// cos(max(0, a - b)) of two angles in [0, pi], given by their cosines.
-PL_HD inline float cos_of_difference(float cos_a, float cos_b) {
-    if (cos_a >= cos_b) return 1.0f;
-    const float sin_product = (1.0f - cos_a * cos_a) * (1.0f - cos_b * cos_b);
-    return cos_a * cos_b + std::sqrt(max_of(sin_product, 0.0f));
+template <class N>
+PL_INLINE typename N::Real cos_of_difference(const typename N::Real& cos_a, const typename N::Real& cos_b) {
+    const auto sin_product = (1.0f - cos_a * cos_a) * (1.0f - cos_b * cos_b);
+    const auto cosine = cos_a * cos_b + N::sqrt(max_real<N>(sin_product, 0.0f));
+    return select(static_cast<typename N::Mask>(cos_a >= cos_b), N::constant(1.0f), cosine);
 }
 
 /// Importance of a node: power over squared distance, times a bound on the emission cosines of its lights; 0 if all
 /// face away. Without the cosine at the receiver.   [Conty Estevez and Kulla 2018, section 5]
-PL_HD inline float light_importance(const LightNode& node, Vec3f from) {
-    const Vec3f to_point = from - node.center;
-    const float distance2 = glm::dot(to_point, to_point);
-    const float radius2 = node.radius * node.radius;
-    if (distance2 <= radius2) return node.power / radius2;
-    const float cos_point = clamp_to(glm::dot(node.axis, to_point) / std::sqrt(distance2), -1.0f, 1.0f);
-    const float cos_sphere = std::sqrt(max_of(1.0f - radius2 / distance2, 0.0f));
-    const float cos_light = cos_of_difference(cos_of_difference(cos_point, node.cos_spread), cos_sphere);
-    return node.power * max_of(cos_light, 0.0f) / distance2;
+template <class N>
+PL_INLINE typename N::Real light_importance(const LightBounds<N>& node, const Real3<N>& from) {
+    const Real3<N> to_point = from - node.center;
+    const auto distance2 = dot(to_point, to_point);
+    const auto radius2 = node.radius * node.radius;
+    const auto cos_point = clamp_real<N>(dot(node.axis, to_point) / N::sqrt(distance2), -1.0f, 1.0f);
+    const auto cos_sphere = N::sqrt(max_real<N>(1.0f - radius2 / distance2, 0.0f));
+    const auto cos_light = cos_of_difference<N>(cos_of_difference<N>(cos_point, node.cos_spread), cos_sphere);
+    const auto outside = node.power * max_real<N>(cos_light, 0.0f) / distance2;
+    return select(static_cast<typename N::Mask>(distance2 <= radius2), node.power / radius2, outside);
 }
 
-/// Probability of descending to the first child: its share of the children's importance, or of their power if both
+/// Probability of descending to the first of two children: its share of their importance, or of their power if both
 /// importances are 0.
-PL_HD inline float first_child_share(const LightTree& tree, std::uint32_t parent, Vec3f from) {
-    const LightNode first = tree.nodes[parent + 1];
-    const LightNode second = tree.nodes[tree.nodes[parent].next];
-    float a = light_importance(first, from);
-    float b = light_importance(second, from);
-    if (!(a + b > 0.0f) || !(a + b < kInfinity)) {
-        a = first.power;
-        b = second.power;
-    }
-    return a / (a + b);
+template <class N>
+PL_INLINE typename N::Real first_child_share(const LightBounds<N>& first, const LightBounds<N>& second,
+                                             const Real3<N>& from) {
+    const auto a = light_importance(first, from);
+    const auto b = light_importance(second, from);
+    const auto usable = static_cast<typename N::Mask>((a + b > 0.0f) & (a + b < kInfinity));
+    const auto share = select(usable, a, first.power);
+    return share / (share + select(usable, b, second.power));
 }
 
 /// Learned probabilities of a tree's clusters for points near one of the scene.
@@ -100,23 +112,22 @@ struct LearnedLights {
 inline constexpr float kTreeShare = 0.25f;
 
 /// A uniform number that makes one choice after another: rescaled to the part chosen, it is uniform again.
-struct WayByNumber {
-    float u;  ///< in [0,1)
+template <class N>
+struct WayByNumberOf {
+    typename N::Real u;  ///< in [0,1)
 
-    PL_HD bool takes_second(float first_share) {
-        const bool is_second = u >= first_share;
-        if (is_second)
-            enter(first_share, 1.0f - first_share);
-        else
-            enter(0.0f, first_share);
+    PL_INLINE typename N::Mask takes_second(typename N::Real first_share) {
+        const auto is_second = static_cast<typename N::Mask>(u >= first_share);
+        enter(select(is_second, first_share, N::constant(0.0f)), select(is_second, 1.0f - first_share, first_share));
         return is_second;
     }
     /// The interval [begin, begin + size) that holds u becomes [0,1).
-    PL_HD void enter(float begin, float size) {
+    PL_INLINE void enter(const typename N::Real& begin, const typename N::Real& size) {
         constexpr float kAlmostOne = 1.0f - 0x1p-24f;
-        u = min_of((u - begin) / size, kAlmostOne);
+        u = min_real<N>((u - begin) / size, kAlmostOne);
     }
 };
+using WayByNumber = WayByNumberOf<One>;
 
 /// The way to a given light.
 struct WayByTrail {
@@ -143,7 +154,8 @@ PL_HD inline LightDescent descend(const LightTree& tree, std::uint32_t begin, Ve
     for (;;) {
         const LightNode& node = tree.nodes[at.node];
         if (End == DescentEnd::Cluster ? node.cluster != kNoCluster : node.is_leaf != 0) return at;
-        const float share = first_child_share(tree, at.node, from);
+        const float share =
+            first_child_share(bounds_of(tree.nodes[at.node + 1]), bounds_of(tree.nodes[node.next]), unpack(from));
         const bool is_second = way.takes_second(share);
         at.probability *= is_second ? 1.0f - share : share;
         at.node = is_second ? node.next : at.node + 1;
@@ -151,8 +163,12 @@ PL_HD inline LightDescent descend(const LightTree& tree, std::uint32_t begin, Ve
 }
 
 /// Probability of a cluster: a mixture of the tree's and the learned one.
+template <class Real>
+PL_INLINE Real mix_cluster_probability(const Real& by_tree, const Real& learned) {
+    return kTreeShare * by_tree + (1.0f - kTreeShare) * learned;
+}
 PL_HD inline float cluster_probability(LearnedLights learned, std::uint32_t cluster, float by_tree) {
-    return kTreeShare * by_tree + (1.0f - kTreeShare) * learned.probability(cluster);
+    return mix_cluster_probability(by_tree, learned.probability(cluster));
 }
 
 /// Samples a light for the point `from`, by the tree or by the mixture of it with a learned choice; u in [0,1).

@@ -131,23 +131,40 @@ PL_HD inline LightPoint sample_on_light(const SceneView& scene, std::uint32_t li
     return point;
 }
 
-/// Samples a light and a point on it; u in [0,1)^3. The scene must have lights.
-template <FeatureSet F = FeatureSet{}>
-PL_HD inline LightPoint sample_light(const SceneView& scene, const Receiver& receiver, Vec3f u,
-                                     [[maybe_unused]] LearnedLights learned = {}) {
+/// Chooses a light for the point `from`: by the tree if there is one, else by power, where its probability is left to
+/// sample_chosen_light(). u in [0,1).
+template <FeatureSet F>
+PL_HD inline ChosenLight choose_light(const SceneView& scene, [[maybe_unused]] Vec3f from, float u,
+                                      [[maybe_unused]] LearnedLights learned) {
+    if constexpr (F.has(Feature::ManyLights)) {
+        if (!scene.light_tree.empty()) return choose_light(scene.light_tree, from, u, learned);
+    }
+    return {.light = choose_light(scene, u)};
+}
+
+/// Samples a point on the light that choose_light() returned; u in [0,1)^2.
+template <FeatureSet F>
+PL_HD inline LightPoint sample_chosen_light(const SceneView& scene, const ChosenLight& chosen,
+                                            const Receiver& receiver, Vec2f u) {
+    LightPoint point = sample_on_light(scene, chosen.light, receiver, u);
     if constexpr (F.has(Feature::ManyLights)) {
         if (!scene.light_tree.empty()) {
-            const ChosenLight chosen = choose_light(scene.light_tree, receiver.position, u.x, learned);
             const LightPlace& place = scene.light_tree.of_light[chosen.light];
-            LightPoint point = sample_on_light(scene, chosen.light, receiver, {u.y, u.z});
             point.pdf_area = chosen.probability * place.pdf_area;
             point.cluster = place.cluster;
             return point;
         }
     }
-    LightPoint point = sample_on_light(scene, choose_light(scene, u.x), receiver, {u.y, u.z});
     point.pdf_area = light_pdf_area(scene, scene.materials[point.surface.material]);
     return point;
+}
+
+/// Samples a light and a point on it; u in [0,1)^3. The scene must have lights.
+template <FeatureSet F = FeatureSet{}>
+PL_HD inline LightPoint sample_light(const SceneView& scene, const Receiver& receiver, Vec3f u,
+                                     LearnedLights learned = {}) {
+    return sample_chosen_light<F>(scene, choose_light<F>(scene, receiver.position, u.x, learned), receiver,
+                                  {u.y, u.z});
 }
 
 /// A light sample at a surface point (next-event estimation), without visibility.
@@ -218,6 +235,21 @@ PL_HD inline DirectLight sample_delta_light(const SceneView& scene, const Surfac
     return sample;
 }
 
+/// The light sample of a surface point at a sampled point on a light.
+template <FeatureSet F, class B>
+PL_HD inline DirectLight direct_light_from(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
+                                           const LightPoint& point) {
+    DirectLight sample{.light = point.surface, .cluster = point.cluster};
+    const Vec3f segment = sample.light.position - point.from;
+    const float distance2 = glm::dot(segment, segment);
+    if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};
+    sample.wi = segment * (1.0f / std::sqrt(distance2));
+    sample.cos_i = bsdf.cosine(surface, sample.wi);
+    sample.emitted = light_emitted<F>(scene, sample.light, point.weights);
+    if (sample.cos_i > 0.0f && !is_black(sample.emitted)) sample.pdf_sa = point.pdf_sa(sample.wi);
+    return sample;
+}
+
 /// Light sample for a surface point; u.x, u.y, u.z in [0,1), u.w in [0, 1) selects far lights or emissive triangles. `learned`: of
 /// the point. The caller traces the shadow ray.
 template <FeatureSet F = FeatureSet{}, class B>
@@ -237,16 +269,8 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
         if (u.w < scene.far_probability) return sample_far_light(scene, surface, bsdf, Vec3f{u});
     }
     if (scene.lights.empty()) return {};
-    const LightPoint chosen = sample_light<F>(scene, Receiver::of(surface), Vec3f{u}, learned);
-    DirectLight sample{.light = chosen.surface, .cluster = chosen.cluster};
-    const Vec3f segment = sample.light.position - chosen.from;
-    const float distance2 = glm::dot(segment, segment);
-    if (!(distance2 > 0.0f) || sample.light.primitive == surface.primitive) return {};
-    sample.wi = segment * (1.0f / std::sqrt(distance2));
-    sample.cos_i = bsdf.cosine(surface, sample.wi);
-    sample.emitted = light_emitted<F>(scene, sample.light, chosen.weights);
-    if (sample.cos_i > 0.0f && !is_black(sample.emitted)) sample.pdf_sa = chosen.pdf_sa(sample.wi);
-    return sample;
+    return direct_light_from<F>(scene, surface, bsdf,
+                                sample_light<F>(scene, Receiver::of(surface), Vec3f{u}, learned));
 }
 
 /// The shadow ray of a light sample.
