@@ -236,6 +236,7 @@ TreeComparison compare_tree(const SceneView& scene, const ChoosesLights& method,
     const LightTable table(scene);
     const auto block = std::make_unique<VertexBlock<kMany, ChoosesLights>>();
     const auto lights = std::make_unique<LightBlock<kMany, ChoosesLights>>(context, table, kernels);
+    DirectionGroup directions[kBlockGroups];
     Uniforms random(6);
     TreeComparison result;
     for (std::uint32_t size = 1; size <= kPathBlock; ++size) {
@@ -253,6 +254,7 @@ TreeComparison compare_tree(const SceneView& scene, const ChoosesLights& method,
             block->add(i, point, {}, {.light = u});
         }
         lights->sample(*block);
+        lights->weigh(*block, directions);
         for (std::uint32_t i = 0; i < size; ++i) {
             const bool is_lit = expected[i].pdf_sa > 0.0f;
             if (block->is_layered(i)) {
