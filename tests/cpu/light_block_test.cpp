@@ -1,21 +1,19 @@
 // Lights that are sampled in SIMD lanes are those of the scalar code, bit for bit, by every instruction set.
 #include "cpu/light_block.h"
 
-#include <cstring>
 #include <memory>
 
 #include "core/kernel/integrator/sampled_lights.h"
 #include "core/kernel/methods/default.h"
-#include "core/scene/pack_scene.h"
+#include "tests/cpu/room_of_lights.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/scenes/shapes.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
 
-constexpr FeatureSet kLights = features(Feature::NextEventEstimation, Feature::DeltaLights);
+constexpr FeatureSet kLights = kRoomEffects;
 
 /// Default path tracing that keeps the estimates it is told of.
 struct KeepsEstimates : DefaultMethod {
@@ -26,56 +24,6 @@ struct KeepsEstimates : DefaultMethod {
 };
 using Context = PathContext<KeepsEstimates>;
 using Point = ScatterPoint<kLights, KeepsEstimates>;
-
-/// A point, a spot and a directional light.
-std::vector<PunctualLightDescription> delta_lights() {
-    return {
-        {.kind = PunctualKind::Point, .position = {0.2f, 0.4f, -0.3f}, .intensity = {3, 2, 1}},
-        {.kind = PunctualKind::Spot, .position = {0, 0.9f, 0}, .direction = {0.1f, -1, 0.2f}, .intensity = {1, 2, 3}},
-        {.kind = PunctualKind::Directional, .direction = {1, -2, 0.5f}, .intensity = {0.5f, 1, 0.2f}}};
-}
-
-/// A room with triangles that shine: small, large, edge-on, and one without area.
-/// `third`: material number 2, of no triangle.
-HostScene room_of_lights(int lights, std::vector<PunctualLightDescription> without_extent = {},
-                         MaterialDescription third = {}) {
-    SceneDescription scene;
-    scene.punctual_lights = std::move(without_extent);
-    scene.materials = {gray(), gray(0.3f), std::move(third)};
-    scene.materials[1].emission = glm::vec3{3.0f, 2.0f, 1.0f};
-    add_box(scene, Vec3f{-1.0f}, Vec3f{1.0f}, true);
-    Uniforms random(3);
-    for (int i = 0; i < lights; ++i) {
-        const Vec3f corner = random.cube(-0.9f, 0.9f);
-        const float size = std::exp2(-static_cast<float>(random.below(12)));
-        const Vec3f last = i == 2 ? corner : corner + size * random.direction();
-        add_triangle(scene, corner, corner + size * random.direction(), last, 1);
-    }
-    return pack_scene(scene);
-}
-
-/// A point on a surface, often on a light, seen from a random direction.
-Point random_point(const SceneView& scene, Uniforms& random) {
-    Vec3f b = random.cube(0.0f, 1.0f);
-    b *= 1.0f / (b.x + b.y + b.z);
-    const Vec3f wo = random.direction();
-    Point point;
-    point.surface = make_surface_point<kLights>(scene, random.below(scene.triangles.count), b, wo);
-    point.bsdf = make_bsdf<kLights>(scene, point.surface, b, wo);
-    return point;
-}
-
-Vec4f random_numbers(Uniforms& random) {
-    const Vec3f u = random.cube(0.0f, 1.0f);
-    return {u, random.next()};
-}
-
-bool same_bits(const Vec3f& a, const Vec3f& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
-bool same_ray(const Ray& a, const Ray& b) {
-    return same_bits(a.origin, b.origin) && same_bits(a.direction, b.direction) && a.t_max == b.t_max &&
-           a.source == b.source && a.target == b.target;
-}
 
 /// The light sample of one path alone, weighed.
 ShadowRequest<KeepsEstimates> request_alone(const Context& context, const Point& point, Vec4f u, Vec3f throughput) {
@@ -122,7 +70,8 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
         std::vector<Point> points;
         std::vector<ShadowRequest<KeepsEstimates>> expected;
         for (std::uint32_t i = 0; i < size; ++i) {
-            points.push_back(random_point(context.scene, random));
+            const RoomPoint at = random_point(context.scene, random);
+            points.push_back({at.surface, at.bsdf});
             const Vec4f u = random_numbers(random);
             const Vec3f throughput = random.cube(0.0f, 1.0f);
             block->add(i, points.back(), {.throughput = throughput}, {.light = u});
@@ -179,124 +128,6 @@ TEST_CASE("Delta lights beside those in the lanes are sampled as by one path alo
                 else
                     CHECK(result.lit > result.delta + 10);
             }
-        }
-    }
-}
-
-namespace {
-
-constexpr FeatureSet kMany = kLights.with(Feature::ManyLights).with(Feature::Rough);
-
-/// Default path tracing with a learned choice of lights: that of a volume, or none.
-struct ChoosesLights : DefaultMethod {
-    static constexpr bool kLearnsLights = true;
-
-    struct Vertex : DefaultMethod::Vertex {
-        std::int32_t volume = kNoVolume;
-    };
-    struct {
-        Span<const float> light_cdf;
-    } field;
-    std::uint32_t clusters = 0;
-
-    Vertex locate(const SurfacePoint&, MethodCounters&) const { return {}; }
-    LearnedLights learned_lights(const Vertex& vertex) const {
-        if (vertex.volume == kNoVolume) return {};
-        return {field.light_cdf.data + static_cast<std::uint32_t>(vertex.volume) * clusters};
-    }
-};
-
-/// Cumulative probabilities of `volumes` random choices, some clusters left out.
-std::vector<float> random_choices(std::uint32_t volumes, std::uint32_t clusters) {
-    Uniforms random(9);
-    std::vector<float> cdf;
-    for (std::uint32_t volume = 0; volume < volumes; ++volume) {
-        std::vector<float> weights(clusters);
-        float total = 0.0f;
-        for (float& weight : weights) total += weight = random.below(3) == 0 ? 0.0f : random.next();
-        float sum = 0.0f;
-        for (std::uint32_t i = 0; i + 1 < clusters; ++i)
-            cdf.push_back(std::min((sum += weights[i]) / (total + 1e-3f), 1.0f));
-        cdf.push_back(1.0f);
-    }
-    return cdf;
-}
-
-struct TreeComparison {
-    int lit = 0;      ///< vertices whose sample can contribute
-    int layered = 0;  ///< of them at rough conductors
-    int learned = 0;  ///< of them where a choice is learned
-};
-
-/// Blocks of vertices of which some are layered, and some have a learned choice of lights.
-TreeComparison compare_tree(const SceneView& scene, const ChoosesLights& method, std::uint32_t volumes,
-                            const LaneKernels& kernels) {
-    const PathSettings settings{.next_event = 1};
-    const PathContext<ChoosesLights> context{scene, method, settings};
-    const LightTable table(scene);
-    const auto block = std::make_unique<VertexBlock<kMany, ChoosesLights>>();
-    const auto lights = std::make_unique<LightBlock<kMany, ChoosesLights>>(context, table, kernels);
-    DirectionGroup directions[kBlockGroups];
-    Uniforms random(6);
-    TreeComparison result;
-    for (std::uint32_t size = 1; size <= kPathBlock; ++size) {
-        block->clear();
-        std::vector<UnweightedLight> expected;
-        for (std::uint32_t i = 0; i < size; ++i) {
-            auto& point = block->next_layered();
-            point.surface = random_point(scene, random).surface;
-            point.vertex = {};
-            if (random.below(3) == 0) point.surface.material = 2;
-            point.bsdf = make_bsdf<kMany>(scene, point.surface, Vec3f{1.0f / 3.0f}, point.surface.geometric_normal);
-            if (random.below(3) != 0) point.vertex.volume = static_cast<std::int32_t>(random.below(volumes));
-            const Vec4f u = random_numbers(random);
-            expected.push_back(sample_light(context, point, u, {}));
-            block->add(i, point, {}, {.light = u});
-        }
-        lights->sample(*block);
-        lights->weigh(*block, directions);
-        for (std::uint32_t i = 0; i < size; ++i) {
-            const bool is_lit = expected[i].pdf_sa > 0.0f;
-            if (block->is_layered(i)) {
-                const UnweightedLight light = lights->sample_layered(*block, i);
-                REQUIRE(light.pdf_sa == expected[i].pdf_sa);
-                REQUIRE((!is_lit || same_ray(light.ray, expected[i].ray)));
-                REQUIRE(light.cluster == expected[i].cluster);
-                result.layered += is_lit ? 1 : 0;
-            } else {
-                REQUIRE(lights->is_wanted(i) == is_lit);
-                if (!is_lit) continue;
-                REQUIRE(lights->groups()[i / kGroupSize].pdf_sa[i % kGroupSize] == expected[i].pdf_sa);
-                REQUIRE(lights->estimate(i, Vec3f{1.0f}).cluster == expected[i].cluster);
-                REQUIRE(same_ray(lights->shadow_ray(i, block->primitive(i)), expected[i].ray));
-            }
-            result.lit += is_lit ? 1 : 0;
-            result.learned += is_lit && block->vertex(i).volume != kNoVolume ? 1 : 0;
-        }
-    }
-    return result;
-}
-
-}  // namespace
-
-TEST_CASE("Lights of a tree are sampled as by one path alone, at all surfaces") {
-    constexpr std::uint32_t kVolumes = 20;
-    for (const int count : {60, 3000}) {
-        const HostScene scene = room_of_lights(
-            count, {},
-            {.name = "metal", .kind = SurfaceKind::Conductor, .roughness = 0.5f, .specular = {0.9f, 0.8f, 0.7f}});
-        const SceneView view = scene.view();
-        REQUIRE_FALSE(view.light_tree.empty());
-        const std::vector<float> choices = random_choices(kVolumes, view.light_tree.clusters.count);
-        ChoosesLights method;
-        method.field.light_cdf = {choices.data(), static_cast<std::uint32_t>(choices.size())};
-        method.clusters = view.light_tree.clusters.count;
-        for (const LaneKernels& kernels : usable_lane_kernels()) {
-            INFO(kernels.isa << ", " << count << " lights");
-            const TreeComparison result = compare_tree(view, method, kVolumes, kernels);
-            CHECK(result.lit > 200);
-            CHECK(result.layered > 30);
-            CHECK(result.learned > 100);
         }
     }
 }
@@ -358,7 +189,8 @@ TEST_CASE("A scene without lights has no light samples") {
     const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, table);
     Uniforms random(7);
     block->clear();
-    block->add(0, random_point(view, random), {}, {.light = random_numbers(random)});
+    const RoomPoint at = random_point(view, random);
+    block->add(0, {at.surface, at.bsdf}, {}, {.light = random_numbers(random)});
     lights->sample(*block);
     CHECK_FALSE(lights->is_wanted(0));
 }
