@@ -95,6 +95,8 @@ public:
     }
 
 private:
+    /// Share of light samples of far lights above which most lanes would choose an emissive triangle in vain
+    /// (docs/notebook/2026-11-27-light-tree-in-lanes.md).
     static constexpr float kMostFarSamples = 0.6f;
 
     LightSampleGroup& group(std::uint32_t i) { return samples_[i / kGroupSize]; }
