@@ -85,15 +85,14 @@ if(PL_CUDA_BUILT)
     # 445, a template parameter that only the body of a lambda uses.
     set(PL_CUDA_FLAGS -fmad=false --expt-relaxed-constexpr -diag-suppress=20012,445 -Xcompiler=-Wall,-Wextra,-ffp-contract=off)
     # Variants of the kernels among which only a device can decide; see docs/cuda.md.
-    set(PL_CUDA_AGGREGATE_ATOMICS ON CACHE BOOL "threads of a warp add up training samples before they are added to memory")
     set(PL_CUDA_GUIDED_BLOCKS 2 CACHE STRING "blocks of a processor in which the threads of guided methods go through segments together")
-    set(PL_CUDA_GUIDED_STEPS 3 CACHE STRING "the steps of a segment at most, 1 to 3; 0: each thread goes by itself")
+    set(PL_CUDA_GUIDED_STEPS 5 CACHE STRING "the steps of a segment at most, 1 to 5; 0: each thread goes by itself")
     set(PL_CUDA_LOBE_BLOCKS 1 CACHE STRING "the same blocks of kernels with lobes")
-    set(PL_CUDA_LOBE_STEPS 3 CACHE STRING "the same steps of kernels with lobes")
+    set(PL_CUDA_LOBE_STEPS 5 CACHE STRING "the same steps of kernels with lobes")
     set(PL_CUDA_SMALL_SCENES 64 CACHE STRING "most triangles of a scene that is traced from shared memory, at most 64; 0: none is")
     set(PL_CUDA_POSTPONE_LEAVES ON CACHE BOOL "leaves of larger hierarchies are postponed, so that lanes descend together")
     add_library(pl_cuda_options INTERFACE)
-    target_compile_definitions(pl_cuda_options INTERFACE PL_CUDA_AGGREGATE_ATOMICS=$<BOOL:${PL_CUDA_AGGREGATE_ATOMICS}>
+    target_compile_definitions(pl_cuda_options INTERFACE
         PL_CUDA_GUIDED_BLOCKS=${PL_CUDA_GUIDED_BLOCKS}
         PL_CUDA_GUIDED_STEPS=${PL_CUDA_GUIDED_STEPS}
         PL_CUDA_LOBE_BLOCKS=${PL_CUDA_LOBE_BLOCKS}

@@ -22,13 +22,13 @@
 #define PL_CUDA_GUIDED_BLOCKS 2
 #endif
 #ifndef PL_CUDA_GUIDED_STEPS
-#define PL_CUDA_GUIDED_STEPS 3
+#define PL_CUDA_GUIDED_STEPS 5
 #endif
 #ifndef PL_CUDA_LOBE_BLOCKS
 #define PL_CUDA_LOBE_BLOCKS 1
 #endif
 #ifndef PL_CUDA_LOBE_STEPS
-#define PL_CUDA_LOBE_STEPS 3
+#define PL_CUDA_LOBE_STEPS 5
 #endif
 
 namespace pl::cuda {
@@ -50,7 +50,7 @@ struct TraceBlock {
 /// through it in steps. The fastest measured variant: docs/notebook/2026-11-26-first-hour-on-a-gpu.md.
 template <FeatureSet F, class M>
 constexpr TraceBlock trace_block() {
-    constexpr int kMostSteps = F.has(Feature::NextEventEstimation) ? 3 : 2;  // without shadow rays the third is empty
+    constexpr int kMostSteps = F.has(Feature::NextEventEstimation) ? 5 : 2;  // without shadow rays the third is empty
     if constexpr (F.has_any(kLobeFeatures))
         return TraceBlock::of(384, PL_CUDA_LOBE_BLOCKS, PL_CUDA_LOBE_STEPS);
     else if constexpr (GuidedMethod<M>)

@@ -77,8 +77,8 @@ __device__ inline void raise_to(std::uint32_t& maximum, std::uint32_t value) {
 }
 
 /// Barriers by which all threads of a block begin each step of a segment together: the instructions of a segment exceed the instruction
-/// caches, those of a step do not. `kSteps`: 0, no barriers; 1, the segment is one step; 2, the path's ray, and shading; 3, the path's ray,
-/// shading, and the shadow ray.
+/// caches, those of a step do not. `kSteps`: 0, no barriers; 1, the segment is one step; 2, the path's ray, and shading; from 3 on, the
+/// shadow ray; from 4 on, scattering; 5, the light sample with the roulette.
 template <int kSteps>
 struct StepOfBlock {
     /// Begins step 1. Whether a condition holds in any thread of the block; without barriers, in this one. All threads must call it.
@@ -88,11 +88,11 @@ struct StepOfBlock {
 #endif
         return condition;
     }
-    /// Begins step 2 or 3. All threads must call it.
-    template <int kStep>
+    /// Begins a step that there is if a segment has at least `kLeast` of them. All threads must call it.
+    template <int kLeast>
     static __device__ void begin() {
 #ifdef __CUDA_ARCH__
-        if constexpr (kSteps >= kStep) __syncthreads();
+        if constexpr (kSteps >= kLeast) __syncthreads();
 #endif
     }
 };

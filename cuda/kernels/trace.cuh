@@ -109,8 +109,13 @@ __global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().thr
         if (has_path) hit = closest_solid_hit<kFeatures>(setup.scene, intersector, state.ray);
         Step::template begin<2>();
         PassCounters fresh;
+        SegmentEnd<kFeatures, M> end;
+        if (has_path) status = shade_segment<kFeatures>(context, hit, state, end, fresh.path);
+        Step::template begin<5>();
         ShadowRequest<M> shadow;
-        if (has_path) status = shade_segment<kFeatures>(context, hit, state, shadow, fresh.path);
+        if (has_path) status = sample_light_at_end<kFeatures>(context, hit, status, end, state, shadow, fresh.path);
+        Step::template begin<4>();
+        if (has_path) status = scatter_at_end<kFeatures>(context, status, end, state, fresh.path);
         Step::template begin<3>();
         if (has_path) {
             status = connect_segment<kFeatures>(context, intersector, shadow, status, state, fresh.path);

@@ -216,11 +216,6 @@ for file in "${paths[@]}"; do
     done
     expect "$file: double divisions and roots" "$(count "$file" 32767 '(div|sqrt)[a-z.]*\.f64')" -eq 0
 done
-expect "default: aggregated records" "$(count default 32767 'match\.')" -eq 0
-if [[ $mode != quick ]]; then
-    expect "precomputed: aggregated records" "$(count precomputed 32767 'match\.')" -eq 0
-    expect "reinforcement: aggregated records" "$(count reinforcement 0 'match\.')" -gt 0
-fi
 
 # most_stack FILE PATTERN: of the kernels that trace paths with these sets of effects
 most_stack() { registers "$1" | awk -v sets="$2" '$2 == "trace_paths" && $3 ~ sets && $5 > most { most = $5 } END { print most + 0 }'; }

@@ -7,12 +7,6 @@
 
 #include "core/kernel/base/platform.h"
 
-/// Whether threads of a warp on a device add up their training samples for the same cell before they add to it. Set by the option
-/// of this name of the build, so that a device can decide.
-#ifndef PL_CUDA_AGGREGATE_ATOMICS
-#define PL_CUDA_AGGREGATE_ATOMICS 1
-#endif
-
 namespace pl {
 
 /// Number of threads that add to the same sums. A single host thread needs no atomic instruction, which costs several
@@ -56,21 +50,11 @@ PL_HD inline void store_if_zero(std::uint8_t& target, std::uint8_t value) {
 #endif
 }
 
-/// Adds a value to a sum and 1 to its count. On the device the threads of a warp with the same target may reduce their
-/// values first: neighboring paths meet the same volume and are guided into the same few cells.
+/// Adds a value to a sum and 1 to its count. That threads of a warp with the same target add up their values first changes no time
+/// (docs/notebook/2026-11-27-second-hour-on-a-gpu.md).
 PL_HD inline void atomic_add_counted(std::int64_t& sum, std::int64_t value, std::uint32_t& count, Writers writers) {
-#if defined(__CUDA_ARCH__) && PL_CUDA_AGGREGATE_ATOMICS
-    const unsigned peers = __match_any_sync(__activemask(), reinterpret_cast<unsigned long long>(&sum));
-    std::int64_t total = 0;
-    for (unsigned rest = peers; rest != 0; rest &= rest - 1)
-        total += __shfl_sync(peers, static_cast<long long>(value), __ffs(static_cast<int>(rest)) - 1);
-    if (static_cast<int>(threadIdx.x % 32u) != __ffs(static_cast<int>(peers)) - 1) return;
-    atomic_add(sum, total, writers);
-    atomic_add(count, static_cast<std::uint32_t>(__popc(peers)), writers);
-#else
     atomic_add(sum, value, writers);
     atomic_add(count, 1u, writers);
-#endif
 }
 
 }  // namespace pl

@@ -291,27 +291,6 @@ struct SurfaceAtHit {
     }
 };
 
-/// Shades the end of a segment and scatters the path: its ray is then the next segment. `request_light(from)` is called at a vertex
-/// that reflects, before the roulette there.
-template <FeatureSet F, Method M, class RequestLight>
-PL_HD_INLINED PathStatus extend_path(const PathContext<M>& context, const Hit& hit, const VertexNumbers& numbers,
-                                     PathState<F, M>& state, const RequestLight& request_light,
-                                     PathCounters& counters) {
-    ScatterPoint<F, M> from;
-    typename M::Sample sample{};
-    const StepOutput<M> out{sample, counters};
-    PathStatus status =
-        shade_hit<F, M>(context, hit, SurfaceAtHit<F>{context.scene, hit, state.ray}, state, {out, from});
-    if (status == PathStatus::Continues) {
-        request_light(from);
-        status = continue_path(context, hit, numbers.scatter.w, state, from, out);
-    }
-    if (status == PathStatus::Continues)
-        status = scatter(context.method, from, scatter_numbers(context.settings, state, numbers.scatter), state, out);
-    context.method.record(sample);
-    return status;
-}
-
 /// Adds a light sample whose shadow ray is not occluded.
 template <FeatureSet F, Method M>
 PL_HD inline void connect_light(const M& method, const ShadowRequest<M>& shadow, PathState<F, M>& state,

@@ -7,30 +7,48 @@
 
 namespace pl {
 
-/// The light sample at a vertex of a single path, for extend_path(). A class, because its call has to be inlined in kernels: else
-/// the path's state is in memory there.
-template <FeatureSet F, Method M>
-struct LightAtOnce {
-    const PathContext<M>& context;
-    const Vec4f& u;
-    PathState<F, M>& state;
-    ShadowRequest<M>& shadow;
-
-    PL_HD_INLINED void operator()(const ScatterPoint<F, M>& from) const {
-        request_light(context, from, u, state, shadow);
-    }
+/// The vertex at the end of a path's segment, for the steps shade_segment(), sample_light_at_end() and scatter_at_end().
+template <FeatureSet F, class M>
+struct SegmentEnd {
+    VertexNumbers numbers;
+    ScatterPoint<F, M> from;  ///< valid only while the path continues
+    typename M::Sample sample{};
 };
 
-/// Shades the end of a path's segment, samples a light there, and scatters the path. `shadow` comes in cleared.
+/// Shades the end of a path's segment. `end` comes in cleared.
 template <FeatureSet F, Method M>
 PL_HD_INLINED PathStatus shade_segment(const PathContext<M>& context, const Hit& hit, PathState<F, M>& state,
-                                       ShadowRequest<M>& shadow, PathCounters& counters) {
-    const VertexNumbers numbers = draw_vertex_numbers<F>(context.settings, state);
-    const LightAtOnce<F, M> request{context, numbers.light, state, shadow};
-    return extend_path<F>(context, hit, numbers, state, request, counters);
+                                       SegmentEnd<F, M>& end, PathCounters& counters) {
+    end.numbers = draw_vertex_numbers<F>(context.settings, state);
+    return shade_hit<F, M>(context, hit, SurfaceAtHit<F>{context.scene, hit, state.ray}, state,
+                           {{end.sample, counters}, end.from});
 }
 
-/// Traces the shadow ray of a light sample, if there is one; the next branch follows the end of one. `status`: of shade_segment().
+/// Samples a light at the end of a path's segment, if the path may continue there, and then plays the roulette. `shadow` comes in
+/// cleared. `status`: of shade_segment().
+template <FeatureSet F, Method M>
+PL_HD_INLINED PathStatus sample_light_at_end(const PathContext<M>& context, const Hit& hit, PathStatus status,
+                                             SegmentEnd<F, M>& end, PathState<F, M>& state, ShadowRequest<M>& shadow,
+                                             PathCounters& counters) {
+    if (status != PathStatus::Continues) return status;
+    request_light(context, end.from, end.numbers.light, state, shadow);
+    return continue_path<F, M>(context, hit, end.numbers.scatter.w, state, end.from, {end.sample, counters});
+}
+
+/// Scatters a path at the end of its segment, if it continues there: its ray is then the next segment. `status`: of
+/// sample_light_at_end().
+template <FeatureSet F, Method M>
+PL_HD_INLINED PathStatus scatter_at_end(const PathContext<M>& context, PathStatus status, SegmentEnd<F, M>& end,
+                                        PathState<F, M>& state, PathCounters& counters) {
+    if (status == PathStatus::Continues)
+        status =
+            scatter<F, M>(context.method, end.from, scatter_numbers(context.settings, state, end.numbers.scatter),
+                          state, {end.sample, counters});
+    context.method.record(end.sample);
+    return status;
+}
+
+/// Traces the shadow ray of a light sample, if there is one; the next branch follows the end of one. `status`: of scatter_at_end().
 template <FeatureSet F, Method M, Intersector I>
 PL_HD_INLINED PathStatus connect_segment(const PathContext<M>& context, const I& intersector,
                                          const ShadowRequest<M>& shadow, PathStatus status, PathState<F, M>& state,
@@ -53,7 +71,10 @@ PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& i
                                        PathCounters& counters) {
     const Hit hit = closest_solid_hit<F>(context.scene, intersector, state.ray);
     ShadowRequest<M> shadow;
-    const PathStatus status = shade_segment<F>(context, hit, state, shadow, counters);
+    SegmentEnd<F, M> end;
+    PathStatus status = shade_segment<F>(context, hit, state, end, counters);
+    status = sample_light_at_end<F>(context, hit, status, end, state, shadow, counters);
+    status = scatter_at_end<F>(context, status, end, state, counters);
     return connect_segment<F>(context, intersector, shadow, status, state, counters);
 }
 
