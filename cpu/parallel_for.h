@@ -24,15 +24,6 @@ void run_on_threads(int threads, Body&& body) {
 #endif
 }
 
-/// Number of hardware threads.
-inline int hardware_threads() {
-#ifdef PL_TSAN
-    return usable_threads();
-#else
-    return omp_get_num_procs();
-#endif
-}
-
 /// Calls body(range) for every chunk of the queue, in any order.
 template <class Body>
 void parallel_for(int threads, ChunkQueue& queue, Body&& body) {

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/base/usable_threads.h"
+
 namespace pl {
 
 /// Carries the first exception of several threads, none of which may let one escape, to the caller.
@@ -31,9 +33,6 @@ private:
     std::mutex mutex_;
     std::exception_ptr first_;
 };
-
-/// Number of threads that run at once here.
-inline int usable_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 /// Calls body(thread) for thread = 0 .. threads - 1 concurrently, waits for all, and rethrows the first exception.
 template <class Body>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "core/base/parallel_chunks.h"
 #include "core/fields/extent.h"
 #include "core/fields/radical_inverse.h"
 #include "core/fields/walk.h"
@@ -57,15 +58,20 @@ void choose_among(std::span<SurfacePoint> points, std::size_t count, std::vector
 
 }  // namespace
 
-std::vector<SurfacePoint> walk_from_camera(const HostScene& scene, const Camera& camera) {
-    std::vector<SurfacePoint> points;
+std::vector<SurfacePoint> walk_from_camera(const HostScene& scene, const Camera& camera, int threads) {
+    using Points = std::vector<SurfacePoint>;
     const SceneView view = scene.view();
-    for (std::uint32_t i = 0; i < kCameraPaths; ++i) {
-        const Vec2f film{(static_cast<float>(i) + 0.5f) / static_cast<float>(kCameraPaths), radical_inverse(i)};
-        const Ray ray = generate_ray(camera, film, {1.0f, 1.0f});
-        walk_path(view, ray, Rng{kPlacementSeed, Stream::Placement, i, kCameraWalk}, points);
-    }
-    return points;
+    const auto walk = [&](Points& points, IndexRange paths) {
+        for (std::uint32_t i = paths.begin; i < paths.end; ++i) {
+            const Vec2f film{(static_cast<float>(i) + 0.5f) / static_cast<float>(kCameraPaths), radical_inverse(i)};
+            const Ray ray = generate_ray(camera, film, {1.0f, 1.0f});
+            walk_path(view, ray, Rng{kPlacementSeed, Stream::Placement, i, kCameraWalk}, points);
+        }
+    };
+    Points all;
+    for (const Points& points : sums_of_chunks(kCameraPaths, kWalkChunk, threads, Points{}, walk))
+        all.insert(all.end(), points.begin(), points.end());
+    return all;
 }
 
 std::vector<SurfacePoint> choose_sites(std::vector<SurfacePoint> points, std::size_t count) {

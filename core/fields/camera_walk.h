@@ -12,7 +12,7 @@ namespace pl {
 
 /// Points on guided surfaces, on the sides that paths from the camera, a pinhole, arrive at. The paths sample the BSDF, and their
 /// length alone ends them. Deterministic in the scene and the camera.
-std::vector<SurfacePoint> walk_from_camera(const HostScene& scene, const Camera& camera);
+std::vector<SurfacePoint> walk_from_camera(const HostScene& scene, const Camera& camera, int threads = 1);
 
 /// Sites of `count` volumes among the points, each for an equal share of them; all points if they are fewer. Points are parted
 /// at the median of a normal's component while their normals are too different for one volume, then of a coordinate; the site of

@@ -1,8 +1,10 @@
 // A light walk through the scene: paths from the lights find the sides of surfaces that light reaches.
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
+#include "core/base/parallel_chunks.h"
 #include "core/fields/surfaces.h"
 #include "core/fields/walk.h"
 #include "core/kernel/base/rng.h"
@@ -88,19 +90,21 @@ public:
         : scene_(scene), view_(scene.view()), intersector_{view_}, surfaces_(surfaces),
           sphere_(bounding_sphere(scene)), arrivals_(surfaces.list.size()) {}
 
-    std::vector<Arrivals> walk_all() {
+    std::vector<Arrivals> walk_all(int threads) {
         const bool sky = !is_black(scene_.environment) || !view_.far_lights.empty();
         std::vector<Source> sources;
         if (sky) sources.push_back(Source::Environment);
         if (!scene_.lights.empty()) sources.push_back(Source::Lights);
         if (!scene_.delta_lights.empty()) sources.push_back(Source::DeltaLights);
         if (sources.empty()) return arrivals_;
-        for (std::uint32_t i = 0; i < kWalks; ++i) {
-            const Rng rng{kPlacementSeed, Stream::Placement, i, kLightWalk};
-            const Vec4f u = rng.draw(0, Purpose::Placement);
-            const Vec4f v = rng.draw(1, Purpose::Placement);
-            walk(start(sources[i % sources.size()], u, v), rng);
-        }
+        for_chunks(kWalks, kWalkChunk, threads, [&](IndexRange walks) {
+            for (std::uint32_t i = walks.begin; i < walks.end; ++i) {
+                const Rng rng{kPlacementSeed, Stream::Placement, i, kLightWalk};
+                const Vec4f u = rng.draw(0, Purpose::Placement);
+                const Vec4f v = rng.draw(1, Purpose::Placement);
+                walk(start(sources[i % sources.size()], u, v), rng);
+            }
+        });
         return arrivals_;
     }
 
@@ -121,10 +125,12 @@ private:
             const SurfacePoint point = make_surface_point<FeatureSet{}>(view_, hit, -ray.direction);
             const LayeredBsdf bsdf = make_bsdf<kLobeFeatures>(view_, point, hit_weights(hit), -ray.direction);
             if (!bsdf.scatters()) return;
-            if (surface != kNoSurface) ++(point.front ? arrivals_[surface].front : arrivals_[surface].back);
+            if (surface != kNoSurface) count(point.front ? arrivals_[surface].front : arrivals_[surface].back);
             ray = spawn_ray(point, leave_surface(point, bsdf, rng.draw(vertex + 2, Purpose::Placement)));
         }
     }
+
+    static void count(std::uint32_t& arrivals) { std::atomic_ref(arrivals).fetch_add(1, std::memory_order_relaxed); }
 
     const HostScene& scene_;
     SceneView view_;
@@ -136,10 +142,10 @@ private:
 
 }  // namespace
 
-std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& surfaces) {
+std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& surfaces, int threads) {
     std::vector<LitSides> sides;
     sides.reserve(surfaces.list.size());
-    for (const Arrivals& a : LightWalker(scene, surfaces).walk_all()) {
+    for (const Arrivals& a : LightWalker(scene, surfaces).walk_all(threads)) {
         const std::uint32_t total = a.front + a.back;
         sides.push_back({total == 0 || a.front * kStrayRatio > total, a.back * kStrayRatio > total});
     }

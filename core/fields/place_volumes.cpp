@@ -20,8 +20,8 @@ struct Side {
     std::uint32_t volumes = 0;
 };
 
-std::vector<Side> lit_sides_of(const HostScene& scene, const Surfaces& surfaces) {
-    const std::vector<LitSides> lit = find_lit_sides(scene, surfaces);
+std::vector<Side> lit_sides_of(const HostScene& scene, const Surfaces& surfaces, int threads) {
+    const std::vector<LitSides> lit = find_lit_sides(scene, surfaces, threads);
     std::vector<Side> sides;
     for (std::uint32_t i = 0; i < surfaces.list.size(); ++i)
         for (const bool front : {true, false})
@@ -83,22 +83,23 @@ void for_each_point(const SceneView& scene, const Surface& surface, const Side& 
 }  // namespace
 
 void for_each_site(const HostScene& scene, const FieldSettings& settings, const Camera* camera, std::uint32_t density,
-                   const std::function<void(const SurfacePoint&)>& visit) {
+                   int threads, const std::function<void(const SurfacePoint&)>& visit) {
     const Surfaces surfaces = find_surfaces(scene);
-    std::vector<Side> sides = lit_sides_of(scene, surfaces);
+    std::vector<Side> sides = lit_sides_of(scene, surfaces, threads);
     const auto volumes = static_cast<std::uint32_t>(volume_count(settings, scene.light_clusters.size()));
     const std::uint32_t by_paths = camera != nullptr && sides.size() > volumes ? volumes / 2 : 0;
     share_out(sides, volumes - by_paths);
     for (const Side& side : sides)
         for_each_point(scene.view(), surfaces.list[side.surface], side, density * side.volumes, visit);
     if (by_paths == 0) return;
-    const std::vector<SurfacePoint> sites = choose_sites(walk_from_camera(scene, *camera), density * by_paths);
+    const std::vector<SurfacePoint> sites =
+        choose_sites(walk_from_camera(scene, *camera, threads), density * by_paths);
     std::ranges::for_each(sites, visit);
 }
 
-HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings, const Camera* camera) {
+HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings, const Camera* camera, int threads) {
     HostVolumes volumes;
-    for_each_site(scene, settings, camera, 1, [&](const SurfacePoint& site) {
+    for_each_site(scene, settings, camera, 1, threads, [&](const SurfacePoint& site) {
         volumes.sites.push_back(site);
         volumes.normals.push_back(site.geometric_normal);
     });

@@ -29,7 +29,7 @@ std::vector<std::vector<SurfacePoint>> cells_of(const HostScene& scene, const Fi
     std::vector<std::uint32_t> entry(placement.sites.count, kNotSplit);
     for (std::uint32_t i = 0; i < split.size(); ++i) entry[split[i]] = i;
     std::vector<SurfacePoint> points;
-    for_each_site(scene, settings, camera, kPointsPerVolume,
+    for_each_site(scene, settings, camera, kPointsPerVolume, threads,
                   [&](const SurfacePoint& point) { points.push_back(point); });
     std::vector<std::int32_t> volumes(points.size());
     for_chunks(static_cast<std::uint32_t>(points.size()), kPointChunk, threads, [&](IndexRange range) {

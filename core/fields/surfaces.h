@@ -38,6 +38,6 @@ using LitSides = std::array<bool, 2>;
 
 /// Decided by a seeded light walk: a side counts as lit if it receives more than a fiftieth of the arrivals at its
 /// surface. Surfaces without arrivals are taken as lit from the front.
-std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& surfaces);
+std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& surfaces, int threads = 1);
 
 }  // namespace pl

@@ -8,6 +8,9 @@ namespace pl {
 /// Placement depends on the scene and the camera, not on the picture's seed.
 inline constexpr std::uint64_t kPlacementSeed = 0x706c6163656d656e;
 
+/// Walks of one claim of a thread.
+inline constexpr std::uint32_t kWalkChunk = 256;
+
 /// Sample indices of the random numbers of the walks.
 inline constexpr std::uint32_t kLightWalk = 0;
 inline constexpr std::uint32_t kCameraWalk = 1;

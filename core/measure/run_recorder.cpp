@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/timer.h"
-#include "core/base/work_queue.h"
 
 namespace pl {
 namespace {
@@ -74,10 +73,7 @@ double charged_seconds(const Clocks& clocks) {
     return clocks.place + clocks.precompute + clocks.learn + clocks.render;
 }
 
-int measuring_threads(const Session& session) {
-    const int threads = session.backend().threads;
-    return threads > 0 ? threads : usable_threads();
-}
+int measuring_threads(const Session& session) { return session.backend().free_threads(); }
 
 Curve RunSeries::error_over_time() const {
     Curve curve;

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/usable_threads.h"
 
 namespace pl {
+
+int BackendInfo::free_threads() const { return threads > 0 ? threads : usable_threads(); }
 
 std::size_t film_pixels(int width, int height) {
     constexpr std::int64_t kMostPixels = 0xffffffff;

@@ -34,8 +34,11 @@ struct BackendInfo {
     std::string name;         ///< "cpu"
     std::string device;       ///< name of the processor
     std::string intersector;  ///< acceleration structure of the uploaded scene
-    int threads = 0;
-    int ranks = 1;  ///< processes that share its work
+    int threads = 0;          ///< of the host; 0: it runs on a device
+    int ranks = 1;            ///< processes that share its work
+
+    /// Threads for work between passes: those of the back end, which waits; all if it takes none of the host.
+    int free_threads() const;
 };
 
 /// Stop flag: a running pass starts no further paths. Paths under way are finished: dropping them would drop long

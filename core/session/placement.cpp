@@ -10,7 +10,7 @@ namespace {
 std::shared_ptr<const HostVolumes> with_lookup(const RenderBackend& backend, const HostScene& scene,
                                                HostVolumes volumes, Lookup lookup) {
     volumes.grid = {};
-    if (lookup == Lookup::Grid) volumes.grid = build_volume_grid(scene, volumes, backend.info().threads);
+    if (lookup == Lookup::Grid) volumes.grid = build_volume_grid(scene, volumes, backend.info().free_threads());
     return std::make_shared<const HostVolumes>(std::move(volumes));
 }
 
@@ -21,7 +21,8 @@ void Placement::ensure(RenderBackend& backend, const HostScene& scene, const Fie
     if (volumes_) return;
     const Stopwatch watch;
     shape_ = make_field_shape(scene, settings);
-    volumes_ = with_lookup(backend, scene, place_volumes(scene, settings, &camera), shape_.lookup);
+    HostVolumes placed = place_volumes(scene, settings, &camera, backend.info().free_threads());
+    volumes_ = with_lookup(backend, scene, std::move(placed), shape_.lookup);
     backend.upload_volumes(volumes_, shape_);
     seconds_ = watch.seconds();
 }

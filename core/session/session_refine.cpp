@@ -1,7 +1,6 @@
 // The part of Session that refines the placement of volumes while a method learns.
 #include <utility>
 
-#include "core/base/work_queue.h"
 #include "core/session/refinement_schedule.h"
 #include "core/session/session.h"
 
@@ -21,9 +20,7 @@ void Session::split_volumes(MethodId method, std::size_t most) {
     HostField learned = backend_->download_field(method);
     const FieldShape& shape = placement_.shape();
     const HostVolumes& volumes = *placement_.volumes();
-    // A back end on a device takes no threads of the host: all of them are free.
-    const int own_threads = backend_->info().threads;
-    const int threads = own_threads > 0 ? own_threads : usable_threads();
+    const int threads = backend_->info().free_threads();
     const std::vector<std::uint32_t> split = volumes_to_split(field_view(shape, volumes, learned), most, threads);
     const Camera camera = view_camera();
     RefinedPlacement refined = refine_placement(*scene_.packed(), settings_.field, &camera,

@@ -93,7 +93,10 @@ TEST_CASE("Placements by paths are reproducible and scale with the scene") {
     SceneDescription description = ball_over_floor();
     Camera camera = camera_at(0.0f);
     const HostVolumes first = place_volumes(pack_scene(description), asking_for(400), &camera);
-    CHECK(same_sites(first, place_volumes(pack_scene(description), asking_for(400), &camera)));
+    for (const int threads : {1, 3}) {
+        INFO(threads << " threads");
+        CHECK(same_sites(first, place_volumes(pack_scene(description), asking_for(400), &camera, threads)));
+    }
     transform(description, false, 1024.0f, Vec3f{0.0f});
     camera.eye *= 1024.0f;
     HostVolumes scaled = place_volumes(pack_scene(description), asking_for(400), &camera);

@@ -199,7 +199,8 @@ TEST_CASE("Nothing reflects and nothing is placed") {
 
 TEST_CASE("Placement is the same every time and scales with the scene bit by bit") {
     const HostVolumes first = place_volumes(pack_scene(lit_room()), asking_for(1000));
-    const HostVolumes second = place_volumes(pack_scene(lit_room()), asking_for(1000));
+    const HostVolumes second = place_volumes(pack_scene(lit_room()), asking_for(1000), nullptr, 3);
+    REQUIRE(second.sites.size() == first.sites.size());
     for (const int exponent : {0, -20, 20}) {
         const float scale = std::ldexp(1.0f, exponent);
         SceneDescription description = lit_room();

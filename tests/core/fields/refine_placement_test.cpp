@@ -147,7 +147,7 @@ TEST_CASE("A child stands well away from its parent, and takes about half of its
     REQUIRE(parents.size() > 20);
     field.take(std::move(refined));
     std::vector<int> served(field.count(), 0);
-    for_each_site(field.scene, field.settings, nullptr, 200, [&](const SurfacePoint& point) {
+    for_each_site(field.scene, field.settings, nullptr, 200, 1, [&](const SurfacePoint& point) {
         ++served[static_cast<std::size_t>(field.view().volume_at(point))];
     });
     double share = 0.0;
@@ -198,7 +198,7 @@ TEST_CASE("All lookups find the same volumes of a refined placement") {
     tree.lookup = Lookup::KdTree;
     grid.lookup = Lookup::Grid;
     std::size_t points = 0;
-    for_each_site(field.scene, field.settings, nullptr, 20, [&](const SurfacePoint& point) {
+    for_each_site(field.scene, field.settings, nullptr, 20, 1, [&](const SurfacePoint& point) {
         const std::int32_t expected = find_volume(all, point.position, point.geometric_normal);
         REQUIRE(expected != kNoVolume);
         REQUIRE(find_volume(tree, point.position, point.geometric_normal) == expected);
