@@ -163,7 +163,7 @@ private:
         if (!tracer_) throw Error(ErrorKind::Runtime, "CPU back end: expected a scene, got none");
         const SampledScene sampled = with_delta_lights(scene_->view(), path);
         return {.scene = sampled.scene,
-                .lights = lights_,
+                .lights = &lights_,
                 .path = sampled.path,
                 .paths = paths,
                 .stop = stop,
@@ -280,7 +280,7 @@ std::unique_ptr<RenderBackend> make_cpu_backend(const CpuSettings& settings) {
         throw Error(ErrorKind::Usage,
                     fmt::format("paths per batch: expected 1 to {}, got {}", kMostPaths, settings.batch_paths));
     CpuSettings resolved = settings;
-    if (resolved.threads == 0) resolved.threads = hardware_threads();
+    if (resolved.threads == 0) resolved.threads = usable_threads();
     return std::make_unique<CpuBackend>(resolved);
 }
 

@@ -12,7 +12,6 @@ struct LearnedLightsBlock {
     explicit LearnedLightsBlock(const M&) {}
     const float* numbers() const { return nullptr; }
     void find(const VertexBlock<F, M>&) {}
-    LearnedLights at(const VertexBlock<F, M>&, std::uint32_t) const { return {}; }
 
     LearnedLightsGroup groups[kBlockGroups];
 };
@@ -22,13 +21,10 @@ requires(learns_lights<F, M>) struct LearnedLightsBlock<F, M> {
     const float* numbers() const { return method_.field.light_cdf.data; }
     void find(const VertexBlock<F, M>& block) {
         for (std::uint32_t i = 0; i < block.count(); ++i) {
-            const LearnedLights learned = at(block, i);
+            const LearnedLights learned = learned_lights<F>(method_, block.vertex(i)).learned();
             const std::ptrdiff_t first = learned.empty() ? LearnedLightsGroup::kNone : learned.cdf - numbers();
             groups[i / kGroupSize].first[i % kGroupSize] = static_cast<std::int32_t>(first);
         }
-    }
-    LearnedLights at(const VertexBlock<F, M>& block, std::uint32_t i) const {
-        return method_.learned_lights(block.vertex(i));
     }
 
     LearnedLightsGroup groups[kBlockGroups];
@@ -41,8 +37,8 @@ private:
 template <FeatureSet F, Method M>
 class LightBlock {
 public:
-    /// `lights`: of the scene; an empty table: lights are sampled path by path.
-    LightBlock(const PathContext<M>& context, const LightTable& lights,
+    /// `lights`: of the scene; without them lights are sampled path by path.
+    LightBlock(const PathContext<M>& context, const LightTable* lights,
                const LaneKernels& kernels = best_lane_kernels())
         : context_(context), lights_(lights), kernels_(kernels), learned_(context.method) {}
 
@@ -104,7 +100,7 @@ private:
 
     /// Whether enough light samples are of emissive triangles for vectors to be worth their time.
     bool lanes_pay() const {
-        if (lights_.empty()) return false;
+        if (lights_ == nullptr || lights_->empty()) return false;
         [[maybe_unused]] const SceneView& scene = context_.scene;
         if constexpr (F.has(Feature::EnvironmentMap)) {
             if (scene.far_probability > kMostFarSamples) return false;
@@ -115,7 +111,7 @@ private:
         return true;
     }
     void sample_in_lanes(const VertexBlock<F, M>& block) {
-        const LightRows lights = lights_.rows(context_.scene.light_power);
+        const LightRows lights = lights_->rows(context_.scene.light_power);
         if constexpr (F.has(Feature::ManyLights)) {
             const LightTree& tree = context_.scene.light_tree;
             if (!tree.empty()) {
@@ -140,7 +136,8 @@ private:
                              const B& bsdf) const {
         const Vec4f u = block.light_numbers(i);
         if (!chooses_in_lanes(block, i))
-            return sample_direct_light<F>(context_.scene, surface, bsdf, u, learned_.at(block, i));
+            return sample_direct_light<F>(context_.scene, surface, bsdf, u,
+                                          learned_lights<F>(context_.method, block.vertex(i)).learned());
         const ChosenLight chosen{group(i).light[i % kGroupSize], group(i).probability[i % kGroupSize]};
         return direct_light_from<F>(
             context_.scene, surface, bsdf,
@@ -184,7 +181,7 @@ private:
     }
 
     const PathContext<M>& context_;
-    const LightTable& lights_;
+    const LightTable* lights_;
     LaneKernels kernels_;
     LightSampleGroup samples_[kBlockGroups];
     LearnedLightsBlock<F, M> learned_;
@@ -192,7 +189,7 @@ private:
 template <FeatureSet F, Method M>
 requires(!F.has(Feature::NextEventEstimation)) class LightBlock<F, M> {
 public:
-    LightBlock(const PathContext<M>&, const LightTable&) {}
+    LightBlock(const PathContext<M>&, const LightTable*) {}
 };
 
 }  // namespace pl

@@ -23,17 +23,13 @@ namespace pl {
 /// Arguments common to all passes.
 struct PassSetup {
     SceneView scene;
-    const LightTable& lights = no_lights();  ///< of the scene; empty: lights are sampled path by path
+    const LightTable* lights = nullptr;  ///< of the scene; without them lights are sampled path by path
     PathSettings path;
     IndexRange paths{0, kToTheLast};  ///< numbers of the paths to trace, clamped to those of the pass
     const StopFlag* stop = nullptr;
     int threads = 1;
     std::uint32_t batch_paths = 1024;
 
-    static const LightTable& no_lights() {
-        static const LightTable none;
-        return none;
-    }
     /// Chunks of the paths to trace; the pass has `count` paths.
     ChunkQueue chunks(std::uint32_t count) const {
         return ChunkQueue(paths.begin, std::min(paths.end, count), kPathChunk, stop);
@@ -209,19 +205,20 @@ private:
         const typename M::Light light = method_.light_sampled(states_[path].memory, vertices_.vertex(k),
                                                               wanted ? lights_.estimate(k, chain) : LightEstimate{});
         if (!wanted) return guided_.record_light(light, false);
-        ShadowRequest<M>& shadow = shadows_[shadow_count_];
+        ShadowRequest<M>& shadow = add_shadow_ray(path, lights_.shadow_ray(k, vertices_.primitive(k)));
         shadow.contribution = lights_.contribution(k);
         shadow.light = light;
-        shadow_rays_.set_ray(shadow_count_, lights_.shadow_ray(k, vertices_.primitive(k)));
-        shadow_paths_[shadow_count_++] = path;
     }
     void request_layered(std::uint32_t k, std::uint32_t path) {
         ShadowRequest<M> shadow;
         weigh_light(method_, vertices_.layered(k), lights_.sample_layered(vertices_, k), states_[path], shadow);
         if (!shadow.wanted) return guided_.record_light(shadow.light, false);
-        shadow_rays_.set_ray(shadow_count_, shadow.ray);
+        add_shadow_ray(path, shadow.ray) = shadow;
+    }
+    ShadowRequest<M>& add_shadow_ray(std::uint32_t path, const Ray& ray) {
+        shadow_rays_.set_ray(shadow_count_, ray);
         shadow_paths_[shadow_count_] = path;
-        shadows_[shadow_count_++] = shadow;
+        return shadows_[shadow_count_++];
     }
 
     /// Scatters the paths that continue from the block's vertices.

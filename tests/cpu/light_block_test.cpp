@@ -62,7 +62,7 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
     Comparison result;
     const auto block = std::make_unique<VertexBlock<kLights, KeepsEstimates>>();
     const LightTable table(context.scene);
-    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, table, kernels);
+    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, &table, kernels);
     DirectionGroup directions[kBlockGroups];
     Uniforms random(5);
     for (std::uint32_t size = 0; size <= kPathBlock; ++size) {
@@ -143,7 +143,7 @@ TEST_CASE("Lights inside of glass that absorbs are sampled as by one path alone"
     const PathContext<DefaultMethod> context{view, method, settings};
     const auto block = std::make_unique<VertexBlock<kGlass, DefaultMethod>>();
     const LightTable table(view);
-    const auto lights = std::make_unique<LightBlock<kGlass, DefaultMethod>>(context, table);
+    const auto lights = std::make_unique<LightBlock<kGlass, DefaultMethod>>(context, &table);
     Uniforms random(8);
     int lit = 0;
     int absorbed = 0;
@@ -186,7 +186,7 @@ TEST_CASE("A scene without lights has no light samples") {
     const Context context{view, method, settings};
     const auto block = std::make_unique<VertexBlock<kLights, KeepsEstimates>>();
     const LightTable table(view);
-    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, table);
+    const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, &table);
     Uniforms random(7);
     block->clear();
     const RoomPoint at = random_point(view, random);

@@ -62,7 +62,7 @@ TreeComparison compare_tree(const SceneView& scene, const ChoosesLights& method,
     const PathContext<ChoosesLights> context{scene, method, settings};
     const LightTable table(scene);
     const auto block = std::make_unique<VertexBlock<kMany, ChoosesLights>>();
-    const auto lights = std::make_unique<LightBlock<kMany, ChoosesLights>>(context, table, kernels);
+    const auto lights = std::make_unique<LightBlock<kMany, ChoosesLights>>(context, &table, kernels);
     DirectionGroup directions[kBlockGroups];
     Uniforms random(6);
     TreeComparison result;
