@@ -8,7 +8,7 @@
 namespace pl {
 namespace {
 
-/// Guided paths per volume that a field has learned from: until the first it proves nothing, from the second on it is known how good
+/// Paths per volume that a field has learned from: until the first it proves nothing, from the second on it is known how good
 /// it becomes. With 1000 volumes they are 12 and 40 trials of 16384 paths (docs/notebook/2026-11-25-choice-at-512.md).
 constexpr double kYoung = 190.0;
 constexpr double kMature = 640.0;
@@ -30,17 +30,17 @@ constexpr double kFallOfFastLearning = 0.75;
 /// found light tells nothing, and at most 1.1 where guiding does not pay.
 constexpr double kRatioOfHiddenLight = 1.5;
 
-/// Rounds of the warm-up: after the first number it ends with a gain that is clear.
-constexpr std::uint32_t kFewestWarmUpRounds = kFewestBeforeVariance + 2;
+/// Rounds of the warm-up by paths of the baseline, and of both kinds. A field that has learned from 6 rounds of the baseline is as good
+/// as one from 12 guided rounds, and much better where light is hidden (docs/notebook/2026-11-27-unguided-warm-up.md).
+constexpr std::uint32_t kBaselineRounds = 6;
 constexpr std::uint32_t kMostWarmUpRounds = 12;
-/// Rounds that measure the baseline, whose variance does not change.
-constexpr std::uint32_t kBaselineRounds = 4;
-/// From this round on a warm-up gives up if learning does not help: if a gain is below kLeastGainOfLearning, and by both errors less
-/// than kRiseOfLearning times the first one that was measured.
-constexpr std::uint32_t kFirstFlatRound = 7;
-constexpr double kRiseOfLearning = 1.1;
-/// It does not give up on a gain below this one: there few paths have found light so far, and their variance is not yet reliable.
-constexpr double kLeastCertainGain = 0.6;
+/// From this round on a warm-up ends with a clear gain; or with a loss, if the gain by both errors is below this one, and the field has
+/// learned from so many paths per volume.
+constexpr std::uint32_t kFirstRoundOfChoice = kBaselineRounds + 2;
+constexpr double kLeastGainOfWarmUp = 0.87;
+constexpr double kLearnedBeforeLoss = 100.0;
+/// Measurements of guided paths until the variance that later ones are compared to.
+constexpr std::uint32_t kMeasurementsOfFirstVariance = 5;
 /// Rounds after which a field that another film interrupts is trusted.
 constexpr std::uint32_t kRoundsOfTrust = 4;
 
@@ -48,6 +48,8 @@ constexpr std::uint32_t kRoundsOfTrust = 4;
 /// after the pass behind the first if a warm-up has measured the baseline before.
 constexpr std::uint32_t kFirstTrial = kFewestBeforeVariance;
 constexpr std::uint32_t kSecondTrial = kFirstTrial + 2;
+/// Number of a pass before which a trial of guided paths may be over that of the last one.
+constexpr double kTrialSpacing = 1.25;
 /// Samples of the baseline that tell its variance well enough.
 constexpr double kEnoughSamples = 131072.0;
 /// Weight of the guided passes before the newest one: their variances fall while a field learns, and are noisy.
@@ -69,20 +71,13 @@ PathCosts PathCosts::of(std::size_t triangles, FeatureSet features) {
     return costs;
 }
 
-double PathCosts::of_path(const PassCounters& counters) const {
-    const PathCounters& path = counters.path;
-    const bool is_guided = path.method.lookups > 0;
-    const double work = static_cast<double>(path.segments) * (segment + (is_guided ? guidance : 0.0));
-    return work / static_cast<double>(std::max<std::uint64_t>(counters.paths, 1));
-}
-
-void PathEfficiency::add(const PassCounters& counters, const PathCosts& costs) {
+void PathEfficiency::add(const PassCounters& counters, double segment_cost) {
     const auto samples = static_cast<double>(counters.variance.samples);
     const auto paths = static_cast<double>(counters.paths);
     variance_ += counters.variance.mean() * samples;
     relative_ += counters.variance.relative_mean() * samples;
     samples_ += samples;
-    cost_ += costs.of_path(counters) * paths;
+    cost_ += segment_cost * static_cast<double>(counters.path.segments);
     paths_ += paths;
     lit_ += paths - static_cast<double>(counters.zero_contribution_paths);
 }
@@ -97,33 +92,33 @@ void PathEfficiency::fade(double share) {
 }
 
 Trial GuidingChoice::warm_up_round() const {
-    const bool is_measured = rounds_ >= kFewestBeforeVariance + kBaselineRounds;
-    return {.is_guided = true, .is_baseline = rounds_ >= kFewestBeforeVariance && !is_measured};
+    const bool is_guided = rounds_ >= kBaselineRounds;
+    return {.is_guided = is_guided, .is_baseline = !is_guided};
 }
 
 void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters& baseline,
                                   const GuidingTerms& terms) {
     ++rounds_;
-    baseline_.add(baseline, terms.costs);
-    learn(guided, terms);
-    measure_guided(guided, terms);
+    learn(guided.paths + baseline.paths, terms);
+    if (baseline.variance.samples > 0) baseline_.add(baseline, terms.costs.segment);
+    if (guided.paths > 0) measure_guided(guided, terms);
     spend(guided, baseline, terms);
+    if (guided.paths == 0) return;
     predict();
     // Without a measurable variance of either the field is trusted: the baseline may have found no light at all.
     const double gain = gain_.value_or(kLeastGain);
     const double least = least_gain();
-    const bool is_clear = rounds_ >= kFewestWarmUpRounds && gain >= std::max(least, kLeastGainOfLearning);
+    const bool is_clear = rounds_ >= kFirstRoundOfChoice && gain >= std::max(least, kLeastGainOfLearning);
     if (is_clear || rounds_ >= kMostWarmUpRounds)
         belief_ = gain >= least;
-    else if (is_flat())
+    else if (loses_clearly())
         belief_ = false;
     found_hidden_light_ = belief_.value_or(false) && finds_hidden_light();
 }
 
-bool GuidingChoice::is_flat() const {
-    if (rounds_ < kFirstFlatRound || !gain_ || !first_gain_ || finds_hidden_light()) return false;
-    return *gain_ >= kLeastCertainGain && *gain_ < kLeastGainOfLearning &&
-           gain_of_both_ < kRiseOfLearning * *first_gain_;
+bool GuidingChoice::loses_clearly() const {
+    const bool is_known = rounds_ >= kFirstRoundOfChoice && learned_ >= kLearnedBeforeLoss && gain_;
+    return is_known && gain_of_both_ < kLeastGainOfWarmUp && !finds_hidden_light();
 }
 
 Trial GuidingChoice::trial_before(std::uint32_t pass) const {
@@ -131,7 +126,11 @@ Trial GuidingChoice::trial_before(std::uint32_t pass) const {
     const bool is_first =
         (pass == kFirstTrial && baseline_trials_ == 0) || (pass == kSecondTrial && baseline_trials_ == 1);
     const bool is_affordable = spent_ + trial_cost_ <= kExploration * static_cast<double>(pass);
-    if (!pays()) return {.is_guided = is_affordable};
+    if (!pays()) {
+        const bool is_due = is_affordable && (!last_trial_ || pass >= kTrialSpacing * *last_trial_);
+        const double passes = (kExploration * static_cast<double>(pass) - spent_) / guided_cost();
+        return is_due ? Trial{.is_guided = true, .passes = passes} : Trial{};
+    }
     const bool is_further = pass > kSecondTrial && is_affordable && baseline_.samples() < kEnoughSamples;
     return {.is_baseline = is_first || is_further};
 }
@@ -140,9 +139,9 @@ void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& guided
                                   const GuidingTerms& terms) {
     last_trial_ = pass;
     if (baseline.paths > 0) ++baseline_trials_;
-    baseline_.add(baseline, terms.costs);
+    baseline_.add(baseline, terms.costs.segment);
     if (guided.paths > 0) {
-        learn(guided, terms);
+        learn(guided.paths, terms);
         measure_guided(guided, terms);
     }
     spend(guided, baseline, terms);
@@ -151,31 +150,35 @@ void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& guided
 }
 
 void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms) {
-    if (pays()) learn(counters, terms);
+    if (pays()) learn(counters.paths, terms);
     if (pass < kFewestBeforeVariance) return;
     if (pays())
         measure_guided(counters, terms);
     else
-        baseline_.add(counters, terms.costs);
+        baseline_.add(counters, terms.costs.segment);
     predict();
     if (decides_after(pass)) decide();
 }
 
 void GuidingChoice::measure_guided(const PassCounters& counters, const GuidingTerms& terms) {
     guided_.fade(kKept);
-    guided_.add(counters, terms.costs);
-    if (!first_variance_ && ++guided_measurements_ >= kFewestWarmUpRounds && guided_.is_measured())
+    guided_.add(counters, terms.costs.guided_segment());
+    if (!first_variance_ && ++guided_measurements_ >= kMeasurementsOfFirstVariance && guided_.is_measured())
         first_variance_ = guided_.variance();
 }
 
 void GuidingChoice::spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms) {
-    const double ratio = guided_.is_measured() && baseline_.is_measured() ? guided_.cost() / baseline_.cost() : 1.0;
-    trial_cost_ = (static_cast<double>(guided.paths) * ratio + static_cast<double>(baseline.paths)) / terms.pixels;
+    trial_cost_ =
+        (static_cast<double>(guided.paths) * guided_cost() + static_cast<double>(baseline.paths)) / terms.pixels;
     spent_ += trial_cost_;
 }
 
-void GuidingChoice::learn(const PassCounters& guided, const GuidingTerms& terms) {
-    learned_ += terms.learns ? static_cast<double>(guided.paths) / terms.volumes : kMature;
+double GuidingChoice::guided_cost() const {
+    return guided_.is_measured() && baseline_.is_measured() ? guided_.cost() / baseline_.cost() : 1.0;
+}
+
+void GuidingChoice::learn(std::uint64_t paths, const GuidingTerms& terms) {
+    learned_ += terms.learns ? static_cast<double>(paths) / terms.volumes : kMature;
 }
 
 void GuidingChoice::predict() {
@@ -187,7 +190,6 @@ void GuidingChoice::predict() {
     const double relative = costs * baseline_.relative_variance() / guided_.relative_variance();
     const bool is_known = relative > 0.0 && std::isfinite(relative);
     gain_of_both_ = is_known ? std::min(std::sqrt(gain * relative), kMostOverGain * gain) : gain;
-    if (!first_gain_) first_gain_ = gain_of_both_;
 }
 
 bool GuidingChoice::finds_hidden_light() const {

@@ -27,14 +27,14 @@ struct PathCosts {
     /// By the scene alone, so that every back end makes the same choice.
     static PathCosts of(std::size_t triangles, FeatureSet features);
 
-    /// Of the mean path of some passes.
-    double of_path(const PassCounters& counters) const;
+    double guided_segment() const { return segment + guidance; }
 };
 
 /// Variance and cost of the paths of one method: sums over passes, of which newer ones may weigh more.
 class PathEfficiency {
 public:
-    void add(const PassCounters& counters, const PathCosts& costs);
+    /// `segment_cost`: of a segment of these paths.
+    void add(const PassCounters& counters, double segment_cost);
     /// Reduces the weight of the passes so far to this share.
     void fade(double share);
 
@@ -78,6 +78,7 @@ struct GuidingTerms {
 struct Trial {
     bool is_guided = false;
     bool is_baseline = false;
+    double passes = 0.0;  ///< of guided paths that the trial may have; 0: as few as suffice
 
     bool is_due() const { return is_guided || is_baseline; }
     friend bool operator==(Trial, Trial) = default;
@@ -88,7 +89,8 @@ public:
     /// Whether rounds of trials are due before the first pass: for a field that is unknown.
     bool is_warming_up() const { return !belief_; }
     std::uint32_t rounds() const { return rounds_; }
-    /// The trial of the next round. The samples of guided ones must form the film that variances are measured against.
+    /// The trial of the next round: first of the baseline, whose paths must train a field that learns, then guided ones. Their samples
+    /// must form the film that variances are measured against.
     Trial warm_up_round() const;
     void measure_round(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
 
@@ -99,11 +101,12 @@ public:
     /// Whether passes are guided from now on, as far as is known.
     bool pays() const { return belief_.value_or(true); }
     /// The trial that is due before the pass of this number, of the method that passes do not use: two of the baseline before the first
-    /// decision of a film; else as few as take kExploration of the time of all passes, the warm-up included.
+    /// decision of a film; else as few as take kExploration of the time of all passes, the warm-up included. Those of guided paths
+    /// become rare and large: many small ones would keep a device waiting.
     Trial trial_before(std::uint32_t pass) const;
     void measure_trial(std::uint32_t pass, const PassCounters& guided, const PassCounters& baseline,
                        const GuidingTerms& terms);
-    /// After the complete pass of this number.
+    /// After the pass of this number, and before the next choice; the counters are of all passes since the last one.
     void measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms);
 
     /// The choice for another film with the same field: the belief is kept until it is measured again.
@@ -121,7 +124,7 @@ public:
         PathEfficiency::each_value(choice.baseline_, fn);
         all(choice.first_variance_, choice.guided_measurements_, choice.learned_, choice.rounds_,
             choice.baseline_trials_, choice.last_trial_, choice.spent_, choice.trial_cost_, choice.gain_,
-            choice.gain_of_both_, choice.first_gain_, choice.belief_, choice.found_hidden_light_);
+            choice.gain_of_both_, choice.belief_, choice.found_hidden_light_);
     }
 
     /// Predicted equal-time factor of guiding over the baseline, by variance. Empty before the first decision of this film.
@@ -132,14 +135,15 @@ private:
     static constexpr double kExploration = 0.02;
 
     void measure_guided(const PassCounters& counters, const GuidingTerms& terms);
-    void learn(const PassCounters& guided, const GuidingTerms& terms);
+    void learn(std::uint64_t paths, const GuidingTerms& terms);
     void predict();
+    double guided_cost() const;  ///< of a guided path, in paths of the baseline
     void spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
     /// Whether guided paths bring light far more often, so that the baseline's variance is only that of the light it has found.
     bool finds_hidden_light() const;
     double least_gain() const;
-    /// Whether a warm-up measures a reliable loss that has hardly shrunk since its first measurement.
-    bool is_flat() const;
+    /// Whether the guided rounds of a warm-up have measured a clear loss.
+    bool loses_clearly() const;
     bool decides_after(std::uint32_t pass) const;
     void decide();
 
@@ -147,15 +151,14 @@ private:
     PathEfficiency baseline_;
     std::optional<double> first_variance_;  ///< of guided paths, after a few measurements
     std::uint32_t guided_measurements_ = 0;
-    double learned_ = 0.0;                     ///< guided paths so far per volume of the field
+    double learned_ = 0.0;                     ///< paths per volume of the field that have trained it so far
     std::uint32_t rounds_ = 0;                 ///< of the warm-up
     std::uint32_t baseline_trials_ = 0;        ///< after it
     std::optional<std::uint32_t> last_trial_;  ///< number of the pass after it
     double spent_ = 0.0;                       ///< on rounds and trials, in passes of the baseline
     double trial_cost_ = 0.0;                  ///< likewise, on the last one
     std::optional<double> gain_;
-    double gain_of_both_ = 0.0;  ///< geometric mean of gain_ and that by relative variance, bounded
-    std::optional<double> first_gain_;
+    double gain_of_both_ = 0.0;        ///< geometric mean of gain_ and that by relative variance, bounded
     std::optional<bool> belief_;       ///< whether guiding pays
     bool found_hidden_light_ = false;  ///< by the warm-up
 };

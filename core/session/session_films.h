@@ -30,7 +30,7 @@ struct FilmProgress {
     GuidingChoice guiding{};
     bool is_guided = true;    ///< the pass under way, or the last one; of methods without a field, too
     bool trains = true;       ///< the pass under way, or the last one, trains the field if its method learns
-    PassCounters measured{};  ///< of the pass under way
+    PassCounters measured{};  ///< since guiding was last chosen
     std::uint32_t unguided_passes = 0;
     TrialProgress trial{};
     std::uint64_t trial_paths = 0;

@@ -2,7 +2,9 @@
 #include <algorithm>
 
 #include "core/base/timer.h"
+#include "core/session/path_settings.h"
 #include "core/session/session.h"
+#include "core/session/update_schedule.h"
 
 namespace pl {
 namespace {
@@ -36,10 +38,11 @@ GuidingTerms Session::guiding_terms(FilmSlot slot) const {
             .learns = info_of(slot.method).learns};
 }
 
-/// Decides about the pass that begins. Returns false if the trials before it were stopped: the next call resumes them.
+/// Decides about the passes that begin, up to the next update. Returns false if the trials before them were stopped: the next call
+/// resumes them.
 bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
-    if (!chooses_guiding(slot)) return true;
     FilmProgress& state = films_[slot];
+    if (!chooses_guiding(slot) || !is_updated_after(state.passes)) return true;
     const bool knows = info_of(slot.method).learns && (field(slot.method).passes > 0 || is_frozen(slot.method));
     if (knows && state.guiding.is_warming_up()) state.guiding.trust_field();
     if (!warms_up(slot)) state.guiding.begin_guided();
@@ -48,7 +51,7 @@ bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
     if (trial.is_due()) {
         if (!run_trial(slot, trial, stop)) return false;
         state.guiding.measure_trial(state.passes, state.trial.guided, state.trial.baseline, guiding_terms(slot));
-        finish_trial(slot);
+        finish_trial(slot, trial.is_guided && info_of(slot.method).learns && !is_frozen(slot.method));
     }
     state.measured = {};
     const bool is_guided = state.guiding.pays();
@@ -63,24 +66,25 @@ bool Session::warm_up(FilmSlot slot, const StopFlag* stop) {
     FilmProgress& state = films_[slot];
     while (state.guiding.is_warming_up()) {
         if (!run_trial(slot, state.guiding.warm_up_round(), stop)) return false;
+        const bool has_trained = trains_by_baseline(slot);
         state.guiding.measure_round(state.trial.guided, state.trial.baseline, guiding_terms(slot));
-        finish_trial(slot);
+        finish_trial(slot, has_trained);
     }
     backend_->reset_film(slot, settings_.width, settings_.height);
     return true;
 }
 
 bool Session::run_trial(FilmSlot slot, Trial trial, const StopFlag* stop) {
-    return (!trial.is_guided || run_trial_paths(slot, true, stop)) &&
-           (!trial.is_baseline || run_trial_paths(slot, false, stop));
+    return (!trial.is_guided || run_trial_paths(slot, trial, true, stop)) &&
+           (!trial.is_baseline || run_trial_paths(slot, trial, false, stop));
 }
 
 /// Traces the rest of a trial's paths of one kind. Returns false if it was stopped.
-bool Session::run_trial_paths(FilmSlot slot, bool is_guided, const StopFlag* stop) {
+bool Session::run_trial_paths(FilmSlot slot, Trial trial, bool is_guided, const StopFlag* stop) {
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
     PassCounters& done = is_guided ? state.trial.guided : state.trial.baseline;
-    PassRequest request = trial_request(slot, is_guided, stop);
+    PassRequest request = trial_request(slot, trial, is_guided, stop);
     const std::uint32_t end = request.subset.count(pixel_count());
     request.first_pixel = static_cast<std::uint32_t>(done.paths);
     if (request.first_pixel >= end) return true;
@@ -95,41 +99,57 @@ bool Session::run_trial_paths(FilmSlot slot, bool is_guided, const StopFlag* sto
     return done.paths >= end;
 }
 
-/// Guided paths of the warm-up come to the film, because they are measured against it; all others leave it as it is.
-PassRequest Session::trial_request(FilmSlot slot, bool is_guided, const StopFlag* stop) const {
+/// Whether paths of the baseline train the field: in a warm-up, by the kernel of the method that learns. They find light that the
+/// field does not know as often as light that it knows, and their variance is measured, too.
+bool Session::trains_by_baseline(FilmSlot slot) const {
+    return films_[slot].guiding.is_warming_up() && info_of(slot.method).learns && !is_frozen(slot.method);
+}
+
+/// Paths of the warm-up come to the film, because later ones are measured against it; all others leave it as it is.
+PassRequest Session::trial_request(FilmSlot slot, Trial trial, bool is_guided, const StopFlag* stop) const {
     const FilmProgress& state = films_[slot];
     const bool is_warm_up = state.guiding.is_warming_up();
-    PassRequest request = pass_request(slot, is_guided ? slot.method : baseline_method(), stop);
+    PassRequest request =
+        pass_request(slot, is_guided || trains_by_baseline(slot) ? slot.method : baseline_method(), stop);
+    if (!is_guided) {
+        request.path = path_settings(settings_, baseline_method());
+        request.path.roulette = RouletteRule::Albedo;
+        request.mixture = MixtureSettings::unguided();
+    }
     request.path.stream = is_warm_up ? Stream::WarmUp : Stream::Trial;
-    request.use = is_warm_up && is_guided ? SampleUse::Measured : SampleUse::Trial;
     request.trains = !is_frozen(slot.method);
     // A small picture has few paths to spare beside its passes.
     request.subset.step = trial_step() * (is_guided || warms_up(slot) ? 1 : 2);
     if (is_warm_up) {
         request.sample = state.guiding.rounds();
-        request.passes = state.guiding.rounds() + 1;
+        request.passes = request.sample + 1;
+        request.use = request.sample < kFewestBeforeVariance ? SampleUse::Film : SampleUse::Measured;
     } else {
+        if (trial.passes > 0.0)
+            request.subset.step = static_cast<std::uint32_t>(
+                std::clamp(1.0 / trial.passes, 1.0, static_cast<double>(request.subset.step)));
         request.subset.phase = state.passes % request.subset.step;
+        request.use = SampleUse::Trial;
     }
     return request;
 }
 
 /// The field learns from a trial at once.
-void Session::finish_trial(FilmSlot slot) {
+void Session::finish_trial(FilmSlot slot, bool has_trained) {
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
-    const bool has_trained = state.trial.guided.paths > 0 && !is_frozen(slot.method) && info_of(slot.method).learns;
     if (has_trained) update_trained(slot.method);
     state.trial = {};
     state.learn_seconds += watch.seconds();
 }
 
-/// Measures the pass that has ended.
+/// Counts the pass that has ended, and measures all since the last choice if another one follows.
 void Session::measure_guiding(FilmSlot slot) {
     if (!chooses_guiding(slot)) return;
     FilmProgress& state = films_[slot];
-    state.guiding.measure_pass(state.passes, state.measured, guiding_terms(slot));
     if (!state.is_guided) ++state.unguided_passes;
+    if (is_updated_after(state.passes + 1))
+        state.guiding.measure_pass(state.passes, state.measured, guiding_terms(slot));
 }
 
 std::optional<GuidingStatus> Session::guiding_status(FilmSlot slot) const {

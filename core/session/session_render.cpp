@@ -131,15 +131,16 @@ Progress Session::render_passes(FilmSlot slot, const StopFlag* stop, std::uint32
 /// The number of passes from the present one on, at most `most`, between which nothing changes but the number of the sample.
 std::uint32_t Session::equal_passes(FilmSlot slot, std::uint32_t most) const {
     const FilmProgress& state = films_[slot];
-    if (slot.view != View::Beauty || state.next_pixel > 0 || chooses_guiding(slot)) return 1;
-    if (!learns_from(slot)) return most;
-    if (has_early_settings(field(slot.method).passes)) return 1;
-    if (is_frozen(slot.method)) return most;
+    if (slot.view != View::Beauty || state.next_pixel > 0) return 1;
+    if (learns_from(slot) && has_early_settings(field(slot.method).passes)) return 1;
+    const bool learns = learns_from(slot) && state.is_guided && !is_frozen(slot.method);
+    if (!learns && !chooses_guiding(slot)) return most;
+    const std::uint64_t left = learns ? settings_.learn_passes - trained_passes(slot.method) : most;
+    const auto is_equal = [&](std::uint32_t pass) {
+        return !is_updated_after(pass) && (!learns || is_trained_by_pass(slot, pass) == state.trains);
+    };
     std::uint32_t passes = 1;
-    const std::uint64_t left = settings_.learn_passes - trained_passes(slot.method);
-    while (passes < most && passes < left && !is_updated_after(state.passes + passes) &&
-           is_trained_by_pass(slot, state.passes + passes) == state.trains)
-        ++passes;
+    while (passes < most && passes < left && is_equal(state.passes + passes)) ++passes;
     return passes;
 }
 

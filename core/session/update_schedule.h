@@ -22,14 +22,16 @@ constexpr std::uint32_t end_of_first_part(std::uint32_t done, std::uint32_t coun
     return static_cast<std::uint32_t>(std::min(end, std::uint64_t{count}));
 }
 
-/// Updates follow each of the first sixteen passes, then every addition of about an eighth to the passes: tables are
+/// Passes from one update to the next: 1 for each of the first sixteen passes, then about an eighth of the passes so far. Tables are
 /// never far behind, and updates, whose cost does not depend on the number of training samples, stay rare in small
 /// pictures. `passes` are complete ones since the film was last cleared, so that tables adapt to a moved camera at
 /// once.
-constexpr bool is_updated_after(std::uint32_t passes) {
-    const std::uint32_t interval = std::clamp(std::bit_floor(passes) / 8, 1u, kMostPassesWithoutUpdate);
-    return passes % interval == 0;
+constexpr std::uint32_t update_interval(std::uint32_t passes) {
+    return std::clamp(std::bit_floor(passes) / 8, 1u, kMostPassesWithoutUpdate);
 }
+/// Whether an update follows so many complete passes. Guiding is chosen anew only here, too, so that a back end may render all passes
+/// up to here at once.
+constexpr bool is_updated_after(std::uint32_t passes) { return passes % update_interval(passes) == 0; }
 
 /// Training samples per volume, on the mean, from which on a field gains little by further ones: 64 per cell of the default
 /// (docs/notebook/2026-11-25-rare-training.md).
@@ -37,10 +39,12 @@ inline constexpr std::uint64_t kEnoughSamplesPerVolume = 16384;
 /// One in as many passes trains a field that has enough of them: paths that make none take an eighth less time.
 inline constexpr std::uint32_t kTrainingInterval = 4;
 
-/// Whether a pass trains the field; `pass` is its number since the film was last cleared. From the 32nd on each update follows
-/// a pass that trains.
+/// Whether a pass trains the field; `pass` is its number since the film was last cleared. Passes that train a field with enough
+/// samples are the last ones before an update, together, so that a back end may render those before them at once.
 constexpr bool is_trained_by(std::uint32_t pass, bool has_enough_samples) {
-    return !has_enough_samples || pass < kMostPassesWithoutUpdate || (pass + 1) % kTrainingInterval == 0;
+    const std::uint32_t interval = std::max(update_interval(pass), kTrainingInterval);
+    return !has_enough_samples || pass < kMostPassesWithoutUpdate ||
+           pass % interval >= interval - interval / kTrainingInterval;
 }
 
 }  // namespace pl

@@ -1,5 +1,7 @@
 // Sessions that give up guiding where it does not pay: the same bits for any threads and stops, trials and warm-ups leave no trace
 // in the film, and rare trials go on learning.
+#include "core/scene/pack_scene.h"
+#include "core/session/path_settings.h"
 #include "tests/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shipped_scenes.h"
@@ -25,7 +27,7 @@ TEST_CASE("Guiding is given up where it changes nothing but the cost, by both gu
     const SceneDescription scene = shipped_scene("door");
     for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
         Session session = make_session(scene, settings_without_gain(scene, method));
-        render_passes(session, kPasses);
+        render_passes(session, 2 * kPasses);
         const auto status = session.guiding_status(slot_of(session));
         REQUIRE(status);
         REQUIRE(status->gain);
@@ -35,7 +37,7 @@ TEST_CASE("Guiding is given up where it changes nothing but the cost, by both gu
         CHECK_FALSE(status->pays);
         CHECK(status->unguided_passes > kPasses / 4);
         CHECK(status->trial_paths >= 40 * 40);  // two trials of half the pixels, then guided ones
-        CHECK(session.snapshot(slot_of(session)).counters.paths == std::uint64_t{kPasses} * 40 * 40);
+        CHECK(session.snapshot(slot_of(session)).counters.paths == std::uint64_t{2 * kPasses} * 40 * 40);
     }
 }
 
@@ -198,5 +200,44 @@ TEST_CASE("The first passes behind a warm-up weigh less where it has found hidde
         INFO(name);
         CHECK(session.guiding_status(slot_of(session))->unguided_passes == 0);
         CHECK(session.backend_access().read_film(slot_of(session)).weight == std::uint64_t{weight} * 256 * 256);
+    }
+}
+
+// In gallery lights are chosen by a learned choice, too.
+TEST_CASE("Paths of the baseline that train a field have the bits of those that do not") {
+    for (const char* name : {"door", "gallery"}) {
+        INFO(name);
+        const SceneDescription scene = shipped_scene(name);
+        Session session = make_session(scene, small_settings(scene, {MethodId::Reinforcement, true}, 40, 40), 2);
+        render_passes(session, 4);
+        const RenderSettings& settings = session.settings();
+        RenderBackend& backend = session.backend_access();
+        PassRequest request{.slot = slot_of(session),
+                            .features = kEveryFeature,
+                            .path = path_settings(settings, baseline_method()),
+                            .camera = make_camera(settings.camera, settings.width, settings.height),
+                            .learning = settings.field.learning,
+                            .sample = 9};
+        request.path.roulette = RouletteRule::Albedo;
+        const auto render = [&] {
+            backend.reset_film(request.slot, settings.width, settings.height);
+            const PassCounters counters = backend.run_pass(request);
+            return std::pair(counters.path, backend.read_film(request.slot).mean);
+        };
+        request.is_guided = false;
+        const auto [baseline, expected] = render();
+        CHECK(baseline.method.records == 0);
+        request.is_guided = true;
+        const auto [guided, other] = render();
+        CHECK_FALSE(same_bits(other, expected));
+        request.mixture = MixtureSettings::unguided();
+        const auto [trained, film] = render();
+        CHECK(same_bits(film, expected));
+        CHECK(trained.segments == baseline.segments);
+        CHECK(trained.shadow_rays == baseline.shadow_rays);
+        CHECK(trained.method.records > 0);
+        request.mixture.learned_lights = 1;
+        const auto [lit, by_lights] = render();
+        CHECK(same_bits(by_lights, expected) == (std::string_view(name) == "door"));
     }
 }

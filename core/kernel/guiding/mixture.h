@@ -15,10 +15,14 @@ inline constexpr float kMaxBsdfFraction = 0.9f;
 /// albedo^2 / a per vertex: with this fraction it stays finite for albedos below 0.7.
 inline constexpr float kInitialBsdfFraction = 0.5f;
 
-/// How guided methods choose the BSDF fraction.
+/// How guided methods choose the BSDF fraction, and lights.
 struct MixtureSettings {
     std::uint32_t learned = 1;  ///< 1: each volume's own fraction, if the method learns while it renders
     float bsdf_fraction = kInitialBsdfFraction;  ///< in [0.1, 1], of all volumes, if it is not learned
+    std::uint32_t learned_lights = 1;            ///< 1: lights by each volume's learned choice, if there is one
+
+    /// Directions and lights of the baseline method: the field is trained, but guides nothing.
+    static constexpr MixtureSettings unguided() { return {.learned = 0, .bsdf_fraction = 1.0f, .learned_lights = 0}; }
 
     friend bool operator==(const MixtureSettings&, const MixtureSettings&) = default;
 };

@@ -104,7 +104,7 @@ struct Guided : Target<F> {
 
     /// Learned choice of lights at a vertex.
     PL_HD LearnedLights learned_lights(const Vertex& vertex) const {
-        return vertex.is_served() ? field.lights_at(vertex) : LearnedLights{};
+        return vertex.is_served() && mixture.learned_lights != 0 ? field.lights_at(vertex) : LearnedLights{};
     }
 
 private:
