@@ -34,6 +34,8 @@ constexpr double kRatioOfHiddenLight = 1.5;
 /// as one from 12 guided rounds, and much better where light is hidden (docs/notebook/2026-11-27-unguided-warm-up.md).
 constexpr std::uint32_t kBaselineRounds = 6;
 constexpr std::uint32_t kMostWarmUpRounds = 12;
+/// Guided rounds begin at once where fewer paths of the baseline bring light: they find the rest of it.
+constexpr double kLeastLitShare = 0.25;
 /// From this round on a warm-up ends with a clear gain; or with a loss, if the gain by both errors is below this one, and the field has
 /// learned from so many paths per volume.
 constexpr std::uint32_t kFirstRoundOfChoice = kBaselineRounds + 2;
@@ -92,7 +94,8 @@ void PathEfficiency::fade(double share) {
 }
 
 Trial GuidingChoice::warm_up_round() const {
-    const bool is_guided = rounds_ >= kBaselineRounds;
+    const bool is_dark = baseline_.is_measured() && baseline_.lit_share() < kLeastLitShare;
+    const bool is_guided = is_dark || rounds_ >= kBaselineRounds;
     return {.is_guided = is_guided, .is_baseline = !is_guided};
 }
 
@@ -108,7 +111,9 @@ void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters
     // Without a measurable variance of either the field is trusted: the baseline may have found no light at all.
     const double gain = gain_.value_or(kLeastGain);
     const double least = least_gain();
-    const bool is_clear = rounds_ >= kFirstRoundOfChoice && gain >= std::max(least, kLeastGainOfLearning);
+    // Where light is hidden a young field has not yet met its own rare bright paths, whatever its gain.
+    const bool is_clear =
+        rounds_ >= kFirstRoundOfChoice && gain >= std::max(least, kLeastGainOfLearning) && !finds_hidden_light();
     if (is_clear || rounds_ >= kMostWarmUpRounds)
         belief_ = gain >= least;
     else if (loses_clearly())
