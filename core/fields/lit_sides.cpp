@@ -152,4 +152,10 @@ std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& sur
     return sides;
 }
 
+LitSurfaces find_lit_surfaces(const HostScene& scene, int threads) {
+    LitSurfaces found{find_surfaces(scene), {}};
+    found.lit = find_lit_sides(scene, found.surfaces, threads);
+    return found;
+}
+
 }  // namespace pl

@@ -7,7 +7,6 @@
 
 #include "core/fields/camera_walk.h"
 #include "core/fields/radical_inverse.h"
-#include "core/fields/surfaces.h"
 
 namespace pl {
 namespace {
@@ -20,12 +19,11 @@ struct Side {
     std::uint32_t volumes = 0;
 };
 
-std::vector<Side> lit_sides_of(const HostScene& scene, const Surfaces& surfaces, int threads) {
-    const std::vector<LitSides> lit = find_lit_sides(scene, surfaces, threads);
+std::vector<Side> lit_sides_of(const LitSurfaces& found) {
     std::vector<Side> sides;
-    for (std::uint32_t i = 0; i < surfaces.list.size(); ++i)
+    for (std::uint32_t i = 0; i < found.surfaces.list.size(); ++i)
         for (const bool front : {true, false})
-            if (lit[i][front ? 0 : 1]) sides.push_back({i, front, surfaces.list[i].area});
+            if (found.lit[i][front ? 0 : 1]) sides.push_back({i, front, found.surfaces.list[i].area});
     return sides;
 }
 
@@ -82,29 +80,35 @@ void for_each_point(const SceneView& scene, const Surface& surface, const Side& 
 
 }  // namespace
 
-void for_each_site(const HostScene& scene, const FieldSettings& settings, const Camera* camera, std::uint32_t density,
-                   int threads, const std::function<void(const SurfacePoint&)>& visit) {
-    const Surfaces surfaces = find_surfaces(scene);
-    std::vector<Side> sides = lit_sides_of(scene, surfaces, threads);
-    const auto volumes = static_cast<std::uint32_t>(volume_count(settings, scene.light_clusters.size()));
-    const std::uint32_t by_paths = camera != nullptr && sides.size() > volumes ? volumes / 2 : 0;
+void for_each_site(const SiteSource& source, std::uint32_t density,
+                   const std::function<void(const SurfacePoint&)>& visit) {
+    const HostScene& scene = source.scene;
+    std::vector<Side> sides = lit_sides_of(source.surfaces);
+    const auto volumes = static_cast<std::uint32_t>(volume_count(source.settings, scene.light_clusters.size()));
+    const std::uint32_t by_paths = source.camera != nullptr && sides.size() > volumes ? volumes / 2 : 0;
     share_out(sides, volumes - by_paths);
     for (const Side& side : sides)
-        for_each_point(scene.view(), surfaces.list[side.surface], side, density * side.volumes, visit);
+        for_each_point(scene.view(), source.surfaces.surfaces.list[side.surface], side, density * side.volumes,
+                       visit);
     if (by_paths == 0) return;
     const std::vector<SurfacePoint> sites =
-        choose_sites(walk_from_camera(scene, *camera, threads), density * by_paths);
+        choose_sites(walk_from_camera(scene, *source.camera, source.threads), density * by_paths);
     std::ranges::for_each(sites, visit);
 }
 
-HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings, const Camera* camera, int threads) {
+HostVolumes place_volumes(const SiteSource& source) {
     HostVolumes volumes;
-    for_each_site(scene, settings, camera, 1, threads, [&](const SurfacePoint& site) {
+    for_each_site(source, 1, [&](const SurfacePoint& site) {
         volumes.sites.push_back(site);
         volumes.normals.push_back(site.geometric_normal);
     });
     volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
     return volumes;
+}
+
+HostVolumes place_volumes(const HostScene& scene, const FieldSettings& settings, const Camera* camera, int threads) {
+    const LitSurfaces surfaces = find_lit_surfaces(scene, threads);
+    return place_volumes({scene, surfaces, settings, camera, threads});
 }
 
 }  // namespace pl

@@ -23,16 +23,14 @@ constexpr std::uint32_t kSplitChunk = 4;
 constexpr std::uint32_t kNotSplit = 0xffffffffu;
 
 /// Points of the Voronoi cell of each of `split`: uniform by area, or by area and by paths, as the volumes are.
-std::vector<std::vector<SurfacePoint>> cells_of(const HostScene& scene, const FieldSettings& settings,
-                                                const Camera* camera, const PlacementView& placement,
-                                                std::span<const std::uint32_t> split, int threads) {
+std::vector<std::vector<SurfacePoint>> cells_of(const SiteSource& source, const PlacementView& placement,
+                                                std::span<const std::uint32_t> split) {
     std::vector<std::uint32_t> entry(placement.sites.count, kNotSplit);
     for (std::uint32_t i = 0; i < split.size(); ++i) entry[split[i]] = i;
     std::vector<SurfacePoint> points;
-    for_each_site(scene, settings, camera, kPointsPerVolume, threads,
-                  [&](const SurfacePoint& point) { points.push_back(point); });
+    for_each_site(source, kPointsPerVolume, [&](const SurfacePoint& point) { points.push_back(point); });
     std::vector<std::int32_t> volumes(points.size());
-    for_chunks(static_cast<std::uint32_t>(points.size()), kPointChunk, threads, [&](IndexRange range) {
+    for_chunks(static_cast<std::uint32_t>(points.size()), kPointChunk, source.threads, [&](IndexRange range) {
         for (std::uint32_t i = range.begin; i < range.end; ++i) volumes[i] = placement.volume_at(points[i]);
     });
     std::vector<std::vector<SurfacePoint>> cells(split.size());
@@ -67,11 +65,11 @@ std::optional<SurfacePoint> second_center(const std::vector<SurfacePoint>& cell,
 
 }  // namespace
 
-RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const Camera* camera,
-                                  const PlacementView& placement, std::span<const std::uint32_t> split, int threads) {
-    const std::vector<std::vector<SurfacePoint>> cells = cells_of(scene, settings, camera, placement, split, threads);
+RefinedPlacement refine_placement(const SiteSource& source, const PlacementView& placement,
+                                  std::span<const std::uint32_t> split) {
+    const std::vector<std::vector<SurfacePoint>> cells = cells_of(source, placement, split);
     std::vector<std::optional<SurfacePoint>> centers(split.size());
-    for_chunks(static_cast<std::uint32_t>(split.size()), kSplitChunk, threads, [&](IndexRange range) {
+    for_chunks(static_cast<std::uint32_t>(split.size()), kSplitChunk, source.threads, [&](IndexRange range) {
         for (std::uint32_t i = range.begin; i < range.end; ++i)
             centers[i] = second_center(cells[i], placement.sites[split[i]].position);
     });

@@ -27,10 +27,9 @@ struct RefinedPlacement {
 /// second center of a least-squares quantizer of the volume's Voronoi cell, among the points of a denser placement,
 /// so that it is a position place_volumes() can choose. Volumes whose cell has no point that reduces the error are
 /// not split. Deterministic; scaling the scene by a power of two scales the result.   [Lloyd 1982]
-/// `settings` are those of the placement; `camera` is the present one, or null for a placement without a camera. Does not
-/// depend on the number of threads.
-RefinedPlacement refine_placement(const HostScene& scene, const FieldSettings& settings, const Camera* camera,
-                                  const PlacementView& placement, std::span<const std::uint32_t> split, int threads);
+/// `source` is that of the placement, but for the camera, which is the present one.
+RefinedPlacement refine_placement(const SiteSource& source, const PlacementView& placement,
+                                  std::span<const std::uint32_t> split);
 
 /// Up to `most` volumes to split, by the criterion of the field's representation.
 std::vector<std::uint32_t> volumes_to_split(const AnyFieldView& field, std::size_t most, int threads);

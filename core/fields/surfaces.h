@@ -40,4 +40,11 @@ using LitSides = std::array<bool, 2>;
 /// surface. Surfaces without arrivals are taken as lit from the front.
 std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& surfaces, int threads = 1);
 
+/// Both, for a scene with its materials: placing and every round of refinement need them.
+struct LitSurfaces {
+    Surfaces surfaces;
+    std::vector<LitSides> lit;  ///< [surface]
+};
+LitSurfaces find_lit_surfaces(const HostScene& scene, int threads = 1);
+
 }  // namespace pl

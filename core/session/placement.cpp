@@ -21,7 +21,8 @@ void Placement::ensure(RenderBackend& backend, const HostScene& scene, const Fie
     if (volumes_) return;
     const Stopwatch watch;
     shape_ = make_field_shape(scene, settings);
-    HostVolumes placed = place_volumes(scene, settings, &camera, backend.info().free_threads());
+    const int threads = backend.info().free_threads();
+    HostVolumes placed = place_volumes({scene, surfaces(scene, threads), settings, &camera, threads});
     volumes_ = with_lookup(backend, scene, std::move(placed), shape_.lookup);
     backend.upload_volumes(volumes_, shape_);
     seconds_ = watch.seconds();
@@ -41,7 +42,13 @@ void Placement::refine(const RenderBackend& backend, const HostScene& scene, Ref
     refinement_.added += static_cast<std::uint32_t>(refined.parents.size());
 }
 
+const LitSurfaces& Placement::surfaces(const HostScene& scene, int threads) {
+    if (!surfaces_) surfaces_ = std::make_shared<const LitSurfaces>(find_lit_surfaces(scene, threads));
+    return *surfaces_;
+}
+
 void Placement::change_materials(const HostScene& scene, const FieldSettings& settings, bool is_same) {
+    surfaces_.reset();
     if (!is_same) volumes_.reset();
     if (volumes_) shape_ = make_field_shape(scene, settings);
 }

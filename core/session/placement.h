@@ -27,6 +27,8 @@ public:
     /// Takes volumes placed in another session, and uploads them.
     void adopt(RenderBackend& backend, const HostScene& scene, HostVolumes volumes, const FieldShape& shape,
                const Refinement& refinement);
+    /// The surfaces of the scene, found when first asked for.
+    const LitSurfaces& surfaces(const HostScene& scene, int threads);
     /// Takes refined volumes, without uploading them.
     void refine(const RenderBackend& backend, const HostScene& scene, RefinedPlacement refined);
     /// Sets the clock: of volumes that this session placed before it was taken out and put back.
@@ -36,13 +38,17 @@ public:
     /// The materials of the scene changed: its brightest emission may be another. `is_same`: the volumes stay, see
     /// same_placement().
     void change_materials(const HostScene& scene, const FieldSettings& settings, bool is_same);
-    /// Drops the volumes; they are placed anew when needed.
-    void clear() { volumes_.reset(); }
+    /// Drops the volumes, which are placed anew when needed, and what is known of the scene, which may be another.
+    void clear() {
+        volumes_.reset();
+        surfaces_.reset();
+    }
     /// Drops the added volumes: learned tables decided their positions, so they are cleared with the tables.
     void undo_refinement();
 
 private:
     std::shared_ptr<const HostVolumes> volumes_;
+    std::shared_ptr<const LitSurfaces> surfaces_;  ///< null: not found yet
     FieldShape shape_;
     Refinement refinement_;
     double seconds_ = 0.0;

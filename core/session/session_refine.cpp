@@ -23,8 +23,10 @@ void Session::split_volumes(MethodId method, std::size_t most) {
     const int threads = backend_->info().free_threads();
     const std::vector<std::uint32_t> split = volumes_to_split(field_view(shape, volumes, learned), most, threads);
     const Camera camera = view_camera();
-    RefinedPlacement refined = refine_placement(*scene_.packed(), settings_.field, &camera,
-                                                placement_view(volumes, shape.lookup, shape.extent), split, threads);
+    const HostScene& scene = *scene_.packed();
+    RefinedPlacement refined =
+        refine_placement({scene, placement_.surfaces(scene, threads), settings_.field, &camera, threads},
+                         placement_view(volumes, shape.lookup, shape.extent), split);
     if (!refined.parents.empty()) replace_volumes(method, std::move(refined), std::move(learned));
 }
 

@@ -23,12 +23,14 @@ constexpr std::size_t kCells = kSide * kSide;
 struct Learned {
     HostScene scene;
     FieldSettings settings;
+    LitSurfaces surfaces;
     FieldShape shape;
     HostVolumes volumes;
     HostTables tables;
 
     explicit Learned(const SceneDescription& description, int count, std::uint32_t visits = 10)
-        : scene(pack_scene(description)), settings{.volumes = count, .bins = kCells} {
+        : scene(pack_scene(description)), settings{.volumes = count, .bins = kCells},
+          surfaces(find_lit_surfaces(scene)) {
         shape = make_field_shape(scene, settings);
         volumes = place_volumes(scene, settings);
         tables = make_tables(shape, volumes.normals.size());
@@ -36,6 +38,7 @@ struct Learned {
     }
 
     TableField view() { return field_view(shape, volumes, tables); }
+    SiteSource source(int threads = 1) const { return {scene, surfaces, settings, nullptr, threads}; }
     std::size_t count() const { return volumes.normals.size(); }
 
     /// Light from the first rows, or from the last ones.
@@ -50,7 +53,7 @@ struct Learned {
 
     RefinedPlacement refine(std::size_t most, int threads = 2) {
         const TableField field = view();
-        return refine_placement(scene, settings, nullptr, field, volumes_to_split(field, most, threads), threads);
+        return refine_placement(source(threads), field, volumes_to_split(field, most, threads));
     }
     void take(RefinedPlacement refined) {
         tables = split_field(shape, std::move(tables), refined.parents);
@@ -147,7 +150,7 @@ TEST_CASE("A child stands well away from its parent, and takes about half of its
     REQUIRE(parents.size() > 20);
     field.take(std::move(refined));
     std::vector<int> served(field.count(), 0);
-    for_each_site(field.scene, field.settings, nullptr, 200, 1, [&](const SurfacePoint& point) {
+    for_each_site(field.source(), 200, [&](const SurfacePoint& point) {
         ++served[static_cast<std::size_t>(field.view().volume_at(point))];
     });
     double share = 0.0;
@@ -198,7 +201,7 @@ TEST_CASE("All lookups find the same volumes of a refined placement") {
     tree.lookup = Lookup::KdTree;
     grid.lookup = Lookup::Grid;
     std::size_t points = 0;
-    for_each_site(field.scene, field.settings, nullptr, 20, 1, [&](const SurfacePoint& point) {
+    for_each_site(field.source(), 20, [&](const SurfacePoint& point) {
         const std::int32_t expected = find_volume(all, point.position, point.geometric_normal);
         REQUIRE(expected != kNoVolume);
         REQUIRE(find_volume(tree, point.position, point.geometric_normal) == expected);
