@@ -30,8 +30,9 @@ constexpr double kFallOfFastLearning = 0.75;
 /// found light tells nothing, and at most 1.1 where guiding does not pay.
 constexpr double kRatioOfHiddenLight = 1.5;
 
-/// Rounds of the warm-up by paths of the baseline, and of both kinds. A field that has learned from 6 rounds of the baseline is as good
-/// as one from 12 guided rounds, and much better where light is hidden (docs/notebook/2026-11-27-unguided-warm-up.md).
+/// Rounds of the warm-up by paths of the baseline, and of both kinds. By its predicted gain a field that has learned from 6 rounds of the
+/// baseline is as good as one from 12 guided rounds; at equal time some scenes gain by it and some lose
+/// (docs/notebook/2026-11-27-unguided-warm-up.md).
 constexpr std::uint32_t kBaselineRounds = 6;
 constexpr std::uint32_t kMostWarmUpRounds = 12;
 /// Guided rounds begin at once where fewer paths of the baseline bring light: they find the rest of it.

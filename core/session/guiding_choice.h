@@ -74,7 +74,7 @@ struct GuidingTerms {
     bool learns = true;    ///< the field by guided paths; else it is complete
 };
 
-/// Paths of a part of the pixels that never come to the picture: they train the field or measure a method.
+/// Paths of a part of the pixels that never come to the picture: they train the field or measure a method. Of one kind, or none.
 struct Trial {
     bool is_guided = false;
     bool is_baseline = false;

@@ -150,10 +150,8 @@ private:
     bool choose_guiding(FilmSlot slot, const StopFlag* stop);
     bool warm_up(FilmSlot slot, const StopFlag* stop);
     bool run_trial(FilmSlot slot, Trial trial, const StopFlag* stop);
-    bool run_trial_paths(FilmSlot slot, Trial trial, bool is_guided, const StopFlag* stop);
-    void finish_trial(FilmSlot slot, bool has_trained);
-    bool trains_by_baseline(FilmSlot slot) const;
-    PassRequest trial_request(FilmSlot slot, Trial trial, bool is_guided, const StopFlag* stop) const;
+    bool trains_by(FilmSlot slot, Trial trial) const;
+    PassRequest trial_request(FilmSlot slot, Trial trial, const StopFlag* stop) const;
     std::uint32_t trial_step() const;
     void measure_guiding(FilmSlot slot);
     GuidingTerms guiding_terms(FilmSlot slot) const;

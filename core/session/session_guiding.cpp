@@ -51,7 +51,7 @@ bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
     if (trial.is_due()) {
         if (!run_trial(slot, trial, stop)) return false;
         state.guiding.measure_trial(state.passes, state.trial.guided, state.trial.baseline, guiding_terms(slot));
-        finish_trial(slot, trial.is_guided && info_of(slot.method).learns && !is_frozen(slot.method));
+        state.trial = {};
     }
     state.measured = {};
     const bool is_guided = state.guiding.pays();
@@ -66,25 +66,19 @@ bool Session::warm_up(FilmSlot slot, const StopFlag* stop) {
     FilmProgress& state = films_[slot];
     while (state.guiding.is_warming_up()) {
         if (!run_trial(slot, state.guiding.warm_up_round(), stop)) return false;
-        const bool has_trained = trains_by_baseline(slot);
         state.guiding.measure_round(state.trial.guided, state.trial.baseline, guiding_terms(slot));
-        finish_trial(slot, has_trained);
+        state.trial = {};
     }
     backend_->reset_film(slot, settings_.width, settings_.height);
     return true;
 }
 
+/// Traces the rest of a trial's paths; the field learns from them at once. Returns false if it was stopped.
 bool Session::run_trial(FilmSlot slot, Trial trial, const StopFlag* stop) {
-    return (!trial.is_guided || run_trial_paths(slot, trial, true, stop)) &&
-           (!trial.is_baseline || run_trial_paths(slot, trial, false, stop));
-}
-
-/// Traces the rest of a trial's paths of one kind. Returns false if it was stopped.
-bool Session::run_trial_paths(FilmSlot slot, Trial trial, bool is_guided, const StopFlag* stop) {
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
-    PassCounters& done = is_guided ? state.trial.guided : state.trial.baseline;
-    PassRequest request = trial_request(slot, trial, is_guided, stop);
+    PassCounters& done = trial.is_guided ? state.trial.guided : state.trial.baseline;
+    PassRequest request = trial_request(slot, trial, stop);
     const std::uint32_t end = request.subset.count(pixel_count());
     request.first_pixel = static_cast<std::uint32_t>(done.paths);
     if (request.first_pixel >= end) return true;
@@ -95,23 +89,26 @@ bool Session::run_trial_paths(FilmSlot slot, Trial trial, bool is_guided, const 
     learned.records += counters.path.method.records;
     learned.clamped_records += counters.path.method.clamped_records;
     learned.lookup_misses += counters.path.method.lookup_misses;
+    const bool is_complete = done.paths >= end;
+    if (is_complete && trains_by(slot, trial)) update_trained(slot.method);
     state.learn_seconds += watch.seconds();
-    return done.paths >= end;
+    return is_complete;
 }
 
-/// Whether paths of the baseline train the field: in a warm-up, by the kernel of the method that learns. They find light that the
-/// field does not know as often as light that it knows, and their variance is measured, too.
-bool Session::trains_by_baseline(FilmSlot slot) const {
-    return films_[slot].guiding.is_warming_up() && info_of(slot.method).learns && !is_frozen(slot.method);
+/// Whether the paths of a trial train the field: guided ones, and in a warm-up those of the baseline, by the kernel of the method that
+/// learns. The latter meet light that the field does not know as often as light that it knows.
+bool Session::trains_by(FilmSlot slot, Trial trial) const {
+    const bool is_training = trial.is_guided || films_[slot].guiding.is_warming_up();
+    return is_training && info_of(slot.method).learns && !is_frozen(slot.method);
 }
 
 /// Paths of the warm-up come to the film, because later ones are measured against it; all others leave it as it is.
-PassRequest Session::trial_request(FilmSlot slot, Trial trial, bool is_guided, const StopFlag* stop) const {
+PassRequest Session::trial_request(FilmSlot slot, Trial trial, const StopFlag* stop) const {
     const FilmProgress& state = films_[slot];
     const bool is_warm_up = state.guiding.is_warming_up();
-    PassRequest request =
-        pass_request(slot, is_guided || trains_by_baseline(slot) ? slot.method : baseline_method(), stop);
-    if (!is_guided) {
+    const bool has_own_kernel = trial.is_guided || trains_by(slot, trial);
+    PassRequest request = pass_request(slot, has_own_kernel ? slot.method : baseline_method(), stop);
+    if (!trial.is_guided) {
         request.path = path_settings(settings_, baseline_method());
         request.path.roulette = RouletteRule::Albedo;
         request.mixture = MixtureSettings::unguided();
@@ -119,7 +116,7 @@ PassRequest Session::trial_request(FilmSlot slot, Trial trial, bool is_guided, c
     request.path.stream = is_warm_up ? Stream::WarmUp : Stream::Trial;
     request.trains = !is_frozen(slot.method);
     // A small picture has few paths to spare beside its passes.
-    request.subset.step = trial_step() * (is_guided || warms_up(slot) ? 1 : 2);
+    request.subset.step = trial_step() * (trial.is_guided || warms_up(slot) ? 1 : 2);
     if (is_warm_up) {
         request.sample = state.guiding.rounds();
         request.passes = request.sample + 1;
@@ -132,15 +129,6 @@ PassRequest Session::trial_request(FilmSlot slot, Trial trial, bool is_guided, c
         request.use = SampleUse::Trial;
     }
     return request;
-}
-
-/// The field learns from a trial at once.
-void Session::finish_trial(FilmSlot slot, bool has_trained) {
-    const Stopwatch watch;
-    FilmProgress& state = films_[slot];
-    if (has_trained) update_trained(slot.method);
-    state.trial = {};
-    state.learn_seconds += watch.seconds();
 }
 
 /// Counts the pass that has ended, and measures all since the last choice if another one follows.
