@@ -47,10 +47,10 @@ struct TraceBlock {
 };
 
 /// The instructions of a segment fit the instruction caches of a processor in `default` without lobes; the threads of other kernels go
-/// through it in steps. The fastest measured variant: docs/notebook/2026-11-26-first-hour-on-a-gpu.md.
+/// through it in steps. The fastest measured variant: docs/notebook/2026-11-27-second-hour-on-a-gpu.md.
 template <FeatureSet F, class M>
 constexpr TraceBlock trace_block() {
-    constexpr int kMostSteps = F.has(Feature::NextEventEstimation) ? 5 : 2;  // without shadow rays the third is empty
+    constexpr int kMostSteps = F.has(Feature::NextEventEstimation) ? 5 : 2;  // 2: the path's ray, and shading
     if constexpr (F.has_any(kLobeFeatures))
         return TraceBlock::of(384, PL_CUDA_LOBE_BLOCKS, PL_CUDA_LOBE_STEPS);
     else if constexpr (GuidedMethod<M>)
