@@ -21,7 +21,7 @@ struct FieldSettings {
     LearningRate rate = LearningRate::Forgetful;
     LearningSettings learning{};
     float uniform_floor = kUniformShare;
-    int precompute_samples = 4;  ///< probes per cell and volume, a square number
+    int precompute_samples = 1;  ///< probes per cell and volume, a square number
     Lookup lookup = Lookup::Grid;
     /// Volumes that refinement may add, as a share of those placed, in [0, 1]; or kRefineByRecords. See refine_placement().
     float refine_share = kRefineByRecords;

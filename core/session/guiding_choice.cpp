@@ -40,7 +40,7 @@ constexpr double kLeastLitShare = 0.25;
 /// From this round on a warm-up ends with a clear gain; or with a loss, if the gain by both errors is below this one, and the field has
 /// learned from so many paths per volume.
 constexpr std::uint32_t kFirstRoundOfChoice = kBaselineRounds + 2;
-constexpr double kLeastGainOfWarmUp = 0.87;
+constexpr double kLeastGainOfWarmUp = 0.7;
 constexpr double kLearnedBeforeLoss = 100.0;
 /// Measurements of guided paths until the variance that later ones are compared to.
 constexpr std::uint32_t kMeasurementsOfFirstVariance = 5;
