@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/io/files.h"
+#include "core/io/height_map.h"
 #include "core/io/line_reader.h"
 #include "core/io/mtl_reader.h"
 #include "core/io/tally.h"
@@ -33,17 +34,28 @@ public:
         return map ? add_texture(scene_, path_of(map.name), content, !map.clamps) : kNoTexture;
     }
 
-    /// Exporters write images of normals as `map_Bump`, too; an image without colors is one of heights, which is left out with a note.
-    std::uint32_t add_normals(const MtlEntry& entry, std::vector<std::string>& notes) {
+    /// Exporters write images of normals as `map_Bump`, too; an image without colors is one of heights.
+    std::uint32_t add_normals(const MtlEntry& entry) {
         const std::size_t before = scene_.textures.size();
         const std::uint32_t texture = add(entry.norm ? entry.norm : entry.bump, TextureContent::Normal);
         if (entry.norm || texture == kNoTexture || has_colors(scene_.textures[texture])) return texture;
-        notes.emplace_back("has heights in its bump map, which are not supported: the surface is smooth");
         scene_.textures.resize(before);
-        return kNoTexture;
+        return add_relief(entry.bump);
     }
 
 private:
+    std::uint32_t add_relief(const MtlMap& map) {
+        // The format has no unit for heights: relative to the image a relief does not depend on its resolution, nor on the model's size.
+        constexpr float kRise = 0.01f;
+        const std::size_t before = scene_.textures.size();
+        const std::uint32_t texture = add(map, TextureContent::Height);
+        if (texture >= before && texture != kNoTexture) {
+            TextureDescription& heights = scene_.textures[texture];
+            turn_into_normals(heights, glm::vec2(kRise * static_cast<float>(heights.width)));
+        }
+        return texture;
+    }
+
     /// Absolute paths of another computer are looked up by their file name beside the MTL file.
     fs::path path_of(const std::string& name) const {
         const fs::path inside = path_inside(folder_, name);
@@ -85,7 +97,7 @@ void load_mtl(const fs::path& path, SceneDescription& scene, MapKd map_kd) {
                                    : textures.add(entry.map_pr ? entry.map_pr : entry.map_ns, TextureContent::Number),
             .emission = textures.add(entry.map_ke, TextureContent::Color),
             .opacity = textures.add(entry.map_d, TextureContent::Opacity)};
-        material.textures.normal = textures.add_normals(entry, notes);
+        material.textures.normal = textures.add_normals(entry);
         material.normal_strength = entry.norm ? entry.norm.strength : entry.bump.strength;
         for (const std::string& note : notes) {
             scene.warnings.push_back(

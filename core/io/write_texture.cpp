@@ -15,7 +15,8 @@ namespace {
 glm::vec3 used_channels(const glm::vec4& texel, TextureContent use) {
     switch (use) {
     case TextureContent::Color:
-    case TextureContent::Normal: break;
+    case TextureContent::Normal:
+    case TextureContent::Height: break;
     case TextureContent::Number: return glm::vec3(texel.x);
     case TextureContent::Opacity: return glm::vec3(texel.w);
     }

@@ -75,6 +75,7 @@ enum class TextureContent : std::uint32_t {
     Number,   ///< linear; first channel
     Opacity,  ///< linear; alpha channel unless it is constant 1, else the first channel
     Normal,   ///< linear; the first three channels
+    Height,   ///< linear; the first channel, of which turn_into_normals() makes normals
 };
 
 /// An image texture. Texels are linear (colors of LDR files are decoded from sRGB), [row][column] from the top; u to

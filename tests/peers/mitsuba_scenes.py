@@ -129,10 +129,12 @@ def stripes(x, y):
     return (40 + 6 * x, 200 - 5 * y, 90 + 60 * ((x // 4 + y // 4) % 2))
 
 
+GROUND = "v -4 0 4\nv 4 0 4\nv 4 0 -4\nv -4 0 -4\nvt 0 0\nvt 6 0\nvt 6 4\nvt 0 4\nf 1/1 2/2 3/3 4/4\n"
+
+
 def textured(folder):
     (folder / "stripes.png").write_bytes(png(32, 32, stripes))
-    (folder / "ground.obj").write_text("v -4 0 4\nv 4 0 4\nv 4 0 -4\nv -4 0 -4\nvt 0 0\nvt 6 0\nvt 6 4\nvt 0 4\n"
-                                       "f 1/1 2/2 3/3 4/4\n")
+    (folder / "ground.obj").write_text(GROUND)
     image = ('<bsdf type="diffuse"><texture type="bitmap" name="reflectance"><string name="filename" value="stripes.png"/>'
              '</texture></bsdf>')
     content = (f'<shape type="obj"><string name="filename" value="ground.obj"/><bsdf type="twosided">{image}</bsdf></shape>' +
@@ -151,8 +153,7 @@ def relief(x, y):
 
 def normal_mapped(folder, inside):
     (folder / "relief.png").write_bytes(png(32, 32, relief))
-    (folder / "ground.obj").write_text("v -4 0 4\nv 4 0 4\nv 4 0 -4\nv -4 0 -4\nvt 0 0\nvt 6 0\nvt 6 4\nvt 0 4\n"
-                                       "f 1/1 2/2 3/3 4/4\n")
+    (folder / "ground.obj").write_text(GROUND)
     bumpy = ('<bsdf type="normalmap"><texture type="bitmap" name="normalmap"><boolean name="raw" value="true"/>'
              '<string name="filename" value="relief.png"/></texture><boolean name="use_shadowing_function" value="false"/>'
              f'<boolean name="flip_invalid_normals" value="false"/>{inside}</bsdf>')
@@ -162,6 +163,43 @@ def normal_mapped(folder, inside):
     content = (f'<shape type="obj"><string name="filename" value="ground.obj"/><bsdf type="twosided">{bumpy}</bsdf></shape>' +
                sky("0.1, 0.15, 0.2") + sun + box(bumpy, (-0.55, 0.29, -0.4), (0.35, 0.3, 0.35), 25) +
                shape("rectangle", scaled(0.4, 0.4, 1) + turned("y", -20) + moved(0.5, 0.45, 0.3), bumpy))
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
+
+
+def checkered(folder):
+    (folder / "ground.obj").write_text(GROUND)
+
+    def checkers(scale):
+        return ('<bsdf type="diffuse"><texture type="checkerboard" name="reflectance"><rgb name="color0" value="0.8, 0.6, 0.2"/>'
+                f'<rgb name="color1" value="0.1, 0.2, 0.5"/><transform name="to_uv"><scale x="{scale}" y="1.5"/>'
+                '<translate x="0.1" y="0.3"/></transform></texture></bsdf>')
+
+    content = (f'<shape type="obj"><string name="filename" value="ground.obj"/><bsdf type="twosided">{checkers(1.25)}</bsdf></shape>' +
+               sky() + box(checkers(2), (-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25) +
+               shape("rectangle", scaled(0.4, 0.4, 1) + turned("y", -20) + moved(0.5, 0.45, 0.3), checkers(3)))
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
+
+
+def heights(x, y):
+    """Soft waves, not the same along x and y."""
+    height = 0.5 + 0.25 * math.sin(math.pi * x / 16) + 0.2 * math.cos(math.pi * (x + y) / 32)
+    return (round(255 * height),) * 3
+
+
+def bump_mapped(folder, inside):
+    (folder / "heights.png").write_bytes(png(64, 64, heights))
+    (folder / "ground.obj").write_text(GROUND)
+
+    def bumpy(scale):
+        return (f'<bsdf type="bumpmap"><float name="scale" value="{scale}"/><texture type="bitmap" name="bump"><boolean '
+                'name="raw" value="true"/><string name="filename" value="heights.png"/></texture>' + inside + '</bsdf>')
+
+    sun = ('<shape type="rectangle"><transform name="to_world">' + scaled(0.5, 0.5, 1) + turned("x", 90) + turned("z", -40) +
+           moved(-2, 3, 1) + '</transform>' + diffuse("0, 0, 0") +
+           '<emitter type="area"><rgb name="radiance" value="17, 12, 4"/></emitter></shape>')
+    content = (f'<shape type="obj"><string name="filename" value="ground.obj"/><bsdf type="twosided">{bumpy(0.06)}</bsdf></shape>' +
+               sky("0.1, 0.15, 0.2") + sun +
+               shape("rectangle", scaled(0.6, 0.4, 1) + turned("y", -20) + moved(0.3, 0.5, 0.3), bumpy(0.03)))
     return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
 
 

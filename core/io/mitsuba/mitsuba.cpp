@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/io/line_reader.h"
 #include "core/io/mitsuba/lights.h"
+#include "core/io/mitsuba/medium.h"
 #include "core/io/mitsuba/shapes.h"
 #include "core/io/mitsuba/surfaces.h"
 #include "core/io/texture_file.h"
@@ -37,6 +38,7 @@ public:
             throw Error(ErrorKind::Input,
                         fmt::format("{}: expected a shape with an area, got none", scene_.source.string()));
         }
+        place_images();
         file_.notes().tell(scene_.warnings);
         const std::vector<std::filesystem::path>& own = file_.files();
         scene_.files.insert(scene_.files.begin(), own.begin(), own.end());
@@ -85,43 +87,69 @@ private:
     /// The scene's material of a shape: one for each surface, inside and radiance.
     std::uint32_t material_of(const MitsubaObject& shape) {
         MitsubaObject surface;
-        glm::vec3 radiance(0.0f);
+        Emission emission;
         for (const MitsubaObject& child : shape.children()) {
             const MitsubaObject target = mitsuba_target(file_, child);
             if (target.element() == "bsdf")
                 surface = target;
             else if (target.element() == "emitter" || target.element() == "light")
-                radiance = radiance_of(target);
+                emission = emission_of(target);
         }
         const MitsubaObject inside = mitsuba_target(file_, shape.property("interior"));
         if (shape.property("exterior")) shape.note("media outside of shapes are left out");
-        const auto key = std::make_tuple(surface.identity(), inside.identity(), radiance.x, radiance.y, radiance.z);
+        const auto key = std::make_tuple(surface.identity(), inside.identity(), emission.image.identity(),
+                                         emission.radiance.x, emission.radiance.y, emission.radiance.z);
         const auto [known, is_new] = materials_.try_emplace(key, static_cast<std::uint32_t>(scene_.materials.size()));
-        if (is_new) add_material(surface, inside, radiance);
+        if (is_new) add_material(surface, inside, emission);
         return known->second;
     }
 
-    static glm::vec3 radiance_of(const MitsubaObject& emitter) {
+    /// Radiance of a shape, which an image may multiply.
+    struct Emission {
+        glm::vec3 radiance{0.0f};
+        MitsubaObject image{};
+    };
+
+    Emission emission_of(const MitsubaObject& emitter) {
         if (emitter.type() != "area") {
             emitter.note(fmt::format("emitters of the type {} are left out", in_quotes(emitter.type())));
-            return glm::vec3(0.0f);
+            return {};
         }
-        if (!emitter.color("radiance")) emitter.note("images of radiance are shown as 1");
-        return emitter.color("radiance").value_or(glm::vec3(1.0f));
+        const MitsubaObject texture = mitsuba_target(file_, emitter.property("radiance"));
+        if (texture.element() == "texture") return {.radiance = glm::vec3(1.0f), .image = texture};
+        return {.radiance = emitter.color("radiance").value_or(glm::vec3(1.0f))};
     }
 
-    void add_material(const MitsubaObject& surface, const MitsubaObject& inside, const glm::vec3& radiance) {
-        MaterialDescription material;
-        material.albedo = glm::vec3(radiance == glm::vec3(0.0f) ? 0.5f : 0.0f);
-        if (surface) material = mitsuba_surface(file_, surface, scene_);
-        material.emission = radiance;
+    void add_material(const MitsubaObject& surface, const MitsubaObject& inside, const Emission& emission) {
+        MitsubaSurface read;
+        read.material.albedo = glm::vec3(emission.radiance == glm::vec3(0.0f) ? 0.5f : 0.0f);
+        if (surface) read = mitsuba_surface(file_, surface, scene_);
+        MaterialDescription& material = read.material;
+        material.emission = emission.radiance;
+        if (emission.image) {
+            const auto image = mitsuba_image(emission.image, TextureContent::Color, scene_);
+            if (!image) emission.image.note("textures of radiance other than images are shown as 1");
+            material.textures.emission = image.value_or(kNoTexture);
+            if (!read.image) read.image = emission.image;
+        }
         if (inside) set_inside(inside, material);
         const std::string id = surface ? surface.attribute("id") : "";
         material.name = id.empty() ? fmt::format("material {}", scene_.materials.size()) : id;
         if (std::any_of(scene_.materials.begin(), scene_.materials.end(),
                         [&](const MaterialDescription& other) { return other.name == material.name; }))
             material.name += fmt::format(" ({})", scene_.materials.size());
-        scene_.materials.push_back(std::move(material));
+        scene_.materials.push_back(material);
+        surfaces_.push_back(std::move(read));
+    }
+
+    /// Transformations of images, and reliefs, by the triangles that they are on.
+    void place_images() {
+        for (std::uint32_t material = 0; material < surfaces_.size(); ++material) {
+            const MitsubaSurface& surface = surfaces_[material];
+            const glm::dmat4 to_uv = surface.image ? mitsuba_to_uv(surface.image) : glm::dmat4(1.0);
+            if (to_uv != glm::dmat4(1.0)) transform_uvs(scene_, material, to_uv);
+            if (surface.relief) add_mitsuba_relief(scene_, material, *surface.relief);
+        }
     }
 
     /// The medium inside of a shape.
@@ -196,8 +224,9 @@ private:
 
     MitsubaFile file_;
     SceneDescription scene_;
-    std::map<std::tuple<const void*, const void*, float, float, float>, std::uint32_t> materials_;
+    std::map<std::tuple<const void*, const void*, const void*, float, float, float>, std::uint32_t> materials_;
     std::map<const void*, SceneDescription> groups_;
+    std::vector<MitsubaSurface> surfaces_;  ///< [material]
 };
 
 }  // namespace

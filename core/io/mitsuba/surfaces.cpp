@@ -10,7 +10,6 @@
 
 #include "core/io/line_reader.h"
 #include "core/io/mtl_surface.h"
-#include "core/io/texture_file.h"
 #include "core/kernel/shading/fresnel.h"
 
 namespace pl {
@@ -56,12 +55,12 @@ Metal metal_of(const glm::vec3& eta, const glm::vec3& k) {
 /// Share of diffuse light that a smooth interface reflects from inside. [d'Eon and Irving 2011]
 double internal_reflectance(double eta) { return -1.4399 / (eta * eta) + 0.7099 / eta + 0.6681 + 0.0636 * eta; }
 
-class MitsubaSurface {
+class SurfaceReader {
 public:
-    MitsubaSurface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene)
+    SurfaceReader(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene)
         : file_(file), bsdf_(bsdf), scene_(scene) {}
 
-    MaterialDescription run() {
+    MitsubaSurface run() {
         const std::string type = mitsuba_name(bsdf_.type());
         const bool is_rough = type.starts_with("rough");
         if (type == "diffuse") {
@@ -79,7 +78,7 @@ public:
             material_.albedo = glm::vec3(0.5f);
         }
         if (is_rough) read_roughness();
-        return material_;
+        return {.material = material_, .image = image_};
     }
 
 private:
@@ -96,18 +95,14 @@ private:
     }
 
     glm::vec3 read_texture_of(const MitsubaObject& texture) {
-        const std::string type = texture.type();
-        if (type != "bitmap") {
-            texture.note(fmt::format("textures of the type {} are shown as one color", in_quotes(type)));
-            const glm::vec3 first = texture.color("color0").value_or(glm::vec3(0.4f));
-            return within_one(0.5f * (first + texture.color("color1").value_or(glm::vec3(0.2f))));
+        if (const auto image = mitsuba_image(texture, TextureContent::Color, scene_)) {
+            material_.textures.albedo = *image;
+            image_ = texture;
+            return glm::vec3(1.0f);
         }
-        if (texture.property("to_uv") || texture.property("uscale") || texture.property("vscale"))
-            texture.note("transformations of images are left out");
-        const std::string wrap = texture.text("wrap_mode").value_or("repeat");
-        material_.textures.albedo =
-            add_texture(scene_, texture.file("filename"), TextureContent::Color, wrap != "clamp");
-        return glm::vec3(1.0f);
+        texture.note(fmt::format("textures of the type {} are shown as one color", in_quotes(texture.type())));
+        const glm::vec3 first = texture.color("color0").value_or(glm::vec3(0.4f));
+        return within_one(0.5f * (first + texture.color("color1").value_or(glm::vec3(0.2f))));
     }
 
     float index(const char* name, float standard) {
@@ -210,6 +205,7 @@ private:
     const MitsubaObject& bsdf_;
     SceneDescription& scene_;
     MaterialDescription material_;
+    MitsubaObject image_;
 };
 
 bool is_adapter(const std::string& type) {
@@ -230,38 +226,54 @@ MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& objec
 
 namespace {
 
-/// The image of an adapter of the type normalmap.
-std::uint32_t normals_of(const MitsubaFile& file, const MitsubaObject& adapter, SceneDescription& scene) {
-    const MitsubaObject texture = mitsuba_target(file, adapter.property("normalmap"));
-    if (texture.element() != "texture" || texture.type() != "bitmap") {
-        adapter.note("normals that are no image are left out");
-        return kNoTexture;
-    }
-    const std::string wrap = texture.text("wrap_mode").value_or("repeat");
-    return add_texture(scene, texture.file("filename"), TextureContent::Normal, wrap != "clamp");
-}
-
-/// The surface inside of an adapter.
-MitsubaObject inside_of(const MitsubaFile& file, const MitsubaObject& adapter) {
+/// The texture of an adapter of the type normalmap or bumpmap: an image, or nothing.
+MitsubaObject texture_of(const MitsubaFile& file, const MitsubaObject& adapter) {
     for (const MitsubaObject& child : adapter.children()) {
         const MitsubaObject target = mitsuba_target(file, child);
-        if (target.element() == "bsdf") return target;
+        if (target.element() == "texture" && target.type() == "bitmap") return target;
+    }
+    adapter.note(fmt::format("the texture of {} is no image, and is left out", in_quotes(adapter.type())));
+    return {};
+}
+
+/// Takes the effect of an adapter, as far as there is one.
+void read_adapter(const MitsubaFile& file, const MitsubaObject& adapter, SceneDescription& scene,
+                  MitsubaSurface& surface) {
+    const std::string type = adapter.type();
+    if (type == "normalmap") {
+        surface.image = texture_of(file, adapter);
+        if (!surface.image) return;
+        const auto normals = mitsuba_image(surface.image, TextureContent::Normal, scene);
+        surface.material.textures.normal = normals.value_or(kNoTexture);
+        if (normals) surface.material.normal_green = NormalGreen::Left;
+    } else if (type == "bumpmap") {
+        surface.image = texture_of(file, adapter);
+        if (surface.image)
+            surface.relief = {surface.image, static_cast<double>(adapter.number("scale").value_or(1.0f))};
+    } else if (type == "blendbsdf") {
+        adapter.note("of two surfaces that are blended the heavier one is shown");
+    } else if (type != "twosided") {
+        adapter.note(fmt::format("the effect of {} is left out: the surface inside of it is shown", in_quotes(type)));
+    }
+}
+
+/// The surface inside of an adapter: of two the heavier one.
+MitsubaObject inside_of(const MitsubaFile& file, const MitsubaObject& adapter) {
+    bool takes_second = adapter.type() == "blendbsdf" && adapter.number("weight").value_or(0.5f) > 0.5f;
+    for (const MitsubaObject& child : adapter.children()) {
+        const MitsubaObject target = mitsuba_target(file, child);
+        if (target.element() == "bsdf" && !std::exchange(takes_second, false)) return target;
     }
     return {};
 }
 
 }  // namespace
 
-MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
+MitsubaSurface mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
     MitsubaObject inner = bsdf;
-    std::uint32_t normals = kNoTexture;
+    MitsubaSurface adapted;
     for (int depth = 0; is_adapter(mitsuba_name(inner.type())); ++depth) {
-        if (inner.type() == "normalmap") {
-            normals = normals_of(file, inner, scene);
-        } else if (inner.type() != "twosided") {
-            inner.note(fmt::format("the effect of {} is left out: the surface inside of it is shown",
-                                   in_quotes(inner.type())));
-        }
+        read_adapter(file, inner, scene, adapted);
         const MitsubaObject next = inside_of(file, inner);
         if (!next || depth > 16) {
             inner.fail(
@@ -269,31 +281,14 @@ MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject
         }
         inner = next;
     }
-    MaterialDescription material = MitsubaSurface(file, inner, scene).run();
-    material.textures.normal = normals;
-    if (normals != kNoTexture) material.normal_green = NormalGreen::Left;
-    return material;
-}
-
-glm::vec3 mitsuba_absorption(const MitsubaObject& medium) {
-    const glm::vec3 none(0.0f);
-    const bool is_even = medium.type() == "homogeneous" && !medium.text("material");
-    glm::vec3 absorbed = medium.color("sigma_a").value_or(none);
-    glm::vec3 scattered = medium.color("sigma_s").value_or(none);
-    if (!medium.property("sigma_a")) {
-        const glm::vec3 all = medium.color("sigma_t").value_or(glm::vec3(1.0f));
-        scattered = all * medium.color("albedo").value_or(glm::vec3(0.75f));
-        absorbed = all - scattered;
-    }
-    if (!is_even || scattered != none) {
-        medium.note("media that scatter light, and those that vary, are left out");
-        return none;
-    }
-    absorbed *= medium.number("scale").value_or(1.0f);
-    if (!is_finite(absorbed) || !glm::all(glm::greaterThanEqual(absorbed, none)))
-        medium.fail(
-            fmt::format("expected an absorption of at least 0, got {} {} {}", absorbed.x, absorbed.y, absorbed.z));
-    return absorbed;
+    MitsubaSurface surface = SurfaceReader(file, inner, scene).run();
+    surface.material.textures.normal = adapted.material.textures.normal;
+    surface.material.normal_green = adapted.material.normal_green;
+    surface.relief = adapted.relief;
+    if (surface.image && adapted.image && mitsuba_to_uv(surface.image) != mitsuba_to_uv(adapted.image))
+        adapted.image.note("images of one surface with transformations of their own share that of its color");
+    if (!surface.image) surface.image = adapted.image;
+    return surface;
 }
 
 }  // namespace pl

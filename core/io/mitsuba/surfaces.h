@@ -1,18 +1,22 @@
 // BSDFs and textures of Mitsuba as the surfaces that the renderer knows.
 #pragma once
 
+#include "core/io/mitsuba/textures.h"
 #include "core/io/mitsuba/xml_file.h"
 #include "core/scene/description.h"
 
 namespace pl {
 
+/// The material of a surface, and the parts that need the triangles that it is on.
+struct MitsubaSurface {
+    MaterialDescription material{};
+    MitsubaObject image{};                  ///< the texture whose transformation is that of the surface; or nothing
+    std::optional<MitsubaRelief> relief{};  ///< see add_mitsuba_relief()
+};
+
 /// The surface of a `bsdf` element, with its textures added to the scene. Adapters such as `twosided` are those of the surface
 /// inside. [Mitsuba 3 and 0.6, plugins]
-MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene);
-
-/// Absorption per length inside of glass: that of a `medium` element of the type homogeneous, which scatters nothing. Other media
-/// are noted and absorb nothing. [Mitsuba 3 and 0.6, homogeneous]
-glm::vec3 mitsuba_absorption(const MitsubaObject& medium);
+MitsubaSurface mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene);
 
 /// The object that `object` stands for: the one with its id if it is a `ref`.
 MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& object);

@@ -199,7 +199,7 @@ TEST_CASE("Images of a material: loaded once, missing ones shown as checkers") {
                         contains("-o of map_Kd") && contains("'map_Kd': an implausible value"));
 }
 
-TEST_CASE("Normal maps by norm and by the map_Bump of exporters, heights are told") {
+TEST_CASE("Normal maps by norm and by the map_Bump of exporters, heights as their relief") {
     const TemporaryFolder folder;
     write_png8(folder.path() / "n.png", {.width = 2, .height = 1, .rgb = {128, 128, 255, 255, 128, 128}});
     write_png8(folder.path() / "h.png", {.width = 2, .height = 1, .rgb = {10, 10, 10, 200, 199, 200}});
@@ -209,16 +209,33 @@ TEST_CASE("Normal maps by norm and by the map_Bump of exporters, heights are tol
                                    "newmtl e\nKd 0.5\nmap_bump -bm -1 n.png\n"),
              scene);
     const std::vector<MaterialDescription>& m = scene.materials;
-    REQUIRE(scene.textures.size() == 2);
+    REQUIRE(scene.textures.size() == 3);
     CHECK(m[0].textures.normal == 0);
     CHECK(m[0].normal_strength == 0.25f);
     CHECK(scene.textures[0].texels[0].x == Approx(128.0 / 255.0));
     CHECK(m[1].textures.normal == 0);
     CHECK(m[1].normal_strength == 1.0f);
-    CHECK(m[2].textures.normal == kNoTexture);
-    CHECK(m[3].textures.normal == 1);
+    // Two texels that repeat rise as much as they fall.
+    CHECK(m[2].textures.normal == 1);
+    CHECK(scene.textures[1].texels[0] == glm::vec4(0.5f, 0.5f, 1.0f, 1.0f));
+    CHECK(m[3].textures.normal == 2);
+    CHECK(scene.textures[2].texels[0].x == Approx(10.0 / 255.0));
     CHECK(m[4].normal_strength == 1.0f);
-    REQUIRE(scene.warnings.size() == 2);
+    REQUIRE(scene.warnings.size() == 1);
     CHECK_THAT(scene.warnings[0], contains("-bm of map_bump"));
-    CHECK_THAT(scene.warnings[1], contains("m.mtl:7: material 'c' has heights in its bump map"));
+}
+
+TEST_CASE("Heights in a bump map of an MTL file rise by a hundredth of the image's width") {
+    const TemporaryFolder folder;
+    write_png8(folder.path() / "h.png",
+               {.width = 4, .height = 1, .rgb = {0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 255, 255}});
+    SceneDescription scene;
+    load_mtl(folder.write("m.mtl", "newmtl a\nKd 0.5\nbump h.png\nnewmtl b\nKd 0.5\nmap_Bump -bm 2 h.png\n"), scene);
+    REQUIRE(scene.textures.size() == 1);
+    CHECK(scene.materials[1].textures.normal == 0);
+    CHECK(scene.materials[1].normal_strength == 2.0f);
+    // The second texel rises by half of the height of 1 a texel, which is 0.04 texels.
+    const glm::vec3 normal = 2.0f * glm::vec3(scene.textures[0].texels[1]) - 1.0f;
+    CHECK(-normal.x / normal.z == Approx(0.02).epsilon(1e-4));
+    CHECK(normal.y == Approx(0.0f).margin(1e-6));
 }

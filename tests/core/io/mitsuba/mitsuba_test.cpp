@@ -191,12 +191,18 @@ TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the val
     CHECK(surface("<bsdf type=\"principled\"><float name=\"metallic\" value=\"1\"/></bsdf>").kind ==
           SurfaceKind::Conductor);
     const SceneDescription odd =
-        load("<shape type=\"rectangle\"><bsdf type=\"bumpmap\"><bsdf type=\"hair\"/></bsdf></shape>");
-    CHECK(is_told(odd, "the effect of 'bumpmap' is left out"));
+        load("<shape type=\"rectangle\"><bsdf type=\"coating\"><bsdf type=\"hair\"/></bsdf></shape>");
+    CHECK(is_told(odd, "the effect of 'coating' is left out"));
     CHECK(is_told(odd, "surfaces of the type 'hair' are shown as gray"));
+    const auto blended = [](const std::string& weight) {
+        return surface("<bsdf type=\"blendbsdf\">" + weight +
+                       "<bsdf type=\"conductor\"/><bsdf type=\"plastic\"/></bsdf>");
+    };
+    CHECK(blended("<float name=\"weight\" value=\"0.3\"/>").kind == SurfaceKind::Conductor);
+    CHECK(blended("<float name=\"weight\" value=\"0.7\"/>").kind == SurfaceKind::Plastic);
     const SceneDescription plain = load("<shape type=\"rectangle\"><bsdf type=\"normalmap\"><rgb name=\"normalmap\" "
                                         "value=\"1\"/><bsdf type=\"diffuse\"/></bsdf></shape>");
-    CHECK(is_told(plain, "normals that are no image are left out"));
+    CHECK(is_told(plain, "the texture of 'normalmap' is no image, and is left out"));
 }
 
 TEST_CASE("mitsuba: the inside of glass absorbs, by name or in its place, and other media are told") {

@@ -1,0 +1,142 @@
+#include "core/io/mitsuba/textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "core/io/height_map.h"
+#include "core/io/texture_file.h"
+#include "core/kernel/base/math.h"
+
+namespace pl {
+namespace {
+
+bool repeats(const MitsubaObject& texture) { return texture.text("wrap_mode").value_or("repeat") != "clamp"; }
+
+glm::vec4 texel_of(const MitsubaObject& texture, const char* name, float standard) {
+    return {glm::min(texture.color(name).value_or(glm::vec3(standard)), glm::vec3(1.0f)), 1.0f};
+}
+
+/// The first color where both or neither coordinate is in the second half of the unit square. [Mitsuba 3, checkerboard]
+TextureDescription checkerboard(const MitsubaObject& texture, const SceneDescription& scene) {
+    const glm::vec4 first = texel_of(texture, "color0", 0.4f);
+    const glm::vec4 second = texel_of(texture, "color1", 0.2f);
+    TextureDescription image{.source = scene.source, .width = kCheckerTexels, .height = kCheckerTexels, .texels = {}};
+    for (std::uint32_t row = 0; row < kCheckerTexels; ++row)
+        for (std::uint32_t column = 0; column < kCheckerTexels; ++column)
+            image.texels.push_back((row < kCheckerTexels / 2) == (column < kCheckerTexels / 2) ? first : second);
+    return image;
+}
+
+bool has_uvs(const TriangleDescription& t) {
+    return glm::all(glm::notEqual(t.uv, glm::uvec3(TriangleDescription::kNoUv)));
+}
+
+/// How much u and v rise along a triangle, per length in the world, and its area.
+struct UvDensity {
+    double u = 0.0, v = 0.0, area = 0.0;
+};
+
+UvDensity density_of(const SceneDescription& scene, const TriangleDescription& t) {
+    const glm::dvec3 p0(scene.positions[t.vertex.x]);
+    const glm::dvec3 dp1 = glm::dvec3(scene.positions[t.vertex.y]) - p0;
+    const glm::dvec3 dp2 = glm::dvec3(scene.positions[t.vertex.z]) - p0;
+    const glm::dvec2 origin(scene.uvs[t.uv.x]);
+    const glm::dvec2 uv1 = glm::dvec2(scene.uvs[t.uv.y]) - origin;
+    const glm::dvec2 uv2 = glm::dvec2(scene.uvs[t.uv.z]) - origin;
+    const double determinant = std::abs(uv1.x * uv2.y - uv2.x * uv1.y);
+    const double u = determinant / glm::length(uv2.y * dp1 - uv1.y * dp2);
+    const double v = determinant / glm::length(uv1.x * dp2 - uv2.x * dp1);
+    if (!std::isfinite(u) || !std::isfinite(v)) return {};
+    return {u, v, 0.5 * glm::length(glm::cross(dp1, dp2))};
+}
+
+/// Means over the area of a material's triangles, and whether they vary.
+struct MeanDensity {
+    UvDensity mean{};
+    bool varies = false;
+};
+
+MeanDensity mean_density(const SceneDescription& scene, std::uint32_t material) {
+    UvDensity sums;
+    double squares = 0.0;
+    for (const TriangleDescription& t : scene.triangles) {
+        if (t.material != material || !has_uvs(t)) continue;
+        const UvDensity density = density_of(scene, t);
+        sums.u += density.area * density.u;
+        sums.v += density.area * density.v;
+        sums.area += density.area;
+        squares += density.area * (density.u * density.u + density.v * density.v);
+    }
+    if (!(sums.area > 0.0)) return {};
+    const UvDensity mean{sums.u / sums.area, sums.v / sums.area, sums.area};
+    constexpr double kEven = 1e-3;  // relative variance
+    const double square = mean.u * mean.u + mean.v * mean.v;
+    return {mean, squares / sums.area > (1.0 + kEven) * square};
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> mitsuba_image(const MitsubaObject& texture, TextureContent content,
+                                           SceneDescription& scene) {
+    if (texture.type() == "checkerboard") {
+        scene.textures.push_back(checkerboard(texture, scene));
+        return static_cast<std::uint32_t>(scene.textures.size() - 1);
+    }
+    if (texture.type() != "bitmap") return std::nullopt;
+    const std::uint32_t image = add_texture(scene, texture.file("filename"), content, repeats(texture));
+    return image == kNoTexture ? std::nullopt : std::optional(image);
+}
+
+glm::dmat4 mitsuba_to_uv(const MitsubaObject& texture) {
+    const auto number = [&](const char* name, float standard) {
+        return static_cast<double>(texture.number(name).value_or(standard));
+    };
+    glm::dmat4 scaled(1.0);
+    scaled[0][0] = number("uscale", 1.0f);
+    scaled[1][1] = number("vscale", 1.0f);
+    scaled[3][0] = number("uoffset", 0.0f);
+    scaled[3][1] = number("voffset", 0.0f);
+    return texture.transform("to_uv") * scaled;
+}
+
+void transform_uvs(SceneDescription& scene, std::uint32_t material, const glm::dmat4& to_uv) {
+    // Corners of other materials may share a coordinate: the transformed ones are new.
+    std::map<std::uint32_t, std::uint32_t> moved;
+    for (TriangleDescription& t : scene.triangles) {
+        if (t.material != material || !has_uvs(t)) continue;
+        for (int k = 0; k < 3; ++k) {
+            const auto [known, is_new] = moved.try_emplace(t.uv[k], static_cast<std::uint32_t>(scene.uvs.size()));
+            if (is_new) {
+                const glm::dvec2 uv(scene.uvs[t.uv[k]]);
+                const glm::dvec4 placed = to_uv * glm::dvec4(uv.x, 1.0 - uv.y, 0.0, 1.0);
+                scene.uvs.emplace_back(placed.x, 1.0 - placed.y);
+            }
+            t.uv[k] = known->second;
+        }
+    }
+}
+
+void add_mitsuba_relief(SceneDescription& scene, std::uint32_t material, const MitsubaRelief& relief) {
+    const MeanDensity density = mean_density(scene, material);
+    if (!(density.mean.area > 0.0)) return;
+    if (density.varies) relief.texture.note("bump maps are shown by the mean scale of their texture coordinates");
+    // Without `raw` values are decoded from sRGB, as those of colors.
+    const bool is_raw = relief.texture.boolean("raw").value_or(false);
+    const TextureContent content = is_raw ? TextureContent::Height : TextureContent::Color;
+    const std::filesystem::path path = relief.texture.file("filename");
+    const std::uint32_t image = add_texture_by(scene, path, TextureContent::Height, repeats(relief.texture), [&] {
+        return read_texture(path, content, repeats(relief.texture), scene.warnings);
+    });
+    if (image == kNoTexture) return;
+    TextureDescription& heights = scene.textures[image];
+    heights.content = TextureContent::Height;
+    if (!is_raw)
+        for (glm::vec4& texel : heights.texels) texel.x = luminance(Vec3f(texel));
+    turn_into_normals(heights, glm::vec2(relief.scale * density.mean.u * heights.width,
+                                         relief.scale * density.mean.v * heights.height));
+    scene.materials[material].textures.normal = image;
+}
+
+}  // namespace pl
