@@ -27,6 +27,11 @@ std::vector<std::string> split_at_commas(const std::string& text) {
     return items;
 }
 
+bool is_square(int n) {
+    const int side = static_cast<int>(std::lround(std::sqrt(n)));
+    return side * side == n;
+}
+
 std::vector<std::string> method_names() {
     return names_in(all_methods(), [](const MethodInfo& info) { return info.name; });
 }
@@ -79,9 +84,14 @@ void parse_backend(Options& options, const std::string& text) {
 
 void parse_bins(Options& options, const std::string& text) {
     const int bins = static_cast<int>(parse_whole(text, 4, 1024));
-    const int side = static_cast<int>(std::lround(std::sqrt(bins)));
-    if (side * side != bins) fail_value("a square number from 4 to 1024, such as 64, 256 or 1024", text);
+    if (!is_square(bins)) fail_value("a square number from 4 to 1024, such as 64, 256 or 1024", text);
     options.render.field.bins = bins;
+}
+
+void parse_probes(Options& options, const std::string& text) {
+    const int probes = static_cast<int>(parse_whole(text, 1, 1024));
+    if (!is_square(probes)) fail_value("a square number from 1 to 1024, such as 1, 4 or 16", text);
+    options.render.field.precompute_samples = probes;
 }
 
 void parse_bsdf_fraction(Options& options, const std::string& text) {

@@ -19,6 +19,7 @@ void parse_view(Options& options, const std::string& text);
 void parse_backend(Options& options, const std::string& text);
 void parse_tone_curve(Options& options, const std::string& text);
 void parse_bins(Options& options, const std::string& text);
+void parse_probes(Options& options, const std::string& text);
 void parse_bsdf_fraction(Options& options, const std::string& text);
 std::string print_bsdf_fraction(const MixtureSettings& mixture);
 void parse_fov(Options& options, const std::string& text);

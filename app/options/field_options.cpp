@@ -44,6 +44,10 @@ constexpr auto kFieldOptions = std::to_array<OptionSpec>({
      .help = "Directions per volume, a square number from 4 to 1024 (default 256)",
      .commands = kPaths, .in_scene_files = true, .parse = parse_bins,
      .print = [](const Options& o) { return std::to_string(o.render.field.bins); }},
+    {.name = "probes", .flags = "--probes", .value = "N", .group = kField,
+     .help = "Paths that fill each cell of the map of precomputed, a square number from 1 to 1024 (default 1); more pay in long runs",
+     .commands = kPaths, .in_scene_files = true, .parse = parse_probes,
+     .print = [](const Options& o) { return std::to_string(o.render.field.precompute_samples); }},
     {.name = "bsdf-fraction", .flags = "--bsdf-fraction", .value = "X|learned", .group = kField,
      .help = "Share of directions sampled from the BSDF instead of the field, 0.1 to 1; learned (default): "
              "each volume learns its own, precomputed takes 0.5",

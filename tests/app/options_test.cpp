@@ -55,6 +55,8 @@ Options any_options(std::mt19937& random) {
     o.render.field.budget_megabytes = real(0.5f, 9000.0f);
     o.render.field.bins = whole(2, 32);
     o.render.field.bins *= o.render.field.bins;
+    o.render.field.precompute_samples = whole(1, 32);
+    o.render.field.precompute_samples *= o.render.field.precompute_samples;
     o.render.field.lookup = static_cast<Lookup>(whole(0, 2));
     if (random() % 2 == 0) o.render.field.refine_share = real(0.0f, 1.0f);
     o.render.field.rate = static_cast<LearningRate>(whole(1, 4));
